@@ -140,6 +140,11 @@ template <class T> Flaw take_at(const std::uint8_t* at, T& value) {
   return {};
 }
 
+/// Of this library's release, an earlier one or a later one.
+template <class T> bool is_struct_size(std::size_t size) {
+  return size >= kHeadSize && size <= sized_size<T>() + kMostUnknown;
+}
+
 /// What a caller's size says: that it is one, and that what this library does not know is 0.
 iso_status check_size(const void* from, std::size_t known, const char* call, std::size_t& size);
 
@@ -169,18 +174,19 @@ template <class T> iso_status put_sized(const char* call, void* to, const T& val
   if (to == nullptr) return refuse(ISO_NULL, call, "out");
   std::uint32_t size = 0;
   std::memcpy(&size, to, sizeof size);
-  if (size < kHeadSize || size > sized_size<T>() + kMostUnknown) return refuse(ISO_WRONG_SIZE, call, "out");
+  if (!is_struct_size<T>(size)) return refuse(ISO_WRONG_SIZE, call, "out");
   auto* const bytes = static_cast<std::uint8_t*>(to);
   std::memset(bytes + sizeof size, 0, size - sizeof size);
   Put put{bytes, size, {kHeadSize, 1, 0, kMembersReleased<T>}};
   CFields<T>::fields(put, value);
   return kOk;
 }
-/// What _init does.
-template <class T> iso_status init_sized(const char* call, void* to) {
+/// What _init does: the defaults, into a struct of the caller's that has so many bytes.
+template <class T> iso_status init_sized(const char* call, void* to, std::size_t size) {
   if (to == nullptr) return refuse(ISO_NULL, call, "out");
-  constexpr auto kSize = static_cast<std::uint32_t>(sized_size<T>());
-  std::memcpy(to, &kSize, sizeof kSize);
+  if (!is_struct_size<T>(size)) return refuse(ISO_WRONG_SIZE, call, "size", "sizeof of the struct");
+  const auto given = static_cast<std::uint32_t>(size);
+  std::memcpy(to, &given, sizeof given);
   return put_sized(call, to, T{});
 }
 

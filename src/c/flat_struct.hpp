@@ -12,7 +12,7 @@ namespace isostep::c {
 
 /// [bytes] The smallest struct has its size and a word; a newer caller's is not longer than this library's by more.
 inline constexpr std::uint32_t kLeastSize = 8, kMostGrowth = 1024;
-template <class T> bool is_size(std::uint32_t size) { return size >= kLeastSize && size <= sizeof(T) + kMostGrowth; }
+template <class T> bool is_size(std::size_t size) { return size >= kLeastSize && size <= sizeof(T) + kMostGrowth; }
 
 /// What a caller's struct holds of `to`, which keeps its defaults beyond: an older caller's is shorter; of a newer
 /// one the part that this library does not know is zero.
@@ -40,6 +40,15 @@ template <class T> void give(const T& from, T* to) {
   std::memset(to, 0, size);
   std::memcpy(to, &from, size < sizeof(T) ? size : sizeof(T));
   to->size = size;
+}
+
+/// What _init does: `defaults`, into a struct of the caller's that has so many bytes.
+template <class T> iso_status start(const T& defaults, T* to, std::size_t size) {
+  if (to == nullptr) return ISO_NULL;
+  if (!is_size<T>(size)) return ISO_WRONG_SIZE;
+  to->size = static_cast<std::uint32_t>(size);
+  give(defaults, to);
+  return ISO_OK;
 }
 
 }  // namespace isostep::c

@@ -5,8 +5,10 @@
 using namespace isostep;
 using namespace isostep::c;
 
-#define ISO_COMMON_INIT(name, Type) \
-  iso_status iso_##name##_init(iso_##name* out) { return init_sized<Type>(#name "_init", out); }
+#define ISO_COMMON_INIT(name, Type)                                  \
+  iso_status iso_##name##_init_sized(iso_##name* out, size_t size) { \
+    return init_sized<Type>(#name "_init", out, size);               \
+  }
 ISO_C_COMMON_SIZED(ISO_COMMON_INIT)
 
 namespace {
@@ -20,8 +22,10 @@ template <class T> iso_status init_plain(const char* call, void* out) {
 iso_status iso_filter_init(iso_filter* out) { return init_plain<Filter>("filter_init", out); }
 iso_status iso_query_filter_init(iso_query_filter* out) { return init_plain<CQueryFilter>("query_filter_init", out); }
 
-#define ISO_INIT(P, name, T) \
-  iso_status iso_##P##_##name##_init(iso_##P##_##name* out) { return init_sized<T>(#name "_init", out); }
+#define ISO_INIT(P, name, T)                                                     \
+  iso_status iso_##P##_##name##_init_sized(iso_##P##_##name* out, size_t size) { \
+    return init_sized<T>(#name "_init", out, size);                              \
+  }
 #define ISO_PLAIN_INIT(P, name, T) \
   iso_status iso_##P##_##name##_init(iso_##P##_##name* out) { return init_plain<T>(#name "_init", out); }
 

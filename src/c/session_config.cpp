@@ -131,19 +131,21 @@ using namespace isostep::c;
 
 extern "C" {
 
-iso_status iso_session_config_init(iso_session_config* config) {
-  ISO_C_REQUIRE(ISO_C_CALL, config);
-  return guarded(ISO_C_CALL, [&] {
-    from_session_config({}, *config);
-    return ISO_OK;
+iso_status iso_session_config_init_sized(iso_session_config* config, size_t size) {
+  return guarded("session_config_init", [&] {
+    iso_session_config defaults;
+    from_session_config({}, defaults);
+    return start_struct("session_config_init", defaults, config, size);
   });
 }
 
 iso_status iso_session_config_preset(iso_session_config* config, iso_genre genre, int32_t players) {
-  ISO_C_REQUIRE(ISO_C_CALL, config);
+  if (const iso_status status = check_struct(config, ISO_C_CALL); status != ISO_OK) return status;
   if (genre > ISO_SANDBOX) return refuse(ISO_BAD_ENUM, ISO_C_CALL, "genre");
   return guarded(ISO_C_CALL, [&] {
-    from_session_config(isostep::preset(static_cast<isostep::Genre>(genre), players), *config);
+    iso_session_config chosen;
+    from_session_config(isostep::preset(static_cast<isostep::Genre>(genre), players), chosen);
+    give(chosen, config);
     return ISO_OK;
   });
 }
@@ -160,12 +162,7 @@ const char* iso_session_config_problem(const iso_session_config* config) {
   return text;
 }
 
-iso_status iso_game_init(iso_game* game) {
-  ISO_C_REQUIRE(ISO_C_CALL, game);
-  *game = {};
-  game->size = sizeof *game;
-  return ISO_OK;
-}
+iso_status iso_game_init_sized(iso_game* game, size_t size) { return start_struct("game_init", {}, game, size); }
 
 uint64_t iso_hash_bytes(const void* bytes, size_t size) {
   return bytes == nullptr && size > 0 ? 0 : isostep::hash_bytes(bytes, size);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "flat_struct.hpp"
@@ -118,6 +119,12 @@ iso_status ask_session(iso_session* handle, const char* call, const char* expect
 template <class T> iso_status check_struct(const T* out, const char* call) {
   const iso_status status = can_give(out);
   return status == ISO_OK ? status : refuse(status, call, "out");
+}
+/// What _init does.
+template <class T>
+iso_status start_struct(const char* call, const std::type_identity_t<T>& defaults, T* out, std::size_t size) {
+  const iso_status status = start(defaults, out, size);
+  return status == ISO_OK ? status : refuse(status, call, out == nullptr ? "out" : "size");
 }
 inline bool is_peer(std::uint32_t peer) { return peer <= 0xffff; }
 

@@ -73,20 +73,17 @@ iso_session_event event_of(const SessionEvent& from) {
 
 extern "C" {
 
-#define ISO_C_INIT(name)                          \
-  iso_status iso_##name##_init(iso_##name* out) { \
-    ISO_C_REQUIRE(ISO_C_CALL, out);               \
-    *out = {};                                    \
-    out->size = sizeof *out;                      \
-    return ISO_OK;                                \
+#define ISO_START(name)                                              \
+  iso_status iso_##name##_init_sized(iso_##name* out, size_t size) { \
+    return start_struct(#name "_init", {}, out, size);               \
   }
-ISO_C_INIT(request)
-ISO_C_INIT(outgoing)
-ISO_C_INIT(session_event)
-ISO_C_INIT(session_stats)
-ISO_C_INIT(player_stats)
-ISO_C_INIT(applicant)
-#undef ISO_C_INIT
+ISO_START(request)
+ISO_START(outgoing)
+ISO_START(session_event)
+ISO_START(session_stats)
+ISO_START(player_stats)
+ISO_START(applicant)
+#undef ISO_START
 
 iso_status iso_session_poll_event(iso_session* session, iso_session_event* out) {
   if (const iso_status status = check_struct(out, ISO_C_CALL); status != ISO_OK) return status;

@@ -42,7 +42,7 @@ function member(struct, i, offset) {
   if (kind === 'reserved' || /^reserved\d*$/.test(name) || (struct.sized && i === 0)) return undefined;
   const used = find(`${name}_size`);  // bytes of which so many count
   if (kind === 'u8' && count && used >= 0) return [camel(name), 'bytes', offset(i), count, offset(used)];
-  if (name.endsWith('_size') && find(name.slice(0, -5)) >= 0) return undefined;
+  if (kind !== 'word' && name.endsWith('_size') && find(name.slice(0, -5)) >= 0) return undefined;
   if (kind === 'bool' && name.startsWith('has_') && find(name.slice(4)) >= 0) return undefined;
   const isList = kind === 'pointer' && of !== 'iso_text';
   const element = ['struct', 'enum'].includes(kind) ? bare(of) : isList ? 'list' : kind;
@@ -65,11 +65,13 @@ function layouts() {
     if (struct.family !== '' && struct.family !== 'f32') continue;
     const versions = Object.fromEntries(['f32', 'f64', 'q16', 'q32'].map(family => [family, struct.family === ''
       ? struct : described.structs.find(one => one.base === struct.base && one.family === family)]));
-    const offset = i => place(family =>  // padding differs, so by name
-      versions[family].members.find(({name}) => name === struct.members[i].name).offset);
-    const init = `${struct.family === '' ? '' : 'P_'}${struct.base}_init`;
+    const offset = i => place(family => {  // padding differs, so by name; pointers have four bytes
+      const {offset, offset32} = versions[family].members.find(({name}) => name === struct.members[i].name);
+      return offset32 ?? offset;
+    });
+    const init = `${struct.family === '' ? '' : 'P_'}${struct.base}_init${struct.sized ? '_sized' : ''}`;
     made[struct.base] = {
-      size: place(family => versions[family].size), sized: struct.sized,
+      size: place(family => versions[family].size32 ?? versions[family].size), sized: struct.sized,
       init: functions.has(`iso_${init.replace('P_', 'f32_')}`) ? init : undefined,
       fields: struct.members.map((_, i) => member(struct, i, offset)).filter(Boolean)
     };

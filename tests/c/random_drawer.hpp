@@ -123,6 +123,10 @@ class Drawer {
   std::uint64_t integer(std::size_t bytes, const std::string& name) {
     if (bytes == 1) return dice_.one_in(20) ? dice_.next() : dice_.below(2);
     if (bytes == 4) return dice_.one_in(30) ? dice_.next() : dice_.below(13);
+    if (name == "size" && ends_in("_init_sized")) {
+      const Fact* fact = facts_.named(function_.substr(0, function_.size() - std::strlen("_init_sized")));
+      if (fact != nullptr) return dice_.one_in(3) ? dice_.below(fact->size + 64) : fact->size;
+    }
     if (name == "now") return now_ += dice_.one_in(100) ? dice_.below(20000000) : dice_.below(20000);
     if (name == "file_size") return has_file_ ? size_ : 0;
     if (name == "size") return dice_.one_in(10) && size_ > 0 ? dice_.below(size_) : size_;
@@ -137,6 +141,10 @@ class Drawer {
     const char* kind = name == "shape" ? "iso_shape" : name == "id" ? "iso_record" : name == "body" ? "iso_body" : "";
     const bool is_joint = name == "joint" || function_.find("coupling") != std::string::npos;
     return id(kind[0] != '\0' ? kind : is_joint ? "iso_joint" : "iso_body");
+  }
+  bool ends_in(const char* end) const {
+    const std::size_t length = std::strlen(end);
+    return function_.size() > length && function_.compare(function_.size() - length, length, end) == 0;
   }
   /// Ids are kept by the world that gave them, and those of records by their kind.
   std::string key(const std::string& kind) const {

@@ -19,6 +19,7 @@ enum Kind {
   enum_,
   id_,
   pointer_,
+  word_,
   struct_,
   char_,
   i16_,

@@ -36,10 +36,11 @@ for (const scalar of ['f32', 'f64', 'q16', 'q32']) {
   for (const struct of structs.filter(({family}) => family === '' || family === scalar)) {
     const codec = layouts.of(struct.base);
     const isPart = ['vec3', 'unit_vec3', 'quat'].includes(struct.base);
-    if (codec.size !== struct.size) fail(`${struct.name}: ${codec.size} bytes instead of ${struct.size}`);
-    for (const {name, kind, count, offset} of isPart ? [] : struct.members) {
+    const size = struct.size32 ?? struct.size;  // pointers have four bytes
+    if (codec.size !== size) fail(`${struct.name}: ${codec.size} bytes instead of ${size}`);
+    for (const {name, kind, count, offset: wide, offset32: offset = wide} of isPart ? [] : struct.members) {
       const known = interfaceSchema.structs[struct.base].fields.some(([key]) => key === camel(name));
-      if (!['number', 'unit', 'u32', 'i32'].includes(kind) || count !== undefined || !known) continue;
+      if (!['number', 'unit', 'word', 'u32', 'i32'].includes(kind) || count !== undefined || !known) continue;
       const view = new DataView(new ArrayBuffer(struct.size));
       codec.write(view, 0, {[camel(name)]: 1});
       const found = kind === 'number' ? numbers.scalar.read(view, offset)

@@ -26,7 +26,7 @@ std::string rows(const std::vector<std::string>& all, const char* indent) {
   return text + "]";
 }
 
-std::string member_text(const Member& member, const Family* family) {
+std::string member_text(const Member& member, const Family* family, bool has_words) {
   std::string text = "{" + pair("name", member.name) + ", " + pair("kind", member.kind);
   if (!member.of.empty()) {
     const std::string prefix = member.of_family && family != nullptr              ? "iso_" + family->prefix + "_"
@@ -35,19 +35,23 @@ std::string member_text(const Member& member, const Family* family) {
     text += ", " + pair("of", prefix + member.of);
   }
   if (member.count != 0) text += ", " + pair("count", member.count);
-  text += ", " + pair("offset", member.offset) + ", " + pair("size", member.size);
+  text += ", " + pair("offset", member.offset);
+  if (has_words) text += ", " + pair("offset32", member.offset32);
+  text += ", " + pair("size", member.size);
   if (!member.comment.empty()) text += ", " + pair("comment", member.comment);
   return text + "}";
 }
 
 std::string struct_text(const Struct& described, const Family* family) {
   const std::string prefix = family != nullptr ? "iso_" + family->prefix + "_" : "iso_";
+  const bool has_words = described.size32 != 0;
   std::vector<std::string> members;
-  for (const Member& member : described.members) members.push_back(member_text(member, family));
+  for (const Member& member : described.members) members.push_back(member_text(member, family, has_words));
   return "{" + pair("name", prefix + described.name) + ", " + pair("base", described.name) + ", " +
          pair("family", family != nullptr ? family->prefix : "") +
          ", \"sized\": " + (described.is_sized ? "true" : "false") + ", " + pair("size", described.size) + ", " +
-         pair("align", described.align) + ", \"members\": " + rows(members, "      ") + "}";
+         (has_words ? pair("size32", described.size32) + ", " : "") + pair("align", described.align) +
+         ", \"members\": " + rows(members, "      ") + "}";
 }
 
 std::string enum_text(const Enum& described) {

@@ -9,14 +9,16 @@
 
 namespace isostep::c_header {
 
-/// number and unit are the family's S and Unit<S>; i32 and the like what they say; pointer eight bytes.
+/// number and unit are the family's S and Unit<S>; i32 and the like what they say; pointer eight bytes; word a pointer,
+/// a size_t or a callback, as wide as the target's pointers.
 struct Member {
   std::string name;
-  std::string kind;        // number unit bool enum id pointer struct char i16 i32 u8 u16 u32 u64 f32 f64 reserved
-  std::string of;          // of enum, id, pointer and struct: its name in C; of struct without the family's prefix
+  std::string kind;  // number unit bool enum id pointer word struct char i16 i32 u8 u16 u32 u64 f32 f64 reserved
+  std::string of;    // of enum, id, pointer, word and struct: its name in C; of struct without the family's prefix
   bool of_family = false;  // of struct: the family's
   std::size_t count = 0;   // elements of an array; 0: no array
   std::size_t offset = 0, size = 0;
+  std::size_t offset32 = 0;  // in a struct with words: where pointers have four bytes
   std::string comment;
 };
 struct Struct {
@@ -24,6 +26,7 @@ struct Struct {
   std::string cpp_name;  // "BodyDefinition"
   bool is_sized = false;
   std::size_t size = 0, align = 0;
+  std::size_t size32 = 0;       // of a struct with words: where pointers have four bytes; else 0
   std::vector<Member> members;  // head and padding included
 };
 struct Family {

@@ -18,9 +18,10 @@ std::string lower(std::string text) {
   }
   return text;
 }
-std::string trimmed(std::string text) {
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
+/// One line, no blanks at its ends.
+std::string squeezed(const std::string& text) {
+  static const std::regex blanks("[ \\n]+"), ends("^ | $");
+  return std::regex_replace(std::regex_replace(text, blanks, " "), ends, "");
 }
 
 std::string without_comments(const std::string& text) {
@@ -50,6 +51,11 @@ Member member_of(const std::string& type, const std::vector<Enum>& enums) {
     member.kind = number->second.first;
     member.size = number->second.second;
   }
+  if (type == "callback" || type == "size_t" || type.back() == '*') {
+    member.kind = "word";
+    member.of = type;
+    member.size = 8;
+  }
   for (const Enum& described : enums) {
     if (type != "iso_" + described.name) continue;
     member.kind = "enum";
@@ -59,33 +65,42 @@ Member member_of(const std::string& type, const std::vector<Enum>& enums) {
   return member;
 }
 
-/// Natural alignment, and no holes: what -Wpadded holds the header to.
+/// Natural alignment, and no holes, whatever the width of pointers: what -Wpadded holds the header to.
 bool place(Struct& described, Member member) {
-  if (member.kind.empty() || described.size % member.size != 0) return false;
+  const std::size_t size32 = member.kind == "word" ? 4 : member.size;
+  if (member.kind.empty() || described.size % member.size != 0 || described.size32 % size32 != 0) return false;
   if (member.size > described.align) described.align = member.size;
   if (member.name.compare(0, 8, "reserved") == 0) member.kind = "reserved";
   member.offset = described.size;
-  if (member.count != 0) member.size *= member.count;
+  member.offset32 = described.size32;
+  const std::size_t times = member.count != 0 ? member.count : 1;
+  member.size *= times;
   described.size += member.size;
+  described.size32 += size32 * times;
   described.members.push_back(member);
   return true;
 }
 
 /// An empty `problem` stays so where all of it can be described.
 Struct struct_of(const std::string& name, const std::string& body, const Schema& schema, std::string& problem) {
-  static const std::regex line("(?:^|\\n)  (\\w+) (\\w+)(?:\\[(\\d+)\\])?;(?: +/\\*([^*]*)\\*/)?(?=\\n)");
+  // The comment above it; type and name, or a callback's name; how many; the comment behind it.
+  static const std::regex line(
+      "\\n(?:  /\\*([^*]*)\\*/\\n)?  (?:(\\w+\\*?) (\\w+)|\\w+ \\(\\*(\\w+)\\)\\([^;]*\\))(?:\\[(\\d+)\\])?;"
+      "(?: +/\\*([^*]*)\\*/)?(?=\\n)");
   Struct described;
   described.name = name;
   std::size_t lines = 0, members = 0;
   for (Lines at(body.begin(), body.end(), line), end; at != end; ++at, ++lines) {
-    Member member = member_of((*at)[1], schema.enums);
-    member.name = (*at)[2];
-    if ((*at)[3].matched) member.count = std::stoul((*at)[3]);
-    if ((*at)[4].matched) member.comment = trimmed(std::string((*at)[4]).substr(1));
+    const bool is_callback = (*at)[4].matched;
+    Member member = member_of(is_callback ? "callback" : std::string((*at)[2]), schema.enums);
+    member.name = (*at)[is_callback ? 4 : 3];
+    if ((*at)[5].matched) member.count = std::stoul((*at)[5]);
+    member.comment = squeezed((*at)[6].matched ? (*at)[6] : (*at)[1]);
     if (!place(described, member)) problem = name + "." + member.name;
   }
   for (const char c : without_comments(body)) members += c == ';' ? 1 : 0;
   if (lines < members || described.align == 0 || described.size % described.align != 0) problem = name;
+  if (described.size32 == described.size) described.size32 = 0;
   if (described.members.empty()) return described;
   const Member& first = described.members[0];
   described.is_sized = first.name == "size" && first.kind == "u32";  // an iso_input's is the input's
@@ -106,7 +121,7 @@ std::string add_section(const std::string& header, Schema& schema) {
   }
   for (Lines at(text.begin(), text.end(), structs), last; at != last; ++at) {
     const std::string body = (*at)[2];
-    if (body.find("(*") == std::string::npos) schema.common.push_back(struct_of((*at)[1], body, schema, problem));
+    schema.common.push_back(struct_of((*at)[1], body, schema, problem));
   }
   return problem;
 }

@@ -8,8 +8,8 @@
 
 namespace isostep::c_header {
 
-/// Adds the enumerations that have a type, and the structs without a pointer in them: their layout is the same on every
-/// target. Returns what cannot be described, a member of an unknown type or a hole; else nothing.
+/// Adds the enumerations that have a type, and the structs. Those with pointers in them have two layouts, the others are
+/// the same on every target. Returns what cannot be described, a member of an unknown type or a hole; else nothing.
 std::string add_section(const std::string& header, Schema& schema);
 
 }  // namespace isostep::c_header

@@ -2384,8 +2384,8 @@ ISO_API const char* iso_scalar_name(iso_scalar scalar);
 /* Replays the built-in recordings with every scalar and set of lanes: half a second. What a game asks at start. */
 ISO_API iso_status iso_selfcheck(iso_selfcheck_result* out);
 #define ISO_C_COMMON_INIT(P, name) \
-  /* Sets the size, and the defaults. */ \
-  ISO_API iso_status iso_##name##_init(iso_##name* out);
+  /* What _init calls. Sets `size`, [bytes] of the caller's struct, and the defaults. */ \
+  ISO_API iso_status iso_##name##_init_sized(iso_##name* out, size_t size);
 ISO_C_FOR_EACH_COMMON_SIZED(ISO_C_COMMON_INIT, )
 ISO_API iso_status iso_filter_init(iso_filter* out);
 ISO_API iso_status iso_query_filter_init(iso_query_filter* out);
@@ -2696,7 +2696,8 @@ ISO_API iso_status iso_replay_get_frame(const iso_replay* replay, uint64_t frame
   ISO_API iso_status iso_##P##_body_get_contacts(const iso_world* world, iso_body body, iso_##P##_contact_point* out,  \
                                                  size_t room, size_t* count);
 
-#define ISO_C_INIT(P, name) ISO_API iso_status iso_##P##_##name##_init(iso_##P##_##name* out);
+#define ISO_C_INIT(P, name) \
+  ISO_API iso_status iso_##P##_##name##_init_sized(iso_##P##_##name* out, size_t size);
 #define ISO_C_RECORD(P, name)                                                                                     \
   ISO_API iso_status iso_##P##_add_##name(iso_world* world, const iso_##P##_##name* record, iso_record* out);     \
   ISO_API iso_status iso_##P##_set_##name(iso_world* world, iso_record id, const iso_##P##_##name* record);       \
@@ -2814,9 +2815,9 @@ typedef struct iso_session_config {
   uint8_t neutral[512];    /* what is played for who is not there */
 } iso_session_config;
 
-/* C++'s defaults; inputs of 1 byte, neutral 0. `name`, `seed` (of a host) and the input are to be set. */
-ISO_API iso_status iso_session_config_init(iso_session_config* config);
-/* Likewise, with mode, window, delays and deadline for a genre and so many players. */
+/* What _init calls. C++'s defaults; inputs of 1 byte, neutral 0. To be set: `name`, `seed` of a host, the input. */
+ISO_API iso_status iso_session_config_init_sized(iso_session_config* config, size_t size);
+/* Likewise, with mode, window, delays and deadline for a genre and so many players. Of a struct whose size is set. */
 ISO_API iso_status iso_session_config_preset(iso_session_config* config, iso_genre genre, int32_t players);
 /* The first rule that it breaks, as the name of the field and what it may be; or null. */
 ISO_API const char* iso_session_config_problem(const iso_session_config* config);
@@ -2867,7 +2868,7 @@ typedef struct iso_game {
   int32_t (*valid)(void* user, const void* bytes, size_t size);
 } iso_game;
 /* all null */
-ISO_API iso_status iso_game_init(iso_game* game);
+ISO_API iso_status iso_game_init_sized(iso_game* game, size_t size);
 /* XXH3-64, with which `block` is hashed: for iso_game.hash. */
 ISO_API uint64_t iso_hash_bytes(const void* bytes, size_t size);
 
@@ -2906,7 +2907,7 @@ typedef struct iso_request {
   uint32_t reserved;
   uint64_t hash;
 } iso_request;
-ISO_API iso_status iso_request_init(iso_request* out);
+ISO_API iso_status iso_request_init_sized(iso_request* out, size_t size);
 
 /* Begins the turn. */
 ISO_API iso_status iso_session_advance(iso_session* session, uint64_t now);
@@ -2942,7 +2943,7 @@ typedef struct iso_outgoing {
   uint8_t close;   /* end the connection after it */
   uint8_t reserved1[7];
 } iso_outgoing;
-ISO_API iso_status iso_outgoing_init(iso_outgoing* out);
+ISO_API iso_status iso_outgoing_init_sized(iso_outgoing* out, size_t size);
 /* `bytes`: null when there is nothing more; they hold until the next call. */
 ISO_API iso_status iso_session_poll_send(iso_session* session, uint64_t now, iso_outgoing* out, const uint8_t** bytes);
 /* Connect to this machine, as iso_session_config.address of its session says; null: none. */
@@ -3007,7 +3008,7 @@ typedef struct iso_session_event {
   char theirs_text[136]; /* there, or in the file */
   char ours_text[136];   /* here */
 } iso_session_event;
-ISO_API iso_status iso_session_event_init(iso_session_event* out);
+ISO_API iso_status iso_session_event_init_sized(iso_session_event* out, size_t size);
 /* The session keeps the last 128: stats.events_lost. */
 ISO_API iso_status iso_session_poll_event(iso_session* session, iso_session_event* out);
 
@@ -3061,7 +3062,7 @@ typedef struct iso_session_stats {
   int32_t stretch;      /* [1/256 period] by which frames are longer than they should be */
   uint32_t reserved1;
 } iso_session_stats;
-ISO_API iso_status iso_session_stats_init(iso_session_stats* out);
+ISO_API iso_status iso_session_stats_init_sized(iso_session_stats* out, size_t size);
 ISO_API iso_status iso_session_get_stats(const iso_session* session, iso_session_stats* out);
 typedef struct iso_player_stats {
   uint32_t size;
@@ -3073,7 +3074,7 @@ typedef struct iso_player_stats {
   uint32_t loss;       /* [permille] of its datagrams that the host did not get */
   uint32_t reserved1;
 } iso_player_stats;
-ISO_API iso_status iso_player_stats_init(iso_player_stats* out);
+ISO_API iso_status iso_player_stats_init_sized(iso_player_stats* out, size_t size);
 ISO_API iso_status iso_session_get_player_stats(const iso_session* session, int32_t player, iso_player_stats* out);
 
 /* Decisions. Those of who may not make them, or not now, are refused. */
@@ -3104,7 +3105,7 @@ typedef struct iso_applicant {
   uint32_t reserved2;
   uint8_t credential[256];
 } iso_applicant;
-ISO_API iso_status iso_applicant_init(iso_applicant* out);
+ISO_API iso_status iso_applicant_init_sized(iso_applicant* out, size_t size);
 ISO_API iso_status iso_session_poll_applicant(iso_session* session, iso_applicant* out);
 ISO_API iso_status iso_session_admit(iso_session* session, uint64_t applicant);
 /* Reasons are printable ASCII of 1 to 128 characters, for people. */
@@ -3154,6 +3155,24 @@ ISO_API iso_status iso_network_deliver(iso_network* network, uint32_t endpoint, 
 ISO_API iso_status iso_network_dispatch(iso_network* network, uint32_t endpoint, iso_session* session, uint64_t now);
 
 /* End of sessions */
+
+/* _init, of everything that begins with its size: iso_q32_settings_init(&settings). Inline, so that the size is that of
+   the header that the caller was compiled with: a later library writes no more, an earlier one no less. */
+#define ISO_C_INLINE_INIT(name) \
+  static inline iso_status iso_##name##_init(iso_##name* out) { return iso_##name##_init_sized(out, sizeof *out); }
+#define ISO_C_INLINE_COMMON_INIT(P, name) ISO_C_INLINE_INIT(name)
+#define ISO_C_INLINE_FAMILY_INIT(P, name) ISO_C_INLINE_INIT(P##_##name)
+#define ISO_C_INLINE_INITS(P, N, U) ISO_C_FOR_EACH_SIZED(ISO_C_INLINE_FAMILY_INIT, P)
+ISO_C_FOR_EACH_COMMON_SIZED(ISO_C_INLINE_COMMON_INIT, )
+ISO_C_SCALARS(ISO_C_INLINE_INITS)
+ISO_C_INLINE_INIT(session_config)
+ISO_C_INLINE_INIT(game)
+ISO_C_INLINE_INIT(request)
+ISO_C_INLINE_INIT(outgoing)
+ISO_C_INLINE_INIT(session_event)
+ISO_C_INLINE_INIT(session_stats)
+ISO_C_INLINE_INIT(player_stats)
+ISO_C_INLINE_INIT(applicant)
 
 #ifdef __cplusplus
 }

@@ -29,7 +29,7 @@ typedef struct iso_udp_settings {
   uint64_t unacknowledged_cap; /* [bytes] sent reliably to one peer; above that its connection ends */
   char bind_address[72];       /* empty: every interface */
 } iso_udp_settings;
-ISO_UDP_API iso_status iso_udp_settings_init(iso_udp_settings* settings);
+ISO_UDP_API iso_status iso_udp_settings_init_sized(iso_udp_settings* settings, size_t size);
 
 typedef struct iso_udp_statistics {
   uint32_t size;
@@ -71,5 +71,7 @@ ISO_UDP_API iso_status iso_udp_get_statistics(const iso_udp* udp, iso_udp_statis
 #ifdef __cplusplus
 }
 #endif
+
+ISO_C_INLINE_INIT(udp_settings)
 
 #endif

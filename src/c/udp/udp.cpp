@@ -108,10 +108,8 @@ using namespace isostep::c;
 
 extern "C" {
 
-iso_status iso_udp_settings_init(iso_udp_settings* settings) {
-  if (settings == nullptr) return ISO_NULL;
-  *settings = defaults();
-  return ISO_OK;
+iso_status iso_udp_settings_init_sized(iso_udp_settings* settings, size_t size) {
+  return start(defaults(), settings, size);
 }
 
 iso_status iso_udp_listen(uint16_t port, const iso_udp_settings* settings, iso_udp** out, char* problem, size_t room) {

@@ -76,13 +76,14 @@ void add_statics(const Schema& schema, const std::string& family, std::map<std::
   for (const Function& each : schema.functions) {
     if (each.family != family) continue;
     const std::string name = short_name(each);
-    if (ends(name, "_init") && each.arguments.size() == 1) {
+    if (ends(name, "_init") || ends(name, "_init_sized")) {
       const std::string type = native_type(each.arguments[0].type, family, schema, false);
       const std::string of = type.substr(0, type.size() - 1);
+      const std::string size = each.arguments.size() == 1 ? "" : ", (UIntPtr)sizeof(" + of + ")";
       bodies[of] += "        public static " + of +
                     " Default\n        {\n            get\n            {\n                " + of + " result = new " +
-                    of + "();\n                IsostepException.Check(Native." + each.name +
-                    "(&result));\n                return result;\n            }\n        }\n";
+                    of + "();\n                IsostepException.Check(Native." + each.name + "(&result" + size +
+                    "));\n                return result;\n            }\n        }\n";
     } else if (starts(name, "coupling_")) {
       Function renamed = each;
       std::string text = make_method(each, schema, "").text;

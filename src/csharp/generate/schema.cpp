@@ -24,7 +24,7 @@ void read_json(const json& from, Schema& schema) {
   for (const json& each : from.at("structs")) {
     Struct made{each.at("name"), each.at("base"), each.at("family"), each.at("sized"), each.at("size"), {}};
     for (const json& m : each.at("members")) {
-      const std::string kind = m.at("kind");
+      const std::string kind = m.at("kind") == "word" ? "handle" : m.at("kind");
       const int count = m.value("count", kind == "reserved" ? int(m.at("size")) : 0);
       made.members.push_back({m.at("name"), kind, text_of(m, "of"), text_of(m, "comment"), count, m.at("offset")});
     }

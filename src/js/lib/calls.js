@@ -105,7 +105,7 @@ export class Calls {
     defaults = null;
     if (struct?.init !== undefined) {
       const at = this.take(size);
-      this.call(this.full(struct.init), at);
+      this.call(this.full(struct.init), at, ...(struct.sized ? [size] : []));
       defaults = this.module.bytes(at, size).slice();
     } else if (struct !== undefined) {
       defaults = new Uint8Array(size);

@@ -60,6 +60,7 @@ export const kPlain = {
   u8: integer(8, false), u16: integer(16, false), u32: integer(32, false),
   i8: integer(8, true), i16: integer(16, true), i32: integer(32, true),
   u64: word64(false), i64: word64(true), id: word64(false), bool: kBool, f32: kFloat, f64: kDouble,
+  word: integer(32, false),  // a pointer or a size of C
   pointer: {  // of eight bytes on every target, of which four count here
     size: 8,
     read: (view, at) => view.getUint32(at, true),

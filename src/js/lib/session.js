@@ -7,7 +7,6 @@ import {unsigned} from './module.js';
 
 const kStatuses = ['confirmed', 'predicted', 'disconnected'];     // iso_input_status
 const kInputSize = 516, kInputBytes = 4;                          // iso_input: the size, the status, then the bytes
-const kGameWorld = 8, kGameBlock = 12, kGameBlockSize = 16, kGameSize = 68;  // iso_game, its pointers of 4 bytes
 const kRefused = -11;
 
 /** Microseconds as the C interface has them. */
@@ -229,12 +228,8 @@ export class Session extends Handle {
 
 /** The world and the state for the session; what the game does is asked for, never called back from within. */
 function placeGame(calls, {world, state}) {
-  const at = calls.take(kGameSize), {view} = calls.module;
-  calls.call('iso_game_init', at);
-  if (world !== undefined) view.setUint32(at + kGameWorld, world.at, true);
-  if (state !== undefined) {
-    view.setUint32(at + kGameBlock, state.at, true);
-    view.setUint32(at + kGameBlockSize, state.byteLength, true);
-  }
-  return at;
+  return calls.place('game', {
+    ...(world !== undefined && {world: world.at}),
+    ...(state !== undefined && {block: state.at, blockSize: state.byteLength})
+  }, 'game');
 }

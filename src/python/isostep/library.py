@@ -112,11 +112,17 @@ class Library:
     def wrap(self, kind, address):
         return self._classes[kind]._of(self, address)
 
+    def new(self, name):
+        """iso_NAME with its defaults."""
+        return self.filled(self.interface.structs[f"iso_{name}"](), {})
+
     def filled(self, struct, values):
         """`struct` with its defaults, then with `values`: a mapping, items in order, or an equal struct."""
-        init = type(struct).__name__ + "_init"
-        if init in self._described:
-            self.raw(init)(ctypes.byref(struct))
+        name = type(struct).__name__
+        if struct.is_sized and name + "_init_sized" in self._described:
+            self.raw(name + "_init_sized")(ctypes.byref(struct), ctypes.c_size_t(ctypes.sizeof(struct)))
+        elif name + "_init" in self._described:
+            self.raw(name + "_init")(ctypes.byref(struct))
         else:
             _upright(struct)
         return fill(struct, values)

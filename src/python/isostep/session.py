@@ -16,14 +16,6 @@ def use_library(library):
     library.register(Session, Network)
 
 
-class _CGame(ctypes.Structure):
-    """iso_game of isostep.h; its callbacks stay null."""
-
-    _fields_ = [("size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("world", ctypes.c_void_p),
-                ("block", ctypes.c_void_p), ("block_size", ctypes.c_size_t), ("user", ctypes.c_void_p),
-                ("callbacks", ctypes.c_void_p * 11)]
-
-
 @dataclass
 class Input:
     """One player's input for one frame: its bytes, and "confirmed", "predicted" or "disconnected"."""
@@ -58,11 +50,11 @@ class Game:
         """`frame` is final; `hash`: of the state after it."""
 
     def _in_c(self):
-        made = _CGame(size=ctypes.sizeof(_CGame))
+        made = _library.new("game")
         if self.world is not None:
-            made.world = self.world._address
+            made.set(world=self.world._address)
         if self._block is not None:
-            made.block, made.block_size = ctypes.addressof(self._block), len(self._block)
+            made.set(block=ctypes.addressof(self._block), block_size=len(self._block))
         return made
 
 
@@ -73,7 +65,8 @@ class Session(Handle):
     _kind = "session"
 
     def __init__(self, game, preset=None, file=None, **config):
-        given = _library.call("iso_session_config_init" if preset is None else "iso_session_config_preset")(*preset or ())
+        given = (_library.new("session_config") if preset is None else
+                 _library.call("iso_session_config_preset")(*preset))
         for name in ("neutral", "credential"):
             if name in config:
                 config[name + "_size"] = len(config[name])

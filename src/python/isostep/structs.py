@@ -13,9 +13,11 @@ _C_TYPES = {"float": ctypes.c_float, "double": ctypes.c_double, "int32_t": ctype
             "u8": ctypes.c_uint8, "u16": ctypes.c_uint16, "u32": ctypes.c_uint32, "u64": ctypes.c_uint64,
             "i8": ctypes.c_int8, "i16": ctypes.c_int16, "i32": ctypes.c_int32, "i64": ctypes.c_int64,
             "f32": ctypes.c_float, "f64": ctypes.c_double, "bool": ctypes.c_uint8, "enum": ctypes.c_uint32,
-            "id": ctypes.c_uint64, "pointer": ctypes.c_uint64, "char": ctypes.c_char, "reserved": ctypes.c_uint8}
+            "id": ctypes.c_uint64, "pointer": ctypes.c_uint64, "word": ctypes.c_size_t, "char": ctypes.c_char,
+            "reserved": ctypes.c_uint8}
 _POINTEES = {"iso_body": ctypes.c_uint64, "uint32_t": ctypes.c_uint32, "int16_t": ctypes.c_int16,
              "uint8_t": ctypes.c_uint8, "double": ctypes.c_double}
+_NARROW = ctypes.sizeof(ctypes.c_void_p) == 4  # a struct with words has another layout then
 _NUMPY_TYPES = {ctypes.c_float: "<f4", ctypes.c_double: "<f8", ctypes.c_char: "S1"}
 
 
@@ -227,6 +229,11 @@ def fill(struct, values):
     return struct
 
 
+def _place(described, key):
+    """The offset of a member or the size of a struct on this machine."""
+    return described.get(f"{key}32", described[key]) if _NARROW else described[key]
+
+
 class Interface:
     """All types of interface.json, by their names in C."""
 
@@ -266,8 +273,8 @@ class Interface:
         made = type(described["name"], (Struct,), {"_fields_": fields, "_members_": members, "_family_": family,
                                                    "is_sized": described["sized"]})
         offsets = {name: getattr(made, "_" + name).offset for name in members}
-        expected = {member["name"]: member["offset"] for member in described["members"]}
-        if offsets != expected or ctypes.sizeof(made) != described["size"]:
+        expected = {member["name"]: _place(member, "offset") for member in described["members"]}
+        if offsets != expected or ctypes.sizeof(made) != _place(described, "size"):
             raise ImportError(f"{described['name']} is laid out in another way here than interface.json says")
         return made
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <limits>
@@ -282,6 +283,33 @@ TYPED_TEST(FixedTest, DoublesRoundAsLiteralsDo) {
   EXPECT_EQ(isostep::from_double<S>(1.5 * step).raw(), 2);
   EXPECT_EQ(isostep::from_double<S>(-1.5 * step).raw(), -2);
   EXPECT_EQ(isostep::from_double<S>(0x0.fffffffffffff8p-1 * step).raw(), 0);
+}
+
+/// Against as many halvings as there are fraction bits, each of which is exact.
+TYPED_TEST(FixedTest, DoublesAreTheRawValueHalvedBitByBit) {
+  using S = TypeParam;
+  for (int i = 0; i < kRounds; ++i) {
+    const S a = sample<S>();
+    double expected = static_cast<double>(a.raw());
+    for (int bit = 0; bit < S::kFracBits; ++bit) expected *= 0.5;
+    ASSERT_EQ(isostep::to_double(a), expected) << a.raw();
+  }
+}
+
+/// Against as many doublings, and the library's rounding of ties away from zero.
+TYPED_TEST(FixedTest, DoublesOfAnySizeRoundToTheNearestRawValue) {
+  using S = TypeParam;
+  const double end = S::kBits == 32 ? 0x1p31 : 0x1p63;
+  for (int i = 0; i < kRounds; ++i) {
+    const auto digits = static_cast<double>(static_cast<std::int64_t>(random_word()));
+    const double value = std::ldexp(digits, -static_cast<int>(random_word() % 130));
+    double scaled = value;
+    for (int bit = 0; bit < S::kFracBits; ++bit) scaled *= 2;
+    const S expected = scaled >= end - 0.5 ? S::highest()
+                       : scaled <= -end    ? S::lowest()
+                                           : S::from_raw(static_cast<typename S::Raw>(std::llround(scaled)));
+    ASSERT_EQ(isostep::from_double<S>(value), expected) << value;
+  }
 }
 
 TEST(FixedConversion, FinerFormatsHoldCoarserNumbersExactly) {

@@ -79,7 +79,7 @@ export const interfaceSchema = {
       ["position", "f32", 8, 3],
       ["orientation", "f32", 20, 4]
     ]},
-    step_report: {size: 40, sized: true, init: "step_report_init", fields: [
+    step_report: {size: 40, sized: true, init: "step_report_init_sized", fields: [
       ["clampedSpeed", "u32", 8],
       ["clampedForce", "u32", 12],
       ["clampedPosition", "u32", 16],
@@ -88,7 +88,7 @@ export const interfaceSchema = {
       ["cutCompounds", "u32", 28],
       ["unsolved", "u32", 32]
     ]},
-    world_counts: {size: 40, sized: true, init: "world_counts_init", fields: [
+    world_counts: {size: 40, sized: true, init: "world_counts_init_sized", fields: [
       ["bodies", "u32", 8],
       ["staticBodies", "u32", 12],
       ["awake", "u32", 16],
@@ -98,19 +98,19 @@ export const interfaceSchema = {
       ["joints", "u32", 32],
       ["shapes", "u32", 36]
     ]},
-    break_report: {size: 24, sized: true, init: "break_report_init", fields: [
+    break_report: {size: 24, sized: true, init: "break_report_init_sized", fields: [
       ["broken", "u32", 8],
       ["pieces", "u32", 12],
       ["whole", "u32", 16],
       ["expired", "u32", 20]
     ]},
-    fault_report: {size: 40, sized: true, init: "fault_report_init", fields: [
+    fault_report: {size: 40, sized: true, init: "fault_report_init_sized", fields: [
       ["status", "i32", 8],
       ["command", "pointer", 16],
       ["field", "pointer", 24],
       ["expected", "pointer", 32]
     ]},
-    height_patch: {size: 40, sized: true, init: "height_patch_init", fields: [
+    height_patch: {size: 40, sized: true, init: "height_patch_init_sized", fields: [
       ["column", "u32", 8],
       ["row", "u32", 12],
       ["columns", "u32", 16],
@@ -118,32 +118,32 @@ export const interfaceSchema = {
       ["heights", "pointer", 24],
       ["materials", "pointer", 32]
     ]},
-    height_grid: {size: 32, sized: true, init: "height_grid_init", fields: [
+    height_grid: {size: 32, sized: true, init: "height_grid_init_sized", fields: [
       ["exponent", "u32", 8],
       ["heightShift", "u32", 12],
       ["columns", "u32", 16],
       ["rows", "u32", 20],
       ["pitch", "u32", 24]
     ]},
-    height_sheet: {size: 32, sized: true, init: "height_sheet_init", fields: [
+    height_sheet: {size: 32, sized: true, init: "height_sheet_init_sized", fields: [
       ["columns", "u32", 8],
       ["rows", "u32", 12],
       ["pitch", "f64", 16],
       ["heights", "pointer", 24]
     ]},
-    triangles: {size: 32, sized: true, init: "triangles_init", fields: [
+    triangles: {size: 32, sized: true, init: "triangles_init_sized", fields: [
       ["pointCount", "u32", 8],
       ["triangleCount", "u32", 12],
       ["points", "pointer", 16],
       ["vertices", "pointer", 24]
     ]},
-    surface_materials: {size: 32, sized: true, init: "surface_materials_init", fields: [
+    surface_materials: {size: 32, sized: true, init: "surface_materials_init_sized", fields: [
       ["count", "u32", 8],
       ["tableCount", "u32", 12],
       ["numbers", "pointer", 16],
       ["table", "pointer", 24]
     ]},
-    replay_info: {size: 296, sized: true, init: "replay_info_init", fields: [
+    replay_info: {size: 296, sized: true, init: "replay_info_init_sized", fields: [
       ["behaviour", "u64", 8],
       ["frames", "u64", 16],
       ["startHash", "u64", 24],
@@ -158,7 +158,7 @@ export const interfaceSchema = {
       ["world", "text", 229, 32],
       ["engine", "text", 261, 32]
     ]},
-    replay_result: {size: 744, sized: true, init: "replay_result_init", fields: [
+    replay_result: {size: 744, sized: true, init: "replay_result_init_sized", fields: [
       ["outcome", "verify_outcome", 8],
       ["where", "verify_where", 12],
       ["frames", "u64", 16],
@@ -170,7 +170,7 @@ export const interfaceSchema = {
       ["lanes", "text", 216, 16],
       ["text", "text", 232, 512]
     ]},
-    selfcheck_result: {size: 544, sized: true, init: "selfcheck_result_init", fields: [
+    selfcheck_result: {size: 544, sized: true, init: "selfcheck_result_init_sized", fields: [
       ["sound", "bool", 8],
       ["engine", "u32", 12],
       ["recordings", "u32", 16],
@@ -178,7 +178,7 @@ export const interfaceSchema = {
       ["frames", "u64", 24],
       ["text", "text", 32, 512]
     ]},
-    session_config: {size: 1280, sized: true, init: "session_config_init", fields: [
+    session_config: {size: 1280, sized: true, init: "session_config_init_sized", fields: [
       ["mode", "session_mode", 4],
       ["host", "bool", 8],
       ["relays", "bool", 9],
@@ -225,18 +225,35 @@ export const interfaceSchema = {
       ["status", "u8", 2],
       ["bytes", "u8", 4, 512]
     ]},
-    request: {size: 24, sized: true, init: "request_init", fields: [
+    game: {size: 68, sized: true, init: "game_init_sized", fields: [
+      ["world", "word", 8],
+      ["block", "word", 12],
+      ["blockSize", "word", 16],
+      ["user", "word", 20],
+      ["step", "word", 24],
+      ["rolledBack", "word", 28],
+      ["restarted", "word", 32],
+      ["confirmed", "word", 36],
+      ["save", "word", 40],
+      ["load", "word", 44],
+      ["hash", "word", 48],
+      ["write", "word", 52],
+      ["read", "word", 56],
+      ["predict", "word", 60],
+      ["valid", "word", 64]
+    ]},
+    request: {size: 24, sized: true, init: "request_init_sized", fields: [
       ["kind", "request_kind", 4],
       ["frame", "i32", 8],
       ["hash", "u64", 16]
     ]},
-    outgoing: {size: 24, sized: true, init: "outgoing_init", fields: [
+    outgoing: {size: 24, sized: true, init: "outgoing_init_sized", fields: [
       ["peer", "u32", 4],
       ["channel", "channel", 8],
       ["length", "u32", 12],
       ["close", "bool", 16]
     ]},
-    session_event: {size: 384, sized: true, init: "session_event_init", fields: [
+    session_event: {size: 384, sized: true, init: "session_event_init_sized", fields: [
       ["kind", "event_kind", 4],
       ["player", "u32", 8],
       ["frame", "i32", 12],
@@ -256,7 +273,7 @@ export const interfaceSchema = {
       ["theirsText", "text", 112, 136],
       ["oursText", "text", 248, 136]
     ]},
-    session_stats: {size: 640, sized: true, init: "session_stats_init", fields: [
+    session_stats: {size: 640, sized: true, init: "session_stats_init_sized", fields: [
       ["delay", "i32", 4],
       ["steps", "u64", 8],
       ["rollbacks", "u64", 16, 65],
@@ -276,7 +293,7 @@ export const interfaceSchema = {
       ["loss", "u32", 628],
       ["stretch", "i32", 632]
     ]},
-    player_stats: {size: 32, sized: true, init: "player_stats_init", fields: [
+    player_stats: {size: 32, sized: true, init: "player_stats_init_sized", fields: [
       ["early", "i32", 4],
       ["replaced", "u32", 8],
       ["waited", "u32", 12],
@@ -284,7 +301,7 @@ export const interfaceSchema = {
       ["jitter", "u32", 20],
       ["loss", "u32", 24]
     ]},
-    applicant: {size: 296, sized: true, init: "applicant_init", fields: [
+    applicant: {size: 296, sized: true, init: "applicant_init_sized", fields: [
       ["peer", "u32", 4],
       ["id", "u64", 8],
       ["spectator", "bool", 16],
@@ -452,7 +469,7 @@ export const interfaceSchema = {
       ["separation", "number", [48, 72]],
       ["impulse", "number", [52, 80]]
     ]},
-    settings: {size: [56, 72], sized: true, init: "P_settings_init", fields: [
+    settings: {size: [56, 72], sized: true, init: "P_settings_init_sized", fields: [
       ["hz", "i32", 8],
       ["substeps", "i32", 12],
       ["gravity", "vec3", 16],
@@ -463,7 +480,7 @@ export const interfaceSchema = {
       ["projection", "projection", [44, 56]],
       ["restitutionThreshold", "number", [48, 64]]
     ]},
-    body_definition: {size: [192, 312], sized: true, init: "P_body_definition_init", fields: [
+    body_definition: {size: [192, 312], sized: true, init: "P_body_definition_init_sized", fields: [
       ["type", "body_type", 8],
       ["shape", "id", 16],
       ["position", "vec3", 24],
@@ -485,12 +502,12 @@ export const interfaceSchema = {
       ["collide", "bool", [186, 310]],
       ["bullet", "bool", [187, 311]]
     ]},
-    body_mass: {size: [32, 48], sized: true, init: "P_body_mass_init", fields: [
+    body_mass: {size: [32, 48], sized: true, init: "P_body_mass_init_sized", fields: [
       ["density", "number", 8],
       ["mass", "number", [12, 16]],
       ["inertia", "vec3", [16, 24]]
     ]},
-    body_state: {size: [88, 152], sized: true, init: "P_body_state_init", fields: [
+    body_state: {size: [88, 152], sized: true, init: "P_body_state_init_sized", fields: [
       ["pose", "pose", 8],
       ["centre", "vec3", [36, 64]],
       ["velocity", "vec3", [48, 88]],
@@ -500,7 +517,7 @@ export const interfaceSchema = {
       ["awake", "bool", [84, 148]],
       ["enabled", "bool", [85, 149]]
     ]},
-    body_properties: {size: [120, 184], sized: true, init: "P_body_properties_init", fields: [
+    body_properties: {size: [120, 184], sized: true, init: "P_body_properties_init_sized", fields: [
       ["type", "body_type", 8],
       ["flags", "u32", 12],
       ["filter", "filter", 16],
@@ -512,32 +529,32 @@ export const interfaceSchema = {
       ["linearDamping", "number", [108, 168]],
       ["angularDamping", "number", [112, 176]]
     ]},
-    sphere: {size: 16, sized: true, init: "P_sphere_init", fields: [
+    sphere: {size: 16, sized: true, init: "P_sphere_init_sized", fields: [
       ["radius", "number", 8]
     ]},
-    box: {size: [24, 32], sized: true, init: "P_box_init", fields: [
+    box: {size: [24, 32], sized: true, init: "P_box_init_sized", fields: [
       ["halfExtents", "vec3", 8]
     ]},
-    capsule: {size: [16, 24], sized: true, init: "P_capsule_init", fields: [
+    capsule: {size: [16, 24], sized: true, init: "P_capsule_init_sized", fields: [
       ["radius", "number", 8],
       ["halfHeight", "number", [12, 16]]
     ]},
-    half_space: {size: [24, 40], sized: true, init: "P_half_space_init", fields: [
+    half_space: {size: [24, 40], sized: true, init: "P_half_space_init_sized", fields: [
       ["normal", "unit_vec3", 8],
       ["offset", "number", [20, 32]]
     ]},
-    cylinder: {size: [16, 24], sized: true, init: "P_cylinder_init", fields: [
+    cylinder: {size: [16, 24], sized: true, init: "P_cylinder_init_sized", fields: [
       ["radius", "number", 8],
       ["halfHeight", "number", [12, 16]]
     ]},
-    cone: {size: [16, 24], sized: true, init: "P_cone_init", fields: [
+    cone: {size: [16, 24], sized: true, init: "P_cone_init_sized", fields: [
       ["radius", "number", 8],
       ["halfHeight", "number", [12, 16]]
     ]},
-    hull: {size: 16, sized: true, init: "P_hull_init", fields: [
+    hull: {size: 16, sized: true, init: "P_hull_init_sized", fields: [
       ["radius", "number", 8]
     ]},
-    joint_properties: {size: [128, 216], sized: true, init: "P_joint_properties_init", fields: [
+    joint_properties: {size: [128, 216], sized: true, init: "P_joint_properties_init_sized", fields: [
       ["type", "joint_type", 8],
       ["flags", "u32", 12],
       ["bodyA", "u32", 16],
@@ -556,7 +573,7 @@ export const interfaceSchema = {
       ["springFrequency", "number", [120, 200]],
       ["springDamping", "number", [124, 208]]
     ]},
-    ball: {size: [80, 128], sized: true, init: "P_ball_init", fields: [
+    ball: {size: [80, 128], sized: true, init: "P_ball_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["frame", "pose", 24],
@@ -564,7 +581,7 @@ export const interfaceSchema = {
       ["twist", "optional joint_range", [64, 104], undefined, [60, 96]],
       ["collide", "bool", [72, 120]]
     ]},
-    constant_velocity: {size: [80, 128], sized: true, init: "P_constant_velocity_init", fields: [
+    constant_velocity: {size: [80, 128], sized: true, init: "P_constant_velocity_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["frame", "pose", 24],
@@ -572,25 +589,25 @@ export const interfaceSchema = {
       ["twist", "optional joint_range", [64, 104], undefined, [60, 96]],
       ["collide", "bool", [72, 120]]
     ]},
-    fixed: {size: [56, 88], sized: true, init: "P_fixed_init", fields: [
+    fixed: {size: [56, 88], sized: true, init: "P_fixed_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["frame", "pose", 24],
       ["collide", "bool", [52, 80]]
     ]},
-    universal: {size: [56, 88], sized: true, init: "P_universal_init", fields: [
+    universal: {size: [56, 88], sized: true, init: "P_universal_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["frame", "pose", 24],
       ["collide", "bool", [52, 80]]
     ]},
-    angular: {size: [56, 88], sized: true, init: "P_angular_init", fields: [
+    angular: {size: [56, 88], sized: true, init: "P_angular_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["frame", "pose", 24],
       ["collide", "bool", [52, 80]]
     ]},
-    hinge: {size: [96, 168], sized: true, init: "P_hinge_init", fields: [
+    hinge: {size: [96, 168], sized: true, init: "P_hinge_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["frame", "pose", 24],
@@ -599,7 +616,7 @@ export const interfaceSchema = {
       ["spring", "optional joint_spring", [80, 136], undefined, [76, 128]],
       ["collide", "bool", [92, 160]]
     ]},
-    slider: {size: [96, 168], sized: true, init: "P_slider_init", fields: [
+    slider: {size: [96, 168], sized: true, init: "P_slider_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["frame", "pose", 24],
@@ -608,7 +625,7 @@ export const interfaceSchema = {
       ["spring", "optional joint_spring", [80, 136], undefined, [76, 128]],
       ["collide", "bool", [92, 160]]
     ]},
-    cylindrical: {size: [96, 168], sized: true, init: "P_cylindrical_init", fields: [
+    cylindrical: {size: [96, 168], sized: true, init: "P_cylindrical_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["frame", "pose", 24],
@@ -617,7 +634,7 @@ export const interfaceSchema = {
       ["spring", "optional joint_spring", [80, 136], undefined, [76, 128]],
       ["collide", "bool", [92, 160]]
     ]},
-    planar: {size: [96, 168], sized: true, init: "P_planar_init", fields: [
+    planar: {size: [96, 168], sized: true, init: "P_planar_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["frame", "pose", 24],
@@ -626,7 +643,7 @@ export const interfaceSchema = {
       ["spring", "optional joint_spring", [80, 136], undefined, [76, 128]],
       ["collide", "bool", [92, 160]]
     ]},
-    rod: {size: [72, 120], sized: true, init: "P_rod_init", fields: [
+    rod: {size: [72, 120], sized: true, init: "P_rod_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["anchorA", "vec3", 24],
@@ -635,7 +652,7 @@ export const interfaceSchema = {
       ["spring", "optional joint_spring", [56, 88], undefined, [52, 80]],
       ["collide", "bool", [68, 112]]
     ]},
-    rope: {size: [72, 120], sized: true, init: "P_rope_init", fields: [
+    rope: {size: [72, 120], sized: true, init: "P_rope_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["anchorA", "vec3", 24],
@@ -644,7 +661,7 @@ export const interfaceSchema = {
       ["spring", "optional joint_spring", [56, 88], undefined, [52, 80]],
       ["collide", "bool", [68, 112]]
     ]},
-    wheel_joint: {size: [112, 200], sized: true, init: "P_wheel_joint_init", fields: [
+    wheel_joint: {size: [112, 200], sized: true, init: "P_wheel_joint_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["frame", "pose", 24],
@@ -654,7 +671,7 @@ export const interfaceSchema = {
       ["drive", "optional joint_motor", [100, 176], undefined, [96, 168]],
       ["collide", "bool", [108, 192]]
     ]},
-    motor_joint: {size: [128, 224], sized: true, init: "P_motor_joint_init", fields: [
+    motor_joint: {size: [128, 224], sized: true, init: "P_motor_joint_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["frameA", "pose", 24],
@@ -663,7 +680,7 @@ export const interfaceSchema = {
       ["turn", "joint_servo", [100, 176]],
       ["collide", "bool", [120, 216]]
     ]},
-    six_axis: {size: [400, 672], sized: true, init: "P_six_axis_init", fields: [
+    six_axis: {size: [400, 672], sized: true, init: "P_six_axis_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["frame", "pose", 24],
@@ -672,7 +689,7 @@ export const interfaceSchema = {
       ["driveCount", "u32", [392, 664]],
       ["collide", "bool", [396, 668]]
     ]},
-    ragdoll_settings: {size: [104, 176], sized: true, init: "P_ragdoll_settings_init", fields: [
+    ragdoll_settings: {size: [104, 176], sized: true, init: "P_ragdoll_settings_init_sized", fields: [
       ["friction", "number", 8],
       ["pose", "joint_servo", [12, 16]],
       ["limitFrequency", "number", [32, 56]],
@@ -680,34 +697,34 @@ export const interfaceSchema = {
       ["filter", "filter", [40, 72]],
       ["material", "material", [52, 88]]
     ]},
-    ray_cast: {size: [88, 112], sized: true, init: "P_ray_cast_init", fields: [
+    ray_cast: {size: [88, 112], sized: true, init: "P_ray_cast_init_sized", fields: [
       ["origin", "vec3", 8],
       ["translation", "vec3", [20, 32]],
       ["filter", "query_filter", [32, 56]]
     ]},
-    shape_cast: {size: [152, 224], sized: true, init: "P_shape_cast_init", fields: [
+    shape_cast: {size: [152, 224], sized: true, init: "P_shape_cast_init_sized", fields: [
       ["shape", "id", 8],
       ["primitive", "primitive", 16],
       ["pose", "pose", [56, 88]],
       ["translation", "vec3", [84, 144]],
       ["filter", "query_filter", [96, 168]]
     ]},
-    overlap_query: {size: [144, 200], sized: true, init: "P_overlap_query_init", fields: [
+    overlap_query: {size: [144, 200], sized: true, init: "P_overlap_query_init_sized", fields: [
       ["shape", "id", 8],
       ["primitive", "primitive", 16],
       ["pose", "pose", [56, 88]],
       ["filter", "query_filter", [88, 144]]
     ]},
-    point_query: {size: [80, 96], sized: true, init: "P_point_query_init", fields: [
+    point_query: {size: [80, 96], sized: true, init: "P_point_query_init_sized", fields: [
       ["point", "vec3", 8],
       ["maxDistance", "number", [20, 32]],
       ["filter", "query_filter", [24, 40]]
     ]},
-    box_query: {size: [88, 112], sized: true, init: "P_box_query_init", fields: [
+    box_query: {size: [88, 112], sized: true, init: "P_box_query_init_sized", fields: [
       ["box", "aabb", 8],
       ["filter", "query_filter", [32, 56]]
     ]},
-    force_zone: {size: [80, 152], sized: true, init: "P_force_zone_init", fields: [
+    force_zone: {size: [80, 152], sized: true, init: "P_force_zone_init_sized", fields: [
       ["shape", "zone_shape", 8],
       ["pose", "pose", [12, 16]],
       ["half", "vec3", [40, 72]],
@@ -715,7 +732,7 @@ export const interfaceSchema = {
       ["wind", "vec3", [64, 120]],
       ["mask", "u32", [76, 144]]
     ]},
-    attractor: {size: [48, 72], sized: true, init: "P_attractor_init", fields: [
+    attractor: {size: [48, 72], sized: true, init: "P_attractor_init_sized", fields: [
       ["body", "id", 8],
       ["point", "vec3", 16],
       ["strength", "number", [28, 40]],
@@ -723,7 +740,7 @@ export const interfaceSchema = {
       ["range", "number", [36, 56]],
       ["mask", "u32", [40, 64]]
     ]},
-    body_spring: {size: [64, 104], sized: true, init: "P_body_spring_init", fields: [
+    body_spring: {size: [64, 104], sized: true, init: "P_body_spring_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16],
       ["anchorA", "vec3", 24],
@@ -733,12 +750,12 @@ export const interfaceSchema = {
       ["damping", "number", [56, 88]],
       ["onlyPulls", "bool", [60, 96]]
     ]},
-    thruster: {size: [40, 64], sized: true, init: "P_thruster_init", fields: [
+    thruster: {size: [40, 64], sized: true, init: "P_thruster_init_sized", fields: [
       ["body", "id", 8],
       ["point", "vec3", 16],
       ["force", "vec3", [28, 40]]
     ]},
-    buoyancy: {size: [48, 72], sized: true, init: "P_buoyancy_init", fields: [
+    buoyancy: {size: [48, 72], sized: true, init: "P_buoyancy_init_sized", fields: [
       ["body", "id", 8],
       ["point", "vec3", 16],
       ["maxDepth", "number", [28, 40]],
@@ -746,7 +763,7 @@ export const interfaceSchema = {
       ["surfaceHeight", "number", [36, 56]],
       ["density", "number", [40, 64]]
     ]},
-    explosion: {size: [96, 152], sized: true, init: "P_explosion_init", fields: [
+    explosion: {size: [96, 152], sized: true, init: "P_explosion_init_sized", fields: [
       ["centre", "vec3", 8],
       ["begin", "u64", [24, 32]],
       ["implosionForce", "number", [32, 40]],
@@ -765,7 +782,7 @@ export const interfaceSchema = {
       ["isShielded", "bool", [84, 144]],
       ["mask", "u32", [88, 148]]
     ]},
-    water: {size: [96, 176], sized: true, init: "P_water_init", fields: [
+    water: {size: [96, 176], sized: true, init: "P_water_init_sized", fields: [
       ["surfaceHeight", "number", 8],
       ["density", "number", [12, 16]],
       ["middle", "vec3", [16, 24]],
@@ -780,13 +797,13 @@ export const interfaceSchema = {
       ["waveDirection", "unit_vec3", [76, 144]],
       ["mask", "u32", [88, 168]]
     ]},
-    drag: {size: [32, 40], sized: true, init: "P_drag_init", fields: [
+    drag: {size: [32, 40], sized: true, init: "P_drag_init_sized", fields: [
       ["body", "id", 8],
       ["linear", "number", 16],
       ["quadratic", "number", [20, 24]],
       ["angular", "number", [24, 32]]
     ]},
-    aero_surface: {size: [160, 304], sized: true, init: "P_aero_surface_init", fields: [
+    aero_surface: {size: [160, 304], sized: true, init: "P_aero_surface_init_sized", fields: [
       ["body", "id", 8],
       ["point", "vec3", 16],
       ["orientation", "quat", [28, 40]],
@@ -797,7 +814,7 @@ export const interfaceSchema = {
       ["isQuadratic", "bool", [156, 296]],
       ["isUnderWater", "bool", [157, 297]]
     ]},
-    material_pair: {size: [32, 48], sized: true, init: "P_material_pair_init", fields: [
+    material_pair: {size: [32, 48], sized: true, init: "P_material_pair_init_sized", fields: [
       ["kindA", "u32", 8],
       ["kindB", "u32", 12],
       ["friction", "number", 16],
@@ -805,7 +822,7 @@ export const interfaceSchema = {
       ["restitution", "number", [24, 32]],
       ["rollingResistance", "number", [28, 40]]
     ]},
-    breakable: {size: [104, 160], sized: true, init: "P_breakable_init", fields: [
+    breakable: {size: [104, 160], sized: true, init: "P_breakable_init_sized", fields: [
       ["body", "id", 8],
       ["impulse", "number", 16],
       ["pattern", "break_pattern", [20, 24]],
@@ -821,7 +838,7 @@ export const interfaceSchema = {
       ["hitPoint", "vec3", [80, 112]],
       ["hitDirection", "unit_vec3", [92, 136]]
     ]},
-    character: {size: [136, 232], sized: true, init: "P_character_init", fields: [
+    character: {size: [136, 232], sized: true, init: "P_character_init_sized", fields: [
       ["body", "id", 8],
       ["stepHeight", "number", 16],
       ["leastUp", "number", [20, 24]],
@@ -841,7 +858,7 @@ export const interfaceSchema = {
       ["normal", "unit_vec3", [116, 200]],
       ["stuck", "u32", [128, 224]]
     ]},
-    vehicle: {size: [120, 224], sized: true, init: "P_vehicle_init", fields: [
+    vehicle: {size: [120, 224], sized: true, init: "P_vehicle_init_sized", fields: [
       ["body", "id", 8],
       ["engineTorque", "number", 16],
       ["engineSpeed", "number", [20, 24]],
@@ -863,7 +880,7 @@ export const interfaceSchema = {
       ["engineSpin", "number", [112, 208]],
       ["clutchLoad", "number", [116, 216]]
     ]},
-    wheel: {size: [200, 360], sized: true, init: "P_wheel_init", fields: [
+    wheel: {size: [200, 360], sized: true, init: "P_wheel_init_sized", fields: [
       ["body", "id", 8],
       ["hardPoint", "vec3", 16],
       ["suspension", "unit_vec3", [28, 40]],
@@ -899,33 +916,33 @@ export const interfaceSchema = {
       ["along", "number", [188, 344]],
       ["across", "number", [192, 352]]
     ]},
-    surface_velocity: {size: [48, 72], sized: true, init: "P_surface_velocity_init", fields: [
+    surface_velocity: {size: [48, 72], sized: true, init: "P_surface_velocity_init_sized", fields: [
       ["body", "id", 8],
       ["linear", "vec3", 16],
       ["angular", "vec3", [28, 40]],
       ["part", "u32", [40, 64]]
     ]},
-    ghost: {size: 24, sized: true, init: "P_ghost_init", fields: [
+    ghost: {size: 24, sized: true, init: "P_ghost_init_sized", fields: [
       ["a", "id", 8],
       ["b", "id", 16]
     ]},
-    one_way: {size: [32, 48], sized: true, init: "P_one_way_init", fields: [
+    one_way: {size: [32, 48], sized: true, init: "P_one_way_init_sized", fields: [
       ["body", "id", 8],
       ["axis", "unit_vec3", 16],
       ["leastCosine", "number", [28, 40]]
     ]},
-    hit_report: {size: 24, sized: true, init: "P_hit_report_init", fields: [
+    hit_report: {size: 24, sized: true, init: "P_hit_report_init_sized", fields: [
       ["body", "id", 8],
       ["speed", "number", 16]
     ]},
-    joint_load: {size: [32, 48], sized: true, init: "P_joint_load_init", fields: [
+    joint_load: {size: [32, 48], sized: true, init: "P_joint_load_init_sized", fields: [
       ["joint", "id", 8],
       ["breakForce", "number", 16],
       ["breakTorque", "number", [20, 24]],
       ["force", "number", [24, 32]],
       ["torque", "number", [28, 40]]
     ]},
-    coupling: {size: [56, 72], sized: true, init: "P_coupling_init", fields: [
+    coupling: {size: [56, 72], sized: true, init: "P_coupling_init_sized", fields: [
       ["jointA", "id", 8],
       ["jointB", "id", 16],
       ["jointC", "id", 24],
@@ -935,7 +952,7 @@ export const interfaceSchema = {
       ["lower", "number", [44, 56]],
       ["upper", "number", [48, 64]]
     ]},
-    axis_drive: {size: [64, 104], sized: true, init: "P_axis_drive_init", fields: [
+    axis_drive: {size: [64, 104], sized: true, init: "P_axis_drive_init_sized", fields: [
       ["joint", "id", 8],
       ["axis", "joint_axis", 16],
       ["limited", "bool", 20],
@@ -951,15 +968,15 @@ export const interfaceSchema = {
       ["limitFrequency", "number", [56, 88]],
       ["limitDamping", "number", [60, 96]]
     ]},
-    move_target: {size: [48, 72], sized: true, init: "P_move_target_init", fields: [
+    move_target: {size: [48, 72], sized: true, init: "P_move_target_init_sized", fields: [
       ["body", "id", 8],
       ["pose", "pose", 16]
     ]},
-    kind_ghost: {size: 16, sized: true, init: "P_kind_ghost_init", fields: [
+    kind_ghost: {size: 16, sized: true, init: "P_kind_ghost_init_sized", fields: [
       ["kindA", "u32", 8],
       ["kindB", "u32", 12]
     ]},
-    ranked_zone: {size: [88, 160], sized: true, init: "P_ranked_zone_init", fields: [
+    ranked_zone: {size: [88, 160], sized: true, init: "P_ranked_zone_init_sized", fields: [
       ["shape", "zone_shape", 8],
       ["pose", "pose", [12, 16]],
       ["half", "vec3", [40, 72]],
@@ -969,10 +986,10 @@ export const interfaceSchema = {
       ["priority", "i32", [80, 148]],
       ["replaces", "u32", [84, 152]]
     ]},
-    contact_report: {size: 16, sized: true, init: "P_contact_report_init", fields: [
+    contact_report: {size: 16, sized: true, init: "P_contact_report_init_sized", fields: [
       ["body", "id", 8]
     ]},
-    kind_response: {size: [40, 56], sized: true, init: "P_kind_response_init", fields: [
+    kind_response: {size: [40, 56], sized: true, init: "P_kind_response_init_sized", fields: [
       ["kindA", "u32", 8],
       ["kindB", "u32", 12],
       ["inverseMassScaleA", "number", 16],
@@ -981,7 +998,7 @@ export const interfaceSchema = {
       ["inverseInertiaScaleB", "number", [28, 40]],
       ["maxForce", "number", [32, 48]]
     ]},
-    damping_zone: {size: [72, 128], sized: true, init: "P_damping_zone_init", fields: [
+    damping_zone: {size: [72, 128], sized: true, init: "P_damping_zone_init_sized", fields: [
       ["shape", "zone_shape", 8],
       ["pose", "pose", [12, 16]],
       ["half", "vec3", [40, 72]],
@@ -991,7 +1008,7 @@ export const interfaceSchema = {
       ["priority", "i32", [64, 116]],
       ["replaces", "bool", [68, 120]]
     ]},
-    ranked_water: {size: [96, 176], sized: true, init: "P_ranked_water_init", fields: [
+    ranked_water: {size: [96, 176], sized: true, init: "P_ranked_water_init_sized", fields: [
       ["surfaceHeight", "number", 8],
       ["density", "number", [12, 16]],
       ["middle", "vec3", [16, 24]],
@@ -1007,7 +1024,7 @@ export const interfaceSchema = {
       ["mask", "u32", [88, 168]],
       ["priority", "i32", [92, 172]]
     ]},
-    sensor_mount: {size: [56, 80], sized: true, init: "P_sensor_mount_init", fields: [
+    sensor_mount: {size: [56, 80], sized: true, init: "P_sensor_mount_init_sized", fields: [
       ["sensor", "id", 8],
       ["on", "id", 16],
       ["frame", "pose", 24]

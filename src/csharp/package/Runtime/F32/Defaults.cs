@@ -11,7 +11,7 @@ namespace Isostep.F32
             get
             {
                 AeroSurface result = new AeroSurface();
-                IsostepException.Check(Native.iso_f32_aero_surface_init(&result));
+                IsostepException.Check(Native.iso_f32_aero_surface_init_sized(&result, (UIntPtr)sizeof(AeroSurface)));
                 return result;
             }
         }
@@ -24,7 +24,7 @@ namespace Isostep.F32
             get
             {
                 Angular result = new Angular();
-                IsostepException.Check(Native.iso_f32_angular_init(&result));
+                IsostepException.Check(Native.iso_f32_angular_init_sized(&result, (UIntPtr)sizeof(Angular)));
                 return result;
             }
         }
@@ -37,7 +37,7 @@ namespace Isostep.F32
             get
             {
                 Attractor result = new Attractor();
-                IsostepException.Check(Native.iso_f32_attractor_init(&result));
+                IsostepException.Check(Native.iso_f32_attractor_init_sized(&result, (UIntPtr)sizeof(Attractor)));
                 return result;
             }
         }
@@ -50,7 +50,7 @@ namespace Isostep.F32
             get
             {
                 AxisDrive result = new AxisDrive();
-                IsostepException.Check(Native.iso_f32_axis_drive_init(&result));
+                IsostepException.Check(Native.iso_f32_axis_drive_init_sized(&result, (UIntPtr)sizeof(AxisDrive)));
                 return result;
             }
         }
@@ -63,7 +63,7 @@ namespace Isostep.F32
             get
             {
                 Ball result = new Ball();
-                IsostepException.Check(Native.iso_f32_ball_init(&result));
+                IsostepException.Check(Native.iso_f32_ball_init_sized(&result, (UIntPtr)sizeof(Ball)));
                 return result;
             }
         }
@@ -76,7 +76,7 @@ namespace Isostep.F32
             get
             {
                 BodyDefinition result = new BodyDefinition();
-                IsostepException.Check(Native.iso_f32_body_definition_init(&result));
+                IsostepException.Check(Native.iso_f32_body_definition_init_sized(&result, (UIntPtr)sizeof(BodyDefinition)));
                 return result;
             }
         }
@@ -89,7 +89,7 @@ namespace Isostep.F32
             get
             {
                 BodyMass result = new BodyMass();
-                IsostepException.Check(Native.iso_f32_body_mass_init(&result));
+                IsostepException.Check(Native.iso_f32_body_mass_init_sized(&result, (UIntPtr)sizeof(BodyMass)));
                 return result;
             }
         }
@@ -102,7 +102,7 @@ namespace Isostep.F32
             get
             {
                 BodyProperties result = new BodyProperties();
-                IsostepException.Check(Native.iso_f32_body_properties_init(&result));
+                IsostepException.Check(Native.iso_f32_body_properties_init_sized(&result, (UIntPtr)sizeof(BodyProperties)));
                 return result;
             }
         }
@@ -115,7 +115,7 @@ namespace Isostep.F32
             get
             {
                 BodySpring result = new BodySpring();
-                IsostepException.Check(Native.iso_f32_body_spring_init(&result));
+                IsostepException.Check(Native.iso_f32_body_spring_init_sized(&result, (UIntPtr)sizeof(BodySpring)));
                 return result;
             }
         }
@@ -128,7 +128,7 @@ namespace Isostep.F32
             get
             {
                 BodyState result = new BodyState();
-                IsostepException.Check(Native.iso_f32_body_state_init(&result));
+                IsostepException.Check(Native.iso_f32_body_state_init_sized(&result, (UIntPtr)sizeof(BodyState)));
                 return result;
             }
         }
@@ -141,7 +141,7 @@ namespace Isostep.F32
             get
             {
                 Box result = new Box();
-                IsostepException.Check(Native.iso_f32_box_init(&result));
+                IsostepException.Check(Native.iso_f32_box_init_sized(&result, (UIntPtr)sizeof(Box)));
                 return result;
             }
         }
@@ -154,7 +154,7 @@ namespace Isostep.F32
             get
             {
                 BoxQuery result = new BoxQuery();
-                IsostepException.Check(Native.iso_f32_box_query_init(&result));
+                IsostepException.Check(Native.iso_f32_box_query_init_sized(&result, (UIntPtr)sizeof(BoxQuery)));
                 return result;
             }
         }
@@ -167,7 +167,7 @@ namespace Isostep.F32
             get
             {
                 Breakable result = new Breakable();
-                IsostepException.Check(Native.iso_f32_breakable_init(&result));
+                IsostepException.Check(Native.iso_f32_breakable_init_sized(&result, (UIntPtr)sizeof(Breakable)));
                 return result;
             }
         }
@@ -180,7 +180,7 @@ namespace Isostep.F32
             get
             {
                 Buoyancy result = new Buoyancy();
-                IsostepException.Check(Native.iso_f32_buoyancy_init(&result));
+                IsostepException.Check(Native.iso_f32_buoyancy_init_sized(&result, (UIntPtr)sizeof(Buoyancy)));
                 return result;
             }
         }
@@ -193,7 +193,7 @@ namespace Isostep.F32
             get
             {
                 Capsule result = new Capsule();
-                IsostepException.Check(Native.iso_f32_capsule_init(&result));
+                IsostepException.Check(Native.iso_f32_capsule_init_sized(&result, (UIntPtr)sizeof(Capsule)));
                 return result;
             }
         }
@@ -206,7 +206,7 @@ namespace Isostep.F32
             get
             {
                 Character result = new Character();
-                IsostepException.Check(Native.iso_f32_character_init(&result));
+                IsostepException.Check(Native.iso_f32_character_init_sized(&result, (UIntPtr)sizeof(Character)));
                 return result;
             }
         }
@@ -219,7 +219,7 @@ namespace Isostep.F32
             get
             {
                 Cone result = new Cone();
-                IsostepException.Check(Native.iso_f32_cone_init(&result));
+                IsostepException.Check(Native.iso_f32_cone_init_sized(&result, (UIntPtr)sizeof(Cone)));
                 return result;
             }
         }
@@ -232,7 +232,7 @@ namespace Isostep.F32
             get
             {
                 ConstantVelocity result = new ConstantVelocity();
-                IsostepException.Check(Native.iso_f32_constant_velocity_init(&result));
+                IsostepException.Check(Native.iso_f32_constant_velocity_init_sized(&result, (UIntPtr)sizeof(ConstantVelocity)));
                 return result;
             }
         }
@@ -245,7 +245,7 @@ namespace Isostep.F32
             get
             {
                 ContactReport result = new ContactReport();
-                IsostepException.Check(Native.iso_f32_contact_report_init(&result));
+                IsostepException.Check(Native.iso_f32_contact_report_init_sized(&result, (UIntPtr)sizeof(ContactReport)));
                 return result;
             }
         }
@@ -304,7 +304,7 @@ namespace Isostep.F32
             get
             {
                 Coupling result = new Coupling();
-                IsostepException.Check(Native.iso_f32_coupling_init(&result));
+                IsostepException.Check(Native.iso_f32_coupling_init_sized(&result, (UIntPtr)sizeof(Coupling)));
                 return result;
             }
         }
@@ -317,7 +317,7 @@ namespace Isostep.F32
             get
             {
                 Cylinder result = new Cylinder();
-                IsostepException.Check(Native.iso_f32_cylinder_init(&result));
+                IsostepException.Check(Native.iso_f32_cylinder_init_sized(&result, (UIntPtr)sizeof(Cylinder)));
                 return result;
             }
         }
@@ -330,7 +330,7 @@ namespace Isostep.F32
             get
             {
                 Cylindrical result = new Cylindrical();
-                IsostepException.Check(Native.iso_f32_cylindrical_init(&result));
+                IsostepException.Check(Native.iso_f32_cylindrical_init_sized(&result, (UIntPtr)sizeof(Cylindrical)));
                 return result;
             }
         }
@@ -343,7 +343,7 @@ namespace Isostep.F32
             get
             {
                 DampingZone result = new DampingZone();
-                IsostepException.Check(Native.iso_f32_damping_zone_init(&result));
+                IsostepException.Check(Native.iso_f32_damping_zone_init_sized(&result, (UIntPtr)sizeof(DampingZone)));
                 return result;
             }
         }
@@ -356,7 +356,7 @@ namespace Isostep.F32
             get
             {
                 Drag result = new Drag();
-                IsostepException.Check(Native.iso_f32_drag_init(&result));
+                IsostepException.Check(Native.iso_f32_drag_init_sized(&result, (UIntPtr)sizeof(Drag)));
                 return result;
             }
         }
@@ -369,7 +369,7 @@ namespace Isostep.F32
             get
             {
                 Explosion result = new Explosion();
-                IsostepException.Check(Native.iso_f32_explosion_init(&result));
+                IsostepException.Check(Native.iso_f32_explosion_init_sized(&result, (UIntPtr)sizeof(Explosion)));
                 return result;
             }
         }
@@ -382,7 +382,7 @@ namespace Isostep.F32
             get
             {
                 Fixed result = new Fixed();
-                IsostepException.Check(Native.iso_f32_fixed_init(&result));
+                IsostepException.Check(Native.iso_f32_fixed_init_sized(&result, (UIntPtr)sizeof(Fixed)));
                 return result;
             }
         }
@@ -395,7 +395,7 @@ namespace Isostep.F32
             get
             {
                 ForceZone result = new ForceZone();
-                IsostepException.Check(Native.iso_f32_force_zone_init(&result));
+                IsostepException.Check(Native.iso_f32_force_zone_init_sized(&result, (UIntPtr)sizeof(ForceZone)));
                 return result;
             }
         }
@@ -408,7 +408,7 @@ namespace Isostep.F32
             get
             {
                 Ghost result = new Ghost();
-                IsostepException.Check(Native.iso_f32_ghost_init(&result));
+                IsostepException.Check(Native.iso_f32_ghost_init_sized(&result, (UIntPtr)sizeof(Ghost)));
                 return result;
             }
         }
@@ -421,7 +421,7 @@ namespace Isostep.F32
             get
             {
                 HalfSpace result = new HalfSpace();
-                IsostepException.Check(Native.iso_f32_half_space_init(&result));
+                IsostepException.Check(Native.iso_f32_half_space_init_sized(&result, (UIntPtr)sizeof(HalfSpace)));
                 return result;
             }
         }
@@ -434,7 +434,7 @@ namespace Isostep.F32
             get
             {
                 Hinge result = new Hinge();
-                IsostepException.Check(Native.iso_f32_hinge_init(&result));
+                IsostepException.Check(Native.iso_f32_hinge_init_sized(&result, (UIntPtr)sizeof(Hinge)));
                 return result;
             }
         }
@@ -447,7 +447,7 @@ namespace Isostep.F32
             get
             {
                 HitReport result = new HitReport();
-                IsostepException.Check(Native.iso_f32_hit_report_init(&result));
+                IsostepException.Check(Native.iso_f32_hit_report_init_sized(&result, (UIntPtr)sizeof(HitReport)));
                 return result;
             }
         }
@@ -460,7 +460,7 @@ namespace Isostep.F32
             get
             {
                 Hull result = new Hull();
-                IsostepException.Check(Native.iso_f32_hull_init(&result));
+                IsostepException.Check(Native.iso_f32_hull_init_sized(&result, (UIntPtr)sizeof(Hull)));
                 return result;
             }
         }
@@ -473,7 +473,7 @@ namespace Isostep.F32
             get
             {
                 JointLoad result = new JointLoad();
-                IsostepException.Check(Native.iso_f32_joint_load_init(&result));
+                IsostepException.Check(Native.iso_f32_joint_load_init_sized(&result, (UIntPtr)sizeof(JointLoad)));
                 return result;
             }
         }
@@ -486,7 +486,7 @@ namespace Isostep.F32
             get
             {
                 JointProperties result = new JointProperties();
-                IsostepException.Check(Native.iso_f32_joint_properties_init(&result));
+                IsostepException.Check(Native.iso_f32_joint_properties_init_sized(&result, (UIntPtr)sizeof(JointProperties)));
                 return result;
             }
         }
@@ -499,7 +499,7 @@ namespace Isostep.F32
             get
             {
                 KindGhost result = new KindGhost();
-                IsostepException.Check(Native.iso_f32_kind_ghost_init(&result));
+                IsostepException.Check(Native.iso_f32_kind_ghost_init_sized(&result, (UIntPtr)sizeof(KindGhost)));
                 return result;
             }
         }
@@ -512,7 +512,7 @@ namespace Isostep.F32
             get
             {
                 KindResponse result = new KindResponse();
-                IsostepException.Check(Native.iso_f32_kind_response_init(&result));
+                IsostepException.Check(Native.iso_f32_kind_response_init_sized(&result, (UIntPtr)sizeof(KindResponse)));
                 return result;
             }
         }
@@ -538,7 +538,7 @@ namespace Isostep.F32
             get
             {
                 MaterialPair result = new MaterialPair();
-                IsostepException.Check(Native.iso_f32_material_pair_init(&result));
+                IsostepException.Check(Native.iso_f32_material_pair_init_sized(&result, (UIntPtr)sizeof(MaterialPair)));
                 return result;
             }
         }
@@ -551,7 +551,7 @@ namespace Isostep.F32
             get
             {
                 MotorJoint result = new MotorJoint();
-                IsostepException.Check(Native.iso_f32_motor_joint_init(&result));
+                IsostepException.Check(Native.iso_f32_motor_joint_init_sized(&result, (UIntPtr)sizeof(MotorJoint)));
                 return result;
             }
         }
@@ -564,7 +564,7 @@ namespace Isostep.F32
             get
             {
                 MoveTarget result = new MoveTarget();
-                IsostepException.Check(Native.iso_f32_move_target_init(&result));
+                IsostepException.Check(Native.iso_f32_move_target_init_sized(&result, (UIntPtr)sizeof(MoveTarget)));
                 return result;
             }
         }
@@ -577,7 +577,7 @@ namespace Isostep.F32
             get
             {
                 OneWay result = new OneWay();
-                IsostepException.Check(Native.iso_f32_one_way_init(&result));
+                IsostepException.Check(Native.iso_f32_one_way_init_sized(&result, (UIntPtr)sizeof(OneWay)));
                 return result;
             }
         }
@@ -590,7 +590,7 @@ namespace Isostep.F32
             get
             {
                 OverlapQuery result = new OverlapQuery();
-                IsostepException.Check(Native.iso_f32_overlap_query_init(&result));
+                IsostepException.Check(Native.iso_f32_overlap_query_init_sized(&result, (UIntPtr)sizeof(OverlapQuery)));
                 return result;
             }
         }
@@ -603,7 +603,7 @@ namespace Isostep.F32
             get
             {
                 Planar result = new Planar();
-                IsostepException.Check(Native.iso_f32_planar_init(&result));
+                IsostepException.Check(Native.iso_f32_planar_init_sized(&result, (UIntPtr)sizeof(Planar)));
                 return result;
             }
         }
@@ -616,7 +616,7 @@ namespace Isostep.F32
             get
             {
                 PointQuery result = new PointQuery();
-                IsostepException.Check(Native.iso_f32_point_query_init(&result));
+                IsostepException.Check(Native.iso_f32_point_query_init_sized(&result, (UIntPtr)sizeof(PointQuery)));
                 return result;
             }
         }
@@ -642,7 +642,7 @@ namespace Isostep.F32
             get
             {
                 RagdollSettings result = new RagdollSettings();
-                IsostepException.Check(Native.iso_f32_ragdoll_settings_init(&result));
+                IsostepException.Check(Native.iso_f32_ragdoll_settings_init_sized(&result, (UIntPtr)sizeof(RagdollSettings)));
                 return result;
             }
         }
@@ -655,7 +655,7 @@ namespace Isostep.F32
             get
             {
                 RankedWater result = new RankedWater();
-                IsostepException.Check(Native.iso_f32_ranked_water_init(&result));
+                IsostepException.Check(Native.iso_f32_ranked_water_init_sized(&result, (UIntPtr)sizeof(RankedWater)));
                 return result;
             }
         }
@@ -668,7 +668,7 @@ namespace Isostep.F32
             get
             {
                 RankedZone result = new RankedZone();
-                IsostepException.Check(Native.iso_f32_ranked_zone_init(&result));
+                IsostepException.Check(Native.iso_f32_ranked_zone_init_sized(&result, (UIntPtr)sizeof(RankedZone)));
                 return result;
             }
         }
@@ -681,7 +681,7 @@ namespace Isostep.F32
             get
             {
                 RayCast result = new RayCast();
-                IsostepException.Check(Native.iso_f32_ray_cast_init(&result));
+                IsostepException.Check(Native.iso_f32_ray_cast_init_sized(&result, (UIntPtr)sizeof(RayCast)));
                 return result;
             }
         }
@@ -694,7 +694,7 @@ namespace Isostep.F32
             get
             {
                 Rod result = new Rod();
-                IsostepException.Check(Native.iso_f32_rod_init(&result));
+                IsostepException.Check(Native.iso_f32_rod_init_sized(&result, (UIntPtr)sizeof(Rod)));
                 return result;
             }
         }
@@ -707,7 +707,7 @@ namespace Isostep.F32
             get
             {
                 Rope result = new Rope();
-                IsostepException.Check(Native.iso_f32_rope_init(&result));
+                IsostepException.Check(Native.iso_f32_rope_init_sized(&result, (UIntPtr)sizeof(Rope)));
                 return result;
             }
         }
@@ -720,7 +720,7 @@ namespace Isostep.F32
             get
             {
                 SensorMount result = new SensorMount();
-                IsostepException.Check(Native.iso_f32_sensor_mount_init(&result));
+                IsostepException.Check(Native.iso_f32_sensor_mount_init_sized(&result, (UIntPtr)sizeof(SensorMount)));
                 return result;
             }
         }
@@ -733,7 +733,7 @@ namespace Isostep.F32
             get
             {
                 Settings result = new Settings();
-                IsostepException.Check(Native.iso_f32_settings_init(&result));
+                IsostepException.Check(Native.iso_f32_settings_init_sized(&result, (UIntPtr)sizeof(Settings)));
                 return result;
             }
         }
@@ -746,7 +746,7 @@ namespace Isostep.F32
             get
             {
                 ShapeCast result = new ShapeCast();
-                IsostepException.Check(Native.iso_f32_shape_cast_init(&result));
+                IsostepException.Check(Native.iso_f32_shape_cast_init_sized(&result, (UIntPtr)sizeof(ShapeCast)));
                 return result;
             }
         }
@@ -759,7 +759,7 @@ namespace Isostep.F32
             get
             {
                 SixAxis result = new SixAxis();
-                IsostepException.Check(Native.iso_f32_six_axis_init(&result));
+                IsostepException.Check(Native.iso_f32_six_axis_init_sized(&result, (UIntPtr)sizeof(SixAxis)));
                 return result;
             }
         }
@@ -772,7 +772,7 @@ namespace Isostep.F32
             get
             {
                 Slider result = new Slider();
-                IsostepException.Check(Native.iso_f32_slider_init(&result));
+                IsostepException.Check(Native.iso_f32_slider_init_sized(&result, (UIntPtr)sizeof(Slider)));
                 return result;
             }
         }
@@ -785,7 +785,7 @@ namespace Isostep.F32
             get
             {
                 Sphere result = new Sphere();
-                IsostepException.Check(Native.iso_f32_sphere_init(&result));
+                IsostepException.Check(Native.iso_f32_sphere_init_sized(&result, (UIntPtr)sizeof(Sphere)));
                 return result;
             }
         }
@@ -798,7 +798,7 @@ namespace Isostep.F32
             get
             {
                 SurfaceVelocity result = new SurfaceVelocity();
-                IsostepException.Check(Native.iso_f32_surface_velocity_init(&result));
+                IsostepException.Check(Native.iso_f32_surface_velocity_init_sized(&result, (UIntPtr)sizeof(SurfaceVelocity)));
                 return result;
             }
         }
@@ -811,7 +811,7 @@ namespace Isostep.F32
             get
             {
                 Thruster result = new Thruster();
-                IsostepException.Check(Native.iso_f32_thruster_init(&result));
+                IsostepException.Check(Native.iso_f32_thruster_init_sized(&result, (UIntPtr)sizeof(Thruster)));
                 return result;
             }
         }
@@ -824,7 +824,7 @@ namespace Isostep.F32
             get
             {
                 Universal result = new Universal();
-                IsostepException.Check(Native.iso_f32_universal_init(&result));
+                IsostepException.Check(Native.iso_f32_universal_init_sized(&result, (UIntPtr)sizeof(Universal)));
                 return result;
             }
         }
@@ -837,7 +837,7 @@ namespace Isostep.F32
             get
             {
                 Vehicle result = new Vehicle();
-                IsostepException.Check(Native.iso_f32_vehicle_init(&result));
+                IsostepException.Check(Native.iso_f32_vehicle_init_sized(&result, (UIntPtr)sizeof(Vehicle)));
                 return result;
             }
         }
@@ -850,7 +850,7 @@ namespace Isostep.F32
             get
             {
                 Water result = new Water();
-                IsostepException.Check(Native.iso_f32_water_init(&result));
+                IsostepException.Check(Native.iso_f32_water_init_sized(&result, (UIntPtr)sizeof(Water)));
                 return result;
             }
         }
@@ -863,7 +863,7 @@ namespace Isostep.F32
             get
             {
                 Wheel result = new Wheel();
-                IsostepException.Check(Native.iso_f32_wheel_init(&result));
+                IsostepException.Check(Native.iso_f32_wheel_init_sized(&result, (UIntPtr)sizeof(Wheel)));
                 return result;
             }
         }
@@ -876,7 +876,7 @@ namespace Isostep.F32
             get
             {
                 WheelJoint result = new WheelJoint();
-                IsostepException.Check(Native.iso_f32_wheel_joint_init(&result));
+                IsostepException.Check(Native.iso_f32_wheel_joint_init_sized(&result, (UIntPtr)sizeof(WheelJoint)));
                 return result;
             }
         }

@@ -262,190 +262,190 @@ namespace Isostep
             UIntPtr room, UIntPtr* count);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_settings_init(F32.Settings* @out);
+        public static extern Status iso_f32_settings_init_sized(F32.Settings* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_body_definition_init(F32.BodyDefinition* @out);
+        public static extern Status iso_f32_body_definition_init_sized(F32.BodyDefinition* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_body_mass_init(F32.BodyMass* @out);
+        public static extern Status iso_f32_body_mass_init_sized(F32.BodyMass* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_body_state_init(F32.BodyState* @out);
+        public static extern Status iso_f32_body_state_init_sized(F32.BodyState* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_body_properties_init(F32.BodyProperties* @out);
+        public static extern Status iso_f32_body_properties_init_sized(F32.BodyProperties* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_sphere_init(F32.Sphere* @out);
+        public static extern Status iso_f32_sphere_init_sized(F32.Sphere* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_box_init(F32.Box* @out);
+        public static extern Status iso_f32_box_init_sized(F32.Box* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_capsule_init(F32.Capsule* @out);
+        public static extern Status iso_f32_capsule_init_sized(F32.Capsule* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_half_space_init(F32.HalfSpace* @out);
+        public static extern Status iso_f32_half_space_init_sized(F32.HalfSpace* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_cylinder_init(F32.Cylinder* @out);
+        public static extern Status iso_f32_cylinder_init_sized(F32.Cylinder* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_cone_init(F32.Cone* @out);
+        public static extern Status iso_f32_cone_init_sized(F32.Cone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_hull_init(F32.Hull* @out);
+        public static extern Status iso_f32_hull_init_sized(F32.Hull* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_joint_properties_init(F32.JointProperties* @out);
+        public static extern Status iso_f32_joint_properties_init_sized(F32.JointProperties* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_ball_init(F32.Ball* @out);
+        public static extern Status iso_f32_ball_init_sized(F32.Ball* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_constant_velocity_init(F32.ConstantVelocity* @out);
+        public static extern Status iso_f32_constant_velocity_init_sized(F32.ConstantVelocity* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_fixed_init(F32.Fixed* @out);
+        public static extern Status iso_f32_fixed_init_sized(F32.Fixed* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_universal_init(F32.Universal* @out);
+        public static extern Status iso_f32_universal_init_sized(F32.Universal* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_angular_init(F32.Angular* @out);
+        public static extern Status iso_f32_angular_init_sized(F32.Angular* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_hinge_init(F32.Hinge* @out);
+        public static extern Status iso_f32_hinge_init_sized(F32.Hinge* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_slider_init(F32.Slider* @out);
+        public static extern Status iso_f32_slider_init_sized(F32.Slider* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_cylindrical_init(F32.Cylindrical* @out);
+        public static extern Status iso_f32_cylindrical_init_sized(F32.Cylindrical* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_planar_init(F32.Planar* @out);
+        public static extern Status iso_f32_planar_init_sized(F32.Planar* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_rod_init(F32.Rod* @out);
+        public static extern Status iso_f32_rod_init_sized(F32.Rod* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_rope_init(F32.Rope* @out);
+        public static extern Status iso_f32_rope_init_sized(F32.Rope* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_wheel_joint_init(F32.WheelJoint* @out);
+        public static extern Status iso_f32_wheel_joint_init_sized(F32.WheelJoint* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_motor_joint_init(F32.MotorJoint* @out);
+        public static extern Status iso_f32_motor_joint_init_sized(F32.MotorJoint* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_six_axis_init(F32.SixAxis* @out);
+        public static extern Status iso_f32_six_axis_init_sized(F32.SixAxis* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_ragdoll_settings_init(F32.RagdollSettings* @out);
+        public static extern Status iso_f32_ragdoll_settings_init_sized(F32.RagdollSettings* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_ray_cast_init(F32.RayCast* @out);
+        public static extern Status iso_f32_ray_cast_init_sized(F32.RayCast* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_shape_cast_init(F32.ShapeCast* @out);
+        public static extern Status iso_f32_shape_cast_init_sized(F32.ShapeCast* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_overlap_query_init(F32.OverlapQuery* @out);
+        public static extern Status iso_f32_overlap_query_init_sized(F32.OverlapQuery* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_point_query_init(F32.PointQuery* @out);
+        public static extern Status iso_f32_point_query_init_sized(F32.PointQuery* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_box_query_init(F32.BoxQuery* @out);
+        public static extern Status iso_f32_box_query_init_sized(F32.BoxQuery* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_force_zone_init(F32.ForceZone* @out);
+        public static extern Status iso_f32_force_zone_init_sized(F32.ForceZone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_attractor_init(F32.Attractor* @out);
+        public static extern Status iso_f32_attractor_init_sized(F32.Attractor* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_body_spring_init(F32.BodySpring* @out);
+        public static extern Status iso_f32_body_spring_init_sized(F32.BodySpring* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_thruster_init(F32.Thruster* @out);
+        public static extern Status iso_f32_thruster_init_sized(F32.Thruster* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_buoyancy_init(F32.Buoyancy* @out);
+        public static extern Status iso_f32_buoyancy_init_sized(F32.Buoyancy* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_explosion_init(F32.Explosion* @out);
+        public static extern Status iso_f32_explosion_init_sized(F32.Explosion* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_water_init(F32.Water* @out);
+        public static extern Status iso_f32_water_init_sized(F32.Water* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_drag_init(F32.Drag* @out);
+        public static extern Status iso_f32_drag_init_sized(F32.Drag* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_aero_surface_init(F32.AeroSurface* @out);
+        public static extern Status iso_f32_aero_surface_init_sized(F32.AeroSurface* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_material_pair_init(F32.MaterialPair* @out);
+        public static extern Status iso_f32_material_pair_init_sized(F32.MaterialPair* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_breakable_init(F32.Breakable* @out);
+        public static extern Status iso_f32_breakable_init_sized(F32.Breakable* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_character_init(F32.Character* @out);
+        public static extern Status iso_f32_character_init_sized(F32.Character* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_vehicle_init(F32.Vehicle* @out);
+        public static extern Status iso_f32_vehicle_init_sized(F32.Vehicle* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_wheel_init(F32.Wheel* @out);
+        public static extern Status iso_f32_wheel_init_sized(F32.Wheel* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_surface_velocity_init(F32.SurfaceVelocity* @out);
+        public static extern Status iso_f32_surface_velocity_init_sized(F32.SurfaceVelocity* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_ghost_init(F32.Ghost* @out);
+        public static extern Status iso_f32_ghost_init_sized(F32.Ghost* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_one_way_init(F32.OneWay* @out);
+        public static extern Status iso_f32_one_way_init_sized(F32.OneWay* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_hit_report_init(F32.HitReport* @out);
+        public static extern Status iso_f32_hit_report_init_sized(F32.HitReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_joint_load_init(F32.JointLoad* @out);
+        public static extern Status iso_f32_joint_load_init_sized(F32.JointLoad* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_coupling_init(F32.Coupling* @out);
+        public static extern Status iso_f32_coupling_init_sized(F32.Coupling* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_axis_drive_init(F32.AxisDrive* @out);
+        public static extern Status iso_f32_axis_drive_init_sized(F32.AxisDrive* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_move_target_init(F32.MoveTarget* @out);
+        public static extern Status iso_f32_move_target_init_sized(F32.MoveTarget* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_kind_ghost_init(F32.KindGhost* @out);
+        public static extern Status iso_f32_kind_ghost_init_sized(F32.KindGhost* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_ranked_zone_init(F32.RankedZone* @out);
+        public static extern Status iso_f32_ranked_zone_init_sized(F32.RankedZone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_contact_report_init(F32.ContactReport* @out);
+        public static extern Status iso_f32_contact_report_init_sized(F32.ContactReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_kind_response_init(F32.KindResponse* @out);
+        public static extern Status iso_f32_kind_response_init_sized(F32.KindResponse* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_damping_zone_init(F32.DampingZone* @out);
+        public static extern Status iso_f32_damping_zone_init_sized(F32.DampingZone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_ranked_water_init(F32.RankedWater* @out);
+        public static extern Status iso_f32_ranked_water_init_sized(F32.RankedWater* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_sensor_mount_init(F32.SensorMount* @out);
+        public static extern Status iso_f32_sensor_mount_init_sized(F32.SensorMount* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_add_sphere(IntPtr world, F32.Sphere* shape, ShapeId* @out);

@@ -262,190 +262,190 @@ namespace Isostep
             UIntPtr room, UIntPtr* count);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_settings_init(F64.Settings* @out);
+        public static extern Status iso_f64_settings_init_sized(F64.Settings* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_body_definition_init(F64.BodyDefinition* @out);
+        public static extern Status iso_f64_body_definition_init_sized(F64.BodyDefinition* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_body_mass_init(F64.BodyMass* @out);
+        public static extern Status iso_f64_body_mass_init_sized(F64.BodyMass* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_body_state_init(F64.BodyState* @out);
+        public static extern Status iso_f64_body_state_init_sized(F64.BodyState* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_body_properties_init(F64.BodyProperties* @out);
+        public static extern Status iso_f64_body_properties_init_sized(F64.BodyProperties* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_sphere_init(F64.Sphere* @out);
+        public static extern Status iso_f64_sphere_init_sized(F64.Sphere* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_box_init(F64.Box* @out);
+        public static extern Status iso_f64_box_init_sized(F64.Box* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_capsule_init(F64.Capsule* @out);
+        public static extern Status iso_f64_capsule_init_sized(F64.Capsule* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_half_space_init(F64.HalfSpace* @out);
+        public static extern Status iso_f64_half_space_init_sized(F64.HalfSpace* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_cylinder_init(F64.Cylinder* @out);
+        public static extern Status iso_f64_cylinder_init_sized(F64.Cylinder* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_cone_init(F64.Cone* @out);
+        public static extern Status iso_f64_cone_init_sized(F64.Cone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_hull_init(F64.Hull* @out);
+        public static extern Status iso_f64_hull_init_sized(F64.Hull* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_joint_properties_init(F64.JointProperties* @out);
+        public static extern Status iso_f64_joint_properties_init_sized(F64.JointProperties* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_ball_init(F64.Ball* @out);
+        public static extern Status iso_f64_ball_init_sized(F64.Ball* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_constant_velocity_init(F64.ConstantVelocity* @out);
+        public static extern Status iso_f64_constant_velocity_init_sized(F64.ConstantVelocity* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_fixed_init(F64.Fixed* @out);
+        public static extern Status iso_f64_fixed_init_sized(F64.Fixed* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_universal_init(F64.Universal* @out);
+        public static extern Status iso_f64_universal_init_sized(F64.Universal* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_angular_init(F64.Angular* @out);
+        public static extern Status iso_f64_angular_init_sized(F64.Angular* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_hinge_init(F64.Hinge* @out);
+        public static extern Status iso_f64_hinge_init_sized(F64.Hinge* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_slider_init(F64.Slider* @out);
+        public static extern Status iso_f64_slider_init_sized(F64.Slider* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_cylindrical_init(F64.Cylindrical* @out);
+        public static extern Status iso_f64_cylindrical_init_sized(F64.Cylindrical* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_planar_init(F64.Planar* @out);
+        public static extern Status iso_f64_planar_init_sized(F64.Planar* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_rod_init(F64.Rod* @out);
+        public static extern Status iso_f64_rod_init_sized(F64.Rod* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_rope_init(F64.Rope* @out);
+        public static extern Status iso_f64_rope_init_sized(F64.Rope* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_wheel_joint_init(F64.WheelJoint* @out);
+        public static extern Status iso_f64_wheel_joint_init_sized(F64.WheelJoint* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_motor_joint_init(F64.MotorJoint* @out);
+        public static extern Status iso_f64_motor_joint_init_sized(F64.MotorJoint* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_six_axis_init(F64.SixAxis* @out);
+        public static extern Status iso_f64_six_axis_init_sized(F64.SixAxis* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_ragdoll_settings_init(F64.RagdollSettings* @out);
+        public static extern Status iso_f64_ragdoll_settings_init_sized(F64.RagdollSettings* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_ray_cast_init(F64.RayCast* @out);
+        public static extern Status iso_f64_ray_cast_init_sized(F64.RayCast* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_shape_cast_init(F64.ShapeCast* @out);
+        public static extern Status iso_f64_shape_cast_init_sized(F64.ShapeCast* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_overlap_query_init(F64.OverlapQuery* @out);
+        public static extern Status iso_f64_overlap_query_init_sized(F64.OverlapQuery* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_point_query_init(F64.PointQuery* @out);
+        public static extern Status iso_f64_point_query_init_sized(F64.PointQuery* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_box_query_init(F64.BoxQuery* @out);
+        public static extern Status iso_f64_box_query_init_sized(F64.BoxQuery* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_force_zone_init(F64.ForceZone* @out);
+        public static extern Status iso_f64_force_zone_init_sized(F64.ForceZone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_attractor_init(F64.Attractor* @out);
+        public static extern Status iso_f64_attractor_init_sized(F64.Attractor* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_body_spring_init(F64.BodySpring* @out);
+        public static extern Status iso_f64_body_spring_init_sized(F64.BodySpring* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_thruster_init(F64.Thruster* @out);
+        public static extern Status iso_f64_thruster_init_sized(F64.Thruster* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_buoyancy_init(F64.Buoyancy* @out);
+        public static extern Status iso_f64_buoyancy_init_sized(F64.Buoyancy* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_explosion_init(F64.Explosion* @out);
+        public static extern Status iso_f64_explosion_init_sized(F64.Explosion* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_water_init(F64.Water* @out);
+        public static extern Status iso_f64_water_init_sized(F64.Water* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_drag_init(F64.Drag* @out);
+        public static extern Status iso_f64_drag_init_sized(F64.Drag* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_aero_surface_init(F64.AeroSurface* @out);
+        public static extern Status iso_f64_aero_surface_init_sized(F64.AeroSurface* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_material_pair_init(F64.MaterialPair* @out);
+        public static extern Status iso_f64_material_pair_init_sized(F64.MaterialPair* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_breakable_init(F64.Breakable* @out);
+        public static extern Status iso_f64_breakable_init_sized(F64.Breakable* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_character_init(F64.Character* @out);
+        public static extern Status iso_f64_character_init_sized(F64.Character* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_vehicle_init(F64.Vehicle* @out);
+        public static extern Status iso_f64_vehicle_init_sized(F64.Vehicle* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_wheel_init(F64.Wheel* @out);
+        public static extern Status iso_f64_wheel_init_sized(F64.Wheel* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_surface_velocity_init(F64.SurfaceVelocity* @out);
+        public static extern Status iso_f64_surface_velocity_init_sized(F64.SurfaceVelocity* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_ghost_init(F64.Ghost* @out);
+        public static extern Status iso_f64_ghost_init_sized(F64.Ghost* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_one_way_init(F64.OneWay* @out);
+        public static extern Status iso_f64_one_way_init_sized(F64.OneWay* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_hit_report_init(F64.HitReport* @out);
+        public static extern Status iso_f64_hit_report_init_sized(F64.HitReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_joint_load_init(F64.JointLoad* @out);
+        public static extern Status iso_f64_joint_load_init_sized(F64.JointLoad* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_coupling_init(F64.Coupling* @out);
+        public static extern Status iso_f64_coupling_init_sized(F64.Coupling* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_axis_drive_init(F64.AxisDrive* @out);
+        public static extern Status iso_f64_axis_drive_init_sized(F64.AxisDrive* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_move_target_init(F64.MoveTarget* @out);
+        public static extern Status iso_f64_move_target_init_sized(F64.MoveTarget* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_kind_ghost_init(F64.KindGhost* @out);
+        public static extern Status iso_f64_kind_ghost_init_sized(F64.KindGhost* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_ranked_zone_init(F64.RankedZone* @out);
+        public static extern Status iso_f64_ranked_zone_init_sized(F64.RankedZone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_contact_report_init(F64.ContactReport* @out);
+        public static extern Status iso_f64_contact_report_init_sized(F64.ContactReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_kind_response_init(F64.KindResponse* @out);
+        public static extern Status iso_f64_kind_response_init_sized(F64.KindResponse* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_damping_zone_init(F64.DampingZone* @out);
+        public static extern Status iso_f64_damping_zone_init_sized(F64.DampingZone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_ranked_water_init(F64.RankedWater* @out);
+        public static extern Status iso_f64_ranked_water_init_sized(F64.RankedWater* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_sensor_mount_init(F64.SensorMount* @out);
+        public static extern Status iso_f64_sensor_mount_init_sized(F64.SensorMount* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_add_sphere(IntPtr world, F64.Sphere* shape, ShapeId* @out);

@@ -266,190 +266,191 @@ namespace Isostep
             UIntPtr room, UIntPtr* count);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_settings_init(Fixed16.Settings* @out);
+        public static extern Status iso_q16_settings_init_sized(Fixed16.Settings* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_body_definition_init(Fixed16.BodyDefinition* @out);
+        public static extern Status iso_q16_body_definition_init_sized(Fixed16.BodyDefinition* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_body_mass_init(Fixed16.BodyMass* @out);
+        public static extern Status iso_q16_body_mass_init_sized(Fixed16.BodyMass* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_body_state_init(Fixed16.BodyState* @out);
+        public static extern Status iso_q16_body_state_init_sized(Fixed16.BodyState* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_body_properties_init(Fixed16.BodyProperties* @out);
+        public static extern Status iso_q16_body_properties_init_sized(Fixed16.BodyProperties* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_sphere_init(Fixed16.Sphere* @out);
+        public static extern Status iso_q16_sphere_init_sized(Fixed16.Sphere* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_box_init(Fixed16.Box* @out);
+        public static extern Status iso_q16_box_init_sized(Fixed16.Box* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_capsule_init(Fixed16.Capsule* @out);
+        public static extern Status iso_q16_capsule_init_sized(Fixed16.Capsule* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_half_space_init(Fixed16.HalfSpace* @out);
+        public static extern Status iso_q16_half_space_init_sized(Fixed16.HalfSpace* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_cylinder_init(Fixed16.Cylinder* @out);
+        public static extern Status iso_q16_cylinder_init_sized(Fixed16.Cylinder* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_cone_init(Fixed16.Cone* @out);
+        public static extern Status iso_q16_cone_init_sized(Fixed16.Cone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_hull_init(Fixed16.Hull* @out);
+        public static extern Status iso_q16_hull_init_sized(Fixed16.Hull* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_joint_properties_init(Fixed16.JointProperties* @out);
+        public static extern Status iso_q16_joint_properties_init_sized(Fixed16.JointProperties* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_ball_init(Fixed16.Ball* @out);
+        public static extern Status iso_q16_ball_init_sized(Fixed16.Ball* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_constant_velocity_init(Fixed16.ConstantVelocity* @out);
+        public static extern Status iso_q16_constant_velocity_init_sized(Fixed16.ConstantVelocity* @out,
+            UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_fixed_init(Fixed16.Fixed* @out);
+        public static extern Status iso_q16_fixed_init_sized(Fixed16.Fixed* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_universal_init(Fixed16.Universal* @out);
+        public static extern Status iso_q16_universal_init_sized(Fixed16.Universal* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_angular_init(Fixed16.Angular* @out);
+        public static extern Status iso_q16_angular_init_sized(Fixed16.Angular* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_hinge_init(Fixed16.Hinge* @out);
+        public static extern Status iso_q16_hinge_init_sized(Fixed16.Hinge* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_slider_init(Fixed16.Slider* @out);
+        public static extern Status iso_q16_slider_init_sized(Fixed16.Slider* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_cylindrical_init(Fixed16.Cylindrical* @out);
+        public static extern Status iso_q16_cylindrical_init_sized(Fixed16.Cylindrical* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_planar_init(Fixed16.Planar* @out);
+        public static extern Status iso_q16_planar_init_sized(Fixed16.Planar* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_rod_init(Fixed16.Rod* @out);
+        public static extern Status iso_q16_rod_init_sized(Fixed16.Rod* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_rope_init(Fixed16.Rope* @out);
+        public static extern Status iso_q16_rope_init_sized(Fixed16.Rope* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_wheel_joint_init(Fixed16.WheelJoint* @out);
+        public static extern Status iso_q16_wheel_joint_init_sized(Fixed16.WheelJoint* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_motor_joint_init(Fixed16.MotorJoint* @out);
+        public static extern Status iso_q16_motor_joint_init_sized(Fixed16.MotorJoint* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_six_axis_init(Fixed16.SixAxis* @out);
+        public static extern Status iso_q16_six_axis_init_sized(Fixed16.SixAxis* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_ragdoll_settings_init(Fixed16.RagdollSettings* @out);
+        public static extern Status iso_q16_ragdoll_settings_init_sized(Fixed16.RagdollSettings* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_ray_cast_init(Fixed16.RayCast* @out);
+        public static extern Status iso_q16_ray_cast_init_sized(Fixed16.RayCast* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_shape_cast_init(Fixed16.ShapeCast* @out);
+        public static extern Status iso_q16_shape_cast_init_sized(Fixed16.ShapeCast* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_overlap_query_init(Fixed16.OverlapQuery* @out);
+        public static extern Status iso_q16_overlap_query_init_sized(Fixed16.OverlapQuery* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_point_query_init(Fixed16.PointQuery* @out);
+        public static extern Status iso_q16_point_query_init_sized(Fixed16.PointQuery* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_box_query_init(Fixed16.BoxQuery* @out);
+        public static extern Status iso_q16_box_query_init_sized(Fixed16.BoxQuery* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_force_zone_init(Fixed16.ForceZone* @out);
+        public static extern Status iso_q16_force_zone_init_sized(Fixed16.ForceZone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_attractor_init(Fixed16.Attractor* @out);
+        public static extern Status iso_q16_attractor_init_sized(Fixed16.Attractor* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_body_spring_init(Fixed16.BodySpring* @out);
+        public static extern Status iso_q16_body_spring_init_sized(Fixed16.BodySpring* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_thruster_init(Fixed16.Thruster* @out);
+        public static extern Status iso_q16_thruster_init_sized(Fixed16.Thruster* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_buoyancy_init(Fixed16.Buoyancy* @out);
+        public static extern Status iso_q16_buoyancy_init_sized(Fixed16.Buoyancy* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_explosion_init(Fixed16.Explosion* @out);
+        public static extern Status iso_q16_explosion_init_sized(Fixed16.Explosion* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_water_init(Fixed16.Water* @out);
+        public static extern Status iso_q16_water_init_sized(Fixed16.Water* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_drag_init(Fixed16.Drag* @out);
+        public static extern Status iso_q16_drag_init_sized(Fixed16.Drag* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_aero_surface_init(Fixed16.AeroSurface* @out);
+        public static extern Status iso_q16_aero_surface_init_sized(Fixed16.AeroSurface* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_material_pair_init(Fixed16.MaterialPair* @out);
+        public static extern Status iso_q16_material_pair_init_sized(Fixed16.MaterialPair* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_breakable_init(Fixed16.Breakable* @out);
+        public static extern Status iso_q16_breakable_init_sized(Fixed16.Breakable* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_character_init(Fixed16.Character* @out);
+        public static extern Status iso_q16_character_init_sized(Fixed16.Character* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_vehicle_init(Fixed16.Vehicle* @out);
+        public static extern Status iso_q16_vehicle_init_sized(Fixed16.Vehicle* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_wheel_init(Fixed16.Wheel* @out);
+        public static extern Status iso_q16_wheel_init_sized(Fixed16.Wheel* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_surface_velocity_init(Fixed16.SurfaceVelocity* @out);
+        public static extern Status iso_q16_surface_velocity_init_sized(Fixed16.SurfaceVelocity* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_ghost_init(Fixed16.Ghost* @out);
+        public static extern Status iso_q16_ghost_init_sized(Fixed16.Ghost* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_one_way_init(Fixed16.OneWay* @out);
+        public static extern Status iso_q16_one_way_init_sized(Fixed16.OneWay* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_hit_report_init(Fixed16.HitReport* @out);
+        public static extern Status iso_q16_hit_report_init_sized(Fixed16.HitReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_joint_load_init(Fixed16.JointLoad* @out);
+        public static extern Status iso_q16_joint_load_init_sized(Fixed16.JointLoad* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_coupling_init(Fixed16.Coupling* @out);
+        public static extern Status iso_q16_coupling_init_sized(Fixed16.Coupling* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_axis_drive_init(Fixed16.AxisDrive* @out);
+        public static extern Status iso_q16_axis_drive_init_sized(Fixed16.AxisDrive* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_move_target_init(Fixed16.MoveTarget* @out);
+        public static extern Status iso_q16_move_target_init_sized(Fixed16.MoveTarget* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_kind_ghost_init(Fixed16.KindGhost* @out);
+        public static extern Status iso_q16_kind_ghost_init_sized(Fixed16.KindGhost* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_ranked_zone_init(Fixed16.RankedZone* @out);
+        public static extern Status iso_q16_ranked_zone_init_sized(Fixed16.RankedZone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_contact_report_init(Fixed16.ContactReport* @out);
+        public static extern Status iso_q16_contact_report_init_sized(Fixed16.ContactReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_kind_response_init(Fixed16.KindResponse* @out);
+        public static extern Status iso_q16_kind_response_init_sized(Fixed16.KindResponse* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_damping_zone_init(Fixed16.DampingZone* @out);
+        public static extern Status iso_q16_damping_zone_init_sized(Fixed16.DampingZone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_ranked_water_init(Fixed16.RankedWater* @out);
+        public static extern Status iso_q16_ranked_water_init_sized(Fixed16.RankedWater* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_sensor_mount_init(Fixed16.SensorMount* @out);
+        public static extern Status iso_q16_sensor_mount_init_sized(Fixed16.SensorMount* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_add_sphere(IntPtr world, Fixed16.Sphere* shape, ShapeId* @out);

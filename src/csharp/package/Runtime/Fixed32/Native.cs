@@ -266,190 +266,191 @@ namespace Isostep
             UIntPtr room, UIntPtr* count);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_settings_init(Fixed32.Settings* @out);
+        public static extern Status iso_q32_settings_init_sized(Fixed32.Settings* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_body_definition_init(Fixed32.BodyDefinition* @out);
+        public static extern Status iso_q32_body_definition_init_sized(Fixed32.BodyDefinition* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_body_mass_init(Fixed32.BodyMass* @out);
+        public static extern Status iso_q32_body_mass_init_sized(Fixed32.BodyMass* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_body_state_init(Fixed32.BodyState* @out);
+        public static extern Status iso_q32_body_state_init_sized(Fixed32.BodyState* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_body_properties_init(Fixed32.BodyProperties* @out);
+        public static extern Status iso_q32_body_properties_init_sized(Fixed32.BodyProperties* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_sphere_init(Fixed32.Sphere* @out);
+        public static extern Status iso_q32_sphere_init_sized(Fixed32.Sphere* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_box_init(Fixed32.Box* @out);
+        public static extern Status iso_q32_box_init_sized(Fixed32.Box* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_capsule_init(Fixed32.Capsule* @out);
+        public static extern Status iso_q32_capsule_init_sized(Fixed32.Capsule* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_half_space_init(Fixed32.HalfSpace* @out);
+        public static extern Status iso_q32_half_space_init_sized(Fixed32.HalfSpace* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_cylinder_init(Fixed32.Cylinder* @out);
+        public static extern Status iso_q32_cylinder_init_sized(Fixed32.Cylinder* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_cone_init(Fixed32.Cone* @out);
+        public static extern Status iso_q32_cone_init_sized(Fixed32.Cone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_hull_init(Fixed32.Hull* @out);
+        public static extern Status iso_q32_hull_init_sized(Fixed32.Hull* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_joint_properties_init(Fixed32.JointProperties* @out);
+        public static extern Status iso_q32_joint_properties_init_sized(Fixed32.JointProperties* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_ball_init(Fixed32.Ball* @out);
+        public static extern Status iso_q32_ball_init_sized(Fixed32.Ball* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_constant_velocity_init(Fixed32.ConstantVelocity* @out);
+        public static extern Status iso_q32_constant_velocity_init_sized(Fixed32.ConstantVelocity* @out,
+            UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_fixed_init(Fixed32.Fixed* @out);
+        public static extern Status iso_q32_fixed_init_sized(Fixed32.Fixed* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_universal_init(Fixed32.Universal* @out);
+        public static extern Status iso_q32_universal_init_sized(Fixed32.Universal* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_angular_init(Fixed32.Angular* @out);
+        public static extern Status iso_q32_angular_init_sized(Fixed32.Angular* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_hinge_init(Fixed32.Hinge* @out);
+        public static extern Status iso_q32_hinge_init_sized(Fixed32.Hinge* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_slider_init(Fixed32.Slider* @out);
+        public static extern Status iso_q32_slider_init_sized(Fixed32.Slider* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_cylindrical_init(Fixed32.Cylindrical* @out);
+        public static extern Status iso_q32_cylindrical_init_sized(Fixed32.Cylindrical* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_planar_init(Fixed32.Planar* @out);
+        public static extern Status iso_q32_planar_init_sized(Fixed32.Planar* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_rod_init(Fixed32.Rod* @out);
+        public static extern Status iso_q32_rod_init_sized(Fixed32.Rod* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_rope_init(Fixed32.Rope* @out);
+        public static extern Status iso_q32_rope_init_sized(Fixed32.Rope* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_wheel_joint_init(Fixed32.WheelJoint* @out);
+        public static extern Status iso_q32_wheel_joint_init_sized(Fixed32.WheelJoint* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_motor_joint_init(Fixed32.MotorJoint* @out);
+        public static extern Status iso_q32_motor_joint_init_sized(Fixed32.MotorJoint* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_six_axis_init(Fixed32.SixAxis* @out);
+        public static extern Status iso_q32_six_axis_init_sized(Fixed32.SixAxis* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_ragdoll_settings_init(Fixed32.RagdollSettings* @out);
+        public static extern Status iso_q32_ragdoll_settings_init_sized(Fixed32.RagdollSettings* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_ray_cast_init(Fixed32.RayCast* @out);
+        public static extern Status iso_q32_ray_cast_init_sized(Fixed32.RayCast* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_shape_cast_init(Fixed32.ShapeCast* @out);
+        public static extern Status iso_q32_shape_cast_init_sized(Fixed32.ShapeCast* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_overlap_query_init(Fixed32.OverlapQuery* @out);
+        public static extern Status iso_q32_overlap_query_init_sized(Fixed32.OverlapQuery* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_point_query_init(Fixed32.PointQuery* @out);
+        public static extern Status iso_q32_point_query_init_sized(Fixed32.PointQuery* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_box_query_init(Fixed32.BoxQuery* @out);
+        public static extern Status iso_q32_box_query_init_sized(Fixed32.BoxQuery* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_force_zone_init(Fixed32.ForceZone* @out);
+        public static extern Status iso_q32_force_zone_init_sized(Fixed32.ForceZone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_attractor_init(Fixed32.Attractor* @out);
+        public static extern Status iso_q32_attractor_init_sized(Fixed32.Attractor* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_body_spring_init(Fixed32.BodySpring* @out);
+        public static extern Status iso_q32_body_spring_init_sized(Fixed32.BodySpring* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_thruster_init(Fixed32.Thruster* @out);
+        public static extern Status iso_q32_thruster_init_sized(Fixed32.Thruster* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_buoyancy_init(Fixed32.Buoyancy* @out);
+        public static extern Status iso_q32_buoyancy_init_sized(Fixed32.Buoyancy* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_explosion_init(Fixed32.Explosion* @out);
+        public static extern Status iso_q32_explosion_init_sized(Fixed32.Explosion* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_water_init(Fixed32.Water* @out);
+        public static extern Status iso_q32_water_init_sized(Fixed32.Water* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_drag_init(Fixed32.Drag* @out);
+        public static extern Status iso_q32_drag_init_sized(Fixed32.Drag* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_aero_surface_init(Fixed32.AeroSurface* @out);
+        public static extern Status iso_q32_aero_surface_init_sized(Fixed32.AeroSurface* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_material_pair_init(Fixed32.MaterialPair* @out);
+        public static extern Status iso_q32_material_pair_init_sized(Fixed32.MaterialPair* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_breakable_init(Fixed32.Breakable* @out);
+        public static extern Status iso_q32_breakable_init_sized(Fixed32.Breakable* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_character_init(Fixed32.Character* @out);
+        public static extern Status iso_q32_character_init_sized(Fixed32.Character* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_vehicle_init(Fixed32.Vehicle* @out);
+        public static extern Status iso_q32_vehicle_init_sized(Fixed32.Vehicle* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_wheel_init(Fixed32.Wheel* @out);
+        public static extern Status iso_q32_wheel_init_sized(Fixed32.Wheel* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_surface_velocity_init(Fixed32.SurfaceVelocity* @out);
+        public static extern Status iso_q32_surface_velocity_init_sized(Fixed32.SurfaceVelocity* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_ghost_init(Fixed32.Ghost* @out);
+        public static extern Status iso_q32_ghost_init_sized(Fixed32.Ghost* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_one_way_init(Fixed32.OneWay* @out);
+        public static extern Status iso_q32_one_way_init_sized(Fixed32.OneWay* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_hit_report_init(Fixed32.HitReport* @out);
+        public static extern Status iso_q32_hit_report_init_sized(Fixed32.HitReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_joint_load_init(Fixed32.JointLoad* @out);
+        public static extern Status iso_q32_joint_load_init_sized(Fixed32.JointLoad* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_coupling_init(Fixed32.Coupling* @out);
+        public static extern Status iso_q32_coupling_init_sized(Fixed32.Coupling* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_axis_drive_init(Fixed32.AxisDrive* @out);
+        public static extern Status iso_q32_axis_drive_init_sized(Fixed32.AxisDrive* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_move_target_init(Fixed32.MoveTarget* @out);
+        public static extern Status iso_q32_move_target_init_sized(Fixed32.MoveTarget* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_kind_ghost_init(Fixed32.KindGhost* @out);
+        public static extern Status iso_q32_kind_ghost_init_sized(Fixed32.KindGhost* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_ranked_zone_init(Fixed32.RankedZone* @out);
+        public static extern Status iso_q32_ranked_zone_init_sized(Fixed32.RankedZone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_contact_report_init(Fixed32.ContactReport* @out);
+        public static extern Status iso_q32_contact_report_init_sized(Fixed32.ContactReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_kind_response_init(Fixed32.KindResponse* @out);
+        public static extern Status iso_q32_kind_response_init_sized(Fixed32.KindResponse* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_damping_zone_init(Fixed32.DampingZone* @out);
+        public static extern Status iso_q32_damping_zone_init_sized(Fixed32.DampingZone* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_ranked_water_init(Fixed32.RankedWater* @out);
+        public static extern Status iso_q32_ranked_water_init_sized(Fixed32.RankedWater* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_sensor_mount_init(Fixed32.SensorMount* @out);
+        public static extern Status iso_q32_sensor_mount_init_sized(Fixed32.SensorMount* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_add_sphere(IntPtr world, Fixed32.Sphere* shape, ShapeId* @out);

@@ -11,7 +11,7 @@ namespace Isostep
             get
             {
                 Applicant result = new Applicant();
-                IsostepException.Check(Native.iso_applicant_init(&result));
+                IsostepException.Check(Native.iso_applicant_init_sized(&result, (UIntPtr)sizeof(Applicant)));
                 return result;
             }
         }
@@ -24,7 +24,7 @@ namespace Isostep
             get
             {
                 BreakReport result = new BreakReport();
-                IsostepException.Check(Native.iso_break_report_init(&result));
+                IsostepException.Check(Native.iso_break_report_init_sized(&result, (UIntPtr)sizeof(BreakReport)));
                 return result;
             }
         }
@@ -37,7 +37,7 @@ namespace Isostep
             get
             {
                 FaultReport result = new FaultReport();
-                IsostepException.Check(Native.iso_fault_report_init(&result));
+                IsostepException.Check(Native.iso_fault_report_init_sized(&result, (UIntPtr)sizeof(FaultReport)));
                 return result;
             }
         }
@@ -63,7 +63,7 @@ namespace Isostep
             get
             {
                 HeightGrid result = new HeightGrid();
-                IsostepException.Check(Native.iso_height_grid_init(&result));
+                IsostepException.Check(Native.iso_height_grid_init_sized(&result, (UIntPtr)sizeof(HeightGrid)));
                 return result;
             }
         }
@@ -76,7 +76,7 @@ namespace Isostep
             get
             {
                 HeightPatch result = new HeightPatch();
-                IsostepException.Check(Native.iso_height_patch_init(&result));
+                IsostepException.Check(Native.iso_height_patch_init_sized(&result, (UIntPtr)sizeof(HeightPatch)));
                 return result;
             }
         }
@@ -89,7 +89,7 @@ namespace Isostep
             get
             {
                 HeightSheet result = new HeightSheet();
-                IsostepException.Check(Native.iso_height_sheet_init(&result));
+                IsostepException.Check(Native.iso_height_sheet_init_sized(&result, (UIntPtr)sizeof(HeightSheet)));
                 return result;
             }
         }
@@ -102,7 +102,7 @@ namespace Isostep
             get
             {
                 Outgoing result = new Outgoing();
-                IsostepException.Check(Native.iso_outgoing_init(&result));
+                IsostepException.Check(Native.iso_outgoing_init_sized(&result, (UIntPtr)sizeof(Outgoing)));
                 return result;
             }
         }
@@ -115,7 +115,7 @@ namespace Isostep
             get
             {
                 PlayerStats result = new PlayerStats();
-                IsostepException.Check(Native.iso_player_stats_init(&result));
+                IsostepException.Check(Native.iso_player_stats_init_sized(&result, (UIntPtr)sizeof(PlayerStats)));
                 return result;
             }
         }
@@ -141,7 +141,7 @@ namespace Isostep
             get
             {
                 ReplayInfo result = new ReplayInfo();
-                IsostepException.Check(Native.iso_replay_info_init(&result));
+                IsostepException.Check(Native.iso_replay_info_init_sized(&result, (UIntPtr)sizeof(ReplayInfo)));
                 return result;
             }
         }
@@ -154,7 +154,7 @@ namespace Isostep
             get
             {
                 ReplayResult result = new ReplayResult();
-                IsostepException.Check(Native.iso_replay_result_init(&result));
+                IsostepException.Check(Native.iso_replay_result_init_sized(&result, (UIntPtr)sizeof(ReplayResult)));
                 return result;
             }
         }
@@ -167,7 +167,7 @@ namespace Isostep
             get
             {
                 SelfcheckResult result = new SelfcheckResult();
-                IsostepException.Check(Native.iso_selfcheck_result_init(&result));
+                IsostepException.Check(Native.iso_selfcheck_result_init_sized(&result, (UIntPtr)sizeof(SelfcheckResult)));
                 return result;
             }
         }
@@ -180,7 +180,7 @@ namespace Isostep
             get
             {
                 SessionConfig result = new SessionConfig();
-                IsostepException.Check(Native.iso_session_config_init(&result));
+                IsostepException.Check(Native.iso_session_config_init_sized(&result, (UIntPtr)sizeof(SessionConfig)));
                 return result;
             }
         }
@@ -193,7 +193,7 @@ namespace Isostep
             get
             {
                 SessionEvent result = new SessionEvent();
-                IsostepException.Check(Native.iso_session_event_init(&result));
+                IsostepException.Check(Native.iso_session_event_init_sized(&result, (UIntPtr)sizeof(SessionEvent)));
                 return result;
             }
         }
@@ -206,7 +206,7 @@ namespace Isostep
             get
             {
                 SessionGame result = new SessionGame();
-                IsostepException.Check(Native.iso_game_init(&result));
+                IsostepException.Check(Native.iso_game_init_sized(&result, (UIntPtr)sizeof(SessionGame)));
                 return result;
             }
         }
@@ -219,7 +219,7 @@ namespace Isostep
             get
             {
                 SessionRequest result = new SessionRequest();
-                IsostepException.Check(Native.iso_request_init(&result));
+                IsostepException.Check(Native.iso_request_init_sized(&result, (UIntPtr)sizeof(SessionRequest)));
                 return result;
             }
         }
@@ -232,7 +232,7 @@ namespace Isostep
             get
             {
                 SessionStats result = new SessionStats();
-                IsostepException.Check(Native.iso_session_stats_init(&result));
+                IsostepException.Check(Native.iso_session_stats_init_sized(&result, (UIntPtr)sizeof(SessionStats)));
                 return result;
             }
         }
@@ -245,7 +245,7 @@ namespace Isostep
             get
             {
                 StepReport result = new StepReport();
-                IsostepException.Check(Native.iso_step_report_init(&result));
+                IsostepException.Check(Native.iso_step_report_init_sized(&result, (UIntPtr)sizeof(StepReport)));
                 return result;
             }
         }
@@ -258,7 +258,7 @@ namespace Isostep
             get
             {
                 SurfaceMaterials result = new SurfaceMaterials();
-                IsostepException.Check(Native.iso_surface_materials_init(&result));
+                IsostepException.Check(Native.iso_surface_materials_init_sized(&result, (UIntPtr)sizeof(SurfaceMaterials)));
                 return result;
             }
         }
@@ -271,7 +271,7 @@ namespace Isostep
             get
             {
                 Triangles result = new Triangles();
-                IsostepException.Check(Native.iso_triangles_init(&result));
+                IsostepException.Check(Native.iso_triangles_init_sized(&result, (UIntPtr)sizeof(Triangles)));
                 return result;
             }
         }
@@ -284,7 +284,7 @@ namespace Isostep
             get
             {
                 UdpSettings result = new UdpSettings();
-                IsostepException.Check(Native.iso_udp_settings_init(&result));
+                IsostepException.Check(Native.iso_udp_settings_init_sized(&result, (UIntPtr)sizeof(UdpSettings)));
                 return result;
             }
         }
@@ -297,7 +297,7 @@ namespace Isostep
             get
             {
                 WorldCounts result = new WorldCounts();
-                IsostepException.Check(Native.iso_world_counts_init(&result));
+                IsostepException.Check(Native.iso_world_counts_init_sized(&result, (UIntPtr)sizeof(WorldCounts)));
                 return result;
             }
         }

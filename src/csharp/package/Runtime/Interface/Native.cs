@@ -43,40 +43,40 @@ namespace Isostep
         public static extern Status iso_selfcheck(SelfcheckResult* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_step_report_init(StepReport* @out);
+        public static extern Status iso_step_report_init_sized(StepReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_world_counts_init(WorldCounts* @out);
+        public static extern Status iso_world_counts_init_sized(WorldCounts* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_break_report_init(BreakReport* @out);
+        public static extern Status iso_break_report_init_sized(BreakReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_fault_report_init(FaultReport* @out);
+        public static extern Status iso_fault_report_init_sized(FaultReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_height_patch_init(HeightPatch* @out);
+        public static extern Status iso_height_patch_init_sized(HeightPatch* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_height_grid_init(HeightGrid* @out);
+        public static extern Status iso_height_grid_init_sized(HeightGrid* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_height_sheet_init(HeightSheet* @out);
+        public static extern Status iso_height_sheet_init_sized(HeightSheet* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_triangles_init(Triangles* @out);
+        public static extern Status iso_triangles_init_sized(Triangles* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_surface_materials_init(SurfaceMaterials* @out);
+        public static extern Status iso_surface_materials_init_sized(SurfaceMaterials* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_replay_info_init(ReplayInfo* @out);
+        public static extern Status iso_replay_info_init_sized(ReplayInfo* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_replay_result_init(ReplayResult* @out);
+        public static extern Status iso_replay_result_init_sized(ReplayResult* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_selfcheck_result_init(SelfcheckResult* @out);
+        public static extern Status iso_selfcheck_result_init_sized(SelfcheckResult* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_filter_init(Filter* @out);
@@ -473,12 +473,13 @@ namespace Isostep
         public static extern Status iso_replay_get_frame(IntPtr replay, ulong frame, void** commands,
             UIntPtr* size, ulong* hash);
 
-        /// <summary>C++'s defaults; inputs of 1 byte, neutral 0. `name`, `seed` (of a host) and the input are to be
-        /// set.</summary>
+        /// <summary>What _init calls. C++'s defaults; inputs of 1 byte, neutral 0. To be set: `name`, `seed` of a
+        /// host, the input.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_session_config_init(SessionConfig* config);
+        public static extern Status iso_session_config_init_sized(SessionConfig* config, UIntPtr size);
 
-        /// <summary>Likewise, with mode, window, delays and deadline for a genre and so many players.</summary>
+        /// <summary>Likewise, with mode, window, delays and deadline for a genre and so many players. Of a struct
+        /// whose size is set.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_config_preset(SessionConfig* config, Genre genre, int players);
 
@@ -488,7 +489,7 @@ namespace Isostep
 
         /// <summary>All null</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_game_init(SessionGame* game);
+        public static extern Status iso_game_init_sized(SessionGame* game, UIntPtr size);
 
         /// <summary>XXH3-64, with which `block` is hashed: for iso_game.hash.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -507,7 +508,7 @@ namespace Isostep
         public static extern Status iso_session_destroy(IntPtr session);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_request_init(SessionRequest* @out);
+        public static extern Status iso_request_init_sized(SessionRequest* @out, UIntPtr size);
 
         /// <summary>Begins the turn.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -548,7 +549,7 @@ namespace Isostep
             UIntPtr size, ulong now);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_outgoing_init(Outgoing* @out);
+        public static extern Status iso_outgoing_init_sized(Outgoing* @out, UIntPtr size);
 
         /// <summary>`bytes`: null when there is nothing more; they hold until the next call.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -563,7 +564,7 @@ namespace Isostep
         public static extern ulong iso_session_wait(IntPtr session, ulong now);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_session_event_init(SessionEvent* @out);
+        public static extern Status iso_session_event_init_sized(SessionEvent* @out, UIntPtr size);
 
         /// <summary>The session keeps the last 128: stats.events_lost.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -604,13 +605,13 @@ namespace Isostep
             uint* size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_session_stats_init(SessionStats* @out);
+        public static extern Status iso_session_stats_init_sized(SessionStats* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_get_stats(IntPtr session, SessionStats* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_player_stats_init(PlayerStats* @out);
+        public static extern Status iso_player_stats_init_sized(PlayerStats* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_get_player_stats(IntPtr session, int player, PlayerStats* @out);
@@ -644,7 +645,7 @@ namespace Isostep
         public static extern Status iso_session_vote(IntPtr session, int player, byte yes);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_applicant_init(Applicant* @out);
+        public static extern Status iso_applicant_init_sized(Applicant* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_poll_applicant(IntPtr session, Applicant* @out);
@@ -724,7 +725,7 @@ namespace Isostep
         public static extern Status iso_network_dispatch(IntPtr network, uint endpoint, IntPtr session, ulong now);
 
         [DllImport(Library.UdpName, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_udp_settings_init(UdpSettings* settings);
+        public static extern Status iso_udp_settings_init_sized(UdpSettings* settings, UIntPtr size);
 
         /// <summary>Accepts connections: a host, or a machine that may follow one. Port 0 lets the system choose.
         /// `settings`: null for the defaults. ISO_REFUSED: `problem` (or null) gets a sentence of at most `room` bytes

@@ -583,6 +583,53 @@ namespace Isostep
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct SessionGame
+    {
+        private uint size;
+        private fixed byte reserved[4];
+        /// <summary>Of any scalar, or null</summary>
+        public IntPtr World;
+        /// <summary>The game's own state as one block of bytes, or null: no pointers, no padding with rubbish in
+        /// it</summary>
+        public IntPtr Block;
+        /// <summary>[bytes]</summary>
+        public IntPtr BlockSize;
+        /// <summary>Their first argument</summary>
+        public IntPtr User;
+        /// <summary>Steps the game by one frame; its outcome depends on the state, the inputs' bytes and who is
+        /// disconnected.</summary>
+        public IntPtr Step;
+        /// <summary>The state is again that before `frame`</summary>
+        public IntPtr RolledBack;
+        /// <summary>The state is one that arrived from elsewhere, before `frame`</summary>
+        public IntPtr Restarted;
+        /// <summary>`frame` is final, hash: of the state after it</summary>
+        public IntPtr Confirmed;
+        /// <summary>Into a place of the game's own, below config.kept</summary>
+        public IntPtr Save;
+        /// <summary>What was saved there last</summary>
+        public IntPtr Load;
+        public IntPtr Hash;
+        /// <summary>Returns the size, and writes nothing where room is less</summary>
+        public IntPtr Write;
+        /// <summary>0: taken; else refused, and all is as it was</summary>
+        public IntPtr Read;
+        /// <summary>Guesses the input `ahead` frames after `last` into `to`, which has input_cap bytes; returns its
+        /// size. The same on all machines is better, and not needed.</summary>
+        public IntPtr Predict;
+        /// <summary>0: no player can make this input; it has a size within the bounds.</summary>
+        public IntPtr Valid;
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static SessionGame Sized()
+        {
+            SessionGame result = new SessionGame();
+            result.size = (uint)sizeof(SessionGame);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct SessionRequest
     {
         private uint size;
@@ -779,53 +826,6 @@ namespace Isostep
         {
             Applicant result = new Applicant();
             result.size = (uint)sizeof(Applicant);
-            return result;
-        }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct SessionGame
-    {
-        private uint size;
-        private uint reserved;
-        /// <summary>Of any scalar, or null</summary>
-        public IntPtr World;
-        /// <summary>The game's own state as one block of bytes, or null: no pointers, no padding with rubbish in
-        /// it</summary>
-        public IntPtr Block;
-        /// <summary>[bytes]</summary>
-        public IntPtr BlockSize;
-        /// <summary>Their first argument</summary>
-        public IntPtr User;
-        /// <summary>Steps the game by one frame; its outcome depends on the state, the inputs' bytes and who is
-        /// disconnected.</summary>
-        public IntPtr Step;
-        /// <summary>The state is again that before `frame`</summary>
-        public IntPtr RolledBack;
-        /// <summary>The state is one that arrived from elsewhere, before `frame`</summary>
-        public IntPtr Restarted;
-        /// <summary>`frame` is final, hash: of the state after it</summary>
-        public IntPtr Confirmed;
-        /// <summary>Into a place of the game's own, below config.kept</summary>
-        public IntPtr Save;
-        /// <summary>What was saved there last</summary>
-        public IntPtr Load;
-        public IntPtr Hash;
-        /// <summary>Returns the size, and writes nothing where room is less</summary>
-        public IntPtr Write;
-        /// <summary>0: taken; else refused, and all is as it was</summary>
-        public IntPtr Read;
-        /// <summary>Guesses the input `ahead` frames after `last` into `to`, which has input_cap bytes; returns its
-        /// size. The same on all machines is better, and not needed.</summary>
-        public IntPtr Predict;
-        /// <summary>0: no player can make this input; it has a size within the bounds.</summary>
-        public IntPtr Valid;
-
-        /// <summary>With its size set and all else 0: what the library fills in.</summary>
-        internal static SessionGame Sized()
-        {
-            SessionGame result = new SessionGame();
-            result.size = (uint)sizeof(SessionGame);
             return result;
         }
     }
