@@ -67,8 +67,8 @@ template <class S> Schedule<S> soft_step_schedule(const StepContext<S>& context)
 ///          The solver of most engines before 2023, for comparison: what closes a contact's error stays as speed.
 ///          Joints lose theirs: it turned a body round its hinge faster with every step.
 /// Differs: joints are passed one after another, but for trees with a limit, a motor or a spring and without a loop,
-///          which are solved at once: one step of a sixtieth is too long for what those ask and neighbours take back. Of
-///          60 random ones 23 gained energy or came apart.
+///          which are solved at once: one step of a sixtieth is too long for what those ask and neighbours take back.
+///          Of 60 random ones 23 gained energy or came apart.
 template <class S> Schedule<S> pgs_schedule(const StepContext<S>& context) {
   const std::int32_t rate = integration_rate(SolverName::pgs, context.hz, context.substeps);
   const Softness<S> baumgarte = {detail::kBaumgarte<S> * S(rate), S(1), S(0)};
