@@ -34,7 +34,7 @@ TEST(CStructs, GrowBehindThePaddingThatTheyHad) {
   EXPECT_EQ((offsets_of<Grown, true>()), (std::array<std::size_t, 3>{8, 12, 16}));
   EXPECT_EQ(sized_size<Grown>(), 24u);
   std::uint8_t bytes[24] = {};
-  ASSERT_EQ(init_sized<Grown>("", bytes), kOk);
+  ASSERT_EQ(init_sized<Grown>("", bytes, sizeof bytes), kOk);
   EXPECT_EQ(bytes[16], 1);
   // A caller of the last release: rubbish behind its end is none of its members.
   bytes[0] = 16;
@@ -86,8 +86,8 @@ template <class T, bool kSized> void expect_round_trip(const char* name) {
     std::vector<std::uint8_t> bytes(kSize), again(kSize);
     T back{};
     if constexpr (kSized) {
-      ASSERT_EQ(init_sized<T>("", bytes.data()), kOk);
-      ASSERT_EQ(init_sized<T>("", again.data()), kOk);
+      ASSERT_EQ(init_sized<T>("", bytes.data(), bytes.size()), kOk);
+      ASSERT_EQ(init_sized<T>("", again.data(), again.size()), kOk);
       const std::vector<std::uint8_t> defaults = bytes;
       ASSERT_EQ(put_sized("", bytes.data(), value), kOk);
       ASSERT_NE(bytes, defaults) << name;
@@ -179,7 +179,7 @@ template <class S, class Record, class Id, class InC, class Add, class Set, clas
 int expect_same_record(Twins<S>& twins, const char* name, Add add, Set set, Get get, Remove remove) {
   const Record record = twins.template naming<Record>();
   InC in_c, kept, expected;
-  for (InC* each : {&in_c, &kept, &expected}) EXPECT_EQ(init_sized<Record>("", each), kOk);
+  for (InC* each : {&in_c, &kept, &expected}) EXPECT_EQ(init_sized<Record>("", each, sizeof *each), kOk);
   EXPECT_EQ(put_sized("", &in_c, record), kOk);
   iso_record made = 0;
   const iso_status status = add(twins.c, &in_c, &made);
