@@ -40,7 +40,7 @@ build_module() {
   # shellcheck disable=SC2086
   cmake -S "$root" -B "$build/$1" $generator -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/cross.cmake" \
     -DISOSTEP_TARGET=wasm-simd -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
-    "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG -fvisibility=hidden -fvisibility-inlines-hidden" \
+    "-DCMAKE_CXX_FLAGS_RELEASE=-Os -DNDEBUG -DISOSTEP_WHOLE_PROGRAM -fvisibility=hidden -fvisibility-inlines-hidden" \
     -DISOSTEP_SCALARS="$name" -DISOSTEP_JS_MODULE=ON -DISOSTEP_C=OFF -DISOSTEP_TOOL=OFF -DISOSTEP_PROVER=OFF \
     -DISOSTEP_TESTS=OFF -DISOSTEP_EXAMPLES=OFF -DISOSTEP_INSTALL=OFF -DCMAKE_UNITY_BUILD=ON \
     -DCMAKE_UNITY_BUILD_BATCH_SIZE=15 \
@@ -49,6 +49,8 @@ build_module() {
     { tail -n 40 "$build/$1.log" >&2; fail 70 "the module of $1 cannot be built: $build/$1.log"; }
 }
 
+# Where there is a ccache (cmake/options.cmake), the same text in another folder is the same.
+export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 package=$build/package
 rm -rf "$package.new"
 mkdir -p "$package.new/wasm" || exit 70

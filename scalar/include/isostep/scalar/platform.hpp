@@ -39,7 +39,11 @@ static_assert(sizeof(1.0) == sizeof(double), "isostep: compile without -fsingle-
 
 /// A function that touches a scalar must never leave a weak copy of itself in a user's object: that copy may have been
 /// compiled with -mfma and the linker may keep it for the whole program. Always inlining leaves nothing to keep.
-#if defined(_MSC_VER) && !defined(__clang__)
+/// ISOSTEP_WHOLE_PROGRAM: nothing but files of ours with our flags is in the program, so the compiler may choose.
+#if defined(ISOSTEP_WHOLE_PROGRAM)
+#define ISO_INLINE inline
+#define ISO_INLINE_LAMBDA
+#elif defined(_MSC_VER) && !defined(__clang__)
 #define ISO_INLINE __forceinline
 #define ISO_INLINE_LAMBDA
 #else
