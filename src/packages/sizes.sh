@@ -16,8 +16,8 @@ planned() {
 }
 row() { # name, file
   case $2 in
-    *.deb | *.gz | *.tgz | *.zip) small=- ;;
-    *) small=$(megabytes "$(gzip -9c "$2" | wc -c)") ;;
+    *.so | *.dll) small=$(megabytes "$(gzip -c "$2" | wc -c)") ;;
+    *) small=- ;;
   esac
   printf '%-44s %8s %8s %8s\n' "$1" "$(megabytes "$(wc -c <"$2")")" "$small" "$(planned "$1")"
 }

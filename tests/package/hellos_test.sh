@@ -32,8 +32,8 @@ export PKG_CONFIG_PATH LD_LIBRARY_PATH
 if command -v pkg-config >/dev/null && command -v cc >/dev/null; then
   first_block src/c/README.md c >hello.c
   grep -q 'int main' hello.c || fail "the first block of the page of C is no program"
-  first_block src/c/README.md sh | grep '^cc ' >command
-  sh -e command >out 2>err || fail "'$(cat command)' fails"
+  first_block src/c/README.md sh | grep '^cc ' >compile.sh
+  sh -e compile.sh >out 2>err || fail "'$(cat compile.sh)' fails"
   prints_hash "program in C" ./hello
 fi
 python=/usr/bin/python3
