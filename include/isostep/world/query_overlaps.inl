@@ -58,7 +58,7 @@ std::vector<std::uint32_t> children_near(const ChildTree<S>& tree, const Transfo
 }  // namespace detail
 
 /// visit(i, part, at, here) -> bool for the children of a body's shape, ascending, until it returns false. Of those of
-/// a tree the ones whose boxes meet the shape's. `at` and `here` are the places of the part and of the shape asked with,
+/// a tree the ones whose boxes meet the shape's. `at` and `here` are the places of the part and of the shape asked with
 /// both relative to the latter's position, as the narrow phase wants them.
 template <class S>
 template <class Visit>

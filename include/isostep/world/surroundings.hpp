@@ -31,8 +31,8 @@ template <class S> struct ObstacleHit {
   Unit<S> fraction;      // [1] of the way
 };
 
-/// Input:   the state and its caches, which stay as they are from `begin_step` to the last question. Positions are those
-///          of the body's origin.
+/// Input:   the state and its caches, which stay as they are from `begin_step` to the last question. Positions are of
+///          the body's origin.
 /// Output:  the contacts and hits that Queries would find among what the filter sees.
 /// Keeps:   through a step, where the parts are that some character has come near; of one character, the parts around
 ///          it, and planes that part it from them: nothing is looked at again while its plane shows that it is not in
