@@ -32,12 +32,14 @@ if(TARGET isostep_c)
   endif()
   install(DIRECTORY src/csharp/package/Runtime/ DESTINATION ${CMAKE_INSTALL_DATADIR}/isostep/csharp OPTIONAL
     FILES_MATCHING PATTERN "*.cs")
-  # The prefix as seen from the file, which is right wherever it is installed and moved to; the system's own by its name,
-  # for pkg-config leaves its folders out of what it prints.
+  # The prefix as seen from the file, which is right wherever it is installed and moved to; that of the system, /usr, by
+  # its name, for pkg-config leaves its folders out of what it prints.
   set(isostep_pc_prefix ${CMAKE_INSTALL_PREFIX})
+  set(isostep_pc_libdir ${CMAKE_INSTALL_FULL_LIBDIR})
   if(NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr" AND NOT IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
     string(REGEX REPLACE "[^/]+" ".." isostep_pc_prefix "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
     set(isostep_pc_prefix "\${pcfiledir}/${isostep_pc_prefix}")
+    set(isostep_pc_libdir "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
   endif()
   configure_file(src/c/isostep.pc.in ${CMAKE_CURRENT_BINARY_DIR}/isostep.pc @ONLY)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/isostep.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -34,7 +34,8 @@ name_of() {  # as ISOSTEP_SCALARS has it
   esac
 }
 
-# The flags of the engine are its own (cmake/flags.cmake); many files at a time are compiled a third sooner.
+# What runs between steps is compiled for size, the step itself for speed (src/js/CMakeLists.txt); the flags that exactness
+# needs are the engine's own (cmake/flags.cmake). Many files at a time are compiled a third sooner.
 build_module() {
   name=$(name_of "$1") || exit $?
   # shellcheck disable=SC2086

@@ -1,28 +1,18 @@
 #!/bin/sh
-# Sizes of the library and of the packages that were made, as a table in MB, beside what the trial of the C interface
-# weighed and 30 % more: the first engine behind it, with 65 functions.
+# Sizes of the library and of the packages that were made, as a table in MB.
 # SPDX-License-Identifier: MIT
 . "$ISOSTEP_ROOT/src/packages/common.sh"
 
 megabytes() { awk -v bytes="$1" 'BEGIN {printf "%.2f", bytes / 1e6}'; }
-# planned NAME: [MB], or nothing where nothing was measured.
-planned() {
-  case $1 in
-    libisostep.so) echo 8.06 ;;
-    libisostep[0-9]*.deb) echo 2.47 ;;
-    libisostep-dev*.deb) echo 3.77 ;;
-    *) echo - ;;
-  esac
-}
 row() { # name, file
   case $2 in
     *.so | *.dll) small=$(megabytes "$(gzip -c "$2" | wc -c)") ;;
     *) small=- ;;
   esac
-  printf '%-44s %8s %8s %8s\n' "$1" "$(megabytes "$(wc -c <"$2")")" "$small" "$(planned "$1")"
+  printf '%-44s %8s %8s\n' "$1" "$(megabytes "$(wc -c <"$2")")" "$small"
 }
 
-printf '%-44s %8s %8s %8s\n' file MB gzipped planned
+printf '%-44s %8s %8s\n' file MB gzipped
 for library in src/c/libisostep.so src/c/udp/libisostep_udp.so; do
   [ -f "$build/$library" ] || continue
   name=$(basename "$library")

@@ -6,5 +6,5 @@ set -u
 . "$1/tests/csharp/family.sh"
 puck_client "$1" "$2"
 for scalar in f32 q32; do
-  sh "$1/tests/match/match_test.sh" "$3" "$4" "$scalar" "mono $dir/client.exe $scalar" || exit 1
+  sh "$1/tests/match/match_test.sh" "$3" "$4" "$scalar" "mono '$dir/client.exe' $scalar" || exit 1
 done

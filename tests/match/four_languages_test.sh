@@ -5,7 +5,7 @@
 set -u
 . "$1/tests/scratch.sh"
 . "$1/tests/csharp/family.sh"
-root=$1 host=$2 isostep=$3 library=$4 c_client=$5_$7 folder=$6 scalar=$7
+root=$1 host=$2 isostep=$3 library=$4 c_client="'$5_$7'" folder=$6 scalar=$7
 for program in node mono mcs; do
   command -v "$program" >/dev/null 2>&1 || skip "no $program"
 done
@@ -13,8 +13,8 @@ done
   skip "no WebAssembly module in $folder: run ./isostep package"
 [ -d "$folder/node_modules/ws" ] || skip "no ws in $folder"
 puck_client "$root" "$library"
-sh "$root/tests/match/match_test.sh" "$host" "$isostep" "$scalar" "$c_client" "mono $dir/client.exe $scalar" \
-  "node --no-warnings $root/tests/js/puck_client.mjs $folder $scalar" || exit 1
+sh "$root/tests/match/match_test.sh" "$host" "$isostep" "$scalar" "$c_client" "mono '$dir/client.exe' $scalar" \
+  "node --no-warnings '$root/tests/js/puck_client.mjs' '$folder' $scalar" || exit 1
 # A match whose client plays by other rules is none.
 "$host" "$scalar" latency=150,jitter=40,loss=5 600 "$dir" "$c_client forgets" >"$dir/out" 2>"$dir/err" &&
   fail "a client that forgets is not found out"

@@ -191,8 +191,7 @@ template <class S> bool CommandExecutor<S>::check_alone(const Ghost<S>& ghost, s
 /// Whether no record of another slot has the same body, and its shape can be cast.
 template <class S> bool CommandExecutor<S>::check_alone(const Character<S>& character, std::uint32_t slot) {
   if (!check_only_one(character, slot)) return false;
-  const std::span<const Child<S>> parts = map_.children_of(map_.properties_of(character.body)->shape);
-  return (parts.size() == 1 && !is_surface(parts[0].primitive.type) && is_bounded(parts[0].primitive.type)) ||
+  return detail::can_walk(map_.children_of(map_.properties_of(character.body)->shape)) ||
          journal_.refuse({Fault::bad_shape, "", "body", "one of a single convex part with an end"});
 }
 

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "isostep/dynamics/joints/joint_coordinate.hpp"
 #include "isostep/dynamics/record_list.hpp"
 #include "isostep/dynamics/wheel_rows.hpp"
+#include "isostep/geometry/surfaces.hpp"
 #include "isostep/scalar/lattice.hpp"
 #include "isostep/world/contact_record_checks.hpp"
 #include "isostep/world/force_checks.hpp"
@@ -288,6 +291,11 @@ template <class S> FaultReport fault_of_inertia(const Wheel<S>& w, const BodyPro
       .in_range(rim_give(body.mass, w.radius, w.inertia) <= Limits<S>::leverage(), "inertia",
                 "mass radius^2 / inertia up to Limits::leverage()")
       .report();
+}
+
+/// Whether a character can have a shape of these parts: it is cast, as one.
+template <class S> ISO_INLINE bool can_walk(std::span<const Child<S>> parts) {
+  return parts.size() == 1 && !is_surface(parts[0].primitive.type) && is_bounded(parts[0].primitive.type);
 }
 
 }  // namespace isostep::detail

@@ -135,8 +135,8 @@ template <class S> class RecordValidator {
         if (!names_well(bodies.all[i])) return "a force record names no body that it may act on";
       }
       if (!ties_well(all[slot]))
-        return "a spring or a coupling ties two islands, a record names no joint, part or sensor, or direct is to "
-               "scale masses";
+        return "a spring or a coupling ties two islands, a record names no joint, part or sensor, a character has "
+               "a shape that cannot be cast, or direct is to scale masses";
     }
     return nullptr;
   }
@@ -149,6 +149,10 @@ template <class S> class RecordValidator {
   bool ties_well(const SurfaceVelocity<S>& surface) const {
     const std::uint32_t shape = seen_.properties_of_body[surface.body.slot]->shape;
     return surface.part == kEveryPart || surface.part < (*state_.shapes)[shape].child_count;
+  }
+  bool ties_well(const Character<S>& character) const {
+    const auto& shape = (*state_.shapes)[seen_.properties_of_body[character.body.slot]->shape];
+    return detail::can_walk<S>({state_.children->data() + shape.first_child, shape.child_count});
   }
   bool ties_well(const SensorMount<S>& mount) const {
     return (seen_.properties_of_body[mount.sensor.slot]->flags & body_flag::kSensor) != 0;

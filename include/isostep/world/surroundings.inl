@@ -195,7 +195,8 @@ template <class S> std::optional<ObstacleHit<S>> Surroundings<S>::cast(Vec3<S> f
 }
 
 template <class S> std::optional<Vec3<Unit<S>>> Surroundings<S>::cast_ray(Vec3<S> from, Vec3<S> way) {
-  const Sweep<S> sweep = {from, way, Vec3<S>::zero(), Unit<S>(1)};
+  const S margin = S(0.015625);  // [m] as of casts
+  const Sweep<S> sweep = {from, way, {margin, margin, margin}, Unit<S>(1)};
   cover(detail::SweepTest<S>(sweep, region_).reach);
   const detail::SweepTest<S> test(sweep, region_);
   RayHit<S> first, hit;

@@ -14,7 +14,7 @@ template <class S> struct Parting {
   S gap = S(0);                                  // [m] between the two then
 
   ISO_INLINE bool is_known() const { return !(normal == Vec3<Unit<S>>::zero()); }
-  /// [m] left between the two all along a way; 0 of no plane.
+  /// [m] left between the two all along a way; 0 or less of no plane.
   ISO_INLINE S least_gap(Vec3<S> from, Vec3<S> way) const {
     return gap + dot(from - at, normal) + min(dot(way, normal), S(0));
   }
@@ -29,7 +29,7 @@ template <class S> struct CastMotion {
   S touch;               // [m] cores that overlap by no more than this at the start touch; deeper is inside
   /// [1] A hit after this is of no interest: it may be missed, and changes no other.
   Unit<S> latest = Unit<S>(1);
-  Parting<S>* parting = nullptr;  // the plane that a miss was proved by
+  Parting<S>* parting = nullptr;  // a plane that parts the two: casts leave theirs
 };
 
 template <class S> struct CastHit {

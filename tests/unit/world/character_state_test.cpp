@@ -1,0 +1,37 @@
+// States read from outside: a character's body has a shape that can be cast, or the state is refused.
+// SPDX-License-Identifier: MIT
+
+#include "isostep/world/state_validator.hpp"
+
+#include "unit/world/worlds.hpp"
+
+namespace isostep::test {
+namespace {
+
+template <class S> class CharacterStates : public ::testing::Test {};
+TYPED_TEST_SUITE(CharacterStates, AllScalars);
+
+TYPED_TEST(CharacterStates, are_of_shapes_that_can_be_cast) {
+  using S = TypeParam;
+  World<S> w(settings<S>());
+  BodyDefinition<S> d = moving<S>(w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.5)}), {0, 1, 0});
+  d.type = BodyType::kinematic;
+  Character<S> character;
+  character.body = w.create(d);
+  ASSERT_TRUE(w.add(character));
+  const D3 half = {0.5, 0.5, 0.5};
+  const ShapeId two = add_two_boxes(w, half, {-1, 0, 0}, half, {1, 0, 0});
+  const ShapeId ball = add_ball(w, 0.5), plane = w.add_shape(HalfSpace<S>{});
+  const auto is_valid_with = [&](ShapeId shape) {
+    WorldState<S> state = w.state();
+    state.awake.properties[0].shape = shape.slot;
+    return StateValidator<S>(state).broken_rule() == nullptr;
+  };
+  ASSERT_TRUE(w.state().awake.properties.size() == 1 && ball && two && plane);
+  EXPECT_TRUE(is_valid_with(ball));
+  EXPECT_FALSE(is_valid_with(two));
+  EXPECT_FALSE(is_valid_with(plane));
+}
+
+}  // namespace
+}  // namespace isostep::test
