@@ -21,13 +21,14 @@ TYPED_TEST(CharacterStates, are_of_shapes_that_can_be_cast) {
   ASSERT_TRUE(w.add(character));
   const D3 half = {0.5, 0.5, 0.5};
   const ShapeId two = add_two_boxes(w, half, {-1, 0, 0}, half, {1, 0, 0});
-  const ShapeId ball = add_ball(w, 0.5), plane = w.add_shape(HalfSpace<S>{});
+  const ShapeId ball = add_ball(w, 0.5), plane = w.add_shape(HalfSpace<S>{vec<Unit<S>>(0, 1, 0), S(0)});
   const auto is_valid_with = [&](ShapeId shape) {
     WorldState<S> state = w.state();
     state.awake.properties[0].shape = shape.slot;
     return StateValidator<S>(state).broken_rule() == nullptr;
   };
-  ASSERT_TRUE(w.state().awake.properties.size() == 1 && ball && two && plane);
+  ASSERT_TRUE(ball && two && plane) << describe(w.fault());
+  ASSERT_EQ(w.state().awake.properties.size(), 1u);
   EXPECT_TRUE(is_valid_with(ball));
   EXPECT_FALSE(is_valid_with(two));
   EXPECT_FALSE(is_valid_with(plane));
