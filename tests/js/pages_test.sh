@@ -14,7 +14,7 @@ awk -v to="$work/block" '/^```js$/ {inside = 1; n += 1; file = to n ".mjs"; next
 blocks=0
 for block in "$work"/block*.mjs; do
   [ -f "$block" ] || fail "the page has no block of js"
-  (cd "$work" && node "$block" >out 2>&1) || fail "$(cat "$block"; cat "$work/out")"
+  (cd "$work" && node "$block" >said 2>&1) || fail "$(cat "$block"; cat "$work/said")"
   blocks=$((blocks + 1))
 done
 

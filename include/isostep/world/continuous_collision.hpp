@@ -32,7 +32,7 @@ namespace isostep {
 ///          body is swept in that one's frame and goes on with it to the end of the step.
 ///          3. Mechanisms of which a body was stopped stop as a whole (continuous_joined.inl): each joint goes from how
 ///             it was to how it would be as far as that body did of its way, and bodies are where joints have them.
-///             Points that joints hold together are closed, of fast mechanisms that nothing stopped too.
+///             Points that joints hold together are closed.
 /// Touch:   a body that touches at the start is swept as a smaller one, deeper inside of it: an impact at time 0 is no
 ///          reason to let the rest of it pass. Touching less deep than that of the first of them is not cut.
 /// Limits:  two bodies may squeeze a third.
@@ -146,7 +146,7 @@ template <class S> class ContinuousCollision {
   void stop_mechanism(std::span<const std::uint32_t> mechanism);
   void keep_ends(std::span<const std::uint32_t> mechanism);
   Leader leader_of(std::span<const std::uint32_t> mechanism) const;
-  bool is_apart(std::span<const std::uint32_t> mechanism);
+  bool meets_carrier(std::span<const std::uint32_t> mechanism) const;
   void place_tree(std::span<const Link> tree, Unit<S> fraction, bool closes);
   Pose<S> own_way(std::uint32_t body, Unit<S> fraction);
   Pose<S> joined_pose(const Link& link, Unit<S> fraction, bool closes);

@@ -16,15 +16,13 @@ inline constexpr int kMostPlacings = 8;
 template <class S> inline constexpr Unit<S> kLeastPart = Unit<S>(0.125);
 /// [rad] Two bodies that turn by less in a step turn by less than half a turn against each other.
 template <class S> inline constexpr S kFarTurn = S(1.5);
-/// [m] What fast mechanisms' joints may be apart: a solver takes turns of a sub-step as straight, and 100 rad/s are 0.2
-/// rad in one.
-template <class S> inline constexpr S kJointSlack = S(0.0009765625);
 }  // namespace detail
 
 /// One body that stops alone is torn from the rest by what that still moves in this step: a limb of a ragdoll at 60 m/s
 /// by 0.4 m. If each went as far along its own straight way, whirling limbs would be apart by what arcs differ from
 /// chords, 0.17 m. So it is the joints that go part of their ways, and what they hold is held. As at an impact of one
-/// body, the rest of the step's time is lost. Mechanisms that are fast and stopped by nothing are closed alike.
+/// body, the rest of the step's time is lost. What nothing stopped stays as it is: who counts as fast depends on what
+/// other islands have, and islands do not.
 template <class S> void ContinuousCollision<S>::stop_joined() {
   if (movers_.empty() || state_.joints.properties.empty()) return;
   const std::size_t count = state_.awake.states.size();
@@ -45,7 +43,8 @@ template <class S> void ContinuousCollision<S>::stop_mechanism(std::span<const s
   if (mechanism.size() == 1 && !hangs) return;
   keep_ends(mechanism);
   const Leader leader = leader_of(mechanism);
-  if (leader.fraction == Unit<S>(1) && !is_apart(mechanism)) return;
+  if (leader.fraction == Unit<S>(1)) return;
+  const bool carried = meets_carrier(mechanism);  // what may have stopped it goes on with it
   std::uint32_t root = leader.body;
   Unit<S> part = Unit<S>(1);
   bool is_free = false;
@@ -55,7 +54,7 @@ template <class S> void ContinuousCollision<S>::stop_mechanism(std::span<const s
     const Obstruction worst = worst_of(tree);
     is_free = worst.part == Unit<S>(1);
     part = part * worst.part;
-    if (carriers_.empty() && !(part < detail::kLeastPart<S>)) continue;  // what a carrier stopped goes on with it
+    if (!carried && !(part < detail::kLeastPart<S>)) continue;
     if (hangs) break;
     root = worst.body;
     part = Unit<S>(1);
@@ -74,27 +73,26 @@ template <class S> void ContinuousCollision<S>::keep_ends(std::span<const std::u
   }
 }
 
-/// The first that was stopped; if none was, the heaviest. Ties go to the lowest slot.
+/// The first that was stopped; ties go to the first in order.
 template <class S>
 typename ContinuousCollision<S>::Leader ContinuousCollision<S>::leader_of(
     std::span<const std::uint32_t> mechanism) const {
-  Leader first = {mechanism[0], Unit<S>(1)}, heaviest = first;
+  Leader first = {mechanism[0], Unit<S>(1)};
   for (const std::uint32_t body : mechanism) {
-    const S mass = state_.awake.properties[body].mass, most = state_.awake.properties[heaviest.body].mass;
-    if (most < mass || (most == mass && body < heaviest.body)) heaviest.body = body;
     const Unit<S> fraction = mover_of_[body] == 0 ? Unit<S>(1) : movers_[mover_of_[body] - 1].fraction;
     if (fraction < first.fraction || (fraction == first.fraction && body < first.body)) first = {body, fraction};
   }
-  return first.fraction < Unit<S>(1) ? first : heaviest;
+  return first;
 }
 
-template <class S> bool ContinuousCollision<S>::is_apart(std::span<const std::uint32_t> mechanism) {
-  for (const Link& link : joined_bodies_.tree_from(mechanism[0])) {
-    if (link.joint == JoinedBodies<S>::kNone || !holds_point(state_.joints.properties[link.joint])) continue;
-    const JointProperties<S>& p = state_.joints.properties[link.joint];
-    const Pose<S> a = map_.centre_pose_at(p.body_a), b = map_.centre_pose_at(p.body_b);
-    const Vec3<S> arm_a = rotate(a.orientation, p.frame_a.position), arm_b = rotate(b.orientation, p.frame_b.position);
-    if (detail::kJointSlack<S> < max_abs((b.position - a.position) + (arm_b - arm_a))) return true;
+template <class S>
+bool ContinuousCollision<S>::meets_carrier(std::span<const std::uint32_t> mechanism) const {
+  if (carriers_.empty()) return false;
+  for (const std::uint32_t body : mechanism) {
+    const Aabb<S> swept = detail::swept_box<S>({start_[body], ends_[body], Vec3<S>::zero()}, measure(body).reach);
+    for (const Carrier& carrier : carriers_) {
+      if (overlap(carrier.swept, swept)) return true;
+    }
   }
   return false;
 }
