@@ -18,9 +18,9 @@ template <class S> class ThrownMechanisms : public ::testing::Test {
 using WideScalars = ::testing::Types<float, double, Q32_32>;
 TYPED_TEST_SUITE(ThrownMechanisms, WideScalars);
 
-/// Where each body was put back along its own way, the worst was 0.7 m apart and the mean 0.084 m. Links at the limit of
-/// their spin are the worst still: what nothing stops in a step is not closed. What stops early falls no further in that
-/// step and keeps its speed: that is the energy.
+/// Where each body was put back along its own way, the worst was 0.7 m apart and the mean 0.084 m. Links at the limit
+/// of their spin are the worst still: what nothing stops in a step is not closed. What stops early falls no further in
+/// that step and keeps its speed: that is the energy.
 TYPED_TEST(ThrownMechanisms, stay_in_their_room_and_in_one_piece) {
   double apart = 0;
   for (std::uint64_t seed = 0; seed < this->seeds(); ++seed) {
