@@ -65,7 +65,7 @@ class Drawer {
         if (*slot != nullptr) handles_[kind].alive.push_back(*slot);
       }
       if (function_.find("_destroy") != std::string::npos) {
-        for (const auto& [kind, handle] : taken_) bury(kind, handle);
+        for (const auto& [kind, handle] : taken_) mark_destroyed(kind, handle);
       }
     }
     for (auto& [kind, handles] : handles_) {
@@ -324,7 +324,7 @@ class Drawer {
     const std::vector<void*>& tapes = handles_["tape"].alive;
     return tapes.empty() ? static_cast<void*>(lists_) : tapes[dice_.below(tapes.size())];
   }
-  void bury(const std::string& kind, void* handle) {
+  void mark_destroyed(const std::string& kind, void* handle) {
     std::vector<void*>& alive = handles_[kind].alive;
     for (std::size_t i = 0; i < alive.size(); ++i) {
       if (alive[i] != handle) continue;
@@ -344,7 +344,7 @@ class Drawer {
     if (kind == "network") status = iso_network_destroy(static_cast<iso_network*>(handle));
     if (status != ISO_OK)
       std::printf("a living %s is not destroyed: %s\n", kind.c_str(), iso_last_error()), std::exit(1);
-    bury(kind, handle);
+    mark_destroyed(kind, handle);
   }
 
   static constexpr std::size_t kRegions = 12;

@@ -46,7 +46,7 @@ template <class S> class Queries {
                      const QueryFilter& filter) const;
   std::optional<OverlapHit> overlap_first(const QueryShape<S>& shape, const Pose<S>& pose,
                                           const QueryFilter& filter) const;
-  bool sees(const QueryFilter& filter, std::uint32_t slot) const;
+  bool sees(const QueryFilter& filter, std::uint32_t slot) const;  // whether the filter takes that body
   /// [m] how far a shape of the world reaches from its frame's origin along a direction.
   S reach_of(ShapeId shape, const Quat<Unit<S>>& orientation, Vec3<Unit<S>> along) const;
   void overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, const QueryFilter& filter) const;

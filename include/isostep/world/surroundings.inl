@@ -17,6 +17,9 @@ namespace isostep {
 namespace detail {
 /// [m] What a plane parts by so much, rounding brings no nearer.
 template <class S> inline constexpr S kClearlyParted = S(0x1p-9);
+/// [m] Boxes are met this much sooner than what is in them. Casts are certain to `gap_noise` alone, and the slack of
+/// SweepTest follows from the region, which big boxes reach out of.
+template <class S> inline constexpr S kBoxMargin = S(0.015625);
 }  // namespace detail
 
 // ---- what is there
@@ -115,10 +118,10 @@ template <class S> void Surroundings<S>::add_placed(BodyId body, const Transform
 
 // ---- casts
 
-/// Wider than what a hit can pass a part by, of which casts are certain to `gap_noise` alone.
+/// Wider than what a hit can pass a part by.
 template <class S> Sweep<S> Surroundings<S>::sweep_of(Vec3<S> from, Vec3<S> way) const {
   const Vec3<S> half = (box_.high - box_.low) * S(0.5);
-  const S margin = detail::cast_margin(max_abs(half) + max_abs(way) + max_abs(way)) + S(0.015625);
+  const S margin = detail::cast_margin(max_abs(half) + max_abs(way) + max_abs(way)) + detail::kBoxMargin<S>;
   return {from + box_.low + half, way, half + Vec3<S>{margin, margin, margin}, Unit<S>(1)};
 }
 
@@ -195,7 +198,7 @@ template <class S> std::optional<ObstacleHit<S>> Surroundings<S>::cast(Vec3<S> f
 }
 
 template <class S> std::optional<Vec3<Unit<S>>> Surroundings<S>::cast_ray(Vec3<S> from, Vec3<S> way) {
-  const S margin = S(0.015625);  // [m] as of casts
+  const S margin = detail::kBoxMargin<S>;
   const Sweep<S> sweep = {from, way, {margin, margin, margin}, Unit<S>(1)};
   cover(detail::SweepTest<S>(sweep, region_).reach);
   const detail::SweepTest<S> test(sweep, region_);
