@@ -88,7 +88,7 @@ template <class S> void add_others(JointWorld<S>& world) {
   world.joints.back().flags = joint_flag::kCone;
   world.joints.back().cone = S(0.5);
   const std::uint32_t hub = add_part(world, draw, {0, 36, 0}, 3);
-  for (int i = 0; i < 10; ++i) {  // more than a tree may have at one body
+  for (int i = 0; i < 25; ++i) {  // more than a tree may have at one body
     const std::uint32_t spoke = add_part(world, draw, {std::cos(i), 36, std::sin(i)}, 1);
     world.join(JointType::ball, hub, spoke, {std::cos(i) / 2, 36, std::sin(i) / 2});
   }

@@ -61,7 +61,7 @@ template <class S>
 ISO_INLINE Velocity<S> drive_right_side(const JointDrive<S>& drive, Velocity<S> speed, const DriveBounds<S>& bounds,
                                         Velocity<S> most) {
   using V = Velocity<S>;
-  if (fixes_speed(drive.piece)) return fixed_speed(drive, drive.piece, bounds) - speed;
+  if (fixes_speed(drive.piece)) return saturating_subtract(fixed_speed(drive, drive.piece, bounds), speed);
   if (!springs(drive, drive.piece)) return V(0);
   const S share = convert<S>(drive.spring_row.x);
   const V pushed = drive.impulse - motor_impulse(drive.piece, most);

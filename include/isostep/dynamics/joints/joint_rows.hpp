@@ -44,11 +44,21 @@ template <class S> struct JointBlock {
 /// Velocities of the two bodies, worked on together; written back only where mass is.
 template <class S> struct JointMotion { MotionRow<Velocity<S>> a, b; };
 
-/// Held at the format's end: a pass whose drives were on wrong pieces leaves speeds that are far from any right ones.
+/// An exact sum as a number, held between -most and most.
+template <class V, class Sum> ISO_INLINE V rounded_within(Sum sum, V most) {
+  return round_to<V>(clamp(sum, -widen<Sum>(most), widen<Sum>(most)));
+}
+/// [m/s] Speeds along rows of a fixed-point format are held there: with the speed that closes an error they are within
+/// half of its range. A pass whose drives are on wrong pieces leaves speeds that are far from any right ones.
+template <class S> ISO_INLINE constexpr Velocity<S> most_row_speed() {
+  return detail::half_of_range<Velocity<S>>() - Velocity<S>(8);
+}
 template <class S> ISO_INLINE Velocity<S> speed_along(const JointRow<S>& row, const JointMotion<S>& m) {
   const Vec3<Velocity<S>> between = saturating_subtract(m.b.linear, m.a.linear);
-  return saturate_to<Velocity<S>>(dot_sum(row.linear, between) + dot_sum(row.angular_b, m.b.angular) -
-                                  dot_sum(row.angular_a, m.a.angular));
+  const auto sum =
+      dot_sum(row.linear, between) + dot_sum(row.angular_b, m.b.angular) - dot_sum(row.angular_a, m.a.angular);
+  if constexpr (kIsFixed<S>) return rounded_within<Velocity<S>>(sum, most_row_speed<S>());
+  else return round_to<Velocity<S>>(sum);
 }
 template <class S> ISO_INLINE Vec3<Velocity<S>> speed_along(const JointBlock<S>& block, const JointMotion<S>& m) {
   if (block.point) {
@@ -73,8 +83,7 @@ template <class S, class V> ISO_INLINE Vec3<V> scaled(Vec3<S> v, V s) {
 template <class S, class V> ISO_INLINE V scaled(S a, V s) { return round_to<V>(product(a, s)); }
 /// A sum as a velocity, held within the speed limit: the impulse of a joint that is asked for too much must not wrap.
 template <class S, class Sum> ISO_INLINE Velocity<S> saturated(Sum sum) {
-  const Sum most = widen<Sum>(convert<Velocity<S>>(Limits<S>::speed()));
-  return round_to<Velocity<S>>(clamp(sum, -most, most));
+  return rounded_within<Velocity<S>>(sum, convert<Velocity<S>>(Limits<S>::speed()));
 }
 /// [m/s] No impulse of a joint is larger: four times the speed limit, an eighth of what Velocity<Q16_16> holds. Chains
 /// of stops hold themselves out straight like a beam, and the first of them bears all the others.
@@ -83,10 +92,7 @@ template <class S> ISO_INLINE constexpr Velocity<S> most_joint_impulse() {
 }
 /// m v as impulses of a joint.
 template <class S, class V> ISO_INLINE Vec3<V> impulses(const Mat3<S>& m, Vec3<V> v) {
-  const auto held = [](auto sum) {
-    const auto most = widen<decltype(sum)>(most_joint_impulse<S>());
-    return round_to<V>(clamp(sum, -most, most));
-  };
+  const auto held = [](auto sum) ISO_INLINE_LAMBDA { return rounded_within<V>(sum, most_joint_impulse<S>()); };
   return {held(dot_sum(m.rows[0], v)), held(dot_sum(m.rows[1], v)), held(dot_sum(m.rows[2], v))};
 }
 /// right - m v: what impulses leave of a right-hand side. Large impulses on long arms do not wrap.

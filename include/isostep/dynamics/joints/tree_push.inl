@@ -4,13 +4,13 @@
 #pragma once
 
 #include "isostep/dynamics/joints/tree_factor.inl"
-#include "isostep/scalar/lanes_addable.hpp"
+#include "isostep/scalar/lanes_bounded.hpp"
 
 namespace isostep {
 namespace {
 
-/// Speeds of rows that are no point are held at the format's end, and so is what they do to a body: a pass with drives
-/// on wrong pieces leaves any.
+/// Speeds of rows that are no point are held within half of the format, and so is what they do to a body: a pass with
+/// drives on wrong pieces leaves any.
 template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Isa> {
   using Base = TreeFactoriser<S, W, Isa>;
   using Base::load;
@@ -84,7 +84,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     const auto add = [&](V p, const S(&by)[9][W], Velocity<S>(&field)[3][W]) ISO_INLINE_LAMBDA {
       const Vec3<L> row = row_of(by, static_cast<int>(drive.place));
       for (int k = 0; k < 3; ++k) {
-        const V old = V::load(field[k]), next = addable(old) + round_addable<V>(product(row[k], p));
+        const V old = V::load(field[k]), next = with_headroom(old) + round_with_headroom<V>(product(row[k], p));
         select(acts, next, old).store(field[k]);
       }
     };
@@ -110,14 +110,18 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
   static ISO_INLINE Vec3<L> row_of(const S (&field)[9][W], int r) {
     return {L::load(field[3 * r]), L::load(field[3 * r + 1]), L::load(field[3 * r + 2])};
   }
+  template <class Sum> static ISO_INLINE V held_speed(Sum sum) {
+    if constexpr (kIsFixed<S>) return round_within<V>(sum, most_row_speed<S>());
+    else return round_to<V>(sum);
+  }
   static ISO_INLINE V row_speed(const TreeNode& node, const Rows& rows, int r, const Body& a, const Body& b) {
     const auto turning =
         dot_sum(row_of(rows.angular_b, r), load(b.angular)) - dot_sum(row_of(rows.angular_a, r), load(a.angular));
-    if (node.of_angles) return round_saturated<V>(turning);
+    if (node.of_angles) return held_speed(turning);
     const Vec3<V> va = load(a.linear), vb = load(b.linear);
-    const Vec3<V> between = {addable(vb.x) - addable(va.x), addable(vb.y) - addable(va.y),
-                             addable(vb.z) - addable(va.z)};
-    return round_saturated<V>(dot_sum(row_of(rows.linear, r), between) + turning);
+    const Vec3<V> between = {with_headroom(vb.x) - with_headroom(va.x), with_headroom(vb.y) - with_headroom(va.y),
+                             with_headroom(vb.z) - with_headroom(va.z)};
+    return held_speed(dot_sum(row_of(rows.linear, r), between) + turning);
   }
 
   /// What a node's impulses grow by; a drive's solution counts as its row does.
@@ -174,8 +178,9 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     Body& body = m.bodies[IsA ? of.body_a : of.body_b];
     const TreeNode& node = shape.nodes[of.node];
     const Joint& joint = m.joints[node.joint];
-    const auto add = [](Velocity<S>(&field)[3][W], int k, auto sum)
-                         ISO_INLINE_LAMBDA { (addable(V::load(field[k])) + round_addable<V>(sum)).store(field[k]); };
+    const auto add = [](Velocity<S>(&field)[3][W], int k, auto sum) ISO_INLINE_LAMBDA {
+      (with_headroom(V::load(field[k])) + round_with_headroom<V>(sum)).store(field[k]);
+    };
     const auto across = [](const Mat3<L>& rows, int k, Vec3<V> p) ISO_INLINE_LAMBDA {
       return product(rows.rows[0][k], p.x) + product(rows.rows[1][k], p.y) + product(rows.rows[2][k], p.z);
     };
@@ -183,7 +188,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     if (node.is_point()) {
       turn = transpose(load(IsA ? joint.turn_a : joint.turn_b));
       const Vec3<V> v = load(body.linear);
-      store(Vec3<V>{addable(v.x), addable(v.y), addable(v.z)} + place, body.linear);
+      store(Vec3<V>{with_headroom(v.x), with_headroom(v.y), with_headroom(v.z)} + place, body.linear);
     } else {
       turn = load(IsA ? m.rows[node.rows].turn_a : m.rows[node.rows].turn_b);
       const Mat3<L> linear = load(m.rows[node.rows].linear);
@@ -202,8 +207,8 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     const Mask none = Mask::from_bits(still);
     for (int k = 0; k < 3; ++k) {
       const auto of_place = across(turn, k, place), of_both = of_place + across(other, k, angle);
-      const auto old = addable(V::load(body.angular[k]));
-      select(none, old + round_addable<V>(of_place), old + round_addable<V>(of_both)).store(body.angular[k]);
+      const auto old = with_headroom(V::load(body.angular[k]));
+      select(none, old + round_with_headroom<V>(of_place), old + round_with_headroom<V>(of_both)).store(body.angular[k]);
     }
   }
 };
