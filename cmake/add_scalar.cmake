@@ -28,5 +28,6 @@ ISO_INSTANTIATE_ENGINE(@scalar@)
   # A source's options come after its target's, so a target built with -mfma keeps exactness here.
   get_target_property(flags isostep::deterministic_flags INTERFACE_COMPILE_OPTIONS)
   isostep_speed_flags(speed)
-  set_source_files_properties(${file} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "${flags};${speed}")
+  set_source_files_properties(${file} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "${flags};${speed}"
+    COMPILE_DEFINITIONS ISOSTEP_OUR_FLAGS)
 endfunction()

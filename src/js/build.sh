@@ -41,7 +41,7 @@ build_module() {
   # shellcheck disable=SC2086
   cmake -S "$root" -B "$build/$1" $generator -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/cross.cmake" \
     -DISOSTEP_TARGET=wasm-simd -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
-    "-DCMAKE_CXX_FLAGS_RELEASE=-Os -DNDEBUG -DISOSTEP_WHOLE_PROGRAM -fvisibility=hidden -fvisibility-inlines-hidden" \
+    "-DCMAKE_CXX_FLAGS_RELEASE=-Os -DNDEBUG -DISOSTEP_OUR_FLAGS -fvisibility=hidden -fvisibility-inlines-hidden" \
     -DISOSTEP_SCALARS="$name" -DISOSTEP_JS_MODULE=ON -DISOSTEP_C=OFF -DISOSTEP_TOOL=OFF -DISOSTEP_PROVER=OFF \
     -DISOSTEP_TESTS=OFF -DISOSTEP_EXAMPLES=OFF -DISOSTEP_INSTALL=OFF -DCMAKE_UNITY_BUILD=ON \
     -DCMAKE_UNITY_BUILD_BATCH_SIZE=15 \
