@@ -32,7 +32,8 @@ template <class S> S World<S>::joint_position(JointId joint, JointAxis axis) con
   return engine_->queries_.joint_position(joint, axis);
 }
 
-/// Both frames from one frame in the world, as the bodies lie now.
+/// Both frames from one frame in the world, as the bodies lie now. A frame whose orientation is none stays so, for
+/// create() to refuse it.
 template <class S>
 JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const Pose<S>& frame) const {
   return joint_between(type, a, frame, b, frame);
@@ -47,7 +48,7 @@ JointProperties<S> World<S>::joint_between(JointType type, BodyId a, const Pose<
     if (!body) return frame;
     slot = body.slot;
     generation = body.generation;
-    if (!contains(body)) return frame;
+    if (!contains(body) || !detail::is_unit<S>(frame.orientation)) return frame;
     const Pose<S> centre = engine_->map_.centre_pose_at(body.slot);
     const Vec3<S> arm = transposed_times(to_matrix(centre.orientation), frame.position - centre.position);
     return Pose<S>{arm, normalise(conjugate(centre.orientation) * frame.orientation)};

@@ -44,6 +44,19 @@ TYPED_TEST(JointCommands, bad_joints_are_refused) {
   this->expect_refused(Fault::bad_argument, [&] { return w.set_joint(this->joint, j); });
 }
 
+TYPED_TEST(JointCommands, a_frame_without_an_orientation_is_refused) {
+  using S = TypeParam;
+  using U = Unit<S>;
+  World<S>& w = this->world;
+  for (const Quat<U> none : {Quat<U>{U(0), U(0), U(0), U(0)}, Quat<U>{U(0), U(0.5), U(0), U(0)}}) {
+    const Pose<S> frame = {{S(0), S(1), S(0)}, none};
+    this->expect_refused(Fault::bad_argument,
+                         [&] { return w.create(hinge<S>({.a = this->flier, .b = this->sleeper, .frame = frame})); });
+    EXPECT_STREQ(w.fault().field, "frame_a.orientation");
+    this->expect_refused(Fault::bad_argument, [&] { return w.create(hinge<S>({.b = this->sleeper, .frame = frame})); });
+  }
+}
+
 TYPED_TEST(JointCommands, a_joint_set_anew_keeps_its_bodies_and_frames) {
   using S = TypeParam;
   World<S>& w = this->world;
