@@ -125,7 +125,10 @@ Vec3<Velocity<S>> right_side(const JointConstraint<S>& joint, std::uint32_t bloc
   const JointBlock<S>& of = joint.blocks[block];
   const Vec3<V> speed = speed_along(of, motion);
   Vec3<V> right = -speed;
-  if (!relax) right -= detail::block_bias(of, step.softness.bias_rate);
+  if (!relax) {
+    right -= detail::block_bias(of, step.softness.bias_rate);
+    right = {with_headroom(right.x), with_headroom(right.y), with_headroom(right.z)};
+  }
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     const JointDrive<S>& drive = joint.drives[i];
     if (drive.block != block) continue;

@@ -44,21 +44,12 @@ template <class S> struct JointBlock {
 /// Velocities of the two bodies, worked on together; written back only where mass is.
 template <class S> struct JointMotion { MotionRow<Velocity<S>> a, b; };
 
-/// An exact sum as a number, held between -most and most.
-template <class V, class Sum> ISO_INLINE V rounded_within(Sum sum, V most) {
-  return round_to<V>(clamp(sum, -widen<Sum>(most), widen<Sum>(most)));
-}
-/// [m/s] Speeds along rows of a fixed-point format are held there: with the speed that closes an error they are within
-/// half of its range. A pass whose drives are on wrong pieces leaves speeds that are far from any right ones.
-template <class S> ISO_INLINE constexpr Velocity<S> most_row_speed() {
-  return detail::half_of_range<Velocity<S>>() - Velocity<S>(8);
-}
+/// Held within half of the format: a pass whose drives are on wrong pieces leaves speeds that are far from any right
+/// ones.
 template <class S> ISO_INLINE Velocity<S> speed_along(const JointRow<S>& row, const JointMotion<S>& m) {
   const Vec3<Velocity<S>> between = saturating_subtract(m.b.linear, m.a.linear);
-  const auto sum =
-      dot_sum(row.linear, between) + dot_sum(row.angular_b, m.b.angular) - dot_sum(row.angular_a, m.a.angular);
-  if constexpr (kIsFixed<S>) return rounded_within<Velocity<S>>(sum, most_row_speed<S>());
-  else return round_to<Velocity<S>>(sum);
+  return round_with_headroom<Velocity<S>>(dot_sum(row.linear, between) + dot_sum(row.angular_b, m.b.angular) -
+                                          dot_sum(row.angular_a, m.a.angular));
 }
 template <class S> ISO_INLINE Vec3<Velocity<S>> speed_along(const JointBlock<S>& block, const JointMotion<S>& m) {
   if (block.point) {
@@ -81,6 +72,10 @@ template <class S, class V> ISO_INLINE Vec3<V> scaled(Vec3<S> v, V s) {
   return {round_to<V>(product(v.x, s)), round_to<V>(product(v.y, s)), round_to<V>(product(v.z, s))};
 }
 template <class S, class V> ISO_INLINE V scaled(S a, V s) { return round_to<V>(product(a, s)); }
+/// An exact sum as a number, held between -most and most.
+template <class V, class Sum> ISO_INLINE V rounded_within(Sum sum, V most) {
+  return round_to<V>(clamp(sum, -widen<Sum>(most), widen<Sum>(most)));
+}
 /// A sum as a velocity, held within the speed limit: the impulse of a joint that is asked for too much must not wrap.
 template <class S, class Sum> ISO_INLINE Velocity<S> saturated(Sum sum) {
   return rounded_within<Velocity<S>>(sum, convert<Velocity<S>>(Limits<S>::speed()));

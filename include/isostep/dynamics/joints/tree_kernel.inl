@@ -15,6 +15,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
   using Base = TreeLaws<S, W, Isa>;
   using Base::bounded;
   using Base::choose;
+  using Base::held;
   using Base::idle_lanes;
   using Base::idles;
   using Base::load;
@@ -151,6 +152,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
     if constexpr (!Relax) {
       right -= bounded(times(number(step.softness.bias_rate), load(node.error)), detail::kJointPushSpeed<S>);
       if (shape.joints[of.joint].closes_loop) right -= times(number(detail::kClosingCompliance<S>), load(node.impulse));
+      right = held(right);
     }
     store(right, node.right);
   }

@@ -33,6 +33,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
   static ISO_INLINE Vec3<V> choose(Mask mask, Vec3<V> a, Vec3<V> b) {
     return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
   }
+  static ISO_INLINE Vec3<V> held(Vec3<V> v) { return {with_headroom(v.x), with_headroom(v.y), with_headroom(v.z)}; }
   static ISO_INLINE Vec3<V> bounded(Vec3<V> v, Velocity<S> most) {
     const V high = V::broadcast(most), low = -high;
     return {clamp(v.x, low, high), clamp(v.y, low, high), clamp(v.z, low, high)};
@@ -110,18 +111,12 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
   static ISO_INLINE Vec3<L> row_of(const S (&field)[9][W], int r) {
     return {L::load(field[3 * r]), L::load(field[3 * r + 1]), L::load(field[3 * r + 2])};
   }
-  template <class Sum> static ISO_INLINE V held_speed(Sum sum) {
-    if constexpr (kIsFixed<S>) return round_within<V>(sum, most_row_speed<S>());
-    else return round_to<V>(sum);
-  }
   static ISO_INLINE V row_speed(const TreeNode& node, const Rows& rows, int r, const Body& a, const Body& b) {
     const auto turning =
         dot_sum(row_of(rows.angular_b, r), load(b.angular)) - dot_sum(row_of(rows.angular_a, r), load(a.angular));
-    if (node.of_angles) return held_speed(turning);
-    const Vec3<V> va = load(a.linear), vb = load(b.linear);
-    const Vec3<V> between = {with_headroom(vb.x) - with_headroom(va.x), with_headroom(vb.y) - with_headroom(va.y),
-                             with_headroom(vb.z) - with_headroom(va.z)};
-    return held_speed(dot_sum(row_of(rows.linear, r), between) + turning);
+    if (node.of_angles) return round_with_headroom<V>(turning);
+    const Vec3<V> between = held(load(b.linear)) - held(load(a.linear));
+    return round_with_headroom<V>(dot_sum(row_of(rows.linear, r), between) + turning);
   }
 
   /// What a node's impulses grow by; a drive's solution counts as its row does.
@@ -187,8 +182,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     Mat3<L> turn;  // rows of the places' turns
     if (node.is_point()) {
       turn = transpose(load(IsA ? joint.turn_a : joint.turn_b));
-      const Vec3<V> v = load(body.linear);
-      store(Vec3<V>{with_headroom(v.x), with_headroom(v.y), with_headroom(v.z)} + place, body.linear);
+      store(held(load(body.linear)) + place, body.linear);
     } else {
       turn = load(IsA ? m.rows[node.rows].turn_a : m.rows[node.rows].turn_b);
       const Mat3<L> linear = load(m.rows[node.rows].linear);
@@ -207,8 +201,9 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     const Mask none = Mask::from_bits(still);
     for (int k = 0; k < 3; ++k) {
       const auto of_place = across(turn, k, place), of_both = of_place + across(other, k, angle);
-      const auto old = with_headroom(V::load(body.angular[k]));
-      select(none, old + round_with_headroom<V>(of_place), old + round_with_headroom<V>(of_both)).store(body.angular[k]);
+      const V old = with_headroom(V::load(body.angular[k]));
+      const V by_place = round_with_headroom<V>(of_place), by_both = round_with_headroom<V>(of_both);
+      select(none, old + by_place, old + by_both).store(body.angular[k]);
     }
   }
 };

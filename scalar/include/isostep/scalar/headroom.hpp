@@ -7,8 +7,8 @@
 namespace isostep {
 
 namespace detail {
-/// 2^(n - 2) - 1 of n bits: a whole number in every format that has more than two bits before the point. Twice 2^(n - 2)
-/// is one more than the format holds.
+/// 2^(n - 2) - 1 of n bits: a whole number in every format that has more than two bits before the point. Twice
+/// 2^(n - 2) is one more than the format holds.
 template <class S> ISO_INLINE constexpr S half_of_range() {
   return S::from_raw(static_cast<typename S::Raw>((highest<S>().raw() >> 1) + 1)) - S(1);
 }
