@@ -125,10 +125,7 @@ Vec3<Velocity<S>> right_side(const JointConstraint<S>& joint, std::uint32_t bloc
   const JointBlock<S>& of = joint.blocks[block];
   const Vec3<V> speed = speed_along(of, motion);
   Vec3<V> right = -speed;
-  if (!relax) {
-    right -= detail::block_bias(of, step.softness.bias_rate);
-    right = {with_headroom(right.x), with_headroom(right.y), with_headroom(right.z)};
-  }
+  if (!relax) right -= detail::block_bias(of, step.softness.bias_rate);
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     const JointDrive<S>& drive = joint.drives[i];
     if (drive.block != block) continue;
@@ -136,7 +133,7 @@ Vec3<Velocity<S>> right_side(const JointConstraint<S>& joint, std::uint32_t bloc
     right[at] = detail::drive_right_side(drive, speed[at], detail::bounds_of(drive, step, relax),
                                          detail::most_impulse(drive, step.h));
   }
-  return right;
+  return {with_headroom(right.x), with_headroom(right.y), with_headroom(right.z)};
 }
 
 template <class S>

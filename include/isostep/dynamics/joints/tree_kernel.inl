@@ -76,7 +76,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
     const Memory m = Memory::of(run.memory, run.shape);
     for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
       const TreeDrive& drive = run.shape.drives[d];
-      V::load(m.drives[d].right).store(m.nodes[drive.node].right[drive.place]);
+      with_headroom(V::load(m.drives[d].right)).store(m.nodes[drive.node].right[drive.place]);
     }
     substitute(run, m);
     tell_drives(run, m);
@@ -152,9 +152,8 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
     if constexpr (!Relax) {
       right -= bounded(times(number(step.softness.bias_rate), load(node.error)), detail::kJointPushSpeed<S>);
       if (shape.joints[of.joint].closes_loop) right -= times(number(detail::kClosingCompliance<S>), load(node.impulse));
-      right = held(right);
     }
-    store(right, node.right);
+    store(held(right), node.right);
   }
   static ISO_INLINE void tell_drives(const TreeRun<S>& run, Memory m) {
     for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
