@@ -1,10 +1,10 @@
 // The range contract: inside Limits<S> no intermediate of a step overflows. The engine runs here over scalars that stop
 // the program where an exact answer does not fit; what would wrap silently elsewhere kills these tests.
 // SPDX-License-Identifier: MIT
-#include <type_traits>
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "isostep/core/random.hpp"
