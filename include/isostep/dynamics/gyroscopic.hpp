@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/math/mat3.hpp"
+#include "isostep/scalar/headroom.hpp"
 
 namespace isostep {
 
@@ -83,11 +84,12 @@ template <class S> struct FreeTurn {
     return {times(inertia.x, w.x), times(inertia.y, w.y), times(inertia.z, w.z)};
   }
   ISO_INLINE Vec3<V> turned(Vec3<V> w) const { return {times(h, w.x), times(h, w.y), times(h, w.z)}; }  // [rad]
-  /// h f(w).
+  /// h f(w), held within half of the format: a pass may leave speeds beyond the limit, which are cut after the step.
   ISO_INLINE Vec3<V> bend(Vec3<V> w) const {
     const Vec3<V> m = moment(w), hw = turned(w);
-    return {round_to<V>(product(hw.y, m.z) - product(hw.z, m.y)), round_to<V>(product(hw.z, m.x) - product(hw.x, m.z)),
-            round_to<V>(product(hw.x, m.y) - product(hw.y, m.x))};
+    return {round_with_headroom<V>(product(hw.y, m.z) - product(hw.z, m.y)),
+            round_with_headroom<V>(product(hw.z, m.x) - product(hw.x, m.z)),
+            round_with_headroom<V>(product(hw.x, m.y) - product(hw.y, m.x))};
   }
   /// -h I^-1 f(w), by Euler's equations.
   ISO_INLINE Vec3<V> explicit_change(Vec3<V> w) const {

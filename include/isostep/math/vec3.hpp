@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/fields.hpp"
+#include "isostep/scalar/headroom.hpp"
 #include "isostep/scalar/math.hpp"
 #include "isostep/scalar/scalar.hpp"
 
@@ -77,6 +78,10 @@ template <class T> ISO_INLINE constexpr Vec3<T> max(Vec3<T> a, Vec3<T> b) {
 /// Each component within [-limit, limit].
 template <class T> ISO_INLINE constexpr Vec3<T> held_within(Vec3<T> v, T limit) {
   return {clamp(v.x, -limit, limit), clamp(v.y, -limit, limit), clamp(v.z, -limit, limit)};
+}
+/// Each component within half of the format: two such vectors can be added.
+template <class T> ISO_INLINE constexpr Vec3<T> with_headroom(Vec3<T> v) {
+  return {with_headroom(v.x), with_headroom(v.y), with_headroom(v.z)};
 }
 /// a + b and a - b, held at the ends of the format.
 template <class T> ISO_INLINE constexpr Vec3<T> saturating_add(Vec3<T> a, Vec3<T> b) {

@@ -133,7 +133,7 @@ Vec3<Velocity<S>> right_side(const JointConstraint<S>& joint, std::uint32_t bloc
     right[at] = detail::drive_right_side(drive, speed[at], detail::bounds_of(drive, step, relax),
                                          detail::most_impulse(drive, step.h));
   }
-  return {with_headroom(right.x), with_headroom(right.y), with_headroom(right.z)};
+  return with_headroom(right);
 }
 
 template <class S>

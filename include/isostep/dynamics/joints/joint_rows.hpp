@@ -59,10 +59,10 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> speed_along(const JointBlock<S>&
     const S za = block.rows[1].angular_a.z, zb = block.rows[1].angular_b.z;
     const Vec3<V> wa = m.a.angular, wb = m.b.angular;
     const Vec3<V> turning = {
-        round_to<V>(product(xb.y, wb.y) + product(xb.z, wb.z) - product(xa.y, wa.y) - product(xa.z, wa.z)),
-        round_to<V>(product(zb, wb.z) - product(xb.y, wb.x) - product(za, wa.z) + product(xa.y, wa.x)),
-        round_to<V>(product(za, wa.y) + product(xa.z, wa.x) - product(zb, wb.y) - product(xb.z, wb.x))};
-    return m.b.linear - m.a.linear + turning + block.curve;
+        round_with_headroom<V>(product(xb.y, wb.y) + product(xb.z, wb.z) - product(xa.y, wa.y) - product(xa.z, wa.z)),
+        round_with_headroom<V>(product(zb, wb.z) - product(xb.y, wb.x) - product(za, wa.z) + product(xa.y, wa.x)),
+        round_with_headroom<V>(product(za, wa.y) + product(xa.z, wa.x) - product(zb, wb.y) - product(xb.z, wb.x))};
+    return with_headroom(with_headroom(saturating_subtract(m.b.linear, m.a.linear)) + turning) + block.curve;
   }
   return {speed_along(block.rows[0], m), speed_along(block.rows[1], m), speed_along(block.rows[2], m)};
 }
@@ -72,13 +72,9 @@ template <class S, class V> ISO_INLINE Vec3<V> scaled(Vec3<S> v, V s) {
   return {round_to<V>(product(v.x, s)), round_to<V>(product(v.y, s)), round_to<V>(product(v.z, s))};
 }
 template <class S, class V> ISO_INLINE V scaled(S a, V s) { return round_to<V>(product(a, s)); }
-/// An exact sum as a number, held between -most and most.
-template <class V, class Sum> ISO_INLINE V rounded_within(Sum sum, V most) {
-  return round_to<V>(clamp(sum, -widen<Sum>(most), widen<Sum>(most)));
-}
 /// A sum as a velocity, held within the speed limit: the impulse of a joint that is asked for too much must not wrap.
 template <class S, class Sum> ISO_INLINE Velocity<S> saturated(Sum sum) {
-  return rounded_within<Velocity<S>>(sum, convert<Velocity<S>>(Limits<S>::speed()));
+  return round_within<Velocity<S>>(sum, convert<Velocity<S>>(Limits<S>::speed()));
 }
 /// [m/s] No impulse of a joint is larger: four times the speed limit, an eighth of what Velocity<Q16_16> holds. Chains
 /// of stops hold themselves out straight like a beam, and the first of them bears all the others.
@@ -87,7 +83,7 @@ template <class S> ISO_INLINE constexpr Velocity<S> most_joint_impulse() {
 }
 /// m v as impulses of a joint.
 template <class S, class V> ISO_INLINE Vec3<V> impulses(const Mat3<S>& m, Vec3<V> v) {
-  const auto held = [](auto sum) ISO_INLINE_LAMBDA { return rounded_within<V>(sum, most_joint_impulse<S>()); };
+  const auto held = [](auto sum) ISO_INLINE_LAMBDA { return round_within<V>(sum, most_joint_impulse<S>()); };
   return {held(dot_sum(m.rows[0], v)), held(dot_sum(m.rows[1], v)), held(dot_sum(m.rows[2], v))};
 }
 /// right - m v: what impulses leave of a right-hand side. Large impulses on long arms do not wrap.

@@ -15,7 +15,6 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
   using Base = TreeLaws<S, W, Isa>;
   using Base::bounded;
   using Base::choose;
-  using Base::held;
   using Base::idle_lanes;
   using Base::idles;
   using Base::load;
@@ -127,9 +126,9 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
             round_within<V>(dot_sum(a.rows[2], v), most)};
   }
   static ISO_INLINE Vec3<V> less_moved(Vec3<V> right, const Mat3<L>& a, Vec3<V> v) {
-    return {with_headroom(right.x - round_with_headroom<V>(dot_sum(a.rows[0], v))),
-            with_headroom(right.y - round_with_headroom<V>(dot_sum(a.rows[1], v))),
-            with_headroom(right.z - round_with_headroom<V>(dot_sum(a.rows[2], v)))};
+    const Vec3<V> moved = {round_with_headroom<V>(dot_sum(a.rows[0], v)), round_with_headroom<V>(dot_sum(a.rows[1], v)),
+                           round_with_headroom<V>(dot_sum(a.rows[2], v))};
+    return with_headroom(right - moved);
   }
 
   // ---- right-hand sides
@@ -153,7 +152,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
       right -= bounded(times(number(step.softness.bias_rate), load(node.error)), detail::kJointPushSpeed<S>);
       if (shape.joints[of.joint].closes_loop) right -= times(number(detail::kClosingCompliance<S>), load(node.impulse));
     }
-    store(held(right), node.right);
+    store(with_headroom(right), node.right);
   }
   static ISO_INLINE void tell_drives(const TreeRun<S>& run, Memory m) {
     for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {

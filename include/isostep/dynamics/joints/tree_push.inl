@@ -9,8 +9,8 @@
 namespace isostep {
 namespace {
 
-/// Speeds of rows that are no point are held within half of the format, and so is what they do to a body: a pass with
-/// drives on wrong pieces leaves any.
+/// Speeds along rows are held within half of the format, and so is what impulses do to a body: a pass with drives on
+/// wrong pieces leaves any.
 template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Isa> {
   using Base = TreeFactoriser<S, W, Isa>;
   using Base::load;
@@ -33,7 +33,6 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
   static ISO_INLINE Vec3<V> choose(Mask mask, Vec3<V> a, Vec3<V> b) {
     return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
   }
-  static ISO_INLINE Vec3<V> held(Vec3<V> v) { return {with_headroom(v.x), with_headroom(v.y), with_headroom(v.z)}; }
   static ISO_INLINE Vec3<V> bounded(Vec3<V> v, Velocity<S> most) {
     const V high = V::broadcast(most), low = -high;
     return {clamp(v.x, low, high), clamp(v.y, low, high), clamp(v.z, low, high)};
@@ -103,10 +102,11 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     const Vec3<L> ra = load(joint.arm_a), rb = load(joint.arm_b);
     const Vec3<V> wa = load(a.angular), wb = load(b.angular);
     const Vec3<V> turning = {
-        round_to<V>(product(rb.z, wb.y) - product(rb.y, wb.z) - product(ra.z, wa.y) + product(ra.y, wa.z)),
-        round_to<V>(product(rb.x, wb.z) - product(rb.z, wb.x) - product(ra.x, wa.z) + product(ra.z, wa.x)),
-        round_to<V>(product(ra.x, wa.y) - product(ra.y, wa.x) - product(rb.x, wb.y) + product(rb.y, wb.x))};
-    return load(b.linear) - load(a.linear) + turning;
+        round_with_headroom<V>(product(rb.z, wb.y) - product(rb.y, wb.z) - product(ra.z, wa.y) + product(ra.y, wa.z)),
+        round_with_headroom<V>(product(rb.x, wb.z) - product(rb.z, wb.x) - product(ra.x, wa.z) + product(ra.z, wa.x)),
+        round_with_headroom<V>(product(ra.x, wa.y) - product(ra.y, wa.x) - product(rb.x, wb.y) + product(rb.y, wb.x))};
+    const Vec3<V> between = with_headroom(load(b.linear)) - with_headroom(load(a.linear));
+    return with_headroom(with_headroom(between) + turning);
   }
   static ISO_INLINE Vec3<L> row_of(const S (&field)[9][W], int r) {
     return {L::load(field[3 * r]), L::load(field[3 * r + 1]), L::load(field[3 * r + 2])};
@@ -115,7 +115,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     const auto turning =
         dot_sum(row_of(rows.angular_b, r), load(b.angular)) - dot_sum(row_of(rows.angular_a, r), load(a.angular));
     if (node.of_angles) return round_with_headroom<V>(turning);
-    const Vec3<V> between = held(load(b.linear)) - held(load(a.linear));
+    const Vec3<V> between = with_headroom(load(b.linear)) - with_headroom(load(a.linear));
     return round_with_headroom<V>(dot_sum(row_of(rows.linear, r), between) + turning);
   }
 
@@ -182,7 +182,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     Mat3<L> turn;  // rows of the places' turns
     if (node.is_point()) {
       turn = transpose(load(IsA ? joint.turn_a : joint.turn_b));
-      store(held(load(body.linear)) + place, body.linear);
+      store(with_headroom(load(body.linear)) + place, body.linear);
     } else {
       turn = load(IsA ? m.rows[node.rows].turn_a : m.rows[node.rows].turn_b);
       const Mat3<L> linear = load(m.rows[node.rows].linear);

@@ -187,14 +187,12 @@ void BodyRows<S>::store(const StepContext<S>& context, std::int32_t rate, std::s
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
   const V rapid = rapid_angular_speed<S>(context.hz);
   const V fast = max(angular_speed_to_follow<S>(rate), angular_speed_to_renew<S>(context.hz, false));
-  const V most = convert<V>(Limits<S>::angular_speed()) * V(4);
   for (std::size_t i = first; i < end; ++i) {
     BodyState<S>& state = context.states[i];
     const BodyProperties<S>& body = context.properties[i];
     MotionRow<V> row = rows_.velocity[i + 1];
     const bool turns = body.type == BodyType::dynamic && detail::turns_freely(body);
-    // What is far beyond the limit is cut when the body is finished, and said: its square need not fit.
-    if (turns && rapid < max_abs(row.angular) && !detail::is_longer(row.angular, most)) {
+    if (turns && rapid < max_abs(row.angular)) {
       const Mat3<Unit<S>> axes = detail::world_axes(state.orientation, body);
       const Gyro& gyro = gyro_[i];
       const Pace pace = detail::pace_of(max_abs(row.angular), gyro.solid, rapid, fast);

@@ -43,8 +43,7 @@ template <class S> ISO_INLINE Vec3<S> held_times(const Mat3<S>& m, Vec3<S> v) {
   return {held_dot(m.rows[0], v), held_dot(m.rows[1], v), held_dot(m.rows[2], v)};
 }
 template <class S> ISO_INLINE Vec3<S> held_sum(Vec3<S> a, Vec3<S> b) {
-  const Vec3<S> sum = saturating_add(a, b);
-  return {with_headroom(sum.x), with_headroom(sum.y), with_headroom(sum.z)};
+  return with_headroom(saturating_add(a, b));
 }
 template <class S> ISO_INLINE Wrench<S> operator+(const Wrench<S>& a, const Wrench<S>& b) {
   return {held_sum(a.torque, b.torque), held_sum(a.force, b.force)};

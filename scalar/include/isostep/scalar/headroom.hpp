@@ -22,11 +22,14 @@ template <class S> ISO_INLINE constexpr S with_headroom(S x) {
     return x;
   }
 }
-/// An exact sum as such a number.
+/// An exact sum as a number, held between -most and most.
+template <class Out, class Sum> ISO_INLINE constexpr Out round_within(Sum sum, Out most) {
+  return round_to<Out>(clamp(sum, -widen<Sum>(most), widen<Sum>(most)));
+}
+/// An exact sum as a number within half of its format.
 template <class Out, class Sum> ISO_INLINE constexpr Out round_with_headroom(Sum sum) {
   if constexpr (kIsFixed<Out>) {
-    const Sum half = widen<Sum>(detail::half_of_range<Out>());
-    return round_to<Out>(clamp(sum, -half, half));
+    return round_within<Out>(sum, detail::half_of_range<Out>());
   } else {
     return round_to<Out>(sum);
   }
