@@ -20,6 +20,7 @@
 
 namespace isostep {
 ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, float)
+template <> const BodyKernels<float>* body_kernels<float>(Simd) { return nullptr; }
 template <> const ContactKernels<float>* contact_kernels<float>(Simd) { return nullptr; }
 template <> const PairKernels<float>* pair_kernels<float>(Simd) { return nullptr; }
 template <> const TreeKernels<float>* tree_kernels<float>(Simd) { return nullptr; }

@@ -11,6 +11,24 @@ namespace isostep {
 /// in a time step of integration.
 enum class Pace { slow, brisk, fast };
 
+/// A slow solid after a free turn: its angular velocity, and that in the principal frame [rad/s].
+template <class V> struct SlowTurn { Vec3<V> angular_velocity, known; };
+
+/// What Euler's equations add to the angular velocity w, in the principal frame, over h.
+template <class S, class V, class H> ISO_INLINE Vec3<V> explicit_change(Vec3<S> euler, Vec3<V> w, H h) {
+  const auto times = [](auto a, V b) ISO_INLINE_LAMBDA { return round_to<V>(product(a, b)); };
+  const Vec3<V> hw = {times(h, w.x), times(h, w.y), times(h, w.z)};
+  return {times(euler.x, times(hw.y, w.z)), times(euler.y, times(hw.z, w.x)), times(euler.z, times(hw.x, w.y))};
+}
+/// The slow form of FreeTurn, of numbers or of lanes; `half` is one half in each lane.
+template <class U, class S, class V, class H>
+ISO_INLINE SlowTurn<V> slow_turn(const Mat3<U>& axes, Vec3<S> euler, Vec3<V> angular_velocity, H h, S half) {
+  const auto halved = [half](V x) ISO_INLINE_LAMBDA { return round_to<V>(product(half, x)); };
+  const Vec3<V> w = transposed_times(axes, angular_velocity), all = explicit_change(euler, w, h);
+  const Vec3<V> change = -explicit_change(euler, w + Vec3<V>{halved(all.x), halved(all.y), halved(all.z)}, h);
+  return {angular_velocity - axes * change, w - change};
+}
+
 /// Torque-free turning over time steps h, between which others push.
 ///
 /// One step: I (w' - w) + h m x I m = 0, m = (w + w') / 2, in the principal frame. The rule keeps |I w| and w I w; with
@@ -46,8 +64,13 @@ template <class S> struct FreeTurn {
   /// Turns. What is slow takes the explicit form, for others pushes since the last step first lose what they did too
   /// much. What the axes round is no push: taken for one it feeds on itself.
   ISO_INLINE Vec3<V> turn(Vec3<V> angular_velocity, Vec3<V>& known, Pace pace) const {
+    if (pace == Pace::slow) {
+      const SlowTurn<V> slowly = slow_turn(axes, euler, angular_velocity, h, S(0.5));
+      known = slowly.known;
+      return slowly.angular_velocity;
+    }
     const Vec3<V> w = local(angular_velocity);
-    Vec3<V> change = pace == Pace::slow ? -explicit_change(w + half(explicit_change(w))) : implicit_change(w, known);
+    Vec3<V> change = implicit_change(w, known);
     if (pace == Pace::fast) change = w - with_energy_of(w, w - change, false);
     known = w - change;
     return angular_velocity - world(change);
@@ -59,10 +82,7 @@ template <class S> struct FreeTurn {
     if (pace == Pace::fast) change = w - with_energy_of(w, w - change, true);
     return angular_velocity - world(change);
   }
-  ISO_INLINE Vec3<V> local(Vec3<V> angular_velocity) const {
-    const auto part = [&](int i) { return round_to<V>(dot_sum(axes.column(i), angular_velocity)); };
-    return {part(0), part(1), part(2)};
-  }
+  ISO_INLINE Vec3<V> local(Vec3<V> angular_velocity) const { return transposed_times(axes, angular_velocity); }
 
  private:
   /// `w` scaled to the energy of `like`, rounding aside, unless it may have less.
@@ -91,11 +111,6 @@ template <class S> struct FreeTurn {
             round_with_headroom<V>(product(hw.z, m.x) - product(hw.x, m.z)),
             round_with_headroom<V>(product(hw.x, m.y) - product(hw.y, m.x))};
   }
-  /// -h I^-1 f(w), by Euler's equations.
-  ISO_INLINE Vec3<V> explicit_change(Vec3<V> w) const {
-    const Vec3<V> hw = turned(w);
-    return {times(euler.x, times(hw.y, w.z)), times(euler.y, times(hw.z, w.x)), times(euler.z, times(hw.x, w.y))};
-  }
   ISO_INLINE Vec3<V> implicit_change(Vec3<V> w, Vec3<V> known) const {
     const Vec3<V> f = bend(w);
     const bool pushed = convert<V>(S(64) * resolution<S>()) < max_abs(w - known);
@@ -118,10 +133,7 @@ template <class S> struct FreeTurn {
     return {part(n12), part(n20), part(n01)};
   }
   /// Only changes go through the axes, which are not quite of unit length: all of the velocity would grow with them.
-  ISO_INLINE Vec3<V> world(Vec3<V> change) const {
-    const auto part = [&](int i) { return round_to<V>(dot_sum(axes.rows[i], change)); };
-    return {part(0), part(1), part(2)};
-  }
+  ISO_INLINE Vec3<V> world(Vec3<V> change) const { return axes * change; }
 };
 
 }  // namespace isostep

@@ -24,6 +24,17 @@ template <class V> struct alignas(8 * sizeof(V)) MotionRow {
   }
 };
 
+/// Acceleration asked for by forces, for this step alone.
+template <class S> struct Acceleration {
+  Vec3<S> linear;   // [m/s^2]
+  Vec3<S> angular;  // [rad/s^2]
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("linear", self.linear);
+    visit("angular", self.angular);
+  }
+};
+
 /// What turns faster about an axis counts as spinning [rad/s]: the orientation in which a step finds a body does not do
 /// for the whole of it. A sixteenth of a radian a step: less misdirects a torque by three hundredths on average.
 template <class S> ISO_INLINE Velocity<S> rapid_angular_speed(std::int32_t hz) {

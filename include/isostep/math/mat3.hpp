@@ -48,12 +48,13 @@ ISO_INLINE constexpr auto operator*(const Mat3<A>& a, const Mat3<B>& b) -> Mat3<
   return result;
 }
 
-/// The rotation matrix of a unit quaternion; entries exact before the one rounding.
-template <class U> ISO_INLINE constexpr Mat3<U> to_matrix(Quat<U> q) {
+/// The rotation matrix of a unit quaternion; entries exact before the one rounding. `unit` is one in each lane, of
+/// numbers U(1).
+template <class U> ISO_INLINE constexpr Mat3<U> to_matrix(Quat<U> q, U unit) {
   const auto xx = product(q.x, q.x), yy = product(q.y, q.y), zz = product(q.z, q.z);
   const auto xy = product(q.x, q.y), xz = product(q.x, q.z), yz = product(q.y, q.z);
   const auto wx = product(q.w, q.x), wy = product(q.w, q.y), wz = product(q.w, q.z);
-  const auto one = widen<Sum<U>>(U(1));
+  const auto one = widen<decltype(product(unit, unit))>(unit);
   // 2 (y^2 + z^2) is 2 at half a turn, which U cannot hold but the exact sum can.
   const auto twice = [](auto sum) ISO_INLINE_LAMBDA { return round_to<U>(sum + sum); };
   const auto rest = [one](auto sum) ISO_INLINE_LAMBDA { return round_to<U>(one - (sum + sum)); };
@@ -61,6 +62,7 @@ template <class U> ISO_INLINE constexpr Mat3<U> to_matrix(Quat<U> q) {
            {twice(xy + wz), rest(xx + zz), twice(yz - wx)},
            {twice(xz - wy), twice(yz + wx), rest(xx + yy)}}};
 }
+template <class U> ISO_INLINE constexpr Mat3<U> to_matrix(Quat<U> q) { return to_matrix(q, U(1)); }
 
 /// v turned by q, each component rounded once. For many vectors the matrix is cheaper, and gives the same bits.
 template <class U, class A> ISO_INLINE constexpr auto rotate(Quat<U> q, Vec3<A> v) -> Vec3<decltype(U{} * A{})> {

@@ -41,8 +41,8 @@ template <class U> ISO_INLINE Quat<U> normalise(Quat<U> q) {
 
 /// q turned by the small rotation vector `turn` [rad], world frame: first order, then normalised.
 /// Angle turned is 2 atan(|turn| / 2): short by |turn|^2 / 12 of itself. |turn| < 2 [rad], so the norm stays below 2.
-template <class U> ISO_INLINE Quat<U> integrate(Quat<U> q, Vec3<U> turn) {
-  const U half = U(0.5);
+/// `half` is one half in each lane, of numbers U(0.5).
+template <class U> ISO_INLINE Quat<U> integrate(Quat<U> q, Vec3<U> turn, U half) {
   const Vec3<U> d = turn * half;
   const Quat<U> turned = {q.x + round_to<U>(product(d.x, q.w) + product(d.y, q.z) - product(d.z, q.y)),
                           q.y + round_to<U>(product(d.y, q.w) - product(d.x, q.z) + product(d.z, q.x)),
@@ -50,6 +50,8 @@ template <class U> ISO_INLINE Quat<U> integrate(Quat<U> q, Vec3<U> turn) {
                           q.w - round_to<U>(product(d.x, q.x) + product(d.y, q.y) + product(d.z, q.z))};
   return normalise(turned);
 }
+
+template <class U> ISO_INLINE Quat<U> integrate(Quat<U> q, Vec3<U> turn) { return integrate(q, turn, U(0.5)); }
 
 /// The rotation by `angle` [rad] about the unit vector `axis`.
 template <class S> ISO_INLINE Quat<Unit<S>> rotation(Vec3<Unit<S>> axis, S angle) {

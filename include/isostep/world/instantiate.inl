@@ -20,6 +20,7 @@
 #include "isostep/dynamics/forces/force_list.inl"
 #include "isostep/dynamics/joints/joint_tree.inl"
 #include "isostep/dynamics/joints/tree_kernel.inl"
+#include "isostep/dynamics/solvers/body_kernel.inl"
 #include "isostep/dynamics/solvers/contact_kernel.inl"
 #include "isostep/dynamics/solvers/direct.inl"
 #include "isostep/dynamics/solvers/worst_first.inl"
@@ -99,6 +100,11 @@
   template <> const ContactKernels<OwnScalar>* contact_kernels<OwnScalar>(Simd simd) {                                \
     const bool here = simd == Simd::best || simd == Simd::scalar;                                                     \
     return here ? detail::kernel_table<ContactKernels<OwnScalar>, Simd::scalar>() : nullptr;                          \
+  }                                                                                                                   \
+  ISO_DECLARE_BODY_KERNELS(OwnScalar)                                                                                 \
+  ISO_DEFINE_SCALAR_BODY_KERNELS(OwnScalar)                                                                           \
+  template <> const BodyKernels<OwnScalar>* body_kernels<OwnScalar>(Simd) {                                           \
+    return detail::kernel_table<BodyKernels<OwnScalar>, Simd::scalar>();                                              \
   }                                                                                                                   \
   ISO_DECLARE_PAIR_KERNELS(OwnScalar)                                                                                 \
   ISO_DEFINE_SCALAR_PAIR_KERNELS(OwnScalar)                                                                           \

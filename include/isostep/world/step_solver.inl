@@ -69,6 +69,7 @@ StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geomet
           tools.runner,
           tools.contact_kernels,
           tools.tree_kernels,
+          tools.body_kernels,
           carried,
           forces_.substeps(),
           cut_,

@@ -5,6 +5,7 @@
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
 #include "isostep/core/task_runner.hpp"
 #include "isostep/dynamics/joints/tree_kernels.hpp"
+#include "isostep/dynamics/solvers/body_kernels.hpp"
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
 
 namespace isostep {
@@ -14,6 +15,7 @@ template <class S> struct StepTools {
   const ContactKernels<S>* contact_kernels;
   const PairKernels<S>* pair_kernels;
   const TreeKernels<S>* tree_kernels;
+  const BodyKernels<S>* body_kernels;
   TaskRunner runner;
 
   /// False, and no change, where this processor or build lacks the instruction set.
@@ -23,6 +25,7 @@ template <class S> struct StepTools {
     contact_kernels = kernels;
     pair_kernels = isostep::pair_kernels<S>(simd);
     tree_kernels = isostep::tree_kernels<S>(simd);
+    body_kernels = isostep::body_kernels<S>(simd);
     return true;
   }
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
 #include "isostep/dynamics/joints/tree_kernels.hpp"
+#include "isostep/dynamics/solvers/body_kernels.hpp"
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
 #include "isostep/particles/flight.hpp"
 
@@ -20,6 +21,10 @@ namespace isostep {
   }                                                                                                                   \
   template <> const TreeKernels<S>* tree_kernels<S>(Simd simd) { return choose_kernels<TreeKernels<S>>(simd); }       \
   template <> const FlightKernels<S>* flight_kernels<S>(Simd simd) { return choose_kernels<FlightKernels<S>>(simd); } \
+  template <> const BodyKernels<S>* body_kernels<S>(Simd simd) {                                                      \
+    const BodyKernels<S>* const kernels = choose_kernels<BodyKernels<S>>(simd);                                       \
+    return kernels != nullptr ? kernels : detail::kernel_table<BodyKernels<S>, Simd::scalar>();                       \
+  }                                                                                                                   \
   template <> const PairKernels<S>* pair_kernels<S>(Simd simd) {                                                      \
     const PairKernels<S>* const kernels = choose_kernels<PairKernels<S>>(simd);                                       \
     return kernels != nullptr ? kernels : detail::kernel_table<PairKernels<S>, Simd::scalar>();                       \

@@ -86,7 +86,8 @@ template <class S> class DirectWorld {
                                     false,
                                     {},
                                     contact_kernels<S>(Simd::scalar),
-                                    tree_kernels<S>(Simd::scalar)};
+                                    tree_kernels<S>(Simd::scalar),
+                                    body_kernels<S>(Simd::scalar)};
     solver.colour_constraints(context);
     solver.prepare(context);
     solver.solve_substeps(context);

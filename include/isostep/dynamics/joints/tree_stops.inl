@@ -68,18 +68,7 @@ template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa
     return some;
   }
 
-  /// to_matrix() of mat3.hpp.
-  static ISO_INLINE Mat3<U> matrix_of(Quat<U> q) {
-    const auto xx = product(q.x, q.x), yy = product(q.y, q.y), zz = product(q.z, q.z);
-    const auto xy = product(q.x, q.y), xz = product(q.x, q.z), yz = product(q.y, q.z);
-    const auto wx = product(q.w, q.x), wy = product(q.w, q.y), wz = product(q.w, q.z);
-    const auto one = widen<decltype(product(U{}, U{}))>(U::broadcast(Unit<S>(1)));
-    const auto twice = [](auto sum) ISO_INLINE_LAMBDA { return round_to<U>(sum + sum); };
-    const auto rest = [one](auto sum) ISO_INLINE_LAMBDA { return round_to<U>(one - (sum + sum)); };
-    return {{{rest(yy + zz), twice(xy - wz), twice(xz + wy)},
-             {twice(xy + wz), rest(xx + zz), twice(yz - wx)},
-             {twice(xz - wy), twice(yz + wx), rest(xx + yy)}}};
-  }
+  static ISO_INLINE Mat3<U> matrix_of(Quat<U> q) { return to_matrix(q, U::broadcast(Unit<S>(1))); }
 
  private:
   struct Frames {

@@ -16,17 +16,17 @@ namespace isostep {
 /// Threads: ranges of bodies that do not meet may be integrated side by side.
 template <class S> class BodyRows {
  public:
-  /// Once a step: velocities and masses of context.states, no displacement.
-  void gather(const StepContext<S>& context);
+  /// Once a step: velocities and masses of context.states, no displacement. Sub-steps take 1 / rate seconds.
+  void gather(const StepContext<S>& context, std::int32_t rate);
 
   /// Before the velocities of a sub-step.
-  ISO_INLINE void renew_forces(const StepContext<S>& context, std::int32_t rate) const {
-    if (context.forces.renew != nullptr) context.forces.renew(context.forces.forces, rows_, rate);
+  ISO_INLINE void renew_forces(const StepContext<S>& context) const {
+    if (context.forces.renew != nullptr) context.forces.renew(context.forces.forces, rows_, rate_);
   }
-  // Bodies first..end-1, by 1 / rate seconds.
-  void integrate_velocities(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end);
+  // Bodies first..end-1, by a sub-step.
+  void integrate_velocities(const StepContext<S>& context, std::size_t first, std::size_t end);
   /// Whether contacts are to follow any of them.
-  bool integrate_positions(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end);
+  bool integrate_positions(const StepContext<S>& context, std::size_t first, std::size_t end);
 
   /// Whether contacts follow the row's body, for it turns fast: contact_follow.hpp; any at all as the step began.
   ISO_INLINE bool is_followed(const StepContext<S>& context, std::uint32_t row) const {
@@ -38,31 +38,33 @@ template <class S> class BodyRows {
   /// The row's inertia about the world's axes becomes that of now.
   void renew_inertia(const StepContext<S>& context, std::uint32_t row);
 
-  /// Velocities back into context.states, after integration at that rate.
-  void store(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end) const;
+  /// Velocities back into context.states, after integration.
+  void store(const StepContext<S>& context, std::size_t first, std::size_t end) const;
 
   /// See rigid_solver.hpp.
-  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context);
+  template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage);
 
   ISO_INLINE std::size_t count() const { return rows_.mass.size() - 1; }
   ISO_INLINE SolverBodies<S>& rows() { return rows_; }
   ISO_INLINE const SolverBodies<S>& rows() const { return rows_; }
 
  private:
-  struct Gyro {
-    Vec3<S> inertia, euler;   // [1] gyroscopic.hpp
-    Vec3<Velocity<S>> known;  // [rad/s] principal frame: angular velocity after the last free turn
-    bool solid;
-  };
-
   static bool is_uneven(const BodyProperties<S>& body, std::int32_t hz, Velocity<S> angular_speed);
-  template <bool Special>
-  void move(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end);
-  bool limit_turn(const StepContext<S>& context, std::int32_t rate, std::size_t body);
+  BodyRun<S> run_of(const StepContext<S>& context, std::size_t first, std::size_t end);
+  void gather_turn(const BodyState<S>& state, const BodyProperties<S>& body, const Mat3<Unit<S>>& axes, std::size_t i);
+  void turn(const StepContext<S>& context, std::size_t body);
+  void finish_velocity(const StepContext<S>& context, std::size_t body, bool turned);
+  void move(const StepContext<S>& context, std::size_t body);
+  bool limit_turn(const StepContext<S>& context, std::size_t body);
 
   SolverBodies<S> rows_;
+  // One a body:
   std::vector<Vec3<S>> start_;  // [m] centres when the step began
-  std::vector<Gyro> gyro_;      // where the gyroscopic term acts
+  std::vector<std::uint8_t> kinds_;
+  std::vector<BodyFactors<S>> factors_;
+  std::vector<BodyTurn<S>> turns_;   // of those that turn freely
+  std::vector<std::uint32_t> left_;  // to be finished one by one
+  std::int32_t rate_ = 1;            // [1/s] sub-steps
   bool began_with_followed_ = false;
 };
 

@@ -20,6 +20,17 @@ template <class V> ISO_INLINE void hold_locks(std::uint32_t flags, MotionRow<V>&
   }
 }
 
+template <class S> ISO_INLINE std::uint8_t kind_of(const BodyProperties<S>& body) {
+  std::uint8_t kind = (body.flags & body_flag::kAllLocks) != 0 ? body_kind::kLocked : std::uint8_t{0};
+  if (body.type != BodyType::dynamic) return kind;
+  kind |= body_kind::kDriven;
+  if (body.linear_damping > S(0) || body.angular_damping > S(0)) kind |= body_kind::kDamped;
+  if ((body.flags & body_flag::kSpins) != 0) kind |= body_kind::kSpins;
+  if (turns_freely(body)) kind |= body_kind::kTurns;
+  if (!(body.principal == Quat<Unit<S>>::identity())) kind |= body_kind::kTilted;
+  return kind;
+}
+
 template <class V> ISO_INLINE Pace pace_of(V angular_speed, bool solid, V rapid, V fast) {
   if (fast < angular_speed) return Pace::fast;
   return solid && !(rapid < angular_speed) ? Pace::slow : Pace::brisk;
@@ -27,22 +38,31 @@ template <class V> ISO_INLINE Pace pace_of(V angular_speed, bool solid, V rapid,
 
 }  // namespace detail
 
-template <class S> void BodyRows<S>::gather(const StepContext<S>& context) {
+template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::int32_t rate) {
   const std::size_t count = context.states.size();
+  const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
+  rate_ = rate;
   rows_.velocity.resize(count + 1);
   rows_.displacement.assign(count + 1, MotionRow<Velocity<S>>::zero());
   rows_.mass.resize(count + 1);
   start_.resize(count);
-  gyro_.resize(count);
+  kinds_.resize(count);
+  factors_.resize(count);
+  turns_.resize(count);
+  left_.resize(count);
   const Velocity<S> fast = angular_speed_to_renew<S>(context.hz, true);
   began_with_followed_ = false;
   rows_.velocity[0] = MotionRow<Velocity<S>>::zero();
   rows_.mass[0] = {S(0), Mat3<S>::diagonal(Vec3<S>::zero())};
+  // Implicit: v' = v / (1 + h c), stable at any damping.
+  const auto keep = [h](S damping) ISO_INLINE_LAMBDA { return damping > S(0) ? S(1) / (S(1) + damping * h) : S(1); };
   for (std::size_t i = 0; i < count; ++i) {
     const BodyState<S>& state = context.states[i];
     const BodyProperties<S>& body = context.properties[i];
     start_[i] = state.centre;
     rows_.velocity[i + 1] = {state.velocity, Velocity<S>(0), state.angular_velocity, Velocity<S>(0)};
+    kinds_[i] = detail::kind_of(body);
+    factors_[i] = {body.gravity_scale, keep(body.linear_damping), keep(body.angular_damping), S(0)};
     SolverMass<S>& mass = rows_.mass[i + 1];
     if (body.type != BodyType::dynamic) {
       mass = rows_.mass[0];
@@ -55,87 +75,86 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context) {
     const bool spins = (body.flags & body_flag::kSpins) != 0;
     const Mat3<Unit<S>> axes = spins ? detail::world_axes(state.orientation, body) : Mat3<Unit<S>>{};
     mass.kappa = detail::world_kappa(body, axes);
-    if (!detail::turns_freely(body)) continue;
-    const S least = min(body.kappa.x, min(body.kappa.y, body.kappa.z));
-    const auto ratio = [&](S k) { return k > S(0) ? least / k : S(0); };
-    const Vec3<S> inertia = {ratio(body.kappa.x), ratio(body.kappa.y), ratio(body.kappa.z)};
-    const Vec3<S> euler = FreeTurn<S>::euler_of(inertia);
-    gyro_[i] = {inertia, euler, FreeTurn<S>{axes, inertia, euler, {}}.local(state.angular_velocity),
-                FreeTurn<S>::is_solid(euler)};
+    if (detail::turns_freely(body)) gather_turn(state, body, axes, i);
   }
 }
 
 template <class S>
-void BodyRows<S>::integrate_velocities(const StepContext<S>& context, std::int32_t rate, std::size_t first,
-                                       std::size_t end) {
-  using V = Velocity<S>;
-  const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
-  const V rapid = rapid_angular_speed<S>(context.hz), most = angular_speed_to_follow<S>(rate);
-  const V fast = max(most, angular_speed_to_renew<S>(context.hz, false));
-  const auto times = [](auto a, auto b) { return round_to<V>(product(a, b)); };
-  for (std::size_t i = first; i < end; ++i) {
-    const BodyProperties<S>& body = context.properties[i];
-    if (body.type != BodyType::dynamic) continue;
-    MotionRow<V>& row = rows_.velocity[i + 1];
-    Vec3<S> acceleration = body.gravity_scale == S(1) ? context.gravity : context.gravity * body.gravity_scale;
-    if (!context.accelerations.empty()) {
-      acceleration += context.accelerations[i].linear;
-      const Vec3<S> turning = context.accelerations[i].angular;
-      row.angular += {times(turning.x, h), times(turning.y, h), times(turning.z, h)};
-    }
-    row.linear += {times(acceleration.x, h), times(acceleration.y, h), times(acceleration.z, h)};
-    // Implicit: v' = v / (1 + h c), stable at any damping.
-    if (body.linear_damping > S(0)) {
-      const S keep = S(1) / (S(1) + body.linear_damping * h);
-      row.linear = {times(keep, row.linear.x), times(keep, row.linear.y), times(keep, row.linear.z)};
-    }
-    if (body.angular_damping > S(0)) {
-      const S keep = S(1) / (S(1) + body.angular_damping * h);
-      row.angular = {times(keep, row.angular.x), times(keep, row.angular.y), times(keep, row.angular.z)};
-    }
-    if ((body.flags & body_flag::kSpins) == 0) {
-      detail::hold_locks(body.flags, row);
-      continue;
-    }
-    const Mat3<Unit<S>> axes = detail::world_axes(context.states[i].orientation, body);
-    if (detail::turns_freely(body)) {
-      Gyro& gyro = gyro_[i];
-      const Pace pace = detail::pace_of(max_abs(row.angular), gyro.solid, rapid, fast);
-      row.angular = FreeTurn<S>{axes, gyro.inertia, gyro.euler, h}.turn(row.angular, gyro.known, pace);
-    }
-    detail::hold_locks(body.flags, row);
-    const V angular_speed = max_abs(row.angular);
-    if (rapid < angular_speed && angular_speed < most) rows_.mass[i + 1].kappa = detail::world_kappa(body, axes);
-  }
+void BodyRows<S>::gather_turn(const BodyState<S>& state, const BodyProperties<S>& body, const Mat3<Unit<S>>& axes,
+                              std::size_t i) {
+  const S least = min(body.kappa.x, min(body.kappa.y, body.kappa.z));
+  const auto ratio = [least](S k) { return k > S(0) ? least / k : S(0); };
+  BodyTurn<S>& turn = turns_[i];
+  turn.inertia = {ratio(body.kappa.x), ratio(body.kappa.y), ratio(body.kappa.z)};
+  turn.euler = FreeTurn<S>::euler_of(turn.inertia);
+  turn.known = transposed_times(axes, state.angular_velocity);
+  if (FreeTurn<S>::is_solid(turn.euler)) kinds_[i] |= body_kind::kSolid;
 }
 
-/// Looks first whether any is followed, or driven faster than the limit. Hardly ever is one: the loop that moves them
-/// is spared the question.
+template <class S> BodyRun<S> BodyRows<S>::run_of(const StepContext<S>& context, std::size_t first, std::size_t end) {
+  return {first,
+          end,
+          divide_to<Step<S>>(S(1), S(rate_)),
+          rapid_angular_speed<S>(context.hz),
+          min(angular_speed_to_renew<S>(context.hz, true), angular_speed_limit<S>(rate_) * Velocity<S>(0.5)),
+          context.gravity,
+          context.accelerations.empty() ? nullptr : context.accelerations.data(),
+          context.states.data(),
+          context.properties.data(),
+          rows_.velocity.data() + 1,
+          rows_.displacement.data() + 1,
+          start_.data(),
+          kinds_.data(),
+          factors_.data(),
+          turns_.data(),
+          left_.data()};
+}
+
 template <class S>
-bool BodyRows<S>::integrate_positions(const StepContext<S>& context, std::int32_t rate, std::size_t first,
-                                      std::size_t end) {
+void BodyRows<S>::integrate_velocities(const StepContext<S>& context, std::size_t first, std::size_t end) {
+  const std::size_t left = context.body_kernels->integrate_velocities(run_of(context, first, end));
+  for (std::size_t k = first; k < first + left; ++k) finish_velocity(context, left_[k] / 2, left_[k] % 2 == 0);
+}
+
+template <class S> void BodyRows<S>::finish_velocity(const StepContext<S>& context, std::size_t body, bool turned) {
   using V = Velocity<S>;
-  const V fastest = angular_speed_limit<S>(rate);
-  const V fast = min(angular_speed_to_renew<S>(context.hz, true), fastest * V(0.5));
-  bool any_driven = false, any_followed = false;
-  const MotionRow<V>* rows = rows_.velocity.data() + 1;
-  for (std::size_t i = first; i < end; ++i) {
-    const Vec3<V>& w = rows[i].angular;
-    if (!(fast < max(w.x, max(w.y, w.z)) || min(w.x, min(w.y, w.z)) < -fast)) continue;
-    if (limit_turn(context, rate, i)) any_followed = true;
-    else if (fastest < max_abs(w)) any_driven = true;
+  const BodyProperties<S>& properties = context.properties[body];
+  MotionRow<V>& row = rows_.velocity[body + 1];
+  const bool spins = (kinds_[body] & body_kind::kSpins) != 0;
+  if (!spins) return detail::hold_locks(properties.flags, row);
+  const V rapid = rapid_angular_speed<S>(context.hz), most = angular_speed_to_follow<S>(rate_);
+  const Mat3<Unit<S>> axes = detail::world_axes(context.states[body].orientation, properties);
+  if (!turned) {
+    BodyTurn<S>& turn = turns_[body];
+    const V fast = max(most, angular_speed_to_renew<S>(context.hz, false));
+    const bool solid = (kinds_[body] & body_kind::kSolid) != 0;
+    const Pace pace = detail::pace_of(max_abs(row.angular), solid, rapid, fast);
+    const Step<S> h = divide_to<Step<S>>(S(1), S(rate_));
+    row.angular = FreeTurn<S>{axes, turn.inertia, turn.euler, h}.turn(row.angular, turn.known, pace);
   }
-  if (any_followed || any_driven) move<true>(context, rate, first, end);
-  else move<false>(context, rate, first, end);
+  detail::hold_locks(properties.flags, row);
+  const V angular_speed = max_abs(row.angular);
+  if (rapid < angular_speed && angular_speed < most) rows_.mass[body + 1].kappa = detail::world_kappa(properties, axes);
+}
+
+template <class S>
+bool BodyRows<S>::integrate_positions(const StepContext<S>& context, std::size_t first, std::size_t end) {
+  const std::size_t left = context.body_kernels->integrate_positions(run_of(context, first, end));
+  bool any_followed = false;
+  for (std::size_t k = first; k < first + left; ++k) {
+    const std::size_t body = left_[k] / 2;
+    if (left_[k] % 2 != 0 && limit_turn(context, body)) any_followed = true;
+    move(context, body);
+  }
   return any_followed;
 }
 
 /// Whether contacts are to follow the body.
-template <class S> bool BodyRows<S>::limit_turn(const StepContext<S>& context, std::int32_t rate, std::size_t body) {
+template <class S> bool BodyRows<S>::limit_turn(const StepContext<S>& context, std::size_t body) {
   if (context.properties[body].type != BodyType::dynamic) return false;
   MotionRow<Velocity<S>>& row = rows_.velocity[body + 1];
   detail::hold_locks(context.properties[body].flags, row);
-  const Velocity<S> fastest = angular_speed_limit<S>(rate);
+  const Velocity<S> fastest = angular_speed_limit<S>(rate_);
   if (detail::is_longer(row.angular, fastest)) {
     row.angular = detail::shortened(row.angular, fastest);
     if (!context.cut.empty()) context.cut[body] = 1;
@@ -143,29 +162,24 @@ template <class S> bool BodyRows<S>::limit_turn(const StepContext<S>& context, s
   return is_followed(context, static_cast<std::uint32_t>(body + 1));
 }
 
-template <class S>
-template <bool Special>
-void BodyRows<S>::move(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end) {
+/// As the kernel, and what is locked or fast too.
+template <class S> void BodyRows<S>::move(const StepContext<S>& context, std::size_t body) {
   using V = Velocity<S>;
-  const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
-  const V fastest = angular_speed_limit<S>(rate);
-  const auto times = [](V a, Step<S> b) { return round_to<V>(product(a, b)); };
-  for (std::size_t i = first; i < end; ++i) {
-    MotionRow<V>& v = rows_.velocity[i + 1];
-    detail::hold_locks(context.properties[i].flags, v);
-    MotionRow<V>& d = rows_.displacement[i + 1];
-    BodyState<S>& state = context.states[i];
-    const Vec3<V> move = {times(v.linear.x, h), times(v.linear.y, h), times(v.linear.z, h)};
-    const auto turn = [&](V w) { return round_to<Unit<S>>(product(Special ? clamp(w, -fastest, fastest) : w, h)); };
-    // The centre follows the displacement, not the moves: where S is coarse, small moves add up before they round.
-    d.linear += move;
-    // The depth of contacts does not follow what turns so fast: the tangent of its arc would lead far from them.
-    if (!Special || !is_followed(context, static_cast<std::uint32_t>(i + 1)))
-      d.angular += {times(v.angular.x, h), times(v.angular.y, h), times(v.angular.z, h)};
-    state.centre = start_[i] + convert<S>(d.linear);
-    state.orientation =
-        integrate(state.orientation, Vec3<Unit<S>>{turn(v.angular.x), turn(v.angular.y), turn(v.angular.z)});
-  }
+  const Step<S> h = divide_to<Step<S>>(S(1), S(rate_));
+  const V fastest = angular_speed_limit<S>(rate_);
+  MotionRow<V>& v = rows_.velocity[body + 1];
+  detail::hold_locks(context.properties[body].flags, v);
+  MotionRow<V>& d = rows_.displacement[body + 1];
+  BodyState<S>& state = context.states[body];
+  const auto times = [h](V a) { return round_to<V>(product(a, h)); };
+  d.linear += {times(v.linear.x), times(v.linear.y), times(v.linear.z)};
+  // The depth of contacts does not follow what turns so fast: the tangent of its arc would lead far from them.
+  if (!is_followed(context, static_cast<std::uint32_t>(body + 1)))
+    d.angular += {times(v.angular.x), times(v.angular.y), times(v.angular.z)};
+  state.centre = start_[body] + convert<S>(d.linear);
+  const auto turn = [h, fastest](V w) { return round_to<Unit<S>>(product(clamp(w, -fastest, fastest), h)); };
+  state.orientation =
+      integrate(state.orientation, Vec3<Unit<S>>{turn(v.angular.x), turn(v.angular.y), turn(v.angular.z)});
 }
 
 /// What is as easy to turn about each axis stays so however it turns.
@@ -181,22 +195,20 @@ template <class S> void BodyRows<S>::renew_inertia(const StepContext<S>& context
   rows_.mass[row].kappa = detail::world_kappa(body, detail::world_axes(context.states[row - 1].orientation, body));
 }
 
-template <class S>
-void BodyRows<S>::store(const StepContext<S>& context, std::int32_t rate, std::size_t first, std::size_t end) const {
+template <class S> void BodyRows<S>::store(const StepContext<S>& context, std::size_t first, std::size_t end) const {
   using V = Velocity<S>;
-  const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
+  const Step<S> h = divide_to<Step<S>>(S(1), S(rate_));
   const V rapid = rapid_angular_speed<S>(context.hz);
-  const V fast = max(angular_speed_to_follow<S>(rate), angular_speed_to_renew<S>(context.hz, false));
+  const V fast = max(angular_speed_to_follow<S>(rate_), angular_speed_to_renew<S>(context.hz, false));
   for (std::size_t i = first; i < end; ++i) {
     BodyState<S>& state = context.states[i];
-    const BodyProperties<S>& body = context.properties[i];
     MotionRow<V> row = rows_.velocity[i + 1];
-    const bool turns = body.type == BodyType::dynamic && detail::turns_freely(body);
-    if (turns && rapid < max_abs(row.angular)) {
+    if ((kinds_[i] & body_kind::kTurns) != 0 && rapid < max_abs(row.angular)) {
+      const BodyProperties<S>& body = context.properties[i];
       const Mat3<Unit<S>> axes = detail::world_axes(state.orientation, body);
-      const Gyro& gyro = gyro_[i];
-      const Pace pace = detail::pace_of(max_abs(row.angular), gyro.solid, rapid, fast);
-      row.angular = FreeTurn<S>{axes, gyro.inertia, gyro.euler, h}.settle(row.angular, gyro.known, pace);
+      const BodyTurn<S>& turn = turns_[i];
+      const Pace pace = detail::pace_of(max_abs(row.angular), (kinds_[i] & body_kind::kSolid) != 0, rapid, fast);
+      row.angular = FreeTurn<S>{axes, turn.inertia, turn.euler, h}.settle(row.angular, turn.known, pace);
       detail::hold_locks(body.flags, row);
     }
     state.velocity = row.linear;

@@ -13,7 +13,7 @@ namespace isostep {
 
 template <class S> void DirectSolver<S>::colour_constraints(const StepContext<S>& context) {
   rate_ = integration_rate(SolverName::direct, context.hz, context.substeps);
-  bodies_.gather(context);
+  bodies_.gather(context, rate_);
   joints_.prepare(context, bodies_.rows());
   find_islands(context);
 }
@@ -193,8 +193,8 @@ template <class S> std::uint32_t DirectSolver<S>::unsolved() const {
 template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& context) {
   const std::size_t count = bodies_.count();
   for (std::int32_t substep = 0; substep < context.substeps; ++substep) {
-    bodies_.renew_forces(context, rate_);
-    bodies_.integrate_velocities(context, rate_, 0, count);
+    bodies_.renew_forces(context);
+    bodies_.integrate_velocities(context, 0, count);
     for (const Carried<S>& carried : context.carried) {
       Block& block = block_of(context, carried.contact);
       set_surface<S>(reinterpret_cast<unsigned char*>(&block), 1, carried.surface(bodies_.rows()));
@@ -205,7 +205,7 @@ template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& co
       place_rows(context, islands_[i]);
       solve(context, islands_[i], Pass::biased);
     }
-    const bool any_followed = bodies_.integrate_positions(context, rate_, 0, count);
+    const bool any_followed = bodies_.integrate_positions(context, 0, count);
     for (std::uint32_t i = 0; i < island_count_; ++i) {
       Island& island = islands_[i];
       if (any_followed) follow(context, island);
@@ -241,7 +241,7 @@ template <class S> void DirectSolver<S>::store_impulses(const StepContext<S>& co
     kernels.store({memory_[c].bytes, 1, static_cast<std::int32_t>(points), rolls(context, c), &order_[c],
                    context.contacts.data(), context.step_impulses.data()});
   }
-  bodies_.store(context, rate_, 0, bodies_.count());
+  bodies_.store(context, 0, bodies_.count());
   joints_.store(context);
 }
 

@@ -61,7 +61,7 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     case Work::respond: return solver.respond(job.context);
     case Work::relieve: return solver.relieve(job.context);
     case Work::add_joint_impulses: return solver.joints_.add_impulses(job.context);
-    case Work::renew_forces: return solver.bodies_.renew_forces(job.context, solver.schedule_.rate);
+    case Work::renew_forces: return solver.bodies_.renew_forces(job.context);
     case Work::warm_start_joints:
     case Work::solve_joints:
     case Work::relax_joints:
@@ -88,11 +88,9 @@ template <class S> void Sequential<S>::do_bodies(const Job& job, Work work, std:
   const std::size_t count = job.context.states.size();
   const std::size_t first = count * piece / body_pieces_, end = count * (piece + 1) / body_pieces_;
   switch (work) {
-    case Work::integrate_velocities: return bodies_.integrate_velocities(job.context, schedule_.rate, first, end);
-    case Work::integrate_positions:
-      any_followed_[piece] = bodies_.integrate_positions(job.context, schedule_.rate, first, end);
-      return;
-    default: return bodies_.store(job.context, schedule_.rate, first, end);
+    case Work::integrate_velocities: return bodies_.integrate_velocities(job.context, first, end);
+    case Work::integrate_positions: any_followed_[piece] = bodies_.integrate_positions(job.context, first, end); return;
+    default: return bodies_.store(job.context, first, end);
   }
 }
 

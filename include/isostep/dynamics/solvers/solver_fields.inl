@@ -14,9 +14,7 @@
 
 namespace isostep {
 
-template <class S>
-template <class Visit>
-void BodyRows<S>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context) {
+template <class S> template <class Visit> void BodyRows<S>::visit_scratch(const Visit& visit, SolverStage stage) {
   if (stage == SolverStage::prepare || stage == SolverStage::store) return;
   visit("solver_velocity", rows_.velocity);
   visit("solver_displacement", rows_.displacement);
@@ -25,12 +23,11 @@ void BodyRows<S>::visit_scratch(const Visit& visit, SolverStage stage, const Ste
     visit("solver_mass", rows_.mass);
     visit("solver_start", start_);
   }
-  for (std::size_t i = 0; i < gyro_.size(); ++i) {  // the rest are those of other steps
-    const BodyProperties<S>& body = context.properties[i];
-    if (body.type != BodyType::dynamic || !detail::turns_freely(body)) continue;
+  for (std::size_t i = 0; i < turns_.size(); ++i) {  // the rest are those of other steps
+    if ((kinds_[i] & body_kind::kTurns) == 0) continue;
     visit.one("solver_inertia", i, [&](const auto& of_body) {
-      if (begun) of_body("moments", gyro_[i].inertia);
-      of_body("known", gyro_[i].known);
+      if (begun) of_body("moments", turns_[i].inertia);
+      of_body("known", turns_[i].known);
     });
   }
 }
@@ -71,11 +68,10 @@ template <class S> template <class Visit> void PreparedJoints<S>::visit_scratch(
 
 /// What every solver has: its joints and its bodies.
 template <class S, class Visit>
-void visit_rows(const Visit& visit, SolverStage stage, const StepContext<S>& context, PreparedJoints<S>& joints,
-                BodyRows<S>& bodies) {
+void visit_rows(const Visit& visit, SolverStage stage, PreparedJoints<S>& joints, BodyRows<S>& bodies) {
   if (stage == SolverStage::colour || stage == SolverStage::solve)
     joints.visit_scratch(visit, stage == SolverStage::solve);
-  bodies.visit_scratch(visit, stage, context);
+  bodies.visit_scratch(visit, stage);
 }
 
 // ---- soft step and projected Gauss-Seidel
@@ -84,8 +80,8 @@ void visit_rows(const Visit& visit, SolverStage stage, const StepContext<S>& con
 /// this machine's own.
 template <class S>
 template <class Visit>
-void Sequential<S>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context) {
-  visit_rows(visit, stage, context, joints_, bodies_);
+void Sequential<S>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>&) {
+  visit_rows(visit, stage, joints_, bodies_);
   if (stage == SolverStage::store) return;
   if (stage == SolverStage::colour) {
     visit("colours", bucket_);
@@ -111,8 +107,8 @@ void Sequential<S>::visit_scratch(const Visit& visit, SolverStage stage, const S
 
 template <class S, class Queue>
 template <class Visit>
-void WorstFirstResolver<S, Queue>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context) {
-  visit_rows(visit, stage, context, joints_, bodies_);
+void WorstFirstResolver<S, Queue>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>&) {
+  visit_rows(visit, stage, joints_, bodies_);
   if (stage == SolverStage::colour) {
     visit("points", points_);
     visit("rolling", rolling_);
@@ -138,7 +134,7 @@ void WorstFirstResolver<S, Queue>::visit_scratch(const Visit& visit, SolverStage
 template <class S>
 template <class Visit>
 void DirectSolver<S>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context) {
-  visit_rows(visit, stage, context, joints_, bodies_);
+  visit_rows(visit, stage, joints_, bodies_);
   if (stage == SolverStage::store) return;
   if (stage != SolverStage::colour) {
     for (std::uint32_t c = 0; c < context.contacts.size(); ++c) {

@@ -16,21 +16,11 @@
 #include "isostep/dynamics/projection.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/dynamics/solver_name.hpp"
+#include "isostep/dynamics/solvers/body_kernels.hpp"
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
 #include "isostep/geometry/limits.hpp"
 
 namespace isostep {
-
-/// Acceleration asked for by forces, for this step alone.
-template <class S> struct Acceleration {
-  Vec3<S> linear;   // [m/s^2]
-  Vec3<S> angular;  // [rad/s^2]
-
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("linear", self.linear);
-    visit("angular", self.angular);
-  }
-};
 
 /// Renews StepContext::accelerations as a sub-step begins, where forces depend on how bodies lie and move. Called by
 /// one thread, before velocities are integrated over 1 / rate seconds. No function: they are the same throughout.
@@ -64,6 +54,7 @@ template <class S> struct StepContext {
   TaskRunner runner;      // changes no bit
   const ContactKernels<S>* contact_kernels;
   const TreeKernels<S>* tree_kernels;
+  const BodyKernels<S>* body_kernels;
   std::span<const Carried<S>> carried = {};  // ascending by contact
   SubstepForces<S> forces = {};
   std::span<std::uint8_t> cut = {};  // per body, or empty: set to 1 where angular_speed_limit cuts its velocity

@@ -11,7 +11,7 @@
 namespace isostep {
 
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::colour_constraints(const StepContext<S>& context) {
-  bodies_.gather(context);
+  bodies_.gather(context, integration_rate(SolverName::worst_first, context.hz, context.substeps));
   joints_.prepare(context, bodies_.rows());
   gained_.resize(bodies_.rows().velocity.size());
   const SolverBodies<S>& bodies = bodies_.rows();
@@ -254,7 +254,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::solve_substep
               else resolve_motion(joint(i), step);
             },
             1);
-    any_followed_ = bodies_.integrate_positions(context, rate, 0, bodies_.count());
+    any_followed_ = bodies_.integrate_positions(context, 0, bodies_.count());
     if (any_followed_) follow(context);
     begin_positions(step);
     resolve([&](std::uint32_t i) { return i < points ? overlap_urgency(points_[i]) : error_urgency(joint(i), step); },
@@ -291,7 +291,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::store_impulse
       contact.friction_impulse = saturated_sum<S>(contact.friction_impulse, part);
     }
   }
-  bodies_.store(context, integration_rate(SolverName::worst_first, context.hz, context.substeps), 0, bodies_.count());
+  bodies_.store(context, 0, bodies_.count());
   joints_.store(context);
 }
 

@@ -24,10 +24,9 @@ template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::begin_velocities(const StepContext<S>& context, const JointStep<S>& step) {
   SolverBodies<S>& bodies = bodies_.rows();
   restitution_threshold_ = context.restitution_threshold;
-  const std::int32_t rate = integration_rate(SolverName::worst_first, context.hz, context.substeps);
   for (std::size_t i = 0; i < gained_.size(); ++i) gained_[i] = bodies.velocity[i];
-  bodies_.renew_forces(context, rate);
-  bodies_.integrate_velocities(context, rate, 0, bodies_.count());
+  bodies_.renew_forces(context);
+  bodies_.integrate_velocities(context, 0, bodies_.count());
   carry(context);
   // A gap wider than a sub-step covers at 64 m/s counts as that: times the rate it fits.
   const V widest = divide_to<V>(S(64), step.rate);

@@ -30,6 +30,32 @@ template <class S, int W, class Isa> ISO_INLINE Lanes<S, W, Isa> root(Lanes<S, W
   }
 }
 
+/// normalise4() of scalar/math.hpp, lane by lane.
+template <class U, int W, class Isa>
+ISO_INLINE void normalise4(Lanes<U, W, Isa>& x, Lanes<U, W, Isa>& y, Lanes<U, W, Isa>& z, Lanes<U, W, Isa>& w) {
+  using L = Lanes<U, W, Isa>;
+  if constexpr (kIsFixed<U>) {
+    alignas(kLaneAlignment<U, W>) U q[4][W];
+    x.store(q[0]);
+    y.store(q[1]);
+    z.store(q[2]);
+    w.store(q[3]);
+    for (int i = 0; i < W; ++i) normalise4(q[0][i], q[1][i], q[2][i], q[3][i]);
+    x = L::load(q[0]);
+    y = L::load(q[1]);
+    z = L::load(q[2]);
+    w = L::load(q[3]);
+  } else {
+    const L squared = x * x + y * y + z * z + w * w;
+    const auto lost = equal(squared, L::zero());
+    const L inverse = L::broadcast(U(1)) / sqrt(squared);
+    x = select(lost, x, x * inverse);
+    y = select(lost, y, y * inverse);
+    z = select(lost, z, z * inverse);
+    w = select(lost, L::broadcast(U(1)), w * inverse);
+  }
+}
+
 /// a / b where the mask says so, zero elsewhere. Fixed point divides those lanes alone, for its divisions are dear.
 template <class Out, class Mask, class A, class B, int W, class Isa>
 ISO_INLINE Out quotient_where(Mask mask, Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {

@@ -1,0 +1,83 @@
+// The kernels that integrate bodies, as a table: one for each instruction set, chosen at run time, all giving the same
+// bits.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/core/simd.hpp"
+#include "isostep/dynamics/body.hpp"
+#include "isostep/dynamics/solver_body.hpp"
+
+namespace isostep {
+
+/// Bits that say how a body is integrated.
+namespace body_kind {
+inline constexpr std::uint8_t kDriven = 1;   // by forces and damping: it is dynamic
+inline constexpr std::uint8_t kDamped = 2;   // a factor of its BodyFactors is not one
+inline constexpr std::uint8_t kLocked = 4;   // along or about an axis of the world
+inline constexpr std::uint8_t kSpins = 8;    // its inertia differs between axes
+inline constexpr std::uint8_t kTurns = 16;   // free turning changes its angular velocity
+inline constexpr std::uint8_t kSolid = 32;   // its moments are those of a solid: FreeTurn::is_solid
+inline constexpr std::uint8_t kTilted = 64;  // its principal axes are not its own
+}  // namespace body_kind
+
+/// What forces and damping do to a body in a sub-step.
+template <class S> struct BodyFactors {
+  S gravity_scale, linear_keep, angular_keep;  // [1]
+  S reserved;                                  // 0: rows of four numbers
+};
+
+/// Free turning: gyroscopic.hpp. Rows of four numbers.
+template <class S> struct BodyTurn {
+  Vec3<S> euler;  // [1]
+  S pad0;
+  Vec3<Velocity<S>> known;  // [rad/s] principal frame: angular velocity after the last free turn
+  Velocity<S> pad1;
+  Vec3<S> inertia;  // [1]
+  S pad2;
+};
+
+/// Bodies first..end-1 over one sub-step; each pointer is to what body 0 has.
+template <class S> struct BodyRun {
+  std::size_t first, end;
+  Step<S> h;                             // [s]
+  Velocity<S> rapid;                     // [rad/s] what turns faster about an axis is left after its forces
+  Velocity<S> fast;                      // [rad/s] what turns faster about an axis is left where it is
+  Vec3<S> gravity;                       // [m/s^2]
+  const Acceleration<S>* accelerations;  // or null
+  BodyState<S>* states;
+  const BodyProperties<S>* properties;
+  MotionRow<Velocity<S>>* velocity;
+  MotionRow<Velocity<S>>* displacement;
+  const Vec3<S>* start;  // [m] centres when the step began
+  const std::uint8_t* kinds;
+  const BodyFactors<S>* factors;
+  BodyTurn<S>* turns;
+  std::uint32_t* left;  // place for one number a body
+};
+
+/// Each returns how many bodies it leaves to be finished one by one. run.left[first...] names them in order: 2 i or
+/// 2 i + 1 for body i.
+/// Velocities: forces, damping and free turning of what turns slowly. Left are locked bodies, 2 i, and rapid ones,
+///             2 i + 1 if they have still to turn.
+/// Positions:  left are locked bodies, 2 i, and fast ones, 2 i + 1: they have not moved.
+template <class S> struct BodyKernels {
+  const char* name;
+  std::int32_t width;
+  std::size_t (*integrate_velocities)(const BodyRun<S>&);
+  std::size_t (*integrate_positions)(const BodyRun<S>&);
+};
+
+/// The kernels for `simd`; those of one lane where there are none. Every scalar has its own full specialisation, a
+/// strong symbol.
+template <class S> const BodyKernels<S>* body_kernels(Simd simd);
+
+#define ISO_DECLARE_BODY_KERNELS(S)         \
+  ISO_DECLARE_KERNEL_TABLES(BodyKernels<S>) \
+  template <> const BodyKernels<S>* body_kernels<S>(Simd simd);
+ISO_FOR_EACH_SCALAR(ISO_DECLARE_BODY_KERNELS)
+
+}  // namespace isostep
