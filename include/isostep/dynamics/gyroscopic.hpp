@@ -11,6 +11,7 @@ namespace isostep {
 /// in a time step of integration.
 enum class Pace { slow, brisk, fast };
 
+namespace detail {
 /// A slow solid after a free turn: its angular velocity, and that in the principal frame [rad/s].
 template <class V> struct SlowTurn { Vec3<V> angular_velocity, known; };
 
@@ -28,6 +29,7 @@ ISO_INLINE SlowTurn<V> slow_turn(const Mat3<U>& axes, Vec3<S> euler, Vec3<V> ang
   const Vec3<V> change = -explicit_change(euler, w + Vec3<V>{halved(all.x), halved(all.y), halved(all.z)}, h);
   return {angular_velocity - axes * change, w - change};
 }
+}  // namespace detail
 
 /// Torque-free turning over time steps h, between which others push.
 ///
@@ -65,7 +67,7 @@ template <class S> struct FreeTurn {
   /// much. What the axes round is no push: taken for one it feeds on itself.
   ISO_INLINE Vec3<V> turn(Vec3<V> angular_velocity, Vec3<V>& known, Pace pace) const {
     if (pace == Pace::slow) {
-      const SlowTurn<V> slowly = slow_turn(axes, euler, angular_velocity, h, S(0.5));
+      const detail::SlowTurn<V> slowly = detail::slow_turn(axes, euler, angular_velocity, h, S(0.5));
       known = slowly.known;
       return slowly.angular_velocity;
     }

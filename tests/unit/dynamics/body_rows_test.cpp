@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -16,6 +17,16 @@ namespace {
 
 constexpr std::int32_t kHz = 60, kRate = 240;
 constexpr double kRapid = kHz / 16.0, kSubstep = 1.0 / kRate;
+
+/// What a step leaves beside the states.
+template <class S> struct After {
+  std::vector<MotionRow<Velocity<S>>> displacement;
+  std::vector<SolverMass<S>> mass;
+  std::uint32_t followed = 0;  // sub-steps after which contacts had to follow a body
+};
+template <class T> bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
 
 template <class S> struct Scene {
   using V = Velocity<S>;
@@ -38,18 +49,24 @@ template <class S> struct Scene {
     return c;
   }
   /// A step without contacts or joints, each sub-step in that many pieces.
-  void step(Simd simd, std::size_t pieces) {
+  After<S> step(Simd simd, std::size_t pieces) {
     const StepContext<S> c = context(body_kernels<S>(simd));
     BodyRows<S> rows;
     rows.gather(c, kRate);
+    After<S> after;
     const auto each = [&](const auto& act) {
       for (std::size_t k = 0; k < pieces; ++k) act(states.size() * k / pieces, states.size() * (k + 1) / pieces);
     };
     for (std::int32_t substep = 0; substep < c.substeps; ++substep) {
+      bool followed = false;
       each([&](std::size_t first, std::size_t end) { rows.integrate_velocities(c, first, end); });
-      each([&](std::size_t first, std::size_t end) { rows.integrate_positions(c, first, end); });
+      each([&](std::size_t first, std::size_t end) { followed = rows.integrate_positions(c, first, end) || followed; });
+      after.followed += followed ? 1u : 0u;
     }
     each([&](std::size_t first, std::size_t end) { rows.store(c, first, end); });
+    after.displacement = rows.rows().displacement;
+    after.mass = rows.rows().mass;
+    return after;
   }
 };
 
@@ -109,38 +126,50 @@ TYPED_TEST_SUITE(BodyRowsOf, Scalars, ScalarName);
 
 TYPED_TEST(BodyRowsOf, EveryWidthAndEveryPieceGiveTheBitsOfOneLane) {
   using S = TypeParam;
-  std::size_t cut = 0, turned = 0;
+  std::size_t cut = 0, followed = 0, renewed = 0, wide = 0;
   for (std::uint64_t seed = 0; seed < 24; ++seed) {
     const std::size_t count = 1 + 7 * seed;
     const Scene<S> start = scene_of<S>(count, seed % 2 == 0, seed);
     Scene<S> one = start;
-    one.step(Simd::scalar, 1);
-    for (std::size_t i = 0; i < count; ++i) {
-      cut += one.cut[i];
-      turned += one.states[i].angular_velocity == start.states[i].angular_velocity ? 0u : 1u;
-    }
+    const After<S> expected = one.step(Simd::scalar, 1);
+    for (const std::uint8_t was : one.cut) cut += was;
+    followed += expected.followed;
+    BodyRows<S> begun;
+    begun.gather(Scene<S>(start).context(nullptr), kRate);
+    for (std::size_t i = 1; i <= count; ++i)
+      renewed += begun.rows().mass[i].kappa.rows[0] == expected.mass[i].kappa.rows[0] ? 0u : 1u;
     for (const Simd simd : {Simd::best, Simd::sse2, Simd::avx2, Simd::avx512, Simd::neon, Simd::wasm}) {
-      if (body_kernels<S>(simd) == nullptr) continue;
+      const BodyKernels<S>* kernels = body_kernels<S>(simd);
+      if (kernels == body_kernels<S>(Simd::scalar)) continue;
+      ++wide;
       for (const std::size_t pieces : {1u, 3u}) {
         Scene<S> many = start;
-        many.step(simd, pieces);
-        ASSERT_EQ(std::memcmp(one.states.data(), many.states.data(), count * sizeof(BodyState<S>)), 0)
-            << body_kernels<S>(simd)->name << " seed " << seed << " pieces " << pieces;
-        ASSERT_EQ(one.cut, many.cut);
+        const After<S> after = many.step(simd, pieces);
+        const testing::Message where = testing::Message() << kernels->name << " seed " << seed << " pieces " << pieces;
+        ASSERT_TRUE(same_bits(one.states, many.states)) << where;
+        ASSERT_TRUE(same_bits(expected.displacement, after.displacement)) << where;
+        ASSERT_TRUE(same_bits(expected.mass, after.mass)) << where;
+        ASSERT_EQ(expected.followed, after.followed) << where;
+        ASSERT_EQ(one.cut, many.cut) << where;
       }
     }
   }
   EXPECT_GT(cut, 100u);
-  EXPECT_GT(turned, 1000u);
+  EXPECT_GT(followed, 10u);
+  EXPECT_GT(renewed, 50u);
+  if (body_kernels<S>(Simd::best)->width > 1) EXPECT_GT(wide, 0u);
 }
 
-TYPED_TEST(BodyRowsOf, EachKindFollowsFromItsFormula) {
+/// [m/s] What a step may round: in Q16.16 a factor of damping is wrong by 2^-17, four times, of 20 m/s.
+template <class S> constexpr double kRounding = std::is_same_v<S, Q16_16> ? 0x1p-10 : 0x1p-16;
+
+TYPED_TEST(BodyRowsOf, MovesAndDampingFollowTheirFormulas) {
   using S = TypeParam;
-  const double near = std::is_same_v<S, Q16_16> ? 0x1p-9 : 0x1p-16;
   const Scene<S> start = scene_of<S>(400, true, 99);
   Scene<S> end = start;
   end.step(Simd::best, 1);
-  std::size_t kinematic = 0, locked = 0, damped = 0, slow = 0;
+  std::size_t kinematic = 0, locked = 0, damped = 0, round = 0;
+  double worst_v = 0, worst_x = 0, worst_w = 0;
   for (std::size_t i = 0; i < start.states.size(); ++i) {
     const BodyProperties<S>& body = start.properties[i];
     const BodyState<S>&before = start.states[i], &after = end.states[i];
@@ -166,23 +195,66 @@ TYPED_TEST(BodyRowsOf, EachKindFollowsFromItsFormula) {
         v = (v + a * kSubstep) * keep;
         x += v * kSubstep;
       }
-      EXPECT_NEAR(to_double(after.velocity[axis]), v, near * 20);
-      EXPECT_NEAR(to_double(after.centre[axis]), x, near * 20);
+      worst_v = std::max(worst_v, std::abs(to_double(after.velocity[axis]) - v));
+      worst_x = std::max(worst_x, std::abs(to_double(after.centre[axis]) - x));
     }
     const bool free = (body.flags & (body_flag::kSpins | body_flag::kAngularLocks)) == 0;
     if (!free || !(to_double(max_abs(before.angular_velocity)) < kRapid)) continue;
-    ++slow;
+    ++round;
     const double keep = 1 / (1 + to_double(body.angular_damping) * kSubstep);
     for (int axis = 0; axis < 3; ++axis) {
       double w = to_double(before.angular_velocity[axis]);
       for (int k = 0; k < kRate / kHz; ++k) w = (w + to_double(push.angular[axis]) * kSubstep) * keep;
-      EXPECT_NEAR(to_double(after.angular_velocity[axis]), w, near * 4);
+      worst_w = std::max(worst_w, std::abs(to_double(after.angular_velocity[axis]) - w));
     }
   }
+  EXPECT_LT(worst_v, kRounding<S>);
+  EXPECT_LT(worst_x, kRounding<S>);
+  EXPECT_LT(worst_w, kRounding<S>);
   EXPECT_GT(kinematic, 20u);
-  EXPECT_GT(locked, 20u);
+  EXPECT_GT(locked, 10u);
   EXPECT_GT(damped, 100u);
-  EXPECT_GT(slow, 50u);
+  EXPECT_GT(round, 50u);
+}
+
+/// Angular momentum over mass and a length squared, world [rad/s]: R diag(1 / kappa) R^T w.
+template <class S> Vec3<double> momentum(const BodyState<S>& state, const BodyProperties<S>& body) {
+  const Mat3<Unit<S>> axes = to_matrix(state.orientation * body.principal);
+  Vec3<double> sum = {0, 0, 0};
+  for (int k = 0; k < 3; ++k) {
+    const Vec3<Unit<S>> column = axes.column(k);
+    const Vec3<double> axis = {to_double(column.x), to_double(column.y), to_double(column.z)};
+    const Vec3<Velocity<S>> w = state.angular_velocity;
+    const double along = axis.x * to_double(w.x) + axis.y * to_double(w.y) + axis.z * to_double(w.z);
+    sum += axis * (along / to_double(body.kappa[k]));
+  }
+  return sum;
+}
+
+TYPED_TEST(BodyRowsOf, WhatTurnsFreelyKeepsItsMomentum) {
+  using S = TypeParam;
+  const Scene<S> start = scene_of<S>(600, false, 5);
+  Scene<S> end = start;
+  end.step(Simd::best, 1);
+  std::size_t free = 0;
+  double worst = 0, turned = 0;
+  for (std::size_t i = 0; i < start.states.size(); ++i) {
+    const BodyProperties<S>& body = start.properties[i];
+    const BodyState<S>&before = start.states[i], &after = end.states[i];
+    const bool spins = (body.flags & (body_flag::kSpins | body_flag::kAllLocks)) == body_flag::kSpins;
+    if (!spins || body.type != BodyType::dynamic || body.angular_damping > S(0)) continue;
+    if (!(to_double(max_abs(before.angular_velocity)) < kRapid)) continue;
+    ++free;
+    const Vec3<double> was = momentum(before, body);
+    BodyState<S> held = after;
+    held.angular_velocity = before.angular_velocity;
+    const Vec3<double> change = momentum(after, body) - was, if_held = momentum(held, body) - was;
+    worst = std::max(worst, std::sqrt(dot(change, change) / dot(was, was)));
+    turned = std::max(turned, std::sqrt(dot(if_held, if_held) / dot(was, was)));
+  }
+  EXPECT_LT(worst, 0.01);
+  EXPECT_GT(turned, 0.1);  // as much is lost where angular velocity stays as it is
+  EXPECT_GT(free, 50u);
 }
 
 }  // namespace

@@ -204,6 +204,36 @@ template <class L> void check_math() {
   }
 }
 
+/// Quaternions of any length up to two, of none too.
+template <class L> void check_quaternions() {
+  using U = typename isostep::Unit<L>::Scalar;
+  Random random{13};
+  std::size_t none = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    Block<isostep::Unit<L>> q[4];
+    U one[4][L::kWidth];
+    for (int i = 0; i < L::kWidth; ++i) {
+      const bool empty = random.below(8) == 0;
+      none += empty ? 1u : 0u;
+      for (int k = 0; k < 4; ++k) {
+        one[k][i] = empty ? U(0) : isostep::from_double<U>(static_cast<double>(random.below(2001) - 1000) / 1024);
+        q[k].lane[i] = one[k][i];
+      }
+      isostep::normalise4(one[0][i], one[1][i], one[2][i], one[3][i]);
+    }
+    auto x = q[0].load(), y = q[1].load(), z = q[2].load(), w = q[3].load();
+    isostep::normalise4(x, y, z, w);
+    x.store(q[0].lane);
+    y.store(q[1].lane);
+    z.store(q[2].lane);
+    w.store(q[3].lane);
+    for (int i = 0; i < L::kWidth; ++i) {
+      for (int k = 0; k < 4; ++k) ASSERT_TRUE(same_value<U>(q[k].lane[i], one[k][i])) << "lane " << i;
+    }
+  }
+  EXPECT_GT(none, 0u);
+}
+
 template <class L> void check_masks() {
   using Mask = typename L::Mask;
   constexpr int W = L::kWidth;
@@ -444,6 +474,7 @@ TYPED_TEST_SUITE_P(LanesTest);
 TYPED_TEST_P(LanesTest, ArithmeticAnswersTheScalarsBits) { check_arithmetic<TypeParam>(); }
 TYPED_TEST_P(LanesTest, ComparisonsAndSelectionsAnswerTheScalars) { check_masks<TypeParam>(); }
 TYPED_TEST_P(LanesTest, RootsQuotientsAndDirectionsAnswerTheScalars) { check_math<TypeParam>(); }
+TYPED_TEST_P(LanesTest, QuaternionsAreNormalisedAsScalarsAre) { check_quaternions<TypeParam>(); }
 TYPED_TEST_P(LanesTest, TransposesGatherAndScatterRecords) {
   check_transposes<4, TypeParam>();
   check_transposes<8, TypeParam>();
@@ -464,7 +495,7 @@ TYPED_TEST_P(LanesTest, HeadroomIsHalfOfTheFormat) { check_headroom<TypeParam>()
 TYPED_TEST_P(LanesTest, ReciprocalsAnswerTheScalars) { check_reciprocals<TypeParam>(); }
 REGISTER_TYPED_TEST_SUITE_P(LanesTest, ReciprocalsAnswerTheScalars, SumsAreHeldWithinABound, HeadroomIsHalfOfTheFormat,
                             ArithmeticAnswersTheScalarsBits, ComparisonsAndSelectionsAnswerTheScalars,
-                            RootsQuotientsAndDirectionsAnswerTheScalars, TransposesGatherAndScatterRecords,
+                            RootsQuotientsAndDirectionsAnswerTheScalars, QuaternionsAreNormalisedAsScalarsAre, TransposesGatherAndScatterRecords,
                             SumsOfProductsRoundOnce);
 
 }  // namespace

@@ -3,8 +3,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <bit>
-
 #include "isostep/dynamics/gyroscopic.hpp"
 #include "isostep/dynamics/solvers/body_kernels.hpp"
 #include "isostep/scalar/lanes_math.hpp"
@@ -12,7 +10,7 @@
 namespace isostep {
 namespace {
 
-/// Order:   forces, damping, free turning; then moves. Lanes never meet.
+/// Order:   forces, damping, free turning; then moves. A lane does not depend on its neighbours.
 template <class S, int W, class Isa> struct BodyKernel {
   using L = Lanes<S, W, Isa>;
   using V = Lanes<Velocity<S>, W, Isa>;
@@ -62,7 +60,7 @@ template <class S, int W, class Isa> struct BodyKernel {
     ISO_UNROLL for (int from = 0; from < W; from += kBytes) {
       std::uint64_t bytes = 0;
       ISO_UNROLL for (int i = 0; i < kBytes; ++i) bytes |= std::uint64_t{kinds[from + i]} << (8 * i);
-      const std::uint64_t ones = (bytes >> std::countr_zero(bit)) & 0x0101010101010101u;
+      const std::uint64_t ones = (bytes >> first_bit(bit)) & 0x0101010101010101u;
       bits |= static_cast<std::uint32_t>(ones * 0x0102040810204080u >> 56) << from;
     }
     return bits;
@@ -78,7 +76,7 @@ template <class S, int W, class Isa> struct BodyKernel {
     return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
   }
 
-  /// Notes bodies as BodyRun::left has them.
+  /// Writes bodies into run.left as BodyKernels says.
   static ISO_INLINE void leave(const BodyRun<S>& run, std::size_t first, std::uint32_t rest, std::uint32_t odd,
                                std::size_t& left) {
     for (std::uint32_t i = 0; i < W && rest >> i != 0; ++i) {
@@ -113,7 +111,7 @@ template <class S, int W, class Isa> struct BodyKernel {
     m.angular = times(factor[2], m.angular);
   }
 
-  /// What turns slowly, that is; returns who else turns.
+  /// Turns solids that are slow; returns the bodies that have still to turn.
   static ISO_INLINE std::uint32_t turn(const BodyRun<S>& run, std::size_t first, std::uint32_t turns, H h, Motion& m) {
     const std::uint8_t* const kinds = run.kinds + first;
     const BodyProperties<S>* const properties = run.properties + first;
@@ -133,8 +131,8 @@ template <class S, int W, class Isa> struct BodyKernel {
     const Mat3<U> axes = to_matrix(q, U::broadcast(Unit<S>(1)));
     L euler[4];
     load_rows<4, S>([rows](int i) ISO_INLINE_LAMBDA { return &rows[i].euler.x; }, euler);
-    const SlowTurn<V> slowly =
-        slow_turn(axes, Vec3<L>{euler[0], euler[1], euler[2]}, m.angular, h, L::broadcast(S(0.5)));
+    const detail::SlowTurn<V> slowly =
+        detail::slow_turn(axes, Vec3<L>{euler[0], euler[1], euler[2]}, m.angular, h, L::broadcast(S(0.5)));
     const V known[4] = {slowly.known.x, slowly.known.y, slowly.known.z, V::zero()};
     store_rows<4, Velocity<S>>([rows](int i) ISO_INLINE_LAMBDA { return &rows[i].known.x; }, known, slow);
     m.angular = choose(Mask::from_bits(slow), slowly.angular_velocity, m.angular);
@@ -194,7 +192,7 @@ template <class S, int W, class Isa> struct BodyKernel {
   }
 };
 
-/// What no block is left for goes one by one.
+/// The last bodies, fewer than W, take one lane each.
 #define ISO_BODY_LOOP(NAME)                                                           \
   template <class S, int W, class Isa> std::size_t NAME##_of(const BodyRun<S>& run) { \
     std::size_t i = run.first, left = 0;                                              \
