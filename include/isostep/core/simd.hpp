@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// Which lanes step the constraints. Never changes a bit. `scalar` is one lane, the reference, on any machine; sse2 has
+/// Which lanes a step takes. Never changes a bit. `scalar` is one lane, the reference, on any machine; sse2 has
 /// four lanes of float or two of double, avx2 eight of 32 bits or four of 64, avx512 twice as many; neon (64-bit Arm)
 /// and wasm (WebAssembly's SIMD128) have four of 32 bits or two of double. `best` is the widest there is.
 #define ISO_ENUMERATOR(name, unused) name,

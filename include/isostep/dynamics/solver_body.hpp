@@ -1,4 +1,4 @@
-// Bodies as the solver sees them: rows of velocity and displacement that kernels gather, and the mass behind them.
+// Bodies as the solver sees them: rows of velocity and displacement that kernels gather, mass, accelerations asked for.
 // SPDX-License-Identifier: MIT
 #pragma once
 

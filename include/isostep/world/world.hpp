@@ -146,8 +146,8 @@ template <class S> class World final {
   bool apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point);
 
   // Joints.
-  /// A joint whose frames lie where `frame` (world) is now; a null id is the world. Add limits, motor, spring; then
-  /// create.
+  /// A joint whose frames lie where `frame` (world, a unit quaternion) is now; a null id is the world. Add limits,
+  /// motor, spring; then create.
   JointProperties<S> joint_at(JointType type, BodyId a, BodyId b, const Pose<S>& frame) const;
   /// The same of two frames that lie apart.
   JointProperties<S> joint_between(JointType type, BodyId a, const Pose<S>& frame_a, BodyId b,

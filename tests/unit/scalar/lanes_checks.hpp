@@ -495,7 +495,7 @@ TYPED_TEST_P(LanesTest, HeadroomIsHalfOfTheFormat) { check_headroom<TypeParam>()
 TYPED_TEST_P(LanesTest, ReciprocalsAnswerTheScalars) { check_reciprocals<TypeParam>(); }
 REGISTER_TYPED_TEST_SUITE_P(LanesTest, ReciprocalsAnswerTheScalars, SumsAreHeldWithinABound, HeadroomIsHalfOfTheFormat,
                             ArithmeticAnswersTheScalarsBits, ComparisonsAndSelectionsAnswerTheScalars,
-                            RootsQuotientsAndDirectionsAnswerTheScalars, QuaternionsAreNormalisedAsScalarsAre, TransposesGatherAndScatterRecords,
-                            SumsOfProductsRoundOnce);
+                            RootsQuotientsAndDirectionsAnswerTheScalars, QuaternionsAreNormalisedAsScalarsAre,
+                            TransposesGatherAndScatterRecords, SumsOfProductsRoundOnce);
 
 }  // namespace

@@ -21,7 +21,7 @@ inline constexpr std::uint8_t kLocked = 4;   // along or about an axis of the wo
 inline constexpr std::uint8_t kSpins = 8;    // its inertia differs between axes
 inline constexpr std::uint8_t kTurns = 16;   // free turning changes its angular velocity
 inline constexpr std::uint8_t kSolid = 32;   // its moments are those of a solid: FreeTurn::is_solid
-inline constexpr std::uint8_t kTilted = 64;  // its principal axes are not its own
+inline constexpr std::uint8_t kTilted = 64;  // its principal axes are not those of its frame
 }  // namespace body_kind
 
 /// What forces and damping do to a body in a sub-step.
@@ -44,8 +44,8 @@ template <class S> struct BodyTurn {
 template <class S> struct BodyRun {
   std::size_t first, end;
   Step<S> h;                             // [s]
-  Velocity<S> rapid;                     // [rad/s] what turns faster about an axis is left after its forces
-  Velocity<S> fast;                      // [rad/s] what turns faster about an axis is left where it is
+  Velocity<S> rapid;                     // [rad/s] what turns faster about an axis is finished one by one
+  Velocity<S> fast;                      // [rad/s] what turns faster about an axis moves one by one
   Vec3<S> gravity;                       // [m/s^2]
   const Acceleration<S>* accelerations;  // or null
   BodyState<S>* states;
@@ -59,11 +59,11 @@ template <class S> struct BodyRun {
   std::uint32_t* left;  // place for one number a body
 };
 
-/// Each returns how many bodies it leaves to be finished one by one. run.left[first...] names them in order: 2 i or
+/// Each returns how many bodies it leaves to be finished one by one; run.left[first...] names them in order, as 2 i or
 /// 2 i + 1 for body i.
-/// Velocities: forces, damping and free turning of what turns slowly. Left are locked bodies, 2 i, and rapid ones,
-///             2 i + 1 if they have still to turn.
-/// Positions:  left are locked bodies, 2 i, and fast ones, 2 i + 1: they have not moved.
+/// Velocities: forces, damping and free turning of slow solids. Left are what has still to turn, 2 i + 1, and bodies
+///             that are locked or, after they turned, rapid: 2 i.
+/// Positions:  left are fast bodies, 2 i + 1, and other locked ones, 2 i: neither has moved.
 template <class S> struct BodyKernels {
   const char* name;
   std::int32_t width;

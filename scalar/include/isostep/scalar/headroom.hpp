@@ -1,4 +1,4 @@
-// Numbers within half of what their format holds: two of them can be added without wrapping.
+// Numbers within half of what their format holds, two of which can be added without wrapping; sums within bounds.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,8 +7,8 @@
 namespace isostep {
 
 namespace detail {
-/// 2^(n - 2) - 1 of n bits: a whole number in every format that has more than two bits before the point. Twice
-/// 2^(n - 2) is one more than the format holds.
+/// 2^(n - 2) raw units of n bits, less one whole: a whole number, as bounds of lanes are, in every format that has more
+/// than two bits before the point. Twice 2^(n - 2) raw units would be one more than the format holds.
 template <class S> ISO_INLINE constexpr S half_of_range() {
   return S::from_raw(static_cast<typename S::Raw>((highest<S>().raw() >> 1) + 1)) - S(1);
 }

@@ -40,7 +40,7 @@ static_assert(sizeof(1.0) == sizeof(double), "isostep: compile without -fsingle-
 /// A function that touches a scalar must never leave a weak copy of itself in a user's object: that copy may have been
 /// compiled with -mfma and the linker may keep it for the whole program. Always inlining leaves nothing to keep.
 /// ISOSTEP_OUR_FLAGS: this file is compiled with our flags, as the library is, and for no instruction set that another
-/// lacks: its copies are as good as any. Then the compiler chooses, in a third of the time and of the size.
+/// lacks: its copies are as good as any. Then the compiler chooses, which is sooner and smaller.
 #if defined(ISOSTEP_OUR_FLAGS)
 #define ISO_INLINE inline
 #define ISO_INLINE_LAMBDA
