@@ -26,6 +26,8 @@ ISO_INSTANTIATE_ENGINE(@scalar@)
   target_link_libraries(${target} PRIVATE isostep::isostep)
   target_compile_definitions(${target} PUBLIC ISOSTEP_OWN_SCALARS)
   # A source's options come after its target's, so a target built with -mfma keeps exactness here.
+  # The compiler chooses what it inlines, in a quarter of the time, and leaves weak copies for the target's processor: a
+  # program with targets for several gives its scalar to the one for the oldest.
   get_target_property(flags isostep::deterministic_flags INTERFACE_COMPILE_OPTIONS)
   isostep_speed_flags(speed)
   set_source_files_properties(${file} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "${flags};${speed}"

@@ -64,7 +64,8 @@ base=$work/clean-system
 needed=gcc,g++,libc6-dev,pkgconf,cmake,make,python3,python3-numpy
 if [ ! -f "$base.tar" ]; then
   if have mmdebstrap; then
-    mmdebstrap --variant=minbase --dpkgopt=force-unsafe-io --include="$needed" "$VERSION_CODENAME" "$base.tar.new"
+    mmdebstrap --format=tar --variant=minbase --dpkgopt=force-unsafe-io --include="$needed" "$VERSION_CODENAME" \
+      "$base.tar.new"
   else
     rm -rf "$base.new" && debootstrap --variant=minbase --include="$needed" "$VERSION_CODENAME" "$base.new" \
       http://deb.debian.org/debian && tar -cf "$base.tar.new" -C "$base.new" . && rm -rf "$base.new"
