@@ -15,12 +15,13 @@ constexpr std::size_t kQuarantine =
     1024;  // closed cells that wait, so that a stale handle is not another object's soon
 
 #if defined(__wasm__)  // one thread, and a library without mutexes
-struct Mutex {
-  void lock() {}
-  void unlock() {}
+struct Mutex {};
+struct Lock {
+  explicit Lock(Mutex&) {}
 };
 #else
 using Mutex = std::mutex;
+using Lock = std::lock_guard<Mutex>;
 #endif
 
 struct Cells {
@@ -52,7 +53,7 @@ Cell* take(Cells& all) {
 
 Cell* open_cell(HandleKind kind, void* object) {
   Cells& all = cells();
-  const std::lock_guard<Mutex> lock(all.mutex);
+  [[maybe_unused]] const Lock lock(all.mutex);
   Cell* const cell = take(all);
   cell->object = object;
   cell->kind.store(kind, std::memory_order_release);
@@ -61,7 +62,7 @@ Cell* open_cell(HandleKind kind, void* object) {
 
 void close_cell(Cell* cell) {
   Cells& all = cells();
-  const std::lock_guard<Mutex> lock(all.mutex);
+  [[maybe_unused]] const Lock lock(all.mutex);
   cell->kind.store(HandleKind::none, std::memory_order_release);
   cell->object = nullptr;
   all.closed.push_back(cell);

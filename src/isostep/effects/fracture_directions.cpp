@@ -11,7 +11,7 @@ namespace isostep::detail {
 namespace {
 
 using Wide = Q32_32;
-constexpr int kDigits = 16;  // of kUnitLength
+constexpr int kDigits = 16;                  // of kSpokeLength
 constexpr std::int64_t kTurn = 26986075409;  // 2 pi 2^32
 
 GridVector on_grid(Vec3<Unit<Wide>> v) {
@@ -29,7 +29,7 @@ Frame3 frame_along(GridVector direction) {
 
 GridVector Frame3::combined(std::int64_t a, std::int64_t b, std::int64_t c) const {
   const auto component = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
-    return (a * x + b * y + c * z + kUnitLength / 2) >> kDigits;
+    return (a * x + b * y + c * z + kSpokeLength / 2) >> kDigits;
   };
   return {component(axis.x, t.x, u.x), component(axis.y, t.y, u.y), component(axis.z, t.z, u.z)};
 }

@@ -8,16 +8,16 @@
 
 namespace isostep::detail {
 
-inline constexpr std::int32_t kUnitLength = 1 << 16;  // of directions below, to their last digit
-inline constexpr std::uint32_t kQuarterTurn = 1u << 30, kHalfTurn = 1u << 31;  // [2^-32 turns]
+inline constexpr std::int32_t kSpokeLength = 1 << 16;  // of directions below, to their last digit
+inline constexpr std::uint32_t kQuarterCircle = 1u << 30, kHalfCircle = 1u << 31;  // [2^-32 turns]
 
-/// Three directions at right angles, of kUnitLength; along x t is y, as right hands count.
+/// Three directions at right angles, of kSpokeLength; along x t is y, as right hands count.
 struct Frame3 {
   GridVector axis, t, u;
 
   /// The direction across the axis at an angle [2^-32 turns] from t towards u.
   GridVector spoke(std::uint32_t turn) const;
-  /// (a axis + b t + c u) / kUnitLength, each component to nearest.
+  /// (a axis + b t + c u) / kSpokeLength, each component to nearest.
   GridVector combined(std::int64_t a, std::int64_t b, std::int64_t c) const;
 };
 /// Of any direction but zero, whose components are below 2^21.

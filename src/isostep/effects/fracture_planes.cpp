@@ -35,9 +35,9 @@ void cut_board(FractureShards& shards, std::size_t board, const GrainPlanes& pat
   std::size_t rest = board;
   const FractureCell whole = shards.shards[board].cell;
   for (std::uint32_t k = 0; k < pattern.across; ++k) {
-    const std::int32_t t = random_between(random, -kUnitLength / 8, kUnitLength / 8);
-    const std::int32_t u = random_between(random, -kUnitLength / 8, kUnitLength / 8);
-    const GridVector normal = frame.combined(kUnitLength, t, u);
+    const std::int32_t t = random_between(random, -kSpokeLength / 8, kSpokeLength / 8);
+    const std::int32_t u = random_between(random, -kSpokeLength / 8, kSpokeLength / 8);
+    const GridVector normal = frame.combined(kSpokeLength, t, u);
     const Span64 span = extent_along(whole, normal);
     const std::int64_t hit = clamp(dot(normal, fine(impact)), span.low, span.high);
     const std::int64_t even = place_between(span, k, pattern.across, random);

@@ -8,7 +8,7 @@ namespace {
 
 /// The plane that holds the line and a spoke; what comes before the spoke, within half a turn, is inside.
 FinePlane plane_of_spoke(const Frame3& frame, GridPoint centre, std::uint32_t turn) {
-  return plane_through(centre, frame.spoke(turn + kQuarterTurn));
+  return plane_through(centre, frame.spoke(turn + kQuarterCircle));
 }
 
 /// Whether more of a shard lies in the half turn after `turn` than before.
@@ -20,9 +20,9 @@ bool lies_after(const FractureShard& shard, const FinePlane& plane) {
 /// Cuts a shard that spans half a turn from `start` into `parts` sectors.
 void cut_sectors(FractureShards& shards, std::size_t shard, const Frame3& frame, GridPoint centre, std::uint32_t start,
                  std::uint32_t parts, Pcg32& random) {
-  const std::uint32_t width = kHalfTurn / parts;
+  const std::uint32_t width = kHalfCircle / parts;
   shards.shards[shard].from = start;
-  shards.shards[shard].to = start + kHalfTurn;
+  shards.shards[shard].to = start + kHalfCircle;
   std::size_t rest = shard;
   for (std::uint32_t k = 1; k < parts; ++k) {
     const std::uint32_t shift = random_below(random, width / 2);
@@ -40,7 +40,7 @@ GridVector middle_direction(const Frame3& frame, const FractureShard& shard) {
 
 /// Chords of rings 1 to n at (k / (n + 1))^2 of the way to the furthest corner, moved by up to a quarter of that step.
 void cut_rings(FractureShards& shards, const Frame3& frame, GridPoint centre, std::uint32_t rings, Pcg32& random) {
-  std::int64_t furthest = 0;  // [fine steps times kUnitLength]
+  std::int64_t furthest = 0;  // [fine steps times kSpokeLength]
   for (const FractureShard& shard : shards.shards) {
     const FinePlane middle = plane_through(centre, middle_direction(frame, shard));
     furthest = max(furthest, extent_along(shard.cell, middle.normal).high - middle.offset);
@@ -68,11 +68,11 @@ void shatter_radial(FractureShards& shards, const RadialCracks& pattern, const F
   const FinePlane plane = plane_of_spoke(frame, impact.point, start);
   if (shards.cut(0, plane)) {
     cut_sectors(shards, 1, frame, impact.point, start, first, random);
-    cut_sectors(shards, 0, frame, impact.point, start + kHalfTurn, pattern.sectors - first, random);
+    cut_sectors(shards, 0, frame, impact.point, start + kHalfCircle, pattern.sectors - first, random);
   } else {
     const bool after = lies_after(shards.shards[0], plane);
     const std::uint32_t parts = after ? first : pattern.sectors - first;
-    cut_sectors(shards, 0, frame, impact.point, after ? start : start + kHalfTurn, parts, random);
+    cut_sectors(shards, 0, frame, impact.point, after ? start : start + kHalfCircle, parts, random);
   }
   cut_rings(shards, frame, impact.point, pattern.rings, random);
 }
