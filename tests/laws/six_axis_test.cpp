@@ -74,6 +74,47 @@ TYPED_TEST(SixAxis, moves_along_the_axis_that_is_not_locked_and_along_no_other) 
   }
 }
 
+/// Full force past the speed that is asked for would carry it over both limits within a sub-step: a motor that leaves a
+/// stop takes its own speed first.
+TYPED_TEST(SixAxis, a_strong_motor_leaves_a_stop_at_its_own_speed) {
+  using S = TypeParam;
+  struct Case {
+    bool slides;
+    double mass, half, range, force, speed;  // [kg], [m], [m] or [rad], [N] or [N m], [m/s] or [rad/s]
+  };
+  const Case cases[] = {
+      {true, 1, 0.25, 0.02, 20000, 0.1}, {true, 1, 0.25, 2, 20000, 1}, {false, 0.125, 0.0625, 0.5, 50, 0.5}};
+  for (const SolverName solver : {SolverName::soft_step, SolverName::pgs, SolverName::direct}) {
+    for (const Case& of : cases) {
+      World<S> w(this->with(solver));
+      const BodyId b = this->box(w, {0, 0, 0}, of.mass, of.half, of.half, of.half);
+      OneAxisJoint<S> joint;
+      joint.b = b;
+      joint.limit = {{S(0), num<S>(of.range)}};
+      joint.motor = {{.speed = num<S>(-of.speed), .force = num<S>(of.force)}};
+      const JointId id = of.slides ? w.create(slider(joint)) : w.create(hinge(joint));
+      ASSERT_TRUE(id) << describe(w.fault());
+      double last = 0, reached = 0;
+      for (int frame = 0; frame < 360; ++frame) {
+        if (frame % 60 == 0) {
+          JointProperties<S> properties = *w.joint(id);
+          properties.motor_speed = num<S>(frame / 60 % 2 == 0 ? -of.speed : of.speed);
+          ASSERT_TRUE(w.set_joint(id, properties)) << describe(w.fault());
+        }
+        w.step();
+        const double place = to_double(w.joint_position(id));
+        const std::string what = this->name(solver) + ", range " + std::to_string(of.range);
+        ASSERT_LT(std::abs(place - last), of.speed / 60 * 1.05 + 0.001) << what << ", frame " << frame;
+        ASSERT_GT(place, -0.002) << what << ", frame " << frame;
+        ASSERT_LT(place, of.range + 0.002) << what << ", frame " << frame;
+        last = place;
+        reached = std::max(reached, place);
+      }
+      EXPECT_GT(reached, std::min(of.range, of.speed) * 0.9) << this->name(solver);
+    }
+  }
+}
+
 TYPED_TEST(SixAxis, swings_as_a_hinge_where_two_turns_are_locked) {
   using S = TypeParam;
   for (const SolverName solver : {SolverName::soft_step, SolverName::direct}) {

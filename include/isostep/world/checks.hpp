@@ -171,7 +171,7 @@ template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_
       .proper(is_unit<S>(j.frame_a.orientation), "frame_a.orientation", kUnitLength)
       .proper(is_unit<S>(j.frame_b.orientation), "frame_b.orientation", kUnitLength)
       .also(fault_of_drive(j, length, reach, expected))
-      .in_range(within(j.cone, kMaxAngle<S>), "cone", "0 to 2 pi")
+      .in_range(S(0) <= j.cone && j.cone <= kMaxAngle<S>, "cone", "0 to 2 pi")
       .proper((j.flags & ~rules.flags) == 0, "flags", rules.flag_names)
       .proper(j.lower <= j.upper, "lower", "no more than upper")
       .also(rules.own)

@@ -171,8 +171,8 @@ template <class S> class StateValidator {
     // Impulses cut speeds a quarter above the limits, axis by axis.
     const S quarter = S(1.25);
     if (!is_finite(b.velocity) || !is_finite(b.angular_velocity) ||
-        convert<Velocity<S>>(Limits<S>::speed() * quarter) < max_abs(b.velocity) ||
-        convert<Velocity<S>>(Limits<S>::angular_speed() * quarter) < max_abs(b.angular_velocity)) {
+        !detail::within(b.velocity, convert<Velocity<S>>(Limits<S>::speed() * quarter)) ||
+        !detail::within(b.angular_velocity, convert<Velocity<S>>(Limits<S>::angular_speed() * quarter))) {
       return "a body's speed is out of range";
     }
     const S edge = Limits<S>::position() + Limits<S>::position() + Limits<S>::position();

@@ -1,6 +1,7 @@
 // The portable form from hands nobody vouches for: refused, or a world that steps; and numbers at a scalar's rim.
 // SPDX-License-Identifier: MIT
 
+#include <cstring>
 #include <limits>
 
 #include "determinism/mess.hpp"
@@ -149,6 +150,52 @@ TYPED_TEST(RimOfTheScalar, the_lowest_number_of_all_is_out_of_range_too) {
   EXPECT_TRUE(w.apply_impulse(id, v, v));
   EXPECT_LT(to_double(w.velocity(id).y), 0);
   EXPECT_LT(to_double(w.angular_velocity(id).y), 0);
+}
+
+TYPED_TEST(RimOfTheScalar, the_lowest_number_of_all_is_no_speed_of_a_state) {
+  using S = TypeParam;
+  using V = Velocity<S>;
+  for (const bool turns : {false, true}) {
+    World<S> w(settings<S>(0));
+    BodyDefinition<S> d = moving<S>(add_ball(w, 0.5), {0, 0, 0});
+    const V mark = V(11.125);
+    (turns ? d.angular_velocity : d.velocity).x = S(11.125);
+    ASSERT_TRUE(w.create(d));
+    std::vector<std::uint8_t> bytes;
+    Writer writer(bytes);
+    w.write_portable(writer);
+    V lowest;
+    if constexpr (kIsFixed<V>) lowest = V::lowest();
+    if constexpr (!kIsFixed<V>) lowest = std::numeric_limits<V>::lowest();
+    std::size_t found = 0;
+    for (std::size_t at = 0; at + sizeof mark <= bytes.size(); ++at) {
+      if (std::memcmp(bytes.data() + at, &mark, sizeof mark) != 0) continue;
+      ++found;
+      std::memcpy(bytes.data() + at, &lowest, sizeof lowest);
+    }
+    ASSERT_EQ(found, 1u);
+    World<S> other(settings<S>(0));
+    const std::uint64_t before = other.hash();
+    Reader reader({bytes.data(), bytes.size()});
+    EXPECT_FALSE(other.read_portable(reader).ok());
+    EXPECT_EQ(other.hash(), before);
+  }
+}
+
+TYPED_TEST(RimOfTheScalar, a_negative_cone_is_refused) {
+  using S = TypeParam;
+  World<S> w(settings<S>(0));
+  const BodyId id = w.create(moving<S>(add_ball(w, 0.5), {0, 0, 0}));
+  JointProperties<S> joint = w.joint_at(JointType::ball, BodyId{}, id, Pose<S>::identity());
+  joint.flags |= joint_flag::kCone;
+  joint.cone = S(-1);
+  EXPECT_FALSE(w.create(joint));
+  EXPECT_EQ(w.fault(), Fault::out_of_range);
+  joint.cone = S(1);
+  const JointId made = w.create(joint);
+  ASSERT_TRUE(made);
+  joint.cone = S(-6);
+  EXPECT_FALSE(w.set_joint(made, joint));
 }
 
 TYPED_TEST(RimOfTheScalar, gravity_scaled_up_pulls_down_or_is_refused) {

@@ -159,6 +159,10 @@ ISO_INLINE DrivePiece next_piece(const JointDrive<S>& drive, Velocity<S> speed, 
       return drive.impulse < law(DrivePiece::backwards, drive.speed) ? DrivePiece::backwards : drive.piece;
     default: break;
   }
+  // A motor's own speed lies before the limit beyond it, where full force would throw what it is to stop.
+  const bool may_reach = drive.driven && !(drive.speed < bounds.low) && !(bounds.high < drive.speed);
+  if (may_reach && drive.piece == DrivePiece::forwards && drive.speed + slack < speed) return DrivePiece::driven;
+  if (may_reach && drive.piece == DrivePiece::backwards && speed < drive.speed - slack) return DrivePiece::driven;
   if (speed < bounds.low - slack) return DrivePiece::lower;
   if (bounds.high + slack < speed) return DrivePiece::upper;
   if (drive.servo) {

@@ -52,7 +52,6 @@ template <class S> class BodyRows {
   static bool is_uneven(const BodyProperties<S>& body, std::int32_t hz, Velocity<S> angular_speed);
   BodyRun<S> run_of(const StepContext<S>& context, std::size_t first, std::size_t end);
   void gather_turn(const BodyState<S>& state, const BodyProperties<S>& body, const Mat3<Unit<S>>& axes, std::size_t i);
-  void turn(const StepContext<S>& context, std::size_t body);
   void finish_velocity(const StepContext<S>& context, std::size_t body, bool turned);
   void move(const StepContext<S>& context, std::size_t body);
   bool limit_turn(const StepContext<S>& context, std::size_t body);
