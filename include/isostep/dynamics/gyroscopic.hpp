@@ -7,29 +7,30 @@
 
 namespace isostep {
 
-/// How far a body turns: slow, by a sixteenth of a radian in a step of the world or less; fast, by more than an eighth
-/// in a time step of integration.
-enum class Pace { slow, brisk, fast };
+/// How far a body turns that is not slow: fast, by more than an eighth of a radian in a time step of integration.
+enum class Pace { brisk, fast };
 
-namespace detail {
 /// A slow solid after a free turn: its angular velocity, and that in the principal frame [rad/s].
 template <class V> struct SlowTurn { Vec3<V> angular_velocity, known; };
 
+namespace detail {
 /// What Euler's equations add to the angular velocity w, in the principal frame, over h.
 template <class S, class V, class H> ISO_INLINE Vec3<V> explicit_change(Vec3<S> euler, Vec3<V> w, H h) {
   const auto times = [](auto a, V b) ISO_INLINE_LAMBDA { return round_to<V>(product(a, b)); };
   const Vec3<V> hw = {times(h, w.x), times(h, w.y), times(h, w.z)};
   return {times(euler.x, times(hw.y, w.z)), times(euler.y, times(hw.z, w.x)), times(euler.z, times(hw.x, w.y))};
 }
-/// The slow form of FreeTurn, of numbers or of lanes; `half` is one half in each lane.
+}  // namespace detail
+
+/// Torque-free turning of a slow solid over h, by a sixteenth of a radian in a step of the world or less: FreeTurn says
+/// why in this form. Of numbers or of lanes; `half` is one half in each lane.
 template <class U, class S, class V, class H>
 ISO_INLINE SlowTurn<V> slow_turn(const Mat3<U>& axes, Vec3<S> euler, Vec3<V> angular_velocity, H h, S half) {
   const auto halved = [half](V x) ISO_INLINE_LAMBDA { return round_to<V>(product(half, x)); };
-  const Vec3<V> w = transposed_times(axes, angular_velocity), all = explicit_change(euler, w, h);
-  const Vec3<V> change = -explicit_change(euler, w + Vec3<V>{halved(all.x), halved(all.y), halved(all.z)}, h);
+  const Vec3<V> w = transposed_times(axes, angular_velocity), all = detail::explicit_change(euler, w, h);
+  const Vec3<V> change = -detail::explicit_change(euler, w + Vec3<V>{halved(all.x), halved(all.y), halved(all.z)}, h);
   return {angular_velocity - axes * change, w - change};
 }
-}  // namespace detail
 
 /// Torque-free turning over time steps h, between which others push.
 ///
@@ -63,14 +64,9 @@ template <class S> struct FreeTurn {
   /// A solid has none beyond 1, rounding aside. Moments that a user gives may be those of none.
   static ISO_INLINE bool is_solid(Vec3<S> euler) { return held_within(euler, S(2)) == euler; }
 
-  /// Turns. What is slow takes the explicit form, for others pushes since the last step first lose what they did too
-  /// much. What the axes round is no push: taken for one it feeds on itself.
+  /// Turns. Pushes since the last step first lose what they did too much. What the axes round is no push: taken for one
+  /// it feeds on itself.
   ISO_INLINE Vec3<V> turn(Vec3<V> angular_velocity, Vec3<V>& known, Pace pace) const {
-    if (pace == Pace::slow) {
-      const detail::SlowTurn<V> slowly = detail::slow_turn(axes, euler, angular_velocity, h, S(0.5));
-      known = slowly.known;
-      return slowly.angular_velocity;
-    }
     const Vec3<V> w = local(angular_velocity);
     Vec3<V> change = implicit_change(w, known);
     if (pace == Pace::fast) change = w - with_energy_of(w, w - change, false);

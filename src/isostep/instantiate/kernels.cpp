@@ -8,6 +8,14 @@
 
 namespace isostep {
 
+namespace {
+/// Those of one lane where an instruction set has none of these: contact_kernels tells whether it is there at all.
+template <class Kernels> const Kernels* choose_or_scalar(Simd simd) {
+  const Kernels* const kernels = choose_kernels<Kernels>(simd);
+  return kernels != nullptr ? kernels : detail::kernel_table<Kernels, Simd::scalar>();
+}
+}  // namespace
+
 // The best are the widest, for every scalar. A settled step on Zen 5, g++ 12, AVX-512 beside AVX2 [ms]:
 //           float          double         Q16.16         Q32.32
 //   S3   2.17  2.50     2.82  3.47     3.25  4.01     6.6  11.9
@@ -21,14 +29,8 @@ namespace isostep {
   }                                                                                                                   \
   template <> const TreeKernels<S>* tree_kernels<S>(Simd simd) { return choose_kernels<TreeKernels<S>>(simd); }       \
   template <> const FlightKernels<S>* flight_kernels<S>(Simd simd) { return choose_kernels<FlightKernels<S>>(simd); } \
-  template <> const BodyKernels<S>* body_kernels<S>(Simd simd) {                                                      \
-    const BodyKernels<S>* const kernels = choose_kernels<BodyKernels<S>>(simd);                                       \
-    return kernels != nullptr ? kernels : detail::kernel_table<BodyKernels<S>, Simd::scalar>();                       \
-  }                                                                                                                   \
-  template <> const PairKernels<S>* pair_kernels<S>(Simd simd) {                                                      \
-    const PairKernels<S>* const kernels = choose_kernels<PairKernels<S>>(simd);                                       \
-    return kernels != nullptr ? kernels : detail::kernel_table<PairKernels<S>, Simd::scalar>();                       \
-  }
+  template <> const BodyKernels<S>* body_kernels<S>(Simd simd) { return choose_or_scalar<BodyKernels<S>>(simd); }     \
+  template <> const PairKernels<S>* pair_kernels<S>(Simd simd) { return choose_or_scalar<PairKernels<S>>(simd); }
 ISO_FOR_EACH_SCALAR(ISO_DEFINE_CHOICE)
 
 }  // namespace isostep

@@ -94,6 +94,11 @@ TYPED_TEST(PortableWorlds, another_scalars_form_is_refused) {
   EXPECT_EQ(result.error().code, ErrorCode::incompatible);
 }
 
+template <class T> T lowest_of() {
+  if constexpr (kIsFixed<T>) return T::lowest();
+  else return std::numeric_limits<T>::lowest();
+}
+
 template <class S> class RimOfTheScalar : public ::testing::Test {};
 TYPED_TEST_SUITE(RimOfTheScalar, AllScalars);
 
@@ -123,9 +128,7 @@ TYPED_TEST(RimOfTheScalar, very_rough_surfaces_hold_whatever_stands_on_them) {
 
 TYPED_TEST(RimOfTheScalar, the_lowest_number_of_all_is_out_of_range_too) {
   using S = TypeParam;
-  S lowest;
-  if constexpr (kIsFixed<S>) lowest = S::lowest();
-  if constexpr (!kIsFixed<S>) lowest = std::numeric_limits<S>::lowest();
+  const S lowest = lowest_of<S>();
   World<S> w(settings<S>(0));
   const ShapeId ball = add_ball(w, 0.5);
   const BodyId id = w.create(moving<S>(ball, {0, 0, 0}));
@@ -164,9 +167,7 @@ TYPED_TEST(RimOfTheScalar, the_lowest_number_of_all_is_no_speed_of_a_state) {
     std::vector<std::uint8_t> bytes;
     Writer writer(bytes);
     w.write_portable(writer);
-    V lowest;
-    if constexpr (kIsFixed<V>) lowest = V::lowest();
-    if constexpr (!kIsFixed<V>) lowest = std::numeric_limits<V>::lowest();
+    const V lowest = lowest_of<V>();
     std::size_t found = 0;
     for (std::size_t at = 0; at + sizeof mark <= bytes.size(); ++at) {
       if (std::memcmp(bytes.data() + at, &mark, sizeof mark) != 0) continue;

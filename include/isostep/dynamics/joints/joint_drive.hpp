@@ -159,10 +159,10 @@ ISO_INLINE DrivePiece next_piece(const JointDrive<S>& drive, Velocity<S> speed, 
       return drive.impulse < law(DrivePiece::backwards, drive.speed) ? DrivePiece::backwards : drive.piece;
     default: break;
   }
-  // A motor's own speed lies before the limit beyond it, where full force would throw what it is to stop.
-  const bool may_reach = drive.driven && !(drive.speed < bounds.low) && !(bounds.high < drive.speed);
-  if (may_reach && drive.piece == DrivePiece::forwards && drive.speed + slack < speed) return DrivePiece::driven;
-  if (may_reach && drive.piece == DrivePiece::backwards && speed < drive.speed - slack) return DrivePiece::driven;
+  const bool passes = drive.driven && ((drive.piece == DrivePiece::forwards && drive.speed + slack < speed) ||
+                                       (drive.piece == DrivePiece::backwards && speed < drive.speed - slack));
+  // Where the limits allow the motor's speed, that is the neighbour of full force, and a limit comes only after it.
+  if (passes && !(drive.speed < bounds.low) && !(bounds.high < drive.speed)) return DrivePiece::driven;
   if (speed < bounds.low - slack) return DrivePiece::lower;
   if (bounds.high + slack < speed) return DrivePiece::upper;
   if (drive.servo) {
@@ -171,9 +171,7 @@ ISO_INLINE DrivePiece next_piece(const JointDrive<S>& drive, Velocity<S> speed, 
     if (drive.piece == DrivePiece::backwards) return slack - most < asked ? DrivePiece::free : drive.piece;
     return most + slack < asked ? DrivePiece::forwards : asked < -most - slack ? DrivePiece::backwards : drive.piece;
   }
-  if (drive.piece == DrivePiece::forwards && drive.speed + slack < speed) return DrivePiece::driven;
-  if (drive.piece == DrivePiece::backwards && speed < drive.speed - slack) return DrivePiece::driven;
-  return drive.piece;
+  return passes ? DrivePiece::driven : drive.piece;
 }
 
 /// [m/s] How far a drive is from its law: speed that is wrong, or impulse that is too much.

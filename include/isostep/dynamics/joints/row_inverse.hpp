@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/joints/joint_rows.hpp"
+#include "isostep/math/lanes_select.hpp"
 #include "isostep/scalar/lanes_reciprocal.hpp"
 
 namespace isostep {
@@ -41,9 +42,7 @@ ISO_INLINE Mat3<Lanes<S, W, Isa>> invert_rows(const Mat3<Lanes<S, W, Isa>>& m, S
     Mat3<L> next = invert_symmetric(rest, soft);
     for (int i = 0; i < 3; ++i) {
       next.rows[i][i] = select(equal(rest.rows[i][i], zero), zero, next.rows[i][i]);
-      const auto choose = [&](L a, L b) ISO_INLINE_LAMBDA { return select(drops, a, b); };
-      inverse.rows[i] = {choose(next.rows[i].x, inverse.rows[i].x), choose(next.rows[i].y, inverse.rows[i].y),
-                         choose(next.rows[i].z, inverse.rows[i].z)};
+      inverse.rows[i] = select(drops, next.rows[i], inverse.rows[i]);
     }
   }
   return inverse;

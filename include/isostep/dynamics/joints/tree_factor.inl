@@ -5,6 +5,7 @@
 
 #include "isostep/dynamics/joints/row_inverse.hpp"
 #include "isostep/dynamics/joints/tree_couplings.inl"
+#include "isostep/math/lanes_select.hpp"
 #include "isostep/scalar/lanes_bounded.hpp"
 
 namespace isostep {
@@ -224,11 +225,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
     inertia = inertia + scaled_by(scaled_by(tension, largest), excess);
     const Mat3<L> felt = scaled_by(invert_symmetric(inertia, L::zero()), largest);
     Mat3<L> chosen;
-    ISO_UNROLL for (int i = 0; i < 3; ++i) {
-      const auto choose = [acts](L x, L y) ISO_INLINE_LAMBDA { return select(acts, x, y); };
-      chosen.rows[i] = {choose(felt.rows[i].x, kappa.rows[i].x), choose(felt.rows[i].y, kappa.rows[i].y),
-                        choose(felt.rows[i].z, kappa.rows[i].z)};
-    }
+    ISO_UNROLL for (int i = 0; i < 3; ++i) chosen.rows[i] = select(acts, felt.rows[i], kappa.rows[i]);
     store(chosen, body.felt);
   }
 

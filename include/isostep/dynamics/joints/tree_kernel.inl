@@ -14,7 +14,6 @@ namespace {
 template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
   using Base = TreeLaws<S, W, Isa>;
   using Base::bounded;
-  using Base::choose;
   using Base::idle_lanes;
   using Base::idles;
   using Base::load;
@@ -181,13 +180,13 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
     if (idles(run, n)) return store(none, node.right);
     const Mask idle = idle_lanes(run, n);
     Vec3<V> right = impulses(load(node.inverse), load(node.right));
-    if (of.may_idle) right = choose(idle, none, right);
+    if (of.may_idle) right = select(idle, none, right);
     store(right, node.right);
     for (std::uint32_t l = of.first_link; l < of.first_link + of.link_count; ++l) {
       const std::uint32_t to = run.shape.links[l].to;
       if (idles(run, to)) continue;
       const Vec3<V> old = load(m.nodes[to].right), next = less_moved(old, load(m.links[l].down), right);
-      store(of.may_idle ? choose(idle, old, next) : next, m.nodes[to].right);
+      store(of.may_idle ? select(idle, old, next) : next, m.nodes[to].right);
     }
   }
   static ISO_INLINE void substitute_down(const TreeRun<S>& run, std::size_t n, Memory m) {
@@ -198,9 +197,9 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
       const std::uint32_t to = run.shape.links[l].to;
       if (idles(run, to)) continue;
       const Vec3<V> next = less_moved(change, load(m.links[l].up), load(m.nodes[to].right));
-      change = run.shape.nodes[to].may_idle ? choose(idle_lanes(run, to), change, next) : next;
+      change = run.shape.nodes[to].may_idle ? select(idle_lanes(run, to), change, next) : next;
     }
-    if (of.may_idle) change = choose(idle_lanes(run, n), {V::zero(), V::zero(), V::zero()}, change);
+    if (of.may_idle) change = select(idle_lanes(run, n), {V::zero(), V::zero(), V::zero()}, change);
     store(change, m.nodes[n].right);
   }
 };

@@ -30,9 +30,6 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
   static ISO_INLINE Vec3<V> times(const Mat3<L>& a, Vec3<V> v) {
     return {round_to<V>(dot_sum(a.rows[0], v)), round_to<V>(dot_sum(a.rows[1], v)), round_to<V>(dot_sum(a.rows[2], v))};
   }
-  static ISO_INLINE Vec3<V> choose(Mask mask, Vec3<V> a, Vec3<V> b) {
-    return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
-  }
   static ISO_INLINE Vec3<V> bounded(Vec3<V> v, Velocity<S> most) {
     const V high = V::broadcast(most), low = -high;
     return {clamp(v.x, low, high), clamp(v.y, low, high), clamp(v.z, low, high)};
@@ -132,7 +129,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     }
     const Vec3<V> old = load(node.impulse);
     Vec3<V> impulse = bounded(old + solution, most_joint_impulse<S>());
-    if (of.may_idle) impulse = choose(Base::idle_lanes(run, n), old, impulse);
+    if (of.may_idle) impulse = select(Base::idle_lanes(run, n), old, impulse);
     store(impulse, node.impulse);
     return impulse - old;
   }

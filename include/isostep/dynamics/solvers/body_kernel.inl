@@ -5,6 +5,7 @@
 
 #include "isostep/dynamics/gyroscopic.hpp"
 #include "isostep/dynamics/solvers/body_kernels.hpp"
+#include "isostep/math/lanes_select.hpp"
 #include "isostep/scalar/lanes_math.hpp"
 
 namespace isostep {
@@ -72,9 +73,6 @@ template <class S, int W, class Isa> struct BodyKernel {
   static ISO_INLINE Vec3<V> over(Vec3<L> a, H h) {
     return {round_product<V>(a.x, h), round_product<V>(a.y, h), round_product<V>(a.z, h)};
   }
-  static ISO_INLINE Vec3<V> choose(Mask mask, Vec3<V> a, Vec3<V> b) {
-    return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
-  }
 
   /// Writes bodies into run.left as BodyKernels says.
   static ISO_INLINE void leave(const BodyRun<S>& run, std::size_t first, std::uint32_t rest, std::uint32_t odd,
@@ -125,17 +123,16 @@ template <class S, int W, class Isa> struct BodyKernel {
       const Quat<U> p = q * load_rotation([properties](int i) ISO_INLINE_LAMBDA -> const Quat<Unit<S>>& {
                           return properties[i].principal;
                         });
-      const Mask mask = Mask::from_bits(tilted);
-      q = {select(mask, p.x, q.x), select(mask, p.y, q.y), select(mask, p.z, q.z), select(mask, p.w, q.w)};
+      q = select(Mask::from_bits(tilted), p, q);
     }
     const Mat3<U> axes = to_matrix(q, U::broadcast(Unit<S>(1)));
     L euler[4];
     load_rows<4, S>([rows](int i) ISO_INLINE_LAMBDA { return &rows[i].euler.x; }, euler);
-    const detail::SlowTurn<V> slowly =
-        detail::slow_turn(axes, Vec3<L>{euler[0], euler[1], euler[2]}, m.angular, h, L::broadcast(S(0.5)));
+    const SlowTurn<V> slowly =
+        slow_turn(axes, Vec3<L>{euler[0], euler[1], euler[2]}, m.angular, h, L::broadcast(S(0.5)));
     const V known[4] = {slowly.known.x, slowly.known.y, slowly.known.z, V::zero()};
     store_rows<4, Velocity<S>>([rows](int i) ISO_INLINE_LAMBDA { return &rows[i].known.x; }, known, slow);
-    m.angular = choose(Mask::from_bits(slow), slowly.angular_velocity, m.angular);
+    m.angular = select(Mask::from_bits(slow), slowly.angular_velocity, m.angular);
     return turns & ~slow;
   }
 

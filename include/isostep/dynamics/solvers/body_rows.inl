@@ -31,9 +31,10 @@ template <class S> ISO_INLINE std::uint8_t kind_of(const BodyProperties<S>& body
   return kind;
 }
 
-template <class V> ISO_INLINE Pace pace_of(V angular_speed, bool solid, V rapid, V fast) {
-  if (fast < angular_speed) return Pace::fast;
-  return solid && !(rapid < angular_speed) ? Pace::slow : Pace::brisk;
+/// Of what is not slow.
+template <class S> ISO_INLINE Pace pace_of(Velocity<S> angular_speed, std::int32_t hz, std::int32_t rate) {
+  const Velocity<S> fast = max(angular_speed_to_follow<S>(rate), angular_speed_to_renew<S>(hz, false));
+  return fast < angular_speed ? Pace::fast : Pace::brisk;
 }
 
 }  // namespace detail
@@ -126,9 +127,7 @@ template <class S> void BodyRows<S>::finish_velocity(const StepContext<S>& conte
   const Mat3<Unit<S>> axes = detail::world_axes(context.states[body].orientation, properties);
   if (!turned) {
     BodyTurn<S>& turn = turns_[body];
-    const V fast = max(most, angular_speed_to_renew<S>(context.hz, false));
-    const bool solid = (kinds_[body] & body_kind::kSolid) != 0;
-    const Pace pace = detail::pace_of(max_abs(row.angular), solid, rapid, fast);
+    const Pace pace = detail::pace_of<S>(max_abs(row.angular), context.hz, rate_);
     const Step<S> h = divide_to<Step<S>>(S(1), S(rate_));
     row.angular = FreeTurn<S>{axes, turn.inertia, turn.euler, h}.turn(row.angular, turn.known, pace);
   }
@@ -199,7 +198,6 @@ template <class S> void BodyRows<S>::store(const StepContext<S>& context, std::s
   using V = Velocity<S>;
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate_));
   const V rapid = rapid_angular_speed<S>(context.hz);
-  const V fast = max(angular_speed_to_follow<S>(rate_), angular_speed_to_renew<S>(context.hz, false));
   for (std::size_t i = first; i < end; ++i) {
     BodyState<S>& state = context.states[i];
     MotionRow<V> row = rows_.velocity[i + 1];
@@ -207,7 +205,7 @@ template <class S> void BodyRows<S>::store(const StepContext<S>& context, std::s
       const BodyProperties<S>& body = context.properties[i];
       const Mat3<Unit<S>> axes = detail::world_axes(state.orientation, body);
       const BodyTurn<S>& turn = turns_[i];
-      const Pace pace = detail::pace_of(max_abs(row.angular), (kinds_[i] & body_kind::kSolid) != 0, rapid, fast);
+      const Pace pace = detail::pace_of<S>(max_abs(row.angular), context.hz, rate_);
       row.angular = FreeTurn<S>{axes, turn.inertia, turn.euler, h}.settle(row.angular, turn.known, pace);
       detail::hold_locks(body.flags, row);
     }

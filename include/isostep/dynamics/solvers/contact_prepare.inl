@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
+#include "isostep/math/lanes_select.hpp"
 #include "isostep/math/mat3.hpp"
 #include "isostep/scalar/lanes_math.hpp"
 
@@ -161,10 +162,6 @@ template <class S, int W, class Isa> struct ContactPreparer {
 
   // ---- tangents
 
-  template <class T>
-  static ISO_INLINE Vec3<Lanes<T, W, Isa>> choose(Mask mask, Vec3<Lanes<T, W, Isa>> a, Vec3<Lanes<T, W, Isa>> b) {
-    return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
-  }
   /// A vector less its part along the normal.
   static ISO_INLINE Vec3<V> flatten(Vec3<V> x, Vec3<U> n) {
     const V along = round_to<V>(dot_sum(x, n));
@@ -193,7 +190,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     const Vec3<U> second = cross(n, first);
     if (all(leads)) return {first, second};
     const Tangents<U> other = any_tangents(n);
-    return {choose(leads, first, other.t), choose(leads, second, other.u)};
+    return {select(leads, first, other.t), select(leads, second, other.u)};
   }
   /// The friction basis. Sliding: along the slip, for that is what friction opposes. Else along the friction that the
   /// contact bears already; where there is neither, any. The kernel's cone is exact along the basis.
@@ -204,7 +201,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     if (all(slides)) return basis_along(slides, slide, n);
     const Vec3<V> force = flatten(borne, n);
     const Mask bears = less(limit, V::broadcast(Velocity<S>(8)) * max_abs(force));  // below an eighth: noise
-    return basis_along(slides | bears, choose(slides, slide, force), n);
+    return basis_along(slides | bears, select(slides, slide, force), n);
   }
 
   // ---- a block
