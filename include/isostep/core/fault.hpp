@@ -18,7 +18,7 @@ enum class Fault : std::uint32_t {
   out_of_range,   // beyond the scalar's limits
   bad_shape,      // sizes, normals or parts that make no shape
   bad_mass,       // mass or inertia that nothing can have
-  bad_argument,   // a flag, count or enumerator that is not one
+  bad_argument,   // a flag, count, ratio or enumerator that is not valid
   shape_in_use,   // bodies still name the shape, or particles the material
   not_dynamic,    // forces on what no force moves
   null_id,        // the id was never given: what should have given it was refused, as a rule

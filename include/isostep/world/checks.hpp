@@ -63,6 +63,7 @@ inline constexpr char kWithinSpeed[] = "a length up to Limits::speed()";
 inline constexpr char kWithinAngularSpeed[] = "a length up to Limits::angular_speed()";
 inline constexpr char kWithinPosition[] = "coordinates up to Limits::position()";
 inline constexpr char kUnitLength[] = "a quaternion of length 1";
+inline constexpr char kZeroOfStatic[] = "0 of a static body";
 
 /// [1] A 64th, so that the squares of what divides by it fit every scalar.
 template <class S> bool is_grain(Vec3<S> factors) {
@@ -105,6 +106,18 @@ FaultReport fault_of_motion(S gravity_scale, S linear_damping, S angular_damping
       .proper(S(0) <= linear_damping, "linear_damping", "0 to 16384")
       .proper(S(0) <= angular_damping, "angular_damping", "0 to 16384")
       .proper((locks & ~body_flag::kAllLocks) == 0, "locks", "body_flag::kLock... alone")
+      .report();
+}
+
+/// Of any type of body: what is static may become dynamic.
+template <class S> FaultReport fault_of_signs(S density, S mass, Vec3<S> inertia) {
+  const S zero = S(0);
+  const bool positive = zero < inertia.x && zero < inertia.y && zero < inertia.z;
+  return Checklist()
+      .ask(zero <= mass, Fault::bad_mass, "mass", "above 0, or 0 for that of density")
+      .ask(zero <= density, Fault::bad_mass, "density", "above 0")
+      .ask(positive || inertia == Vec3<S>::zero(), Fault::bad_mass, "inertia",
+           "about each axis above 0, or 0 about all for that of the shape")
       .report();
 }
 
@@ -231,9 +244,8 @@ template <class S> ISO_INLINE FaultReport fault_of_place(Vec3<S> point, const ch
 
 /// The moment of a force that a user gave, whatever its size.
 template <class S> ISO_INLINE Vec3<S> saturated_cross(Vec3<S> arm, Vec3<S> force) {
-  const auto part = [](S a, S b, S c, S d) ISO_INLINE_LAMBDA {
-    return saturate_at<S>(product(a, b) - product(c, d), highest<S>());
-  };
+  const auto part = [](S a, S b, S c, S d)
+                        ISO_INLINE_LAMBDA { return saturate_at<S>(product(a, b) - product(c, d), highest<S>()); };
   return {part(arm.y, force.z, arm.z, force.y), part(arm.z, force.x, arm.x, force.z),
           part(arm.x, force.y, arm.y, force.x)};
 }

@@ -10,6 +10,8 @@ namespace isostep {
 
 /// Everything about a definition that needs no mass.
 template <class S> bool CommandExecutor<S>::check(const BodyDefinition<S>& d) {
+  const Vec3<S> zero = Vec3<S>::zero();
+  const bool still = d.type == BodyType::static_;
   return known(state_.shape_slots, d.shape, "shape") &&
          journal_.accept(
              detail::Checklist()
@@ -25,6 +27,9 @@ template <class S> bool CommandExecutor<S>::check(const BodyDefinition<S>& d) {
                            detail::kWithinAngularSpeed)
                  .proper(detail::is_unit<S>(d.orientation), "orientation", detail::kUnitLength)
                  .proper(d.type <= BodyType::dynamic, "type", "one of BodyType")
+                 .proper(!still || d.velocity == zero, "velocity", detail::kZeroOfStatic)
+                 .proper(!still || d.angular_velocity == zero, "angular_velocity", detail::kZeroOfStatic)
+                 .also(detail::fault_of_signs(d.density, d.mass, d.inertia))
                  .also(detail::fault_of(d.material))
                  .also(detail::fault_of_motion(d.gravity_scale, d.linear_damping, d.angular_damping, d.locks))
                  .report());
@@ -33,13 +38,9 @@ template <class S> bool CommandExecutor<S>::check(const BodyDefinition<S>& d) {
 /// Of a dynamic body; `shape` at that density.
 template <class S> bool CommandExecutor<S>::check_mass(const BodyMass<S>& d, const MassProperties<S>& shape) {
   const S zero = S(0);
-  const bool positive = zero <= d.inertia.x && zero <= d.inertia.y && zero <= d.inertia.z;
   return journal_.accept(
       detail::Checklist()
-          .ask(zero <= d.mass, Fault::bad_mass, "mass", "above 0, or 0 for that of density")
-          .ask(zero <= d.density, Fault::bad_mass, "density", "above 0")
           .ask(zero < d.density || zero < d.mass, Fault::bad_mass, "density", "above 0 where mass is 0")
-          .ask(positive, Fault::bad_mass, "inertia", "above 0, or 0 for that of the shape")
           .ask(!(shape.mass == zero), Fault::bad_mass, "shape", "one with a volume that the scalar can count")
           .report());
 }

@@ -17,6 +17,7 @@ template <class S> bool CommandExecutor<S>::check(const BodyMass<S>& mass) {
                              .finite(mass.density, "density")
                              .finite(mass.mass, "mass")
                              .finite(mass.inertia, "inertia")
+                             .also(detail::fault_of_signs(mass.density, mass.mass, mass.inertia))
                              .report());
 }
 

@@ -18,7 +18,8 @@ template <class S> ShapeId CommandExecutor<S>::execute(const AddShape<S>& comman
   const ShapeFault fault = validate(std::span<const Child<S>>(command.children), blobs);
   if (fault != ShapeFault::none) {
     const bool finite = fault != ShapeFault::not_finite;
-    journal_.refuse({finite ? Fault::bad_shape : Fault::not_finite, "", describe(fault), ""});
+    journal_.refuse(finite ? FaultReport{Fault::bad_shape, "", describe(fault), ""}
+                           : FaultReport{Fault::not_finite, "", "shape", ""});
     return {};
   }
   const ShapeId id = state_.shape_slots.template take<ShapeId>(state_.settings.id_space);

@@ -12,7 +12,7 @@ const char* fault_text(Fault fault) {
     case Fault::out_of_range: return "a number is beyond the scalar's limits";
     case Fault::bad_shape: return "the sizes, normals or parts make no shape";
     case Fault::bad_mass: return "nothing can have this mass or inertia";
-    case Fault::bad_argument: return "a flag, count, ratio or enumerator is not one";
+    case Fault::bad_argument: return "not a valid value";
     case Fault::shape_in_use: return "something still names it";
     case Fault::not_dynamic: return "no force moves it";
     case Fault::null_id: return "the id is null: what should have given it was refused";

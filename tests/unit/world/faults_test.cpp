@@ -29,6 +29,41 @@ TYPED_TEST(WorldFaults, a_dynamic_body_needs_a_density_or_a_mass_and_others_neit
   EXPECT_TRUE(this->world.create(d));
 }
 
+TYPED_TEST(WorldFaults, what_a_body_weighs_is_checked_whatever_its_type) {
+  using S = TypeParam;
+  World<S>& w = this->world;
+  for (const BodyType type : {BodyType::static_, BodyType::kinematic, BodyType::dynamic}) {
+    const auto refused = [&](auto&& change, const char* field) {
+      BodyDefinition<S> d = moving<S>(this->ball, {0, 9, 0});
+      d.type = type;
+      change(d);
+      EXPECT_FALSE(w.create(d));
+      this->expect_fault(Fault::bad_mass, "create_body", field);
+    };
+    refused([](auto& d) { d.mass = S(-1); }, "mass");
+    refused([](auto& d) { d.density = S(-1); }, "density");
+    refused([](auto& d) { d.inertia = vec<S>(1, -1, 1); }, "inertia");
+    refused([](auto& d) { d.inertia = vec<S>(2, 0, 0); }, "inertia");
+  }
+  BodyMass<S> mass;
+  mass.inertia = vec<S>(0, 2, 2);
+  EXPECT_FALSE(w.set_mass(this->a, mass));
+  this->expect_fault(Fault::bad_mass, "set_mass", "inertia",
+                     "about each axis above 0, or 0 about all for that of the shape");
+}
+
+TYPED_TEST(WorldFaults, a_static_body_has_no_velocity) {
+  using S = TypeParam;
+  BodyDefinition<S> d = still<S>(this->ball, {0, 9, 0});
+  d.velocity = vec<S>(0, 1, 0);
+  EXPECT_FALSE(this->world.create(d));
+  this->expect_fault(Fault::bad_argument, "create_body", "velocity", "0 of a static body");
+  d.velocity = vec<S>(0, 0, 0);
+  d.angular_velocity = vec<S>(0, 1, 0);
+  EXPECT_FALSE(this->world.create(d));
+  this->expect_fault(Fault::bad_argument, "create_body", "angular_velocity", "0 of a static body");
+}
+
 TYPED_TEST(WorldFaults, a_handler_is_told_of_each_refusal_and_of_nothing_else) {
   using S = TypeParam;
   World<S>& w = this->world;
@@ -99,7 +134,7 @@ TYPED_TEST(WorldFaults, a_joint_takes_no_flag_that_its_kind_does_not_know) {
   j.flags = kMotor;
   EXPECT_FALSE(w.set_joint(id, j));
   EXPECT_EQ(describe(w.fault()),
-            "set_joint: flags: a flag, count, ratio or enumerator is not one; expected of a ball joint kLimit, kCone, "
+            "set_joint: flags: not a valid value; expected of a ball joint kLimit, kCone, "
             "kCollideConnected");
 }
 
@@ -346,8 +381,7 @@ TYPED_TEST(WorldFaults, each_field_has_a_text_of_its_own) {
   refused([](auto& d) { d.density = S(-1); });
   refused([](auto& d) { d.inertia.x = S(-1); });
   refused([](auto& d) { d.shape = {}; });
-  EXPECT_EQ(texts[0],
-            "create_body: material.friction: a flag, count, ratio or enumerator is not one; expected 0 to 16");
+  EXPECT_EQ(texts[0], "create_body: material.friction: not a valid value; expected 0 to 16");
 }
 
 }  // namespace

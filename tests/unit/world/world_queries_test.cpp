@@ -360,8 +360,9 @@ TYPED_TEST(WorldQueries, bodies_near_a_box_are_those_whose_fat_boxes_meet_it_and
   const ShapeId ball = add_ball(w, 0.5);
   std::vector<BodyId> line;
   for (int i = 0; i < 60; ++i) {
-    BodyDefinition<S> d = moving<S>(ball, {2.0 * (59 - i), 0, 0}, {0, 0, 1});
-    d.type = i % 2 == 0 ? BodyType::static_ : BodyType::dynamic;
+    const bool fixed = i % 2 == 0;
+    BodyDefinition<S> d = moving<S>(ball, {2.0 * (59 - i), 0, 0}, {0, 0, fixed ? 0.0 : 1.0});
+    d.type = fixed ? BodyType::static_ : BodyType::dynamic;
     d.filter.category = i % 3 == 0 ? 2u : 1u;
     d.sensor = i % 5 == 0;
     line.push_back(w.create(d));
