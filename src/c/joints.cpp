@@ -133,6 +133,18 @@ iso_status iso_joint_destroy(iso_world* world, iso_joint joint) {
   });
 }
 
+iso_status iso_joint_get_axis_drive(const iso_world* world, iso_joint joint, iso_joint_axis axis, iso_record* out) {
+  constexpr const char* kCall = "joint_get_axis_drive";
+  return in_any_world(world, kCall, Access::reads, [&](auto& of) {
+    ISO_C_REQUIRE(kCall, out);
+    const JointId id = id_of<JointId>(joint);
+    if (!of.world.contains(id)) return refuse({Fault::stale_id, kCall, "joint", "a joint of this world"});
+    if (axis >= Enumerators<JointAxis>::kCount) return refuse(ISO_BAD_ENUM, kCall, "axis");
+    *out = id_bits(of.world.axis_drive(id, static_cast<JointAxis>(axis)));
+    return kOk;
+  });
+}
+
 #define ISO_PRESET(P, S, name, builder)                                                                 \
   iso_status iso_##P##_create_##name(iso_world* world, const iso_##P##_##name* joint, iso_joint* out) { \
     return create<S, twin::name<S>>(world, "create_" #name, joint, out,                                 \

@@ -77,7 +77,7 @@ struct SceneBody {
   Vector angular_velocity = zero_vector();  // [rad/s]
   Number density = 1;                       // [kg/m^3]
   Number mass = 0;                          // [kg] 0: from density
-  Vector inertia = zero_vector();           // [kg m^2] 0: from the shape
+  Vector inertia = zero_vector();           // [kg m^2] all 0: from the shape
   Number friction = 0.5;                    // [1]
   Number restitution = 0;                   // [1]
   Number rolling_resistance = 0;            // [m] lever arm of the normal force that resists rolling

@@ -401,5 +401,32 @@ TYPED_TEST(Characters, records_refuse_what_they_cannot_use) {
   refused("normal", [](auto& b) { b.normal.x = Unit<S>(0.5); });
 }
 
+/// As contacts are made: by the group of both bodies and the masks of both.
+TYPED_TEST(Characters, is_stopped_by_what_its_body_collides_with_alone) {
+  struct Case {
+    Filter own, wall;
+    bool stops;
+  };
+  const Case cases[] = {{{}, {}, true},
+                        {{.group = 3}, {.group = 3}, false},
+                        {{.group = 3}, {.group = 4}, true},
+                        {{.category = 2}, {.mask = 1}, false},
+                        {{.category = 2}, {.mask = 2}, true},
+                        {{.mask = 1}, {.category = 2}, false}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(testing::Message() << "case " << &c - cases);
+    this->w = World<TypeParam>(settings<TypeParam>());
+    this->capsule_ = {};
+    add_ground(this->w);
+    const BodyId wall = this->box({0.5, 2, 4}, {3, 2, 0});
+    const CharacterId id = this->walker({0, 0, 0});
+    ASSERT_TRUE(this->w.set_filter(wall, c.wall));
+    ASSERT_TRUE(this->w.set_filter(this->w.find(id)->body, c.own));
+    EXPECT_TRUE(this->walk(id, {4, 0, 0}, 120));
+    if (c.stops) EXPECT_NEAR(this->foot(id).x, 2.5 - kRadius - this->kSkin, 0.02);
+    else EXPECT_NEAR(this->foot(id).x, 8, 0.1);
+  }
+}
+
 }  // namespace
 }  // namespace isostep::test

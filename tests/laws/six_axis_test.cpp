@@ -304,6 +304,7 @@ TYPED_TEST(SixAxis, is_rolled_back_with_all_its_drives) {
   using S = TypeParam;
   World<S> w(this->with(SolverName::soft_step, -10));
   BodyId last = {};
+  std::vector<JointId> joints;
   for (int i = 0; i < 4; ++i) {
     const BodyId b = this->box(w, {0.75 * i, 6, 0});
     SixAxisDefinition<S> joint;
@@ -317,7 +318,8 @@ TYPED_TEST(SixAxis, is_rolled_back_with_all_its_drives) {
     servo.spring_frequency = S(2);
     servo.force = S(3);
     joint.drives[joint.drive_count++] = servo;
-    ASSERT_TRUE(w.create(six_axis(joint))) << describe(w.fault());
+    joints.push_back(w.create(six_axis(joint)));
+    ASSERT_TRUE(joints.back()) << describe(w.fault());
     last = b;
   }
   bool held = false;
@@ -325,7 +327,8 @@ TYPED_TEST(SixAxis, is_rolled_back_with_all_its_drives) {
     for (const JointState<S>& joint : world.state().joints.states)
       held = held || (joint.has_drive(5) && detail::fixes_speed(joint.piece(5)));
     if (frame == 80) {
-      const AxisDriveId id = {1, 1};
+      const AxisDriveId id = world.axis_drive(joints[0], JointAxis::swing_y);
+      ASSERT_TRUE(id);
       AxisDrive<S> changed = *world.find(id);
       changed.motor = true;
       changed.force = S(4);
@@ -333,6 +336,48 @@ TYPED_TEST(SixAxis, is_rolled_back_with_all_its_drives) {
     }
   });
   EXPECT_TRUE(held);
+}
+
+TYPED_TEST(SixAxis, the_drives_of_a_preset_are_found_and_changed) {
+  using S = TypeParam;
+  World<S> w(this->with(SolverName::soft_step));
+  const BodyId axle = this->box(w, {0, 4, 0}, 4, 0.25, 0.25, 0.125), other = this->box(w, {3, 4, 0});
+  const JointId joint = w.create(wheel<S>({.b = axle,
+                                           .frame = this->at({0, 4, 0}),
+                                           .suspension = {.frequency = S(2), .damping = S(1)},
+                                           .drive = JointMotor<S>{.speed = S(3), .force = S(2)}}));
+  const JointId hinged = w.create(hinge<S>({.b = other}));
+  ASSERT_TRUE(joint);
+  const AxisDriveId id = w.axis_drive(joint, JointAxis::twist);
+  ASSERT_TRUE(id);
+  EXPECT_FALSE(w.axis_drive(joint, JointAxis::swing_y)) << "it does not steer";
+  EXPECT_FALSE(w.axis_drive(hinged, JointAxis::twist));
+  EXPECT_FALSE(w.axis_drive({}, JointAxis::twist));
+  AxisDrive<S> backwards = *w.find(id);
+  backwards.motor_speed = S(-3);
+  ASSERT_TRUE(w.set(id, backwards));
+  for (int i = 0; i < 240; ++i) ASSERT_TRUE(w.step().clean());
+  EXPECT_NEAR(to_double(w.angular_velocity(axle).z), -3, 0.05);
+  ASSERT_TRUE(w.destroy(joint));
+  EXPECT_FALSE(w.axis_drive(joint, JointAxis::twist));
+}
+
+TYPED_TEST(SixAxis, a_wheel_rolls_forwards_at_a_positive_speed) {
+  using S = TypeParam;
+  World<S> w(this->with(SolverName::soft_step, -10));
+  ASSERT_TRUE(add_ground(w));
+  const BodyId chassis = this->box(w, {0, 1, 0}, 8, 0.5, 0.125, 0.5);
+  ASSERT_TRUE(w.set_motion(chassis, S(1), S(0), S(0), body_flag::kAngularLocks));
+  const BodyId ball = w.create(moving<S>(add_ball(w, 0.25), {0, 0.25, 0}));
+  // Forwards is x of the world: y is up, so z of the frame, to the left, is -z, and x to the rear is -x.
+  const Pose<S> frame = {vec<S>(0, 0.25, 0), turn<S>({0, 1, 0}, kPi)};
+  ASSERT_TRUE(w.create(wheel<S>({.a = chassis,
+                                 .b = ball,
+                                 .frame = frame,
+                                 .suspension = {.frequency = S(4), .damping = S(1)},
+                                 .drive = JointMotor<S>{.speed = S(4), .force = S(20)}})));
+  for (int i = 0; i < 60; ++i) w.step();
+  EXPECT_GT(to_double(w.velocity(ball).x), 0.5);
 }
 
 TYPED_TEST(SixAxis, refuses_what_no_axis_can_do) {

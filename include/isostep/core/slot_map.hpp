@@ -13,10 +13,11 @@ namespace isostep {
 
 struct SlotEntry {
   std::uint32_t generation;  // of the present tenant, or of the next
-  std::uint32_t next_free;   // kTaken, or the slot freed before this one
+  std::uint32_t next_free;   // kTaken, kRetired, or the slot freed before this one
 
   static constexpr std::uint32_t kTaken = 0xffffffffu;
   static constexpr std::uint32_t kEnd = 0xfffffffeu;
+  static constexpr std::uint32_t kRetired = 0xfffffffdu;  // it has had as many tenants as can be told apart
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("generation", self.generation);
@@ -26,7 +27,7 @@ struct SlotEntry {
 static_assert(kHasNoPadding<SlotEntry>);
 
 /// A generation's upper byte is its world's id space, the rest counts the slot's tenants: so that an id of a world with
-/// another space names nothing here.
+/// another space names nothing here. After 2^24 - 1 tenants a slot is used no more, so that no id comes back.
 /// Copies share the table's pages: a copy costs what was taken or given back since the last.
 class SlotMap {
  public:
@@ -64,8 +65,11 @@ class SlotMap {
   ISO_INLINE void give_back(std::uint32_t slot) {
     hash_.forget();
     SlotEntry& entry = entries_.change(slot);
-    const std::uint32_t tenants = (entry.generation + 1u) & kTenants;
-    entry.generation = (entry.generation & ~kTenants) | (tenants == 0 ? 1u : tenants);  // 0 stays null
+    if ((entry.generation & kTenants) == kTenants) {
+      entry.next_free = SlotEntry::kRetired;
+      return;
+    }
+    ++entry.generation;
     entry.next_free = first_free_;
     first_free_ = slot;
   }
@@ -98,10 +102,12 @@ class SlotMap {
     std::size_t free = 0, met = 0;
     for (const SlotEntry& entry : entries) {
       if (entry.generation == 0) return false;
-      free += entry.next_free != SlotEntry::kTaken;
+      if (entry.next_free == SlotEntry::kRetired && (entry.generation & kTenants) != kTenants) return false;
+      free += entry.next_free != SlotEntry::kTaken && entry.next_free != SlotEntry::kRetired;
     }
     for (std::uint32_t slot = first_free; slot != SlotEntry::kEnd; slot = entries[slot].next_free) {
-      if (slot >= entries.size() || entries[slot].next_free == SlotEntry::kTaken || ++met > free) return false;
+      if (slot >= entries.size() || ++met > free) return false;
+      if (entries[slot].next_free == SlotEntry::kTaken || entries[slot].next_free == SlotEntry::kRetired) return false;
     }
     if (met != free) return false;
     hash_.forget();

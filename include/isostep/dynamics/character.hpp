@@ -30,7 +30,7 @@ template <class S> struct Character {
   S push_force = S(500);                  // [N]
   S air_acceleration = S(10);             // [m/s^2] towards `move` while it is in the air
   S gravity_scale = S(1);                 // [1]
-  std::uint32_t mask = 0xffffffffu;       // categories of what is in its way: Filter
+  std::uint32_t mask = 0xffffffffu;       // categories in its way, of those that its body's Filter collides with
   Vec3<S> move = {S(0), S(0), S(0)};      // [m/s] along the ground, world
   S jump = S(0);                          // [m/s] upwards; 0 again once it has left the ground
   Footing footing = Footing::airborne;    // from here on: how the last step left it

@@ -55,7 +55,8 @@ template <class S> ISO_INLINE Coupling<S> screw(JointId hinge, S pitch, JointId 
   return rack_and_pinion<S>(hinge, pitch * S(0.159154943091895336), slider);
 }
 /// A rope over two wheels: a and b are distance joints from each wheel to what hangs there, and the rope that runs from
-/// one to the other takes `ratio` metres of b for one of a. It only pulls.
+/// one to the other takes `ratio` metres of b for one of a. It only pulls. `rope` [m]: the longest that a's part and
+/// `ratio` times b's are together.
 template <class S> ISO_INLINE Coupling<S> pulley(JointId a, JointId b, S ratio, S rope) {
   return {a, b, {}, S(1), ratio, S(0), S(0), rope};
 }

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string_view>
 
 #include "isostep/scalar/platform.hpp"
 
@@ -26,12 +24,5 @@ enum class Projection : std::uint32_t { ISO_FOR_EACH_PROJECTION(ISO_ENUMERATOR) 
 inline constexpr const char* kProjectionNames[] = {ISO_FOR_EACH_PROJECTION(ISO_NAME)};
 #undef ISO_NAME
 inline constexpr std::uint32_t kProjections = sizeof kProjectionNames / sizeof kProjectionNames[0];
-
-ISO_INLINE std::optional<Projection> projection_named(std::string_view name) {
-  for (std::uint32_t i = 0; i < kProjections; ++i) {
-    if (name == kProjectionNames[i]) return static_cast<Projection>(i);
-  }
-  return std::nullopt;
-}
 
 }  // namespace isostep

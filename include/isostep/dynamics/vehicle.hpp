@@ -18,22 +18,23 @@ template <class S> ISO_INLINE constexpr S fastest_engine() {
 }
 
 /// Engine, brakes and steering of all wheels of a body; one record a body. Wheels need none: a cart's only roll.
-///   engine        throttle engine_torque, as long as its shaft, which the wheels turn at gear final_drive times their
-///                 mean speed, is slower than engine_speed that way. Negative throttle drives backwards.
+///   engine        throttle * engine_torque, as long as its shaft, which the wheels turn at gear * final_drive times
+///                 their mean speed, is slower than engine_speed that way. Negative throttle drives backwards.
 ///   clutch        where engine_inertia is not 0 the engine turns by itself, at engine_spin, and its torque acts on it.
 ///                 The clutch is friction between it and the shaft that the wheels turn: it ends the difference of
-///                 their speeds with a torque of at most clutch clutch_torque, which the engine loses and the shaft
+///                 their speeds with a torque of at most clutch * clutch_torque, which the engine loses and the shaft
 ///                 gets. In neutral it passes on nothing. Nothing else slows the engine down, and it runs while the
 ///                 body is awake and has wheels. 0: its shaft is that of the wheels, without inertia.
-///   differential  torque gear final_drive, of which no more than Limits::mass_ratio() counts, divided by
+///   differential  torque * gear * final_drive, of which no more than Limits::mass_ratio() counts, divided by
 ///                 Wheel::drive_share. What differential_lock says is the part of the difference in speed between
 ///                 driven wheels that it takes in each iteration: 0: open, 1: locked.
-///   brakes        at each wheel brake brake_torque Wheel::brake_share and the same of the handbrake, against its spin
-///   steering      each wheel turns by steer Wheel::steer_angle, counter-clockwise seen from above where positive. Of
-///                 that ackermann 1 makes the angle of a wheel in the middle between left and right: all axles point to
-///                 one centre, on the line through the wheels that are not steered. 0: each by the same angle.
+///   brakes        at each wheel brake * brake_torque * Wheel::brake_share and the same of the handbrake, against its
+///                 spin
+///   steering      each wheel turns by steer * Wheel::steer_angle, counter-clockwise seen from above where positive.
+///                 Of that ackermann 1 makes the angle of a wheel in the middle between left and right: all axles point
+///                 to one centre, on the line through the wheels that are not steered. 0: each by the same angle.
 ///   tracks        the drive of each track on the side to which steer turns, left where positive, is geared by
-///                 1 - track_steer |steer|: its share of the torque is that times as much, a turn of it counts that
+///                 1 - track_steer * |steer|: its share of the torque is that times as much, a turn of it counts that
 ///                 much for the shaft, and a differential that is locked holds its speed to that part of the others'.
 ///                 0: it rolls freely; -1, as track_steer 2 has it at full steer: it runs backwards, and the body
 ///                 turns on the spot. Throttle or a locked differential turns the body, steer alone does not. A

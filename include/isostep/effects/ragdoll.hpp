@@ -14,7 +14,7 @@ template <class S> struct RagdollBone {
   int parent = -1;                      // index of an earlier bone; -1: the root
   ShapeId shape = {};                   // of the world
   Pose<S> pose = Pose<S>::identity();   // of the body's origin, world, at rest
-  S mass = S(0);                        // [kg] 0: by the shape's size, at 1 kg/m^3
+  S mass = S(0);                        // [kg] 0: by the shape's volume at 1 kg/m^3, which is light as air
   Pose<S> joint = Pose<S>::identity();  // to the parent, world; z: the bone's length, or a hinge's axis
   bool hinge = false;                   // turns about z alone: knees, elbows
   S swing_x = S(0), swing_y = S(0);     // [rad] half axes of the ellipse in which z stays; of no hinge

@@ -11,9 +11,9 @@ namespace isostep {
 
 /// What a dynamic body weighs.
 template <class S> struct BodyMass {
-  S density = S(1);                      // [kg/m^3] where mass is 0
+  S density = S(1);                      // [kg/m^3] where mass is 0; water has 1000
   S mass = S(0);                         // [kg] 0: from density
-  Vec3<S> inertia = {S(0), S(0), S(0)};  // [kg m^2] principal, body axes; 0: from the shape
+  Vec3<S> inertia = {S(0), S(0), S(0)};  // [kg m^2] principal, body axes; all 0: from the shape
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("density", self.density);
@@ -29,20 +29,20 @@ template <class S> struct BodyDefinition {
   Quat<Unit<S>> orientation = Quat<Unit<S>>::identity();
   Vec3<S> velocity = {S(0), S(0), S(0)};          // [m/s] of the centre of mass
   Vec3<S> angular_velocity = {S(0), S(0), S(0)};  // [rad/s] world
-  S density = S(1);                               // [kg/m^3] where mass is 0
+  S density = S(1);                               // [kg/m^3] where mass is 0; water has 1000
   S mass = S(0);                                  // [kg] 0: from density
-  Vec3<S> inertia = {S(0), S(0), S(0)};           // [kg m^2] principal, body axes; 0: from the shape
+  Vec3<S> inertia = {S(0), S(0), S(0)};           // [kg m^2] principal, body axes; all 0: from the shape
   Material<S> material = {};
   Filter filter = {};
   std::uint64_t user_data = 0;
-  S gravity_scale = S(1);
+  S gravity_scale = S(1);    // [1] of the world's gravity
   S linear_damping = S(0);   // [1/s]
   S angular_damping = S(0);  // [1/s]
   std::uint32_t locks = 0;   // body_flag::kLockX ...
-  bool sensor = false;
+  bool sensor = false;       // tells what it overlaps, and touches nothing
   bool allow_sleep = true;
-  bool collide = true;
-  bool bullet = false;  // nor passes other bodies that move, at whatever speed; does pass other bullets
+  bool collide = true;  // false: no contacts, no events
+  bool bullet = false;  // moving bodies stop it too, at any speed; two bullets may pass through each other
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("type", self.type);

@@ -1,4 +1,4 @@
-// Joints by the field's names, each from the numbers that it needs: world.create(hinge<S>({.a = frame, .b = door})).
+// Joints by their usual names, each from the numbers that it needs: world.create(hinge<S>({.a = frame, .b = door})).
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -70,7 +70,8 @@ template <class S> struct TwoPointJoint {
   std::optional<JointSpring<S>> spring = {};                       // its target is `length`
   bool collide = false;
 };
-/// A wheel b below a chassis a. The frame's y is the suspension, up; z the axle, x forwards.
+/// A wheel b below a chassis a. The frame's y is the suspension, up; z the axle, to the left, and x to the rear: so
+/// that a positive speed rolls forwards, as a Wheel's does.
 template <class S> struct WheelJoint {
   BodyId a = {}, b = {};
   Pose<S> frame = Pose<S>::identity();

@@ -29,11 +29,13 @@ template <class S> void Surroundings<S>::begin_step() {
   placed_of_.assign(state_.body_slots.entries().size(), {Range::kUnknown, Range::kUnknown});
 }
 
-template <class S> void Surroundings<S>::begin(ShapeId shape, const Pose<S>& pose, const QueryFilter& filter) {
+template <class S>
+void Surroundings<S>::begin(ShapeId shape, const Pose<S>& pose, const QueryFilter& filter, std::uint32_t category) {
   const Child<S>& own = map_.children_of(shape.slot)[0];
   const Pose<S> turned = {Vec3<S>::zero(), pose.orientation};
   const Transform<S> placed = Transform<S>::of(own.pose.is_identity() ? turned : compose(turned, own.pose));
   filter_ = filter;
+  category_ = category;
   shape_ = &own.primitive;
   begin_ = pose.position;
   offset_ = placed.position;
@@ -78,7 +80,7 @@ template <class S> void Surroundings<S>::find_bodies_near() {
     const Range parts = parts_of(slot);
     bool meets = false;
     for (std::uint32_t i = parts.first; i < parts.last && !meets; ++i) meets = overlap(placed_[i].box, region_);
-    if (meets && queries_.sees(filter_, slot)) near_.push_back({slot, parts});
+    if (meets && queries_.sees(filter_, slot) && collides_with(slot)) near_.push_back({slot, parts});
     return true;
   });
   near_scratch_.resize(near_.size());

@@ -139,9 +139,11 @@ template <class S> class World final {
   /// The next step carries a kinematic body to that pose, and leaves it there at rest: MoveTarget. Once more before the
   /// step is another target in place of the first.
   bool move_to(BodyId body, const Pose<S>& pose);
-  bool set_gravity(Vec3<S> gravity);
+  bool set_gravity(Vec3<S> gravity);  // [m/s^2] world
+  /// [N] and [N m], world, for the length of the next step; they add up. A point is in the world [m].
   bool apply_force(BodyId body, Vec3<S> force, Vec3<S> torque = {S(0), S(0), S(0)});
   bool apply_force_at(BodyId body, Vec3<S> force, Vec3<S> point);
+  /// [kg m/s] and [kg m^2/s], world: velocities change at once.
   bool apply_impulse(BodyId body, Vec3<S> impulse, Vec3<S> angular_impulse = {S(0), S(0), S(0)});
   bool apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point);
 
@@ -165,6 +167,9 @@ template <class S> class World final {
   S joint_position(JointId joint) const;
   /// The same of one axis of a six-axis joint: where it stands [m], or its angle in (-pi, pi] [rad].
   S joint_position(JointId joint, JointAxis axis) const;
+  /// The record on one axis of a six-axis joint, presets and ragdolls included: for find, set and remove, as to change
+  /// the target of a servo or the speed of a motor. Null where there is none.
+  AxisDriveId axis_drive(JointId joint, JointAxis axis) const;
 
   // Records: each kind of force that acts from step to step, force_list.hpp, and of record_list.hpp. They act on what
   // is awake; adding one, changing or removing it wakes the bodies that it names, and those of zones, attractors and

@@ -38,6 +38,15 @@ template <class S>
 JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const Pose<S>& frame) const {
   return joint_between(type, a, frame, b, frame);
 }
+template <class S> AxisDriveId World<S>::axis_drive(JointId joint, JointAxis axis) const {
+  const auto& drives = engine_->state_.force_records->axis_drives;
+  for (std::uint32_t slot = 0; slot < drives.all().size(); ++slot) {
+    const AxisDrive<S>& drive = drives.all()[slot];
+    if (drives.is_taken(slot) && drive.joint == joint && drive.axis == axis)
+      return drives.slots().template id_of<AxisDriveId>(slot);
+  }
+  return {};
+}
 template <class S>
 JointProperties<S> World<S>::joint_between(JointType type, BodyId a, const Pose<S>& frame_a, BodyId b,
                                            const Pose<S>& frame_b) const {
@@ -72,9 +81,10 @@ template <class S> JointId World<S>::create(const JointDefinition<S>& definition
     return {};
   }
   const JointId made = create(joint);
+  if (!made) return {};
   for (AxisDrive<S> drive : drives) {
     drive.joint = made;
-    if (made) add(drive);
+    add(drive);  // fault_of_drives() has seen that each fits
   }
   return made;
 }

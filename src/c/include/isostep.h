@@ -446,7 +446,7 @@ typedef struct iso_f32_ragdoll_bone {
   uint8_t reserved1[4];
   iso_shape shape; /* of the world */
   iso_f32_pose pose; /* of the body's origin, world, at rest */
-  float mass; /* [kg] 0: by the shape's size, at 1 kg/m^3 */
+  float mass; /* [kg] 0: by the shape's volume at 1 kg/m^3, which is light as air */
   iso_f32_pose joint; /* to the parent, world; z: the bone's length, or a hinge's axis */
   uint8_t hinge; /* turns about z alone: knees, elbows */
   uint8_t reserved2[3];
@@ -556,29 +556,29 @@ typedef struct iso_f32_body_definition {
   iso_f32_quat orientation;
   iso_f32_vec3 velocity; /* [m/s] of the centre of mass */
   iso_f32_vec3 angular_velocity; /* [rad/s] world */
-  float density; /* [kg/m^3] where mass is 0 */
+  float density; /* [kg/m^3] where mass is 0; water has 1000 */
   float mass; /* [kg] 0: from density */
-  iso_f32_vec3 inertia; /* [kg m^2] principal, body axes; 0: from the shape */
+  iso_f32_vec3 inertia; /* [kg m^2] principal, body axes; all 0: from the shape */
   iso_f32_material material;
   iso_filter filter;
   uint8_t reserved2[4];
   uint64_t user_data;
-  float gravity_scale;
+  float gravity_scale; /* [1] of the world's gravity */
   float linear_damping; /* [1/s] */
   float angular_damping; /* [1/s] */
   uint32_t locks; /* body_flag::kLockX ... */
-  uint8_t sensor;
+  uint8_t sensor; /* tells what it overlaps, and touches nothing */
   uint8_t allow_sleep;
-  uint8_t collide;
-  uint8_t bullet; /* nor passes other bodies that move, at whatever speed; does pass other bullets */
+  uint8_t collide; /* false: no contacts, no events */
+  uint8_t bullet; /* moving bodies stop it too, at any speed; two bullets may pass through each other */
   uint8_t reserved3[4];
 } iso_f32_body_definition;
 typedef struct iso_f32_body_mass {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
   uint32_t reserved0;
-  float density; /* [kg/m^3] where mass is 0 */
+  float density; /* [kg/m^3] where mass is 0; water has 1000 */
   float mass; /* [kg] 0: from density */
-  iso_f32_vec3 inertia; /* [kg m^2] principal, body axes; 0: from the shape */
+  iso_f32_vec3 inertia; /* [kg m^2] principal, body axes; all 0: from the shape */
   uint8_t reserved1[4];
 } iso_f32_body_mass;
 typedef struct iso_f32_body_state {
@@ -1082,7 +1082,7 @@ typedef struct iso_f32_character {
   float push_force; /* [N] */
   float air_acceleration; /* [m/s^2] towards `move` while it is in the air */
   float gravity_scale; /* [1] */
-  uint32_t mask; /* categories of what is in its way: Filter */
+  uint32_t mask; /* categories in its way, of those that its body's Filter collides with */
   iso_f32_vec3 move; /* [m/s] along the ground, world */
   float jump; /* [m/s] upwards; 0 again once it has left the ground */
   iso_footing footing; /* from here on: how the last step left it */
@@ -2497,6 +2497,10 @@ ISO_API iso_status iso_body_set_filter(iso_world* world, iso_body body, const is
 ISO_API iso_status iso_body_set_user_data(iso_world* world, iso_body body, uint64_t user_data);
 ISO_API iso_status iso_joint_destroy(iso_world* world, iso_joint joint);
 ISO_API uint8_t iso_joint_exists(const iso_world* world, iso_joint joint);
+/* The id of the axis_drive record on one axis of a six-axis joint; wheels, motors and ragdolls have them too. With it the
+   record is read, set and removed: another target for a servo, another speed for a motor. 0 where there is none. */
+ISO_API iso_status iso_joint_get_axis_drive(const iso_world* world, iso_joint joint, iso_joint_axis axis,
+                                            iso_record* out);
 #define ISO_C_REMOVE(P, name) ISO_API iso_status iso_remove_##name(iso_world* world, iso_record id);
 ISO_C_FOR_EACH_RECORD(ISO_C_REMOVE, )
 /* Pieces in place of bodies that a step broke, at most `most` bodies. Once a frame. `report` may be null. */

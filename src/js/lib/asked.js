@@ -78,6 +78,11 @@ export class AskedWorld extends Handle {
     const number = this.calls.number('joint_axis', axis);
     return this.run('P_joint_get_axis_position', id(joint, 'joint'), number, out('number'));
   }
+  /** The axis_drive on one axis of a six-axis joint, for get, set and remove; 0n where there is none. */
+  axisDrive(joint, axis) {
+    const number = this.calls.number('joint_axis', axis);
+    return this.run('joint_get_axis_drive', id(joint, 'joint'), number, out('id'));
+  }
   /** A record by its kind: get('thruster', id). */
   get(kind, record) {
     const name = this.calls.nameOf('records', kind);

@@ -592,7 +592,7 @@ export interface RagdollBone<N = number> {
   shape: bigint;
   /** of the body's origin, world, at rest */
   pose: Pose<N>;
-  /** [kg] 0: by the shape's size, at 1 kg/m^3 */
+  /** [kg] 0: by the shape's volume at 1 kg/m^3, which is light as air */
   mass: N;
   /** to the parent, world; z: the bone's length, or a hinge's axis */
   joint: Pose<N>;
@@ -743,15 +743,16 @@ export interface BodyDefinition<N = number> {
   velocity: Vec3<N>;
   /** [rad/s] world */
   angularVelocity: Vec3<N>;
-  /** [kg/m^3] where mass is 0 */
+  /** [kg/m^3] where mass is 0; water has 1000 */
   density: N;
   /** [kg] 0: from density */
   mass: N;
-  /** [kg m^2] principal, body axes; 0: from the shape */
+  /** [kg m^2] principal, body axes; all 0: from the shape */
   inertia: Vec3<N>;
   material: Material<N>;
   filter: Filter;
   userData: bigint;
+  /** [1] of the world's gravity */
   gravityScale: N;
   /** [1/s] */
   linearDamping: N;
@@ -759,19 +760,21 @@ export interface BodyDefinition<N = number> {
   angularDamping: N;
   /** body_flag::kLockX ... */
   locks: number;
+  /** tells what it overlaps, and touches nothing */
   sensor: boolean;
   allowSleep: boolean;
+  /** false: no contacts, no events */
   collide: boolean;
-  /** nor passes other bodies that move, at whatever speed; does pass other bullets */
+  /** moving bodies stop it too, at any speed; two bullets may pass through each other */
   bullet: boolean;
 }
 
 export interface BodyMass<N = number> {
-  /** [kg/m^3] where mass is 0 */
+  /** [kg/m^3] where mass is 0; water has 1000 */
   density: N;
   /** [kg] 0: from density */
   mass: N;
-  /** [kg m^2] principal, body axes; 0: from the shape */
+  /** [kg m^2] principal, body axes; all 0: from the shape */
   inertia: Vec3<N>;
 }
 
@@ -1308,7 +1311,7 @@ export interface Character<N = number> {
   airAcceleration: N;
   /** [1] */
   gravityScale: N;
-  /** categories of what is in its way: Filter */
+  /** categories in its way, of those that its body's Filter collides with */
   mask: number;
   /** [m/s] along the ground, world */
   move: Vec3<N>;

@@ -195,6 +195,7 @@ export interface World<N = number> extends Owned {
   joint(joint: bigint): JointProperties<N>;
   jointError(joint: bigint): N;
   jointPosition(joint: bigint, axis?: JointAxisName): N;
+  axisDrive(joint: bigint, axis: JointAxisName): bigint;
   addRagdoll(bones: readonly Given<RagdollBone<N>>[], settings?: Given<RagdollSettings<N>>):
     {bodies: bigint[], joints: bigint[]};
 

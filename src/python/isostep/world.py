@@ -207,6 +207,10 @@ class World(Handle):
     def destroy_joint(self, joint):
         self.call("joint_destroy", joint)
 
+    def axis_drive(self, joint, axis):
+        """The axis_drive on one axis of a six-axis joint, for get_record and set_record; 0 where there is none."""
+        return self.call("joint_get_axis_drive", joint, axis)
+
     def add_record(self, kind, **fields):
         """What acts from step to step: a thruster, spring, zone, wheel, ...; its id."""
         return self.call(f"add_{kind}", fields)

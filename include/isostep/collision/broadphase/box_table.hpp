@@ -54,27 +54,7 @@ template <class S> class BoxTable {
 
 namespace detail {
 
-/// overlapping_pairs by a query for every box.
-template <class Structure, class Visit>
-ISO_INLINE bool query_pairs(const Structure& structure, std::uint64_t most, const Visit& visit) {
-  std::uint32_t left = structure.size();
-  bool within = true;
-  for (std::uint32_t slot = 0; left != 0 && within; ++slot) {
-    if (!structure.contains(slot)) continue;
-    --left;
-    structure.query(structure.box(slot), [&](std::uint32_t other) ISO_INLINE_LAMBDA {
-      if (other <= slot) return true;
-      within = most != 0;
-      if (!within) return false;
-      --most;
-      visit(slot, other);
-      return true;
-    });
-  }
-  return within;
-}
-
-/// overlapping_pairs_of by as many queries.
+/// overlapping_pairs_of by a query for every box.
 template <class Structure, class Visit>
 ISO_INLINE bool query_pairs_of(const Structure& structure, std::span<const std::uint32_t> slots, std::uint64_t most,
                                const Visit& visit) {

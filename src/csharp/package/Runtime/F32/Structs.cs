@@ -171,7 +171,7 @@ namespace Isostep.F32
         public ShapeId Shape;
         /// <summary>Of the body's origin, world, at rest</summary>
         public Pose Pose;
-        /// <summary>[kg] 0: by the shape's size, at 1 kg/m^3</summary>
+        /// <summary>[kg] 0: by the shape's volume at 1 kg/m^3, which is light as air</summary>
         public float Mass;
         /// <summary>To the parent, world; z: the bone's length, or a hinge's axis</summary>
         public Pose Joint;
@@ -373,16 +373,17 @@ namespace Isostep.F32
         public Vec3 Velocity;
         /// <summary>[rad/s] world</summary>
         public Vec3 AngularVelocity;
-        /// <summary>[kg/m^3] where mass is 0</summary>
+        /// <summary>[kg/m^3] where mass is 0; water has 1000</summary>
         public float Density;
         /// <summary>[kg] 0: from density</summary>
         public float Mass;
-        /// <summary>[kg m^2] principal, body axes; 0: from the shape</summary>
+        /// <summary>[kg m^2] principal, body axes; all 0: from the shape</summary>
         public Vec3 Inertia;
         public Material Material;
         public Filter Filter;
         private fixed byte reserved2[4];
         public ulong UserData;
+        /// <summary>[1] of the world's gravity</summary>
         public float GravityScale;
         /// <summary>[1/s]</summary>
         public float LinearDamping;
@@ -391,13 +392,15 @@ namespace Isostep.F32
         /// <summary>Body_flag::kLockX ...</summary>
         public uint Locks;
         private byte sensor;
+        /// <summary>Tells what it overlaps, and touches nothing</summary>
         public bool Sensor { get { return sensor != 0; } set { sensor = (byte)(value ? 1 : 0); } }
         private byte allowSleep;
         public bool AllowSleep { get { return allowSleep != 0; } set { allowSleep = (byte)(value ? 1 : 0); } }
         private byte collide;
+        /// <summary>False: no contacts, no events</summary>
         public bool Collide { get { return collide != 0; } set { collide = (byte)(value ? 1 : 0); } }
         private byte bullet;
-        /// <summary>Nor passes other bodies that move, at whatever speed; does pass other bullets</summary>
+        /// <summary>Moving bodies stop it too, at any speed; two bullets may pass through each other</summary>
         public bool Bullet { get { return bullet != 0; } set { bullet = (byte)(value ? 1 : 0); } }
         private fixed byte reserved3[4];
 
@@ -415,11 +418,11 @@ namespace Isostep.F32
     {
         private uint size;
         private uint reserved0;
-        /// <summary>[kg/m^3] where mass is 0</summary>
+        /// <summary>[kg/m^3] where mass is 0; water has 1000</summary>
         public float Density;
         /// <summary>[kg] 0: from density</summary>
         public float Mass;
-        /// <summary>[kg m^2] principal, body axes; 0: from the shape</summary>
+        /// <summary>[kg m^2] principal, body axes; all 0: from the shape</summary>
         public Vec3 Inertia;
         private fixed byte reserved1[4];
 
@@ -1613,7 +1616,7 @@ namespace Isostep.F32
         public float AirAcceleration;
         /// <summary>[1]</summary>
         public float GravityScale;
-        /// <summary>Categories of what is in its way: Filter</summary>
+        /// <summary>Categories in its way, of those that its body's Filter collides with</summary>
         public uint Mask;
         /// <summary>[m/s] along the ground, world</summary>
         public Vec3 Move;

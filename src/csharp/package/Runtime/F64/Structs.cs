@@ -171,7 +171,7 @@ namespace Isostep.F64
         public ShapeId Shape;
         /// <summary>Of the body's origin, world, at rest</summary>
         public Pose Pose;
-        /// <summary>[kg] 0: by the shape's size, at 1 kg/m^3</summary>
+        /// <summary>[kg] 0: by the shape's volume at 1 kg/m^3, which is light as air</summary>
         public double Mass;
         /// <summary>To the parent, world; z: the bone's length, or a hinge's axis</summary>
         public Pose Joint;
@@ -370,16 +370,17 @@ namespace Isostep.F64
         public Vec3 Velocity;
         /// <summary>[rad/s] world</summary>
         public Vec3 AngularVelocity;
-        /// <summary>[kg/m^3] where mass is 0</summary>
+        /// <summary>[kg/m^3] where mass is 0; water has 1000</summary>
         public double Density;
         /// <summary>[kg] 0: from density</summary>
         public double Mass;
-        /// <summary>[kg m^2] principal, body axes; 0: from the shape</summary>
+        /// <summary>[kg m^2] principal, body axes; all 0: from the shape</summary>
         public Vec3 Inertia;
         public Material Material;
         public Filter Filter;
         private fixed byte reserved2[4];
         public ulong UserData;
+        /// <summary>[1] of the world's gravity</summary>
         public double GravityScale;
         /// <summary>[1/s]</summary>
         public double LinearDamping;
@@ -388,13 +389,15 @@ namespace Isostep.F64
         /// <summary>Body_flag::kLockX ...</summary>
         public uint Locks;
         private byte sensor;
+        /// <summary>Tells what it overlaps, and touches nothing</summary>
         public bool Sensor { get { return sensor != 0; } set { sensor = (byte)(value ? 1 : 0); } }
         private byte allowSleep;
         public bool AllowSleep { get { return allowSleep != 0; } set { allowSleep = (byte)(value ? 1 : 0); } }
         private byte collide;
+        /// <summary>False: no contacts, no events</summary>
         public bool Collide { get { return collide != 0; } set { collide = (byte)(value ? 1 : 0); } }
         private byte bullet;
-        /// <summary>Nor passes other bodies that move, at whatever speed; does pass other bullets</summary>
+        /// <summary>Moving bodies stop it too, at any speed; two bullets may pass through each other</summary>
         public bool Bullet { get { return bullet != 0; } set { bullet = (byte)(value ? 1 : 0); } }
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
@@ -411,11 +414,11 @@ namespace Isostep.F64
     {
         private uint size;
         private uint reserved0;
-        /// <summary>[kg/m^3] where mass is 0</summary>
+        /// <summary>[kg/m^3] where mass is 0; water has 1000</summary>
         public double Density;
         /// <summary>[kg] 0: from density</summary>
         public double Mass;
-        /// <summary>[kg m^2] principal, body axes; 0: from the shape</summary>
+        /// <summary>[kg m^2] principal, body axes; all 0: from the shape</summary>
         public Vec3 Inertia;
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
@@ -1603,7 +1606,7 @@ namespace Isostep.F64
         public double AirAcceleration;
         /// <summary>[1]</summary>
         public double GravityScale;
-        /// <summary>Categories of what is in its way: Filter</summary>
+        /// <summary>Categories in its way, of those that its body's Filter collides with</summary>
         public uint Mask;
         private fixed byte reserved1[4];
         /// <summary>[m/s] along the ground, world</summary>

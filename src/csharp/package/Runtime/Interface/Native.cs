@@ -295,6 +295,13 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern byte iso_joint_exists(IntPtr world, ulong joint);
 
+        /// <summary>The id of the axis_drive record on one axis of a six-axis joint; wheels, motors and ragdolls have
+        /// them too. With it the record is read, set and removed: another target for a servo, another speed for a
+        /// motor. 0 where there is none.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_joint_get_axis_drive(IntPtr world, ulong joint, JointAxis axis,
+            RecordId* @out);
+
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_remove_force_zone(IntPtr world, ulong id);
 

@@ -232,6 +232,16 @@ namespace Isostep
             return Native.iso_joint_exists(Pointer, joint.Value) != 0;
         }
 
+        /// <summary>The id of the axis_drive record on one axis of a six-axis joint; wheels, motors and ragdolls have
+        /// them too. With it the record is read, set and removed: another target for a servo, another speed for a
+        /// motor. 0 where there is none.</summary>
+        public RecordId GetJointAxisDrive(JointId joint, JointAxis axis)
+        {
+            RecordId filled;
+            Check(Native.iso_joint_get_axis_drive(Pointer, joint.Value, axis, &filled));
+            return filled;
+        }
+
         public void RemoveForceZone(RecordId id)
         {
             Check(Native.iso_remove_force_zone(Pointer, id.Value));
