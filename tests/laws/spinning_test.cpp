@@ -122,5 +122,29 @@ TYPED_TEST(Spinning, what_a_blow_spins_beyond_the_limit_is_slowed_and_reported) 
   EXPECT_LE(length(real(w.angular_velocity(rod))), 60 * (1 + 1e-3));
 }
 
+/// What is taken back of a push, for the gyroscopic term, grows with the square of the speed before it: of a body that
+/// damping all but stops within a sub-step it was more than all that is left, and grew until it was no number.
+TYPED_TEST(Spinning, what_damping_stops_gains_nothing) {
+  using S = TypeParam;
+  const double blow = pick<S>(300, 300, 30, 300);  // [N m s] hundreds of rad/s; tens, of the most that Q16.16 has
+  for (const double damping : {50.0, 500.0, 16384.0}) {
+    for (const int substeps : {1, 8, 64}) {
+      SCOPED_TRACE(testing::Message() << "damping " << damping << ", sub-steps " << substeps);
+      World<S> w(settings<S>(0, 10, substeps));
+      BodyDefinition<S> d = moving<S>(add_box(w, 1, 0.5, 0.25), {0, 0, 0});
+      d.mass = S(1);
+      d.angular_damping = num<S>(damping);
+      const BodyId box = w.create(d);
+      for (int i = 0; i < 30; ++i) {
+        if (i % 3 == 1) ASSERT_TRUE(w.apply_impulse(box, vec<S>(0, 0, 0), vec<S>(0, blow, 0.25 * blow)));
+        const double before = EnergyBook<S>::energy_of(w);
+        EXPECT_EQ(w.step().stopped, 0u);
+        EXPECT_LE(EnergyBook<S>::energy_of(w), before * (1 + 1e-3)) << "step " << i;
+        if (i % 3 == 1) EXPECT_GT(before, 100);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace isostep::test

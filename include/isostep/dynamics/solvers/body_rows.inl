@@ -127,6 +127,9 @@ template <class S> void BodyRows<S>::finish_velocity(const StepContext<S>& conte
   const Mat3<Unit<S>> axes = detail::world_axes(context.states[body].orientation, properties);
   if (!turned) {
     BodyTurn<S>& turn = turns_[body];
+    // What damping takes is no push: as one, of what it all but stops more would be taken back than is left.
+    const S kept = factors_[body].angular_keep;
+    for (int axis = 0; axis < 3; ++axis) turn.known[axis] = round_to<V>(product(kept, turn.known[axis]));
     const Pace pace = detail::pace_of<S>(max_abs(row.angular), context.hz, rate_);
     const Step<S> h = divide_to<Step<S>>(S(1), S(rate_));
     row.angular = FreeTurn<S>{axes, turn.inertia, turn.euler, h}.turn(row.angular, turn.known, pace);
