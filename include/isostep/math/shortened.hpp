@@ -6,9 +6,12 @@
 
 namespace isostep::detail {
 
-/// Most are not half as long along any axis, and need no square root.
+/// Most are not half as long along any axis, and need no square root. By comparison on both sides: the lowest number of
+/// a fixed format has no magnitude.
 template <class V> ISO_INLINE bool is_longer(Vec3<V> v, V limit) {
-  return limit * V(0.5) < max_abs(v) && limit < length(v);
+  const V half = limit * V(0.5);
+  const bool may_be = half < max(v.x, max(v.y, v.z)) || min(v.x, min(v.y, v.z)) < -half;
+  return may_be && limit < length(v);
 }
 /// To `limit`, or to 2^-12 less where rounding leads beyond.
 template <class V> ISO_INLINE Vec3<V> shortened(Vec3<V> v, V limit) {
