@@ -23,8 +23,9 @@ namespace isostep {
 ///          whole sub-step's, and those of the step before are no more than a guess at who pushes.
 /// Symbols: W = J M^-1/2 over powers of two (LinearSystem), so that K = W W^T is near one whatever the masses.
 /// Limits:  islands above kMostBlocks are swept by Gauss-Seidel over the same rows; where pivots come to no end within
-///          their share of kMostWork, a count, what is bounded stays as it was swept and joints are solved for the
-///          rest: an island's step ends after some 25 ms of double a sub-step. unsolved() returns how many islands.
+///          their share of kMostWork, a count, or what they find does not hold, what is bounded stays as it was swept
+///          and joints are solved for the rest: an island's step ends after some 25 ms of double a sub-step. unsolved()
+///          returns how many islands.
 ///          Friction is an octagon inside the cone, along the slip or the friction borne. Of a drive's two limits the
 ///          nearer counts. Impulses that are stored are held within the speed limit. Restitution: one solve more
 ///          without friction. While tension is taken implicitly (joint_tension.hpp) bodies conserve momentum, not

@@ -92,6 +92,15 @@ template <class N> void DirectSystem<N>::solve_equations() {
   holds_ = false;
 }
 
+/// Without what was found so far, which is of any size: sweeps from nothing stay near what is asked.
+template <class N> void DirectSystem<N>::solve_anew() {
+  for (DirectBlock<N>& block : blocks_) {
+    for (DirectRow<N>& row : block.rows) row.answer = row.last = N(0);
+  }
+  sweep(kSweeps);
+  solve_equations();
+}
+
 template <class N> void DirectSystem<N>::sweep(int sweeps) {
   for (DirectBlock<N>& block : blocks_) {
     for (DirectRow<N>& row : block.rows) row.answer = clamped(row, row.answer);

@@ -211,11 +211,37 @@ template <class N> bool DirectSystem<N>::solve(bool firm, std::uint64_t most_wor
     sweep(sweeps);
     work_ = static_cast<std::uint64_t>(sweeps) * one;
   }
+  settle_answers();
+  if (!solved || !is_violated()) return solved;
+  solve_anew();
+  settle_answers();
+  return false;
+}
+
+/// Within bounds, and the motions that they give.
+template <class N> void DirectSystem<N>::settle_answers() {
   for (DirectBlock<N>& block : blocks_) {
     for (DirectRow<N>& row : block.rows) row.answer = clamped(row, row.answer);
   }
   gather_motions(false);
-  return solved;
+}
+
+/// Whether rows that hold are off by more than twice what was asked of any. Where a joint presses a body against what
+/// does not give way, loads grow to thousands of times what is asked, friction with them, and its limits never hold
+/// still: cut to the last, it no longer balances them.
+template <class N> bool DirectSystem<N>::is_violated() const {
+  N asked = N(0), worst = N(0);
+  for (const DirectBlock<N>& block : blocks_) {
+    for (int r = 0; r < 3; ++r) {
+      const DirectRow<N>& row = block.rows[r];
+      if (row.bound == DirectBound::absent || row.bound == DirectBound::boxed) continue;
+      const N off = residual(block, r);
+      asked = max(asked, row.right < N(0) ? -row.right : row.right);
+      if (row.bound != DirectBound::above) worst = max(worst, off);
+      if (row.bound != DirectBound::below) worst = max(worst, -off);
+    }
+  }
+  return asked < worst * N(0.5);
 }
 
 }  // namespace isostep

@@ -103,9 +103,9 @@ template <class N> class DirectSystem {
   void settle();
   /// From now on only what cannot give way is solved: neither friction nor motors nor springs.
   void release();
-  /// False: no end was found within most_work. Then, bounded answers are within bounds, and joints hold unless all was
-  /// swept, as often as that allows, and kLeastSweeps at least. Firm: contacts, too, are not to yield, at the price of
-  /// more passes. Equations never are.
+  /// False: no end was found within most_work, or one that does not hold. Then, bounded answers are within bounds, and
+  /// joints hold unless all was swept, as often as that allows, and kLeastSweeps at least. Firm: contacts, too, are not
+  /// to yield, at the price of more passes. Equations never are.
   bool solve(bool firm, std::uint64_t most_work);
   /// Projected Gauss-Seidel from the answers so far.
   void sweep(int sweeps);
@@ -129,6 +129,9 @@ template <class N> class DirectSystem {
   void start_from_sweeps();
   void step_within_bounds();
   void solve_equations();
+  void solve_anew();
+  void settle_answers();
+  bool is_violated() const;
   bool yielded(bool firm) const;
   static bool takes_back(const DirectRow<N>& row, bool firm);
   bool refactor();
