@@ -401,6 +401,33 @@ TYPED_TEST(Characters, records_refuse_what_they_cannot_use) {
   refused("normal", [](auto& b) { b.normal.x = Unit<S>(0.5); });
 }
 
+/// Ground that a command puts elsewhere carries at any speed; what a character keeps of that is within the limits, so
+/// that every state that a step leaves can be read.
+TYPED_TEST(Characters, is_thrown_no_faster_than_the_limit_by_ground_that_jumps_away) {
+  using S = TypeParam;
+  for (const double jump : {0.0, 5.0}) {
+    this->w = World<S>(settings<S>());
+    this->capsule_ = {};
+    const BodyId plate = this->box({2, 0.25, 2}, {0, -0.25, 0}, BodyType::kinematic);
+    const CharacterId id = this->walker({0, 0, 0});
+    run(this->w, 2);
+    ASSERT_EQ(this->footing(id), Footing::floor);
+    const double far = 0.9 * to_double(Limits<S>::position());
+    ASSERT_TRUE(this->w.set_pose(plate, {vec<S>(-far, 0, far), Quat<Unit<S>>::identity()}));
+    this->ask(id, {1, 0, 0}, jump);
+    for (int i = 0; i < 5; ++i) {
+      this->w.step();
+      const D3 v = real(this->w.find(id)->velocity);
+      EXPECT_LE(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}), to_double(Limits<S>::speed())) << i;
+      const std::vector<std::uint8_t> bytes = bytes_of(this->w);
+      World<S> other(settings<S>());
+      Reader reader(bytes);
+      ASSERT_TRUE(other.read_portable(reader).ok()) << i;
+      EXPECT_EQ(other.hash(), this->w.hash());
+    }
+  }
+}
+
 /// As contacts are made: by the group of both bodies and the masks of both.
 TYPED_TEST(Characters, is_stopped_by_what_its_body_collides_with_alone) {
   struct Case {

@@ -87,6 +87,8 @@ template <class S> class CharacterWalk {
   S separation_of(const NearContact<S>& contact) const {
     return contact.separation + dot(at_ - contacts_at_, contact.normal);
   }
+  Vec3<S> speed_of(Vec3<S> way) const;
+  void set_velocity(Vec3<S> velocity);
   void take_off(Vec3<S> carried);
   void fall();
   void fly();

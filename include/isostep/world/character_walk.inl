@@ -105,9 +105,18 @@ template <class S> void CharacterWalk<S>::leave_overlaps(S most) {
   move_out(detail::obstacle::kFixed, most);
 }
 
+/// [m/s] of a way of one step, held near the limit: ground that a command puts elsewhere carries by any way.
+template <class S> Vec3<S> CharacterWalk<S>::speed_of(Vec3<S> way) const {
+  const S hz = S(place_.hz);
+  return held_within(way, Limits<S>::speed() / hz) * hz;
+}
+template <class S> void CharacterWalk<S>::set_velocity(Vec3<S> velocity) {
+  character_.velocity = held_within(velocity, Limits<S>::speed());
+}
+
 /// It keeps the velocity of its ground.
 template <class S> void CharacterWalk<S>::take_off(Vec3<S> carried) {
-  character_.velocity = flat(character_.move) + carried * S(place_.hz) + convert<S>(up_) * character_.jump;
+  set_velocity(flat(character_.move) + speed_of(carried) + convert<S>(up_) * character_.jump);
   character_.jump = S(0);
   character_.footing = Footing::airborne;
 }
@@ -192,7 +201,7 @@ template <class S> void CharacterWalk<S>::find_ground(bool walks, Vec3<S> carrie
   const Vec3<S> down = convert<S>(up_) * -reach;
   const std::optional<Hit> hit = rises ? std::nullopt : cast(down);
   if (hit && is_walkable(*hit)) return stand_on(*hit, reach * hit->fraction);
-  if (walks) character_.velocity = flat(character_.move) + carried * S(place_.hz);
+  if (walks) set_velocity(flat(character_.move) + speed_of(carried));
   const bool near = hit && reach * hit->fraction < S(2) * character_.skin;
   character_.footing = near ? Footing::steep : Footing::airborne;
   character_.ground = near ? hit->body : BodyId{};
@@ -207,7 +216,7 @@ template <class S> void CharacterWalk<S>::stand_on(const Hit& hit, S gap) {
   character_.footing = Footing::floor;
   character_.ground = hit.body;
   character_.normal = character_.least_up <= rise ? hit.normal : up_;
-  character_.velocity = way() * S(place_.hz);
+  set_velocity(speed_of(way()));
   foot_ = hit.point;
 }
 
