@@ -53,14 +53,19 @@ template <class S> iso_status joint_set(iso_world* world, iso_joint joint, const
 }
 
 /// What is asked of a joint that exists: ask(world, id) puts it.
+template <class World, class Ask>
+iso_status ask_joint(const World& world, const char* call, iso_joint joint, const void* out, const Ask& ask) {
+  ISO_C_REQUIRE(call, out);
+  const JointId id = id_of<JointId>(joint);
+  if (!world.contains(id)) return refuse({Fault::stale_id, call, "joint", "a joint of this world"});
+  return ask(world, id);
+}
 template <class S, class Ask>
 iso_status of_joint(const iso_world* world, const char* call, iso_joint joint, const void* out, const Ask& ask) {
-  return in_world<S>(world, call, Access::reads, [&](auto& of) {
-    ISO_C_REQUIRE(call, out);
-    const JointId id = id_of<JointId>(joint);
-    if (!of.world.contains(id)) return refuse({Fault::stale_id, call, "joint", "a joint of this world"});
-    return ask(of.world, id);
-  });
+  return in_world<S>(world, call, Access::reads, [&](auto& of) { return ask_joint(of.world, call, joint, out, ask); });
+}
+iso_status require_axis(const char* call, iso_joint_axis axis) {
+  return axis >= Enumerators<JointAxis>::kCount ? refuse(ISO_BAD_ENUM, call, "axis") : kOk;
 }
 template <class S> iso_status joint_get(const iso_world* world, iso_joint joint, void* out) {
   return of_joint<S>(world, "joint_get", joint, out,
@@ -82,9 +87,9 @@ template <class S>
 iso_status get_axis_position(const iso_world* world, iso_joint joint, iso_joint_axis axis, void* out) {
   constexpr const char* kCall = "joint_get_axis_position";
   return of_joint<S>(world, kCall, joint, out, [&](auto& w, JointId id) {
-    if (axis >= Enumerators<JointAxis>::kCount) return refuse(ISO_BAD_ENUM, kCall, "axis");
-    put_plain(out, w.joint_position(id, static_cast<JointAxis>(axis)));
-    return kOk;
+    const iso_status status = require_axis(kCall, axis);
+    if (status == kOk) put_plain(out, w.joint_position(id, static_cast<JointAxis>(axis)));
+    return status;
   });
 }
 
@@ -136,12 +141,11 @@ iso_status iso_joint_destroy(iso_world* world, iso_joint joint) {
 iso_status iso_joint_get_axis_drive(const iso_world* world, iso_joint joint, iso_joint_axis axis, iso_record* out) {
   constexpr const char* kCall = "joint_get_axis_drive";
   return in_any_world(world, kCall, Access::reads, [&](auto& of) {
-    ISO_C_REQUIRE(kCall, out);
-    const JointId id = id_of<JointId>(joint);
-    if (!of.world.contains(id)) return refuse({Fault::stale_id, kCall, "joint", "a joint of this world"});
-    if (axis >= Enumerators<JointAxis>::kCount) return refuse(ISO_BAD_ENUM, kCall, "axis");
-    *out = id_bits(of.world.axis_drive(id, static_cast<JointAxis>(axis)));
-    return kOk;
+    return ask_joint(of.world, kCall, joint, out, [&](auto& w, JointId id) {
+      const iso_status status = require_axis(kCall, axis);
+      if (status == kOk) *out = id_bits(w.axis_drive(id, static_cast<JointAxis>(axis)));
+      return status;
+    });
   });
 }
 

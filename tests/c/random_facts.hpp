@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "../random/splitmix64.hpp"
 #include "isostep.h"
 
 namespace isostep::test {
@@ -83,12 +84,7 @@ class Facts {
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  std::uint64_t next() { return isostep::test::splitmix64(state_); }
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(next() % n); }
   bool one_in(std::size_t n) { return below(n) == 0; }
 

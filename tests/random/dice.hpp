@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "isostep/scalar/math.hpp"
+#include "random/splitmix64.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -14,12 +15,7 @@ namespace isostep::test {
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  std::uint64_t next() { return splitmix64(state_); }
   /// Dice of their own, which leave these as they are: what joins a world later does not change what was in it.
   Dice apart() const { return Dice(~state_); }
   std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>((next() >> 32) * n >> 32); }

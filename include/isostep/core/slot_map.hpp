@@ -103,11 +103,10 @@ class SlotMap {
     for (const SlotEntry& entry : entries) {
       if (entry.generation == 0) return false;
       if (entry.next_free == SlotEntry::kRetired && (entry.generation & kTenants) != kTenants) return false;
-      free += entry.next_free != SlotEntry::kTaken && entry.next_free != SlotEntry::kRetired;
+      free += is_free(entry);
     }
     for (std::uint32_t slot = first_free; slot != SlotEntry::kEnd; slot = entries[slot].next_free) {
-      if (slot >= entries.size() || ++met > free) return false;
-      if (entries[slot].next_free == SlotEntry::kTaken || entries[slot].next_free == SlotEntry::kRetired) return false;
+      if (slot >= entries.size() || !is_free(entries[slot]) || ++met > free) return false;
     }
     if (met != free) return false;
     hash_.forget();
@@ -120,6 +119,10 @@ class SlotMap {
  private:
   static constexpr int kSpaceShift = 24;
   static constexpr std::uint32_t kTenants = (1u << kSpaceShift) - 1u;
+
+  static ISO_INLINE bool is_free(const SlotEntry& entry) {
+    return entry.next_free != SlotEntry::kTaken && entry.next_free != SlotEntry::kRetired;
+  }
 
   Remembered hash_;
   Entries entries_;

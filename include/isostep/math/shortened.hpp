@@ -6,12 +6,15 @@
 
 namespace isostep::detail {
 
-/// Most are not half as long along any axis, and need no square root. By comparison on both sides: the lowest number of
-/// a fixed format has no magnitude.
+/// From -limit to limit. By comparison on both sides: the lowest fixed-point number has no magnitude.
+template <class S> ISO_INLINE bool within(S x, S limit) { return -limit <= x && x <= limit; }
+template <class S> ISO_INLINE bool within(Vec3<S> v, S limit) {
+  return within(v.x, limit) && within(v.y, limit) && within(v.z, limit);
+}
+
+/// Most are not half as long along any axis, and need no square root.
 template <class V> ISO_INLINE bool is_longer(Vec3<V> v, V limit) {
-  const V half = limit * V(0.5);
-  const bool may_be = half < max(v.x, max(v.y, v.z)) || min(v.x, min(v.y, v.z)) < -half;
-  return may_be && limit < length(v);
+  return !within(v, limit * V(0.5)) && limit < length(v);
 }
 /// To `limit`, or to 2^-12 less where rounding leads beyond.
 template <class V> ISO_INLINE Vec3<V> shortened(Vec3<V> v, V limit) {

@@ -48,8 +48,7 @@ template <class S> class Characters {
     ShapeId shape;
     Pose<S> pose;  // of the body's origin
   };
-  QueryFilter seen_by(const Character<S>& character) const;
-  std::uint32_t category_of(const Character<S>& character) const;
+  static QueryFilter seen_by(const Character<S>& character);
   void find_passed(const Character<S>& character, const Asking& asking);
   bool is_above(const Character<S>& character, const Asking& asking, const OneWay<S>& way);
   S highest_of(BodyId body, Vec3<Unit<S>> axis) const;

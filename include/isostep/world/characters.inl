@@ -109,7 +109,7 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
   QueryFilter filter = seen_by(character);
   filter.ignore_all = passed_;
   filter.ignore_kinds = passed_kinds_;
-  around_.begin(asking.shape, asking.pose, filter, category_of(character));
+  around_.begin(asking.shape, asking.pose, filter, map_.properties_of(character.body)->filter);
   const Place place = {asking.pose.position, below, up, settings.gravity, settings.hz};
   CharacterWalk<S> walk(around_, place, walks_, memory_, character);
   walk.run(detail::carried_by_ground(state_, map_, character));
@@ -121,17 +121,11 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
 }
 
 /// All that it does not pass.
-template <class S> QueryFilter Characters<S>::seen_by(const Character<S>& character) const {
-  const Filter& own = map_.properties_of(character.body)->filter;
+template <class S> QueryFilter Characters<S>::seen_by(const Character<S>& character) {
   QueryFilter filter;
-  filter.mask = character.mask & own.mask;
-  filter.group = own.group;
+  filter.mask = character.mask;
   filter.ignore = character.body;
   return filter;
-}
-
-template <class S> std::uint32_t Characters<S>::category_of(const Character<S>& character) const {
-  return map_.properties_of(character.body)->filter.category;
 }
 
 /// Its ghosts, kinds that its own passes, and the one-way bodies that it is not above of.
@@ -169,7 +163,7 @@ bool Characters<S>::is_above(const Character<S>& character, const Asking& asking
   if (!(lowest < highest_of(way.body, way.axis) - slack)) return true;
   if (!knows_contacts_) {
     const S way_of_step = (max_abs(character.velocity) + max_abs(character.move)) / hz;
-    around_.begin(asking.shape, asking.pose, seen_by(character), category_of(character));
+    around_.begin(asking.shape, asking.pose, seen_by(character), map_.properties_of(character.body)->filter);
     around_.find_contacts(asking.pose.position, character.skin * S(2) + way_of_step, memory_.contacts);
     knows_contacts_ = true;
   }

@@ -8,6 +8,7 @@
 #include "isostep/dynamics/joints/joint_kinds.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/geometry/validate.hpp"
+#include "isostep/math/shortened.hpp"
 #include "isostep/world/settings.hpp"
 
 namespace isostep::detail {
@@ -17,11 +18,6 @@ template <class S> inline constexpr S kMaxFriction = S(16);
 template <class S> inline constexpr S kMaxDampingRatio = S(64);
 template <class S> inline constexpr S kMaxAngle = S(6.28318530717958647692);  // [rad] a joint's
 
-/// From -limit to limit. By comparison on both sides: the lowest fixed-point number has no magnitude.
-template <class S> ISO_INLINE bool within(S x, S limit) { return -limit <= x && x <= limit; }
-template <class S> ISO_INLINE bool within(Vec3<S> v, S limit) {
-  return within(v.x, limit) && within(v.y, limit) && within(v.z, limit);
-}
 template <class S> bool is_unit(const Quat<Unit<S>>& q) {
   const Pose<S> pose = {Vec3<S>::zero(), q};
   return validate(pose) == ShapeFault::none;
@@ -109,7 +105,7 @@ FaultReport fault_of_motion(S gravity_scale, S linear_damping, S angular_damping
       .report();
 }
 
-/// Of any type of body: what is static may become dynamic.
+/// Of any type of body: what a static one does not use is no less a mistake.
 template <class S> FaultReport fault_of_signs(S density, S mass, Vec3<S> inertia) {
   const S zero = S(0);
   const bool positive = zero < inertia.x && zero < inertia.y && zero < inertia.z;
@@ -244,8 +240,9 @@ template <class S> ISO_INLINE FaultReport fault_of_place(Vec3<S> point, const ch
 
 /// The moment of a force that a user gave, whatever its size.
 template <class S> ISO_INLINE Vec3<S> saturated_cross(Vec3<S> arm, Vec3<S> force) {
-  const auto part = [](S a, S b, S c, S d)
-                        ISO_INLINE_LAMBDA { return saturate_at<S>(product(a, b) - product(c, d), highest<S>()); };
+  const auto part = [](S a, S b, S c, S d) ISO_INLINE_LAMBDA {
+    return saturate_at<S>(product(a, b) - product(c, d), highest<S>());
+  };
   return {part(arm.y, force.z, arm.z, force.y), part(arm.z, force.x, arm.x, force.z),
           part(arm.x, force.y, arm.y, force.x)};
 }

@@ -118,13 +118,9 @@ template <class S> bool CommandExecutor<S>::check_alone(const JointLoad<S>& load
 }
 /// Whether no record of another slot has the same axis of the same joint.
 template <class S> bool CommandExecutor<S>::check_alone(const AxisDrive<S>& drive, std::uint32_t slot) {
-  const auto& all = state_.force_records->axis_drives;
-  for (std::uint32_t i = 0; i < all.all().size(); ++i) {
-    const AxisDrive<S>& other = all.all()[i];
-    if (i == slot || !all.is_taken(i) || !(other.joint == drive.joint) || other.axis != drive.axis) continue;
-    return journal_.refuse({Fault::bad_argument, "", "axis", "an axis that has no record yet"});
-  }
-  return true;
+  const AxisDriveId there = detail::drive_on(*state_.force_records, drive.joint, drive.axis);
+  if (!there || there.slot == slot) return true;
+  return journal_.refuse({Fault::bad_argument, "", "axis", "an axis that has no record yet"});
 }
 template <class S> bool CommandExecutor<S>::check_alone(const Breakable<S>& breakable, std::uint32_t slot) {
   return check_only_one(breakable, slot);

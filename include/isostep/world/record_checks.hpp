@@ -232,6 +232,17 @@ FaultReport fault_of_joint(const AxisDrive<S>& d, const JointProperties<S>& join
       .in_range(d.limit_frequency <= S(substep_rate) * S(0.5), "limit_frequency", "up to half the sub-step rate")
       .report();
 }
+/// The record on that axis of a joint; null where there is none.
+template <class S> AxisDriveId drive_on(const ForceRecords<S>& records, JointId joint, JointAxis axis) {
+  const auto& drives = records.axis_drives;
+  for (std::uint32_t slot = 0; slot < drives.all().size(); ++slot) {
+    const AxisDrive<S>& drive = drives.all()[slot];
+    if (drives.is_taken(slot) && drive.joint == joint && drive.axis == axis)
+      return drives.slots().template id_of<AxisDriveId>(slot);
+  }
+  return {};
+}
+
 /// Of all drives that a joint is to have.
 template <class S>
 FaultReport fault_of_drives(std::span<const AxisDrive<S>> drives, const JointProperties<S>& joint,

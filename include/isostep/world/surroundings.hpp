@@ -44,9 +44,9 @@ template <class S> class Surroundings {
       : state_(state), map_(map), proxies_(proxies), queries_(queries) {}
 
   void begin_step();
-  /// For a body of one convex part that does not turn. Lists that the filter names outlive what is asked. `category`:
-  /// the body's own; what has it not in its mask is not seen.
-  void begin(ShapeId shape, const Pose<S>& pose, const QueryFilter& filter, std::uint32_t category);
+  /// For a body of one convex part that does not turn. Lists that the filter names outlive what is asked. What the
+  /// body, whose filter is `collides`, does not collide with is not seen.
+  void begin(ShapeId shape, const Pose<S>& pose, const QueryFilter& filter, const Filter& collides);
   /// Gathers what is within `reach` [m] of the place where it began. What is asked beyond is gathered then.
   void gather(Vec3<S> reach);
 
@@ -98,7 +98,7 @@ template <class S> class Surroundings {
     return known.first != Range::kUnknown ? known : place(slot);
   }
   ISO_INLINE bool collides_with(std::uint32_t slot) const {
-    return (map_.properties_at(map_.location(slot)).filter.mask & category_) != 0;
+    return should_collide(collides_, map_.properties_at(map_.location(slot)).filter);
   }
   Range place(std::uint32_t slot);
   Range place_some(std::uint32_t slot, const ChildTree<S>& tree);
@@ -124,7 +124,7 @@ template <class S> class Surroundings {
   std::vector<Range> placed_of_;  // by body slot; not of shapes with a tree
   // Of one character.
   QueryFilter filter_;
-  std::uint32_t category_ = 0;
+  Filter collides_;
   const Primitive<S>* shape_ = nullptr;
   Vec3<S> begin_;                      // [m]
   Vec3<S> offset_;                     // [m] of the shape's frame from the body's origin

@@ -39,13 +39,7 @@ JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const 
   return joint_between(type, a, frame, b, frame);
 }
 template <class S> AxisDriveId World<S>::axis_drive(JointId joint, JointAxis axis) const {
-  const auto& drives = engine_->state_.force_records->axis_drives;
-  for (std::uint32_t slot = 0; slot < drives.all().size(); ++slot) {
-    const AxisDrive<S>& drive = drives.all()[slot];
-    if (drives.is_taken(slot) && drive.joint == joint && drive.axis == axis)
-      return drives.slots().template id_of<AxisDriveId>(slot);
-  }
-  return {};
+  return detail::drive_on(*engine_->state_.force_records, joint, axis);
 }
 template <class S>
 JointProperties<S> World<S>::joint_between(JointType type, BodyId a, const Pose<S>& frame_a, BodyId b,

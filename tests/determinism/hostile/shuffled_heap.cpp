@@ -13,6 +13,8 @@
 
 #if defined(__GLIBC__)
 #include <malloc.h>
+
+#include "../../random/splitmix64.hpp"
 #endif
 
 namespace isostep::test {
@@ -55,12 +57,7 @@ class Lock {
   ~Lock() { heap.busy.clear(std::memory_order_release); }
 };
 
-std::uint64_t random_word() {  // splitmix64
-  std::uint64_t z = heap.state += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
+std::uint64_t random_word() { return isostep::test::splitmix64(heap.state); }
 
 void* take(std::size_t size, std::size_t alignment) {
   const std::size_t rounded = std::bit_ceil(size < alignment ? alignment : size < kLeastSize ? kLeastSize : size);

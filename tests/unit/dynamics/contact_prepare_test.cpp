@@ -9,19 +9,14 @@
 #include <vector>
 
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
+#include "random/splitmix64.hpp"
 
 namespace isostep {
 namespace {
 
 struct Random {  // splitmix64
   std::uint64_t state;
-  std::uint64_t next() {
-    state += 0x9e3779b97f4a7c15u;
-    std::uint64_t z = state;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  std::uint64_t next() { return test::splitmix64(state); }
   std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(next() % n); }
   double within(double size) { return (static_cast<double>(next() >> 11) * 0x1p-52 - 1) * size; }
 };

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "isostep/math/transform.hpp"
+#include "random/splitmix64.hpp"
 
 namespace isostep::test {
 
@@ -53,12 +54,7 @@ class Draw {
  public:
   explicit Draw(std::uint64_t seed) : state_(seed) {}
 
-  std::uint64_t bits() {  // splitmix64
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  std::uint64_t bits() { return splitmix64(state_); }
   /// In [-2^exponent, 2^exponent].
   template <class T> T number(int exponent) {
     const auto word = static_cast<std::int64_t>(bits());

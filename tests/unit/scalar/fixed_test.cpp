@@ -12,6 +12,7 @@
 #include <string>
 
 #include "isostep/scalar/scalar.hpp"
+#include "random/splitmix64.hpp"
 
 namespace {
 
@@ -40,13 +41,7 @@ static_assert(isostep::Scalar<float> && isostep::Scalar<double> && isostep::Scal
               isostep::Scalar<Fixed<std::int64_t, 40>> && isostep::Scalar<Trapping64>);
 
 std::uint64_t random_state = 1;
-std::uint64_t random_word() {  // splitmix64
-  random_state += 0x9e3779b97f4a7c15u;
-  std::uint64_t z = random_state;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
+std::uint64_t random_word() { return isostep::test::splitmix64(random_state); }
 /// Raw values of every size; ends, small numbers and multiples of powers of two, where ties are, more often.
 template <class S> S sample() {
   using Rep = typename S::Raw;

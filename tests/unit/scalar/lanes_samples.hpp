@@ -11,7 +11,7 @@
 
 #include "isostep/scalar/lanes.hpp"
 
-// Each test file keeps its own copy of all this, compiled for its own instruction set.
+// Each test file keeps its own copy of all this, splitmix64 too, compiled for its own instruction set.
 namespace {
 
 using isostep::Fixed;

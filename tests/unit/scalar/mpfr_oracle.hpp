@@ -10,6 +10,7 @@
 #include <string>
 
 #include "isostep/scalar/scalar.hpp"
+#include "random/splitmix64.hpp"
 
 #if !defined(ISOSTEP_MATH_SAMPLES)
 #define ISOSTEP_MATH_SAMPLES 6000  // per function and scalar; the README's figures are from 200000
@@ -74,12 +75,7 @@ template <class S> double ulp_error(S got, mpfr_ptr want, int floor = -100000) {
 
 class Random {  // splitmix64
  public:
-  std::uint64_t bits() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  std::uint64_t bits() { return test::splitmix64(state_); }
   int below(int n) { return static_cast<int>(bits() % static_cast<unsigned>(n)); }
 
  private:

@@ -11,18 +11,15 @@
 #include <string>
 #include <vector>
 
+#include "random/splitmix64.hpp"
+
 namespace isostep {
 namespace {
 
 class Bits {  // splitmix64
  public:
   explicit Bits(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  std::uint64_t next() { return test::splitmix64(state_); }
 
  private:
   std::uint64_t state_;

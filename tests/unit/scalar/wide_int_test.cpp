@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "random/splitmix64.hpp"
+
 namespace {
 
 using isostep::divide;
@@ -56,13 +58,7 @@ __extension__ typedef __int128 Native;
 __extension__ typedef unsigned __int128 UnsignedNative;
 
 std::uint64_t random_state = 1;
-std::uint64_t random_word() {  // splitmix64
-  random_state += 0x9e3779b97f4a7c15u;
-  std::uint64_t z = random_state;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
+std::uint64_t random_word() { return isostep::test::splitmix64(random_state); }
 /// Words of every length, and those next to powers of two where carries are born.
 std::uint64_t sample_word() {
   const std::uint64_t kind = random_word() % 4;

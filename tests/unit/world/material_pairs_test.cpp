@@ -119,9 +119,9 @@ TYPED_TEST(MaterialPairs, a_state_with_two_records_of_the_same_kinds_or_a_bad_on
   using S = TypeParam;
   World<S>& w = this->world;
   w.add(this->pair(1, 2));
-  const MaterialPairId gone = w.add(this->pair(1, 3));
+  const MaterialPairId removed = w.add(this->pair(1, 3));
   w.add(this->pair(1, 4));
-  w.remove(gone);
+  w.remove(removed);
   const auto rule_of = [&](auto&& change) -> std::string {
     WorldState<S> state = w.state();
     change(state.force_records.change().material_pairs.change_all(), state.settings);

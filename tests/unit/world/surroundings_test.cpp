@@ -37,7 +37,7 @@ TYPED_TEST_SUITE(SurroundingsOf, SystemScalars);
 TYPED_TEST(SurroundingsOf, casts_meet_what_casts_among_all_bodies_meet) {
   using S = TypeParam;
   const Pose<S> start = {vec<S>(-0.5, 0.875, 0.75), Quat<Unit<S>>::identity()};
-  this->around.begin(this->probe, start, {}, 1);
+  this->around.begin(this->probe, start, {}, {});
   this->around.gather(vec<S>(2, 1, 2));
   int met = 0;
   for (const double x : {-0.5, 0.25, 1.5, 9.0}) {  // the last leaves what was gathered
@@ -61,7 +61,7 @@ TYPED_TEST(SurroundingsOf, casts_meet_what_casts_among_all_bodies_meet) {
 TYPED_TEST(SurroundingsOf, what_it_overlaps_is_in_the_way_only_further_in) {
   using S = TypeParam;
   const Pose<S> inside = {vec<S>(-0.5, 1.25, 0), Quat<Unit<S>>::identity()};  // of the first ball, by 0.25 m
-  this->around.begin(this->probe, inside, {}, 1);
+  this->around.begin(this->probe, inside, {}, {});
   EXPECT_FALSE(this->around.cast(inside.position, vec<S>(-1, 0, 0)));
   const auto hit = this->around.cast(inside.position, vec<S>(1, 0, 0));
   ASSERT_TRUE(hit);
@@ -72,7 +72,7 @@ TYPED_TEST(SurroundingsOf, contacts_are_of_every_part_within_the_margin) {
   using S = TypeParam;
   std::vector<NearContact<S>> contacts;
   const Pose<S> between = {vec<S>(0, 0.875, -1.5), Quat<Unit<S>>::identity()};  // the two boxes are 0.5 m to its sides
-  this->around.begin(this->probe, between, {}, 1);
+  this->around.begin(this->probe, between, {}, {});
   this->around.find_contacts(between.position, num<S>(0.0625), contacts);
   ASSERT_EQ(contacts.size(), 0u);
   this->around.find_contacts(between.position, num<S>(0.5625), contacts);
@@ -92,7 +92,7 @@ TYPED_TEST(SurroundingsOf, contacts_are_of_every_part_within_the_margin) {
 TYPED_TEST(SurroundingsOf, rays_tell_the_normal_of_what_they_meet_first) {
   using S = TypeParam;
   const Pose<S> start = {vec<S>(0, 2, 0), Quat<Unit<S>>::identity()};
-  this->around.begin(this->probe, start, {}, 1);
+  this->around.begin(this->probe, start, {}, {});
   const auto normal = this->around.cast_ray(start.position, vec<S>(0, -4, 0));
   ASSERT_TRUE(normal);
   EXPECT_NEAR(to_double(normal->y), 1, 1e-3);

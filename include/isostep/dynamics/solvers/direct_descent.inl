@@ -102,10 +102,7 @@ template <class N> void DirectSystem<N>::solve_anew() {
 }
 
 template <class N> void DirectSystem<N>::sweep(int sweeps) {
-  for (DirectBlock<N>& block : blocks_) {
-    for (DirectRow<N>& row : block.rows) row.answer = clamped(row, row.answer);
-  }
-  gather_motions(false);
+  settle_answers();
   for (int i = 0; i < sweeps; ++i) {
     for (const DirectPatch<N>& patch : patches_) limit_patch(patch);
     for (DirectBlock<N>& block : blocks_) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "isostep/collision/narrowphase/collide.hpp"
+#include "random/splitmix64.hpp"
 
 namespace isostep::test {
 
@@ -80,12 +81,7 @@ template <class S> double deepest(const Manifold<S>& m) {
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t bits() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  std::uint64_t bits() { return splitmix64(state_); }
   double in(double low, double high) { return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53; }
   /// 10^low to 10^high, spread evenly over orders of magnitude.
   double power_of_ten(double low, double high) { return isostep::exp(in(low, high) * 2.302585092994046); }
