@@ -42,7 +42,9 @@ TEST_F(Alone, ConfigurationsThatCannotBeAreRefusedByTheNameOfTheField) {
     EXPECT_NE(std::string(iso_last_error()).find(field), std::string::npos) << iso_last_error();
     const char* const problem = iso_session_config_problem(&with);
     ASSERT_NE(problem, nullptr) << field;
-    if (status != ISO_WRONG_SIZE) EXPECT_EQ(std::string(problem).find(field), 0u) << problem;
+    if (status != ISO_WRONG_SIZE) {
+      EXPECT_EQ(std::string(problem).find(field), 0u) << problem;
+    }
   };
   EXPECT_EQ(iso_session_config_problem(&config), nullptr);
   refused([](auto& c) { c.mode = 9; }, ISO_BAD_ENUM, "mode");

@@ -157,7 +157,9 @@ TYPED_TEST(BodyRowsOf, EveryWidthAndEveryPieceGiveTheBitsOfOneLane) {
   EXPECT_GT(cut, 100u);
   EXPECT_GT(followed, 10u);
   EXPECT_GT(renewed, 50u);
-  if (body_kernels<S>(Simd::best)->width > 1) EXPECT_GT(wide, 0u);
+  if (body_kernels<S>(Simd::best)->width > 1) {
+    EXPECT_GT(wide, 0u);
+  }
 }
 
 /// [m/s] What a step may round: in Q16.16 a factor of damping is wrong by 2^-17, four times, of 20 m/s.
@@ -175,7 +177,9 @@ TYPED_TEST(BodyRowsOf, MovesAndDampingFollowTheirFormulas) {
     const BodyState<S>&before = start.states[i], &after = end.states[i];
     if (body.type == BodyType::kinematic) {
       ++kinematic;
-      if ((body.flags & body_flag::kAllLocks) == 0) EXPECT_EQ(after.velocity, before.velocity);
+      if ((body.flags & body_flag::kAllLocks) == 0) {
+        EXPECT_EQ(after.velocity, before.velocity);
+      }
       continue;
     }
     const Acceleration<S>& push = start.accelerations[i];

@@ -92,7 +92,6 @@ TYPED_TEST(Explosions, chimneys_lift_what_is_over_them) {
 }
 
 TYPED_TEST(Explosions, bodies_spin_that_are_not_met_in_the_middle) {
-  using S = TypeParam;
   const ShapeId plank = add_box(this->world_, 2, 0.125, 0.125);
   const BodyId met = this->body(plank, {4, 3, 0}, 2), straight = this->body(plank, {0, -3, 0}, 2);
   this->ignite(this->wave(200));
@@ -173,7 +172,9 @@ TYPED_TEST(Explosions, what_is_nearer_flies_first_and_the_energy_is_the_integral
   double energy = 0, expected = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     ASSERT_GT(bodies[i].first, 0) << i;
-    if (i > 0) EXPECT_GE(bodies[i].first, bodies[i - 1].first) << i;
+    if (i > 0) {
+      EXPECT_GE(bodies[i].first, bodies[i - 1].first) << i;
+    }
     const double v = length(this->velocity(bodies[i].id));
     energy += mass * v * v / 2;
     expected += bodies[i].energy;

@@ -477,7 +477,9 @@ TYPED_TEST(Forces, are_state) {
   EXPECT_EQ(read.hash(), this->world_.hash());
   for (int i = 0; i < 30; ++i) {
     for (World<S>* w : {&this->world_, &read}) {
-      if (i == 10) EXPECT_TRUE(w->remove(drag));
+      if (i == 10) {
+        EXPECT_TRUE(w->remove(drag));
+      }
       w->step();
       EXPECT_EQ(w->hash(), hashes[static_cast<std::size_t>(i)]) << i;
     }

@@ -1,4 +1,4 @@
-// The joints and records that the page of joints (dynamics/joints/README.md) shows: its code, in a world.
+// The joints and records that the page of joints (dynamics/joints/README.md) shows: its code, in a world_.
 // SPDX-License-Identifier: MIT
 #include "unit/world/worlds.hpp"
 
@@ -7,24 +7,24 @@ namespace {
 
 template <class S> class JointPage : public ::testing::Test {
  protected:
-  JointPage() : world(settings<S>()) {}
-  BodyId ball_at(double x) { return world.create(moving<S>(add_ball(world, 0.25), {x, 2, 0})); }
+  JointPage() : world_(settings<S>()) {}
+  BodyId ball_at(double x) { return world_.create(moving<S>(add_ball(world_, 0.25), {x, 2, 0})); }
   JointId tied(JointType type, double x) {
     const BodyId ball = ball_at(x);
-    return world.create(world.joint_at(type, {}, ball, {vec<S>(x, 2, 0), Quat<Unit<S>>::identity()}));
+    return world_.create(world_.joint_at(type, {}, ball, {vec<S>(x, 2, 0), Quat<Unit<S>>::identity()}));
   }
   JointId rope_at(double x) {
     const Vec3<S> top = vec<S>(x, 4, 0), end = vec<S>(x, 2, 0);
-    return world.create(rope<S>({.b = ball_at(x), .anchor_a = top, .anchor_b = end, .length = S(8)}));
+    return world_.create(rope<S>({.b = ball_at(x), .anchor_a = top, .anchor_b = end, .length = S(8)}));
   }
 
-  World<S> world;
+  World<S> world_;
 };
 TYPED_TEST_SUITE(JointPage, AllScalars);
 
 TYPED_TEST(JointPage, describes_joints_by_their_names) {
   using S = TypeParam;
-  World<S>& world = this->world;
+  World<S>& world = this->world_;
   const BodyId frame = this->ball_at(0), door = this->ball_at(1), lamp = this->ball_at(4);
   const Pose<S> pin = {vec<S>(0.5, 2, 0), Quat<Unit<S>>::identity()};
   const Vec3<S> hook = vec<S>(4, 4, 0), top = vec<S>(4, 2.25, 0);
@@ -46,7 +46,7 @@ TYPED_TEST(JointPage, describes_joints_by_their_names) {
 
 TYPED_TEST(JointPage, couples_joints_and_measures_them) {
   using S = TypeParam;
-  World<S>& world = this->world;
+  World<S>& world = this->world_;
   const JointId small = this->tied(JointType::hinge, 0), large = this->tied(JointType::hinge, 1);
   const JointId rope_a = this->rope_at(2), rope_b = this->rope_at(3), hook = this->tied(JointType::ball, 4);
   // README: begin

@@ -88,8 +88,8 @@ TYPED_TEST(MaterialPairs, a_world_that_is_saved_or_written_goes_on_with_them) {
   m.static_friction = S(1);
   ASSERT_TRUE(w.set_material(this->flier, m) && w.set_material(this->ground, m));
   const std::uint64_t without = w.hash();
-  const MaterialPairId gone = w.add(this->pair(1, 3)), kept = w.add(this->pair(1, 1));
-  ASSERT_TRUE(w.remove(gone));
+  const MaterialPairId removed = w.add(this->pair(1, 3)), kept = w.add(this->pair(1, 1));
+  ASSERT_TRUE(w.remove(removed));
   EXPECT_NE(w.hash(), without);
   typename World<S>::Snapshot saved;
   w.save(saved);

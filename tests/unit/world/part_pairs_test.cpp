@@ -113,20 +113,19 @@ TYPED_TEST(PartPairsOf, trees_of_many_children_find_what_a_search_of_all_finds) 
     const double far = trial % 3 == 0 ? 0 : trial % 3 == 1 ? 900 : to_double(Limits<S>::position()) * 0.5;
     this->world = World<S>(settings<S>(0));
     for (const int parts : {1, 4, 40, 90}) {
-      BodyDefinition<S> d =
-          moving<S>(add_heap(this->world, dice, parts), D3{far, -far, 0.5 * far} + dice.point(1.5));
+      BodyDefinition<S> d = moving<S>(add_heap(this->world, dice, parts), D3{far, -far, 0.5 * far} + dice.point(1.5));
       d.orientation = dice.orientation<S>();
       ASSERT_TRUE(this->world.create(d)) << describe(this->world.fault());
     }
     const auto gathered = [&](bool trees) {
       if (!trees) this->systems->state.trees.change().clear();
-      PartPairs<S> found(this->systems->state, this->systems->map);
-      found.begin();
-      for (std::size_t i = 0; i < this->systems->state.awake.states.size(); ++i) found.frame_awake_body(i);
-      EXPECT_EQ(found.gather(this->systems->proxies.pairs()), 0u);
+      PartPairs<S> finder(this->systems->state, this->systems->map);
+      finder.begin();
+      for (std::size_t i = 0; i < this->systems->state.awake.states.size(); ++i) finder.frame_awake_body(i);
+      EXPECT_EQ(finder.gather(this->systems->proxies.pairs()), 0u);
       std::vector<std::array<std::uint32_t, 4>> list;
-      for (std::size_t g = 0; g < found.groups(); ++g) {
-        for (const PartPair& p : found.group(g).parts) list.push_back({p.frame_a, p.frame_b, p.child_a, p.child_b});
+      for (std::size_t g = 0; g < finder.groups(); ++g) {
+        for (const PartPair& p : finder.group(g).parts) list.push_back({p.frame_a, p.frame_b, p.child_a, p.child_b});
       }
       return list;
     };

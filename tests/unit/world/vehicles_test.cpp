@@ -216,7 +216,6 @@ TYPED_TEST(VehicleRecords, stand_by_every_solver) {
 }
 
 TYPED_TEST(VehicleRecords, sleep_with_their_ground_and_wake_by_their_inputs) {
-  using S = TypeParam;
   const BodyId ground = add_ground(this->w, 1);
   const BodyId car = this->add_car({0, 0.55, 0});
   this->control(0, 1);

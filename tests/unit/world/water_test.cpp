@@ -80,7 +80,6 @@ TYPED_TEST(Waters, every_solid_displaces_its_weight) {
 }
 
 TYPED_TEST(Waters, boxes_turn_over_where_the_metacentre_says) {
-  using S = TypeParam;
   // Half as heavy as water, the metacentre of a long box of width w and height h is above its centre of mass where
   // (w / h)^2 > 3 / 2: w^2 / (6 h) from the centre of buoyancy, which is h / 4 below.
   for (const double width : {1.16, 1.29}) {
@@ -99,7 +98,6 @@ TYPED_TEST(Waters, boxes_turn_over_where_the_metacentre_says) {
 }
 
 TYPED_TEST(Waters, bobbing_has_the_period_of_its_stiffness_and_never_grows) {  // O21
-  using S = TypeParam;
   const BodyId box = this->body(add_box(this->world_, 0.75, 0.25, 0.75), {0, 0.1, 0}, 56.25);
   this->fill(this->pond(0));
   const double omega = std::sqrt(100 * 2.25 * 10 / 56.25);  // rho A g / m

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/joints/joint.inl"
-#include "isostep/dynamics/joints/row_inverse.hpp"
+#include "isostep/dynamics/joints/row_factors.hpp"
 
 namespace isostep {
 
@@ -14,14 +14,15 @@ template <class S> void factor_joint(JointConstraint<S>& joint) {
   JointBlock<S>& point = joint.blocks[0];
   if (joint.block_count > 1) {
     JointBlock<S>& angular = joint.blocks[1];
-    angular.inverse = invert_block(angular, detail::kBlockCompliance<S>);
+    const SymmetricFactors<S> factors = factor_block(angular, detail::kBlockCompliance<S>);
+    angular.inverse = factors.inverse();
     const Mat3<S> k = scaled_by(detail::block_coupling(angular, true, point, true), joint.share.a) +
                       scaled_by(detail::block_coupling(angular, false, point, false), joint.share.b);
     joint.down = transpose(k);
-    joint.up = angular.inverse * k;
+    joint.up = factors.solve(k);
     subtract(point.coupling, joint.down * joint.up);
   }
-  point.inverse = invert_block(point, detail::kBlockCompliance<S>);
+  point.inverse = factor_block(point, detail::kBlockCompliance<S>).inverse();
 }
 
 template <class S> JointRows<S> substitute_joint(const JointConstraint<S>& joint, JointRows<S> right) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/joints/symmetric_factors.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/math/softness.hpp"
@@ -138,31 +139,6 @@ ISO_INLINE void scatter(SolverBodies<S>& bodies, std::uint32_t a, std::uint32_t 
   if (bodies.moves(b)) bodies.velocity[b] = m.b;
 }
 
-template <class S> ISO_INLINE S reciprocal(S a) { return S(1) / a; }
-
-/// Inverse of a symmetric positive definite matrix plus `softness` times the identity, from the upper triangle. T may
-/// be lanes.
-/// Method: LDL^T, whose pivots stay near one where a determinant would vanish in fixed point. A pivot that rounding
-///         took below the softness is held there: such a direction moves nothing.
-/// Error:  measured in tests/unit/dynamics/joints_test.cpp.
-template <class T> ISO_INLINE Mat3<T> invert_symmetric(const Mat3<T>& m, T softness) {
-  const T d0 = max(m.rows[0].x + softness, softness);
-  const T i0 = reciprocal(d0);
-  const T l1 = m.rows[0].y * i0, l2 = m.rows[0].z * i0;
-  const T d1 = max(m.rows[1].y + softness - l1 * m.rows[0].y, softness);
-  const T i1 = reciprocal(d1);
-  const T e = m.rows[1].z - l1 * m.rows[0].z;
-  const T l3 = e * i1;
-  const T d2 = max(m.rows[2].z + softness - round_to<T>(product(l2, m.rows[0].z) + product(l3, e)), softness);
-  const T i2 = reciprocal(d2);
-  // L^-1 = [1; -l1 1; l1 l3 - l2, -l3, 1]
-  const T n20 = l1 * l3 - l2;
-  const T zz = i2, yz = -(l3 * i2), xz = n20 * i2;
-  const T yy = i1 - l3 * yz;
-  const T xy = -(l1 * i1) - l3 * xz;
-  const T xx = i0 + round_to<T>(product(l1 * l1, i1) + product(n20, xz));
-  return {{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
-}
 namespace detail {
 /// [m/s] a joint's error is closed no faster than this.
 template <class S> inline constexpr Velocity<S> kJointPushSpeed = Velocity<S>(4);

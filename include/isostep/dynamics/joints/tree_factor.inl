@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/joints/row_inverse.hpp"
+#include "isostep/dynamics/joints/row_factors.hpp"
 #include "isostep/dynamics/joints/tree_couplings.inl"
 #include "isostep/math/lanes_select.hpp"
 #include "isostep/scalar/lanes_bounded.hpp"
@@ -236,20 +236,20 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
     while (shape.links[l].to != j) ++l;
     return l;
   }
-  static ISO_INLINE Mat3<L> inverse_of(const TreeShape& shape, const TreeNode& node, const Mat3<L>& k) {
+  static ISO_INLINE SymmetricFactors<L> factors_of(const TreeShape& shape, const TreeNode& node, const Mat3<L>& k) {
     const S softness =
         shape.joints[node.joint].closes_loop ? detail::kClosingCompliance<S> : detail::kBlockCompliance<S>;
-    return node.is_point() ? invert_symmetric(k, number(softness)) : invert_rows(k, softness);
+    return node.is_point() ? factor_symmetric(k, number(softness)) : factor_rows(k, softness);
   }
   /// K = L D L^T by blocks: what node i's elimination leaves among the nodes it is linked to.
   static ISO_INLINE void eliminate(const TreeRun<S>& run, std::size_t i, Memory m) {
     const TreeShape& shape = run.shape;
     const TreeNode& node = shape.nodes[i];
-    const Mat3<L> inverse = inverse_of(shape, node, load(m.nodes[i].inverse));
-    store(inverse, m.nodes[i].inverse);
+    const SymmetricFactors<L> factors = factors_of(shape, node, load(m.nodes[i].inverse));
+    store(factors.inverse(), m.nodes[i].inverse);
     const std::uint32_t end = node.first_link + node.link_count;
     for (std::uint32_t l = node.first_link; l < end; ++l) {
-      if (!idles(run, shape.links[l].to)) store(inverse * load(m.links[l].up), m.links[l].up);
+      if (!idles(run, shape.links[l].to)) store(factors.solve(load(m.links[l].up)), m.links[l].up);
     }
     const Left left = {idle_lanes(run, i), node.may_idle && run.idle[i] != 0};
     for (std::uint32_t j = node.first_link; j < end; ++j) {
