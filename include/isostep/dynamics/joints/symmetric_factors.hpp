@@ -14,7 +14,7 @@ template <class S> ISO_INLINE S reciprocal(S a) { return S(1) / a; }
 template <class T> struct SymmetricFactors {
   T l10, l20, l21, i0, i1, i2;
 
-  /// For a vector, once: its error is that of the matrix times the largest over the smallest pivot.
+  /// To multiply vectors with: relative to the result, an error of the format's times the largest over the least pivot.
   ISO_INLINE Mat3<T> inverse() const {
     // L^-1 = [1; -l10 1; l10 l21 - l20, -l21, 1]
     const T n20 = l10 * l21 - l20;
@@ -24,9 +24,10 @@ template <class T> struct SymmetricFactors {
     const T xx = i0 + round_to<T>(product(l10 * l10, i1) + product(n20, xz));
     return {{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
   }
-  /// m^-1 b, which b^T is then multiplied by: b^T m^-1 b.
-  /// Why: the solution is exact for a matrix near m, and b is small along what m hardly moves: where a light body on a
-  ///      long arm carries many heavy ones, that leaves their weight. Rounding of the inverse does not follow b.
+  /// m^-1 b, for b^T m^-1 b: what eliminating this block subtracts from those it is linked to.
+  /// Why: the solution is exact for a matrix near m, so that along what m hardly moves its error is as small as b is
+  ///      there. A product with the inverse is not: where a light body on a long arm carries many heavy ones, it
+  ///      leaves noise instead of their weight.
   ISO_INLINE Mat3<T> solve(const Mat3<T>& b) const {
     const auto less = [](Vec3<T> v, T l, Vec3<T> w) ISO_INLINE_LAMBDA {
       return Vec3<T>{v.x - l * w.x, v.y - l * w.y, v.z - l * w.z};
