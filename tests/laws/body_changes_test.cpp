@@ -52,11 +52,11 @@ TYPED_TEST(BodyChanges, a_disabled_body_takes_no_part_and_comes_back_as_it_was) 
 TYPED_TEST(BodyChanges, what_lay_on_a_disabled_body_falls_as_if_it_were_gone) {
   using S = TypeParam;
   World<S> other(settings<S>());
-  for (World<S>* w : {&this->w, &other}) {
-    add_ground(*w);
-    const ShapeId cube = add_box(*w, 0.5, 0.5, 0.5);
-    for (int i = 0; i < 3; ++i) w->create(moving<S>(cube, {0, 0.5 + i, 0}));
-    ASSERT_TRUE(settle(*w));
+  for (World<S>* of : {&this->w, &other}) {
+    add_ground(*of);
+    const ShapeId cube = add_box(*of, 0.5, 0.5, 0.5);
+    for (int i = 0; i < 3; ++i) of->create(moving<S>(cube, {0, 0.5 + i, 0}));
+    ASSERT_TRUE(settle(*of));
   }
   const BodyId below = this->w.bodies()[1], above = this->w.bodies()[3];
   ASSERT_TRUE(this->w.set_enabled(below, false));
@@ -348,12 +348,12 @@ TYPED_TEST(BodyChanges, all_of_it_is_state) {
   const BodyId a = this->box({0, 3, 0}, {0.25, 0.25, 0.25}), b = this->box({0.5, 4, 0}, {0.25, 0.25, 0.25});
   const Pose<S> frame = {vec<S>(0.25, 3.5, 0), Quat<Unit<S>>::identity()};
   ASSERT_TRUE(this->w.create(this->w.joint_at(JointType::ball, a, b, frame)));
-  expect_exact_rollback(this->w, 120, [&](World<S>& w, int i) {
-    w.move_to(lift, {vec<S>(i / 256.0, 2 + i / 512.0, 0), Quat<Unit<S>>::identity()});
-    if (i % 10 == 3) w.set_enabled(a, i % 20 == 13);
-    if (i % 16 == 7) w.set_type(b, i % 32 == 7 ? BodyType::static_ : dynamic);
-    if (i % 7 == 1) w.set_mass(b, {S(1), S(1 + i % 3), Vec3<S>::zero()});
-    if (i % 40 == 39) w.sleep(a);
+  expect_exact_rollback(this->w, 120, [&](World<S>& of, int i) {
+    of.move_to(lift, {vec<S>(i / 256.0, 2 + i / 512.0, 0), Quat<Unit<S>>::identity()});
+    if (i % 10 == 3) of.set_enabled(a, i % 20 == 13);
+    if (i % 16 == 7) of.set_type(b, i % 32 == 7 ? BodyType::static_ : dynamic);
+    if (i % 7 == 1) of.set_mass(b, {S(1), S(1 + i % 3), Vec3<S>::zero()});
+    if (i % 40 == 39) of.sleep(a);
   });
 }
 
@@ -386,13 +386,13 @@ TYPED_TEST(BodyChanges, couplings_and_springs_of_disabled_bodies_hold_nothing_an
   run(this->w, 10);
   EXPECT_GT(to_double(this->w.angular_velocity(wheels[0]).z), 0.5) << "nothing gears it";
   EXPECT_EQ(this->w.pose(wheels[1]).orientation, Quat<Unit<S>>::identity());
-  expect_exact_rollback(this->w, 160, [&](World<S>& w, int i) {
-    if (i % 20 == 5) w.set_enabled(wheels[1], i % 40 == 5);
-    if (i % 30 == 12) w.sleep(wheels[0]);
-    if (i % 50 == 9) w.set_enabled(bob, i % 100 == 59);
-    if (i % 70 == 30) w.set_enabled(wheels[0], false);
-    if (i % 70 == 45) w.set_enabled(wheels[0], true);
-    if (i == 100) w.set_type(wheels[0], BodyType::static_);
+  expect_exact_rollback(this->w, 160, [&](World<S>& of, int i) {
+    if (i % 20 == 5) of.set_enabled(wheels[1], i % 40 == 5);
+    if (i % 30 == 12) of.sleep(wheels[0]);
+    if (i % 50 == 9) of.set_enabled(bob, i % 100 == 59);
+    if (i % 70 == 30) of.set_enabled(wheels[0], false);
+    if (i % 70 == 45) of.set_enabled(wheels[0], true);
+    if (i == 100) of.set_type(wheels[0], BodyType::static_);
   });
   EXPECT_EQ(this->w.type(wheels[0]), BodyType::static_);
   EXPECT_FALSE(this->w.set_type(bob, BodyType::static_)) << "its spring would tie nothing that moves";

@@ -47,7 +47,9 @@ TYPED_TEST(BookScenes, an_aircraft_flies_level_and_turns_for_a_minute_each) {
     const D3 nose = this->axis(0, {1, 0, 0}), right = this->axis(0, {0, 0, 1}), v = this->velocity(0);
     EXPECT_NEAR(this->centre(0).y, scenes::kFlightHeight, t < scenes::kFlightTurns ? 0.25 : 1.5) << t;
     EXPECT_NEAR(length(v), scenes::kFlightSpeed, 0.3) << t;
-    if (t < scenes::kFlightTurns) EXPECT_EQ(this->centre(0).z, 0) << t;
+    if (t < scenes::kFlightTurns) {
+      EXPECT_EQ(this->centre(0).z, 0) << t;
+    }
     const double heading = std::atan2(nose.z, nose.x);
     turned += std::remainder(heading - last, 2 * kPi);
     last = heading;
@@ -74,7 +76,9 @@ TYPED_TEST(BookScenes, mirrored_controls_fly_the_mirrored_path) {  // O26
     this->step();
     const Vec3<S> a = right.center_of_mass(aircraft), b = this->world_->center_of_mass(this->body(0));
     worst = std::max(worst, length(real(a - Vec3<S>{b.x, b.y, -b.z})));
-    if (right.tick() < scenes::kFlightTurns) ASSERT_EQ(worst, 0);
+    if (right.tick() < scenes::kFlightTurns) {
+      ASSERT_EQ(worst, 0);
+    }
   }
   // Not bit for bit: fixed point rounds halves upwards, and floats add left wings before right ones.
   EXPECT_LT(worst, pick<S>(1e-3, 1e-11, 0.05, 1e-4));
@@ -213,7 +217,9 @@ TYPED_TEST(BookScenes, a_piston_is_where_its_crank_puts_it) {
     EXPECT_NEAR(this->centre(1).x, pin.x + std::sqrt(1.6 * 1.6 - pin.y * pin.y), pick<S>(2e-3, 2e-3, 1e-2, 2e-3));
     EXPECT_EQ(this->centre(1).y, 1);
     least = std::min(least, this->centre(1).x), most = std::max(most, this->centre(1).x);
-    if (this->world_->tick() > 60) EXPECT_NEAR(this->spin(0).z, 4, 0.05);
+    if (this->world_->tick() > 60) {
+      EXPECT_NEAR(this->spin(0).z, 4, 0.05);
+    }
   }
   EXPECT_NEAR(least, 1.2, 0.01);
   EXPECT_NEAR(most, 2, 0.01);
@@ -269,7 +275,9 @@ TYPED_TEST(BookScenes, a_cube_breaks_in_eight_and_a_tower_stays_above_the_floor)
   EXPECT_GT(this->world_->bodies().size(), 102u + 7u * 5u) << "hardly a box broke";
   for (const BodyId id : this->world_->bodies()) {
     mass += to_double(this->world_->mass(id));
-    if (this->world_->type(id) == BodyType::dynamic) EXPECT_GT(real(this->world_->center_of_mass(id)).y, 0);
+    if (this->world_->type(id) == BodyType::dynamic) {
+      EXPECT_GT(real(this->world_->center_of_mass(id)).y, 0);
+    }
   }
   EXPECT_NEAR(mass / before, 1, pick<TypeParam>(1e-5, 1e-12, 1e-3, 1e-8));
 }

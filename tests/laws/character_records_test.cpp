@@ -26,21 +26,21 @@ TYPED_TEST(CharacterRecords, are_told_where_to_go_and_nobody_else_wakes) {
 
 TYPED_TEST(CharacterRecords, records_refuse_what_they_cannot_use) {
   using S = TypeParam;
-  World<S>& w = this->w;
+  World<S>& world = this->w;
   const BodyId crate = this->box({1, 1, 1}, {0, 5, 0}, BodyType::dynamic, 10);
   Character<S> c;
-  EXPECT_FALSE(w.add(c));
+  EXPECT_FALSE(world.add(c));
   c.body = crate;
-  EXPECT_FALSE(w.add(c));
-  EXPECT_STREQ(w.fault().field, "body");
+  EXPECT_FALSE(world.add(c));
+  EXPECT_STREQ(world.fault().field, "body");
   const CharacterId id = this->walker({5, 0, 0});
-  c = *w.find(id);
-  EXPECT_FALSE(w.add(c)) << "one a body";
+  c = *world.find(id);
+  EXPECT_FALSE(world.add(c)) << "one a body";
   const auto refused = [&](const char* field, const auto& change) {
-    Character<S> bad = *w.find(id);
+    Character<S> bad = *world.find(id);
     change(bad);
-    EXPECT_FALSE(w.set(id, bad)) << field;
-    EXPECT_STREQ(w.fault().field, field);
+    EXPECT_FALSE(world.set(id, bad)) << field;
+    EXPECT_STREQ(world.fault().field, field);
   };
   refused("step_height", [](auto& b) { b.step_height = S(-1); });
   refused("least_up", [](auto& b) { b.least_up = S(0); });

@@ -175,7 +175,9 @@ TYPED_TEST(Characters, pushes_crates_with_its_force) {  // case 8
     const double before = to_double(this->w.velocity(crate).x);
     this->walk(id, {4, 0, 0}, 6);
     const double gained = (to_double(this->w.velocity(crate).x) - before) * 10;
-    if (mass >= 100) EXPECT_NEAR(gained, 500 / mass, 0.06 * 500 / mass) << mass;
+    if (mass >= 100) {
+      EXPECT_NEAR(gained, 500 / mass, 0.06 * 500 / mass) << mass;
+    }
     this->walk(id, {4, 0, 0}, 120);
     EXPECT_LT(to_double(this->w.velocity(crate).x), 4.1) << mass;
   }

@@ -87,7 +87,9 @@ TYPED_TEST(HeldTwists, end_the_swing_and_gain_nothing) {
                                  std::to_string(static_cast<int>(kind)) + ", " + std::to_string(aside);
         EXPECT_GT(swing, 2.4) << what;  // else nothing was tried
         EXPECT_LT(swing, 2.65) << what;
-        if (kind != HeldTwist::soft) EXPECT_LT(twist, 0.05) << what;
+        if (kind != HeldTwist::soft) {
+          EXPECT_LT(twist, 0.05) << what;
+        }
         EXPECT_LT(most, 1.02 * start) << what;
       }
     }

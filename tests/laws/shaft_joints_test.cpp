@@ -76,14 +76,14 @@ TYPED_TEST(ShaftJoints, a_constant_velocity_joint_turns_both_alike) {
 /// S19 of the scenes: a crank of 0.5 m, a rod of 1.5 m, one turn a second.
 TYPED_TEST(ShaftJoints, a_crank_moves_its_piston_as_geometry_says) {
   using S = TypeParam;
-  World<S>& w = this->w;
+  World<S>& world = this->w;
   const double r = 0.5, l = 1.5;
   const auto body = [&](D3 half, D3 at, double mass) {
-    BodyDefinition<S> d = moving<S>(add_box(w, half.x, half.y, half.z), at);
+    BodyDefinition<S> d = moving<S>(add_box(world, half.x, half.y, half.z), at);
     d.gravity_scale = S(0);
     d.collide = false;
     d.mass = num<S>(mass);
-    return w.create(d);
+    return world.create(d);
   };
   const BodyId crank = body({0.25, 0.125, 0.125}, {r / 2, 0, 0}, 1),
                rod = body({0.75, 0.125, 0.125}, {r + l / 2, 0, 0}, 1);
@@ -92,14 +92,14 @@ TYPED_TEST(ShaftJoints, a_crank_moves_its_piston_as_geometry_says) {
   motor.flags = joint_flag::kMotor;
   motor.motor_speed = num<S>(2 * kPi);
   motor.motor_torque = S(200);
-  ASSERT_TRUE(w.create(motor));
-  ASSERT_TRUE(w.create(this->held(JointType::hinge, crank, rod, {r, 0, 0}, 0)));
-  ASSERT_TRUE(w.create(this->held(JointType::hinge, rod, piston, {r + l, 0, 0}, 0)));
-  ASSERT_TRUE(w.create(this->held(JointType::slider, {}, piston, {r + l, 0, 0}, kPi / 2)));  // z along x
+  ASSERT_TRUE(world.create(motor));
+  ASSERT_TRUE(world.create(this->held(JointType::hinge, crank, rod, {r, 0, 0}, 0)));
+  ASSERT_TRUE(world.create(this->held(JointType::hinge, rod, piston, {r + l, 0, 0}, 0)));
+  ASSERT_TRUE(world.create(this->held(JointType::slider, {}, piston, {r + l, 0, 0}, kPi / 2)));  // z along x
   double worst = 0, way = 0;
   for (int i = 0; i < 600; ++i) {
-    ASSERT_TRUE(w.step().clean());
-    const D3 arm = rotated<S>(w.pose(crank).orientation, {1, 0, 0}), at = real(w.center_of_mass(piston));
+    ASSERT_TRUE(world.step().clean());
+    const D3 arm = rotated<S>(world.pose(crank).orientation, {1, 0, 0}), at = real(world.center_of_mass(piston));
     worst = std::max(worst, std::fabs(at.x - r * arm.x - std::sqrt(l * l - r * r * arm.y * arm.y)));
     way = std::max(way, r + l - at.x);
   }

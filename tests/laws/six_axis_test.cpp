@@ -41,8 +41,9 @@ TYPED_TEST(SixAxis, moves_along_the_axis_that_is_not_locked_and_along_no_other) 
       const double moved = to_double(w.joint_position(joint, axis));
       EXPECT_GT(moved, 0.3) << this->name(solver) << i;
       for (std::uint32_t other = 0; other < kJointAxes; ++other) {
-        if (other != i)
+        if (other != i) {
           EXPECT_NEAR(to_double(w.joint_position(joint, static_cast<JointAxis>(other))), 0, 0.01) << other;
+        }
       }
     }
   }

@@ -136,11 +136,15 @@ TYPED_TEST(Spinning, what_damping_stops_gains_nothing) {
       d.angular_damping = num<S>(damping);
       const BodyId box = w.create(d);
       for (int i = 0; i < 30; ++i) {
-        if (i % 3 == 1) ASSERT_TRUE(w.apply_impulse(box, vec<S>(0, 0, 0), vec<S>(0, blow, 0.25 * blow)));
+        if (i % 3 == 1) {
+          ASSERT_TRUE(w.apply_impulse(box, vec<S>(0, 0, 0), vec<S>(0, blow, 0.25 * blow)));
+        }
         const double before = EnergyBook<S>::energy_of(w);
         EXPECT_EQ(w.step().stopped, 0u);
         EXPECT_LE(EnergyBook<S>::energy_of(w), before * (1 + 1e-3)) << "step " << i;
-        if (i % 3 == 1) EXPECT_GT(before, 100);
+        if (i % 3 == 1) {
+          EXPECT_GT(before, 100);
+        }
       }
     }
   }

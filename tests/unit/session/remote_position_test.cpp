@@ -8,7 +8,10 @@ namespace isostep {
 namespace {
 
 constexpr Time kPeriod = 10000;  // [us]
-constexpr auto kItself = [](int value) { return value; };
+/// Ascending for negative numbers too.
+constexpr auto kItself = [](int value) {
+  return static_cast<std::uint64_t>(std::int64_t{value} + (std::int64_t{1} << 32));
+};
 
 TEST(RecentMedian, IsTheMiddleOfTheLastNine) {
   RecentMedian<int> recent;
