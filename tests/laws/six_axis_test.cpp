@@ -20,8 +20,8 @@ TYPED_TEST(SixAxis, moves_along_the_axis_that_is_not_locked_and_along_no_other) 
       const JointAxis axis = static_cast<JointAxis>(i);
       World<S> w(this->with(solver));
       const BodyId b = this->box(w, {0, 0, 0});
-      const JointId joint =
-          w.create(six_axis<S>({.b = b, .frame = this->at({0, 0, 0}), .locks = kAllLocks & ~lock_of(axis)}));
+      const JointId joint = w.create(
+          six_axis<S>({.b = b, .frame = this->at({0, 0, 0}), .locks = kAllLocks & ~lock_of(axis), .drives = {}}));
       ASSERT_TRUE(joint) << describe(w.fault());
       const int k = static_cast<int>(i % 3);
       D3 push = {0.5, 0.5, 0.5};
@@ -95,8 +95,10 @@ TYPED_TEST(SixAxis, swings_as_a_hinge_where_two_turns_are_locked) {
   for (const SolverName solver : {SolverName::soft_step, SolverName::direct}) {
     World<S> w(this->with(solver, -10));
     const BodyId first = this->box(w, {1, 0, 0}), second = this->box(w, {1, 0, 8});
-    const JointId one = w.create(six_axis<S>(
-        {.b = first, .frame = this->at({0, 0, 0}), .locks = joint_flag::kLockPoint | joint_flag::kLockSwing}));
+    const JointId one = w.create(six_axis<S>({.b = first,
+                                              .frame = this->at({0, 0, 0}),
+                                              .locks = joint_flag::kLockPoint | joint_flag::kLockSwing,
+                                              .drives = {}}));
     const JointId other = w.create(hinge<S>({.b = second, .frame = this->at({0, 0, 8})}));
     for (int i = 0; i < 90; ++i) {
       w.step();
@@ -277,7 +279,7 @@ TYPED_TEST(SixAxis, refuses_what_no_axis_can_do) {
   World<S> w(this->with(SolverName::soft_step));
   const BodyId b = this->box(w, {0, 0, 0});
   const JointId hinged = w.create(hinge<S>({.b = b}));
-  const JointId joint = w.create(six_axis<S>({.b = b, .locks = joint_flag::kLockX | joint_flag::kCone}));
+  const JointId joint = w.create(six_axis<S>({.b = b, .locks = joint_flag::kLockX | joint_flag::kCone, .drives = {}}));
   const std::uint64_t before = w.hash();
   const auto refused = [&](AxisDrive<S> d, const char* field) {
     EXPECT_FALSE(w.add(d));

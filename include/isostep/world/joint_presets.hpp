@@ -94,7 +94,7 @@ template <class S> struct SixAxisDefinition {
   BodyId a = {}, b = {};
   Pose<S> frame = Pose<S>::identity();
   std::uint32_t locks = 0;  // joint_flag::kLock..., and kCone
-  AxisDrive<S> drives[kJointAxes] = {{}, {}, {}, {}, {}, {}};  // GCC 12 refuses aggregates of it with = {}
+  AxisDrive<S> drives[kJointAxes];
   std::uint32_t drive_count = 0;
   bool collide = false;
 };
