@@ -84,7 +84,7 @@ class Facts {
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next() { return isostep::test::splitmix64(state_); }
+  std::uint64_t next() { return splitmix64(state_); }
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(next() % n); }
   bool one_in(std::size_t n) { return below(n) == 0; }
 

@@ -76,10 +76,10 @@ TYPED_TEST(ContactReports, the_points_of_a_blow_give_what_the_event_tells) {
 TYPED_TEST(ContactReports, a_record_changes_nothing_that_moves_and_is_one_a_body) {
   using S = TypeParam;
   World<S> other(settings<S>());
-  for (World<S>* of : {&this->w, &other}) {
-    add_ground(*of);
-    const ShapeId cube = add_box(*of, 0.5, 0.5, 0.5);
-    for (int i = 0; i < 3; ++i) of->create(moving<S>(cube, {0.125 * i, 0.5 + i, 0}));
+  for (World<S>* world : {&this->w, &other}) {
+    add_ground(*world);
+    const ShapeId cube = add_box(*world, 0.5, 0.5, 0.5);
+    for (int i = 0; i < 3; ++i) world->create(moving<S>(cube, {0.125 * i, 0.5 + i, 0}));
   }
   const BodyId body = this->w.bodies()[1];
   const ContactReportId id = this->w.add(ContactReport<S>{body});

@@ -101,8 +101,8 @@ TYPED_TEST(KindGhosts, it_is_state) {
   this->platform({0, 0, 0}, 1);
   for (std::uint32_t i = 0; i < 8; ++i) this->ball({i * 0.25, 0.5 + i * 0.5, 0}, 1 + i % 3);
   const KindGhostId id = this->w.add(KindGhost<S>{1, 2});
-  expect_exact_rollback(this->w, 120, [&](World<S>& of, int i) {
-    if (i % 15 == 7) of.set(id, KindGhost<S>{1 + static_cast<std::uint32_t>(i) % 3, 2});
+  expect_exact_rollback(this->w, 120, [&](World<S>& world, int i) {
+    if (i % 15 == 7) world.set(id, KindGhost<S>{1 + static_cast<std::uint32_t>(i) % 3, 2});
   });
 }
 

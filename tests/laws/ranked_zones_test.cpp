@@ -114,8 +114,8 @@ TYPED_TEST(RankedZones, ranks_are_state_and_a_world_that_had_none_does_not_know_
   for (int i = 0; i < 4; ++i) this->ball({i * 1.0, 0, 0});
   this->w.add(zone<S>({1, 0, 0}, 0, 0));
   const RankedZoneId id = this->w.add(zone<S>({0, 1, 0}, 1, zone_effect::kAcceleration, 2));
-  expect_exact_rollback(this->w, 60, [&](World<S>& of, int i) {
-    if (i % 10 == 4) of.set(id, zone<S>({0, 1, 0}, i % 20 == 4 ? -1 : 1, zone_effect::kAcceleration, 2));
+  expect_exact_rollback(this->w, 60, [&](World<S>& world, int i) {
+    if (i % 10 == 4) world.set(id, zone<S>({0, 1, 0}, i % 20 == 4 ? -1 : 1, zone_effect::kAcceleration, 2));
   });
 }
 

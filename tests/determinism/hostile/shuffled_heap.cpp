@@ -57,7 +57,7 @@ class Lock {
   ~Lock() { heap.busy.clear(std::memory_order_release); }
 };
 
-std::uint64_t random_word() { return isostep::test::splitmix64(heap.state); }
+std::uint64_t random_word() { return splitmix64(heap.state); }
 
 void* take(std::size_t size, std::size_t alignment) {
   const std::size_t rounded = std::bit_ceil(size < alignment ? alignment : size < kLeastSize ? kLeastSize : size);

@@ -1,4 +1,4 @@
-// The joints and records that the page of joints (dynamics/joints/README.md) shows: its code, in a world_.
+// The joints and records that the page of joints (dynamics/joints/README.md) shows: its code, in a world.
 // SPDX-License-Identifier: MIT
 #include "unit/world/worlds.hpp"
 
