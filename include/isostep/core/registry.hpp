@@ -39,6 +39,13 @@ template <class Record, class IdType> class Registry {
   ISO_INLINE bool holds(IdType id) const { return slots_.holds(id); }
   /// Null for a stale id.
   ISO_INLINE const Record* find(IdType id) const { return slots_.holds(id) ? &(*records_)[id.slot] : nullptr; }
+  /// Of the first record, by slot, that matches; null where none does.
+  template <class Match> ISO_INLINE IdType id_where(const Match& match) const {
+    for (std::uint32_t slot = 0; slot < records_->size(); ++slot) {
+      if (slots_.is_taken(slot) && match((*records_)[slot])) return slots_.template id_of<IdType>(slot);
+    }
+    return {};
+  }
   /// Of an id that is held.
   ISO_INLINE Record& change(IdType id) { return records_.change()[id.slot]; }
 

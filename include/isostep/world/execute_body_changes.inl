@@ -174,12 +174,8 @@ template <class S> bool CommandExecutor<S>::execute(const SleepBody& command) {
 
 /// Of a body; null where it has none.
 template <class S> MoveTargetId CommandExecutor<S>::target_of(std::uint32_t slot) const {
-  const auto& targets = state_.force_records->move_targets;
-  for (std::uint32_t i = 0; i < targets.all().size(); ++i) {
-    if (targets.is_taken(i) && targets.all()[i].body.slot == slot)
-      return targets.slots().template id_of<MoveTargetId>(i);
-  }
-  return {};
+  return state_.force_records->move_targets.id_where(
+      [slot](const MoveTarget<S>& target) { return target.body.slot == slot; });
 }
 template <class S> void CommandExecutor<S>::remove_target(std::uint32_t slot) {
   const MoveTargetId target = target_of(slot);

@@ -65,18 +65,23 @@ template <class S> bool CommandExecutor<S>::check_spring(const Wheel<S>& wheel) 
   return journal_.accept(detail::fault_of_inertia(wheel, *map_.properties_of(wheel.body)));
 }
 
+namespace detail {
+/// Whether a record that is alike, of which a world has one at most, is that of another slot.
+template <class IdType> ISO_INLINE bool is_another(IdType alike, std::uint32_t slot) {
+  return alike && alike.slot != slot;
+}
+}  // namespace detail
+
 /// Whether no record of another slot has the same two kinds.
 template <class S>
 template <class Record>
 bool CommandExecutor<S>::check_kinds(const Record& pair, std::uint32_t slot) {
   const auto& pairs = detail::registry_of(*state_.force_records, typename detail::ForceIdOf<Record>::Type{});
-  for (std::uint32_t i = 0; i < pairs.all().size(); ++i) {
-    const Record& other = pairs.all()[i];
-    if (i == slot || !pairs.is_taken(i) || kinds_key(other.kind_a, other.kind_b) != kinds_key(pair.kind_a, pair.kind_b))
-      continue;
-    return journal_.refuse({Fault::bad_argument, "", "kind_b", "a pair of kinds that has no record yet"});
-  }
-  return true;
+  const auto alike = pairs.id_where([&](const Record& other) {
+    return kinds_key(other.kind_a, other.kind_b) == kinds_key(pair.kind_a, pair.kind_b);
+  });
+  return !detail::is_another(alike, slot) ||
+         journal_.refuse({Fault::bad_argument, "", "kind_b", "a pair of kinds that has no record yet"});
 }
 template <class S> bool CommandExecutor<S>::check_alone(const MaterialPair<S>& pair, std::uint32_t slot) {
   return check_kinds(pair, slot);
@@ -106,21 +111,19 @@ template <class Record>
 bool CommandExecutor<S>::check_only_one(const Record& record, std::uint32_t slot) {
   constexpr bool kOfJoint = requires { record.joint; };
   const auto& all = detail::registry_of(*state_.force_records, typename detail::ForceIdOf<Record>::Type{});
-  for (std::uint32_t i = 0; i < all.all().size(); ++i) {
-    if (i == slot || !all.is_taken(i) || !(detail::subject_of(all.all()[i]) == detail::subject_of(record))) continue;
-    return journal_.refuse({Fault::bad_argument, "", kOfJoint ? "joint" : "body",
-                            kOfJoint ? "a joint that has no record yet" : "a body that has no record yet"});
-  }
-  return true;
+  const auto alike =
+      all.id_where([&](const Record& other) { return detail::subject_of(other) == detail::subject_of(record); });
+  return !detail::is_another(alike, slot) ||
+         journal_.refuse({Fault::bad_argument, "", kOfJoint ? "joint" : "body",
+                          kOfJoint ? "a joint that has no record yet" : "a body that has no record yet"});
 }
 template <class S> bool CommandExecutor<S>::check_alone(const JointLoad<S>& load, std::uint32_t slot) {
   return check_only_one(load, slot);
 }
 /// Whether no record of another slot has the same axis of the same joint.
 template <class S> bool CommandExecutor<S>::check_alone(const AxisDrive<S>& drive, std::uint32_t slot) {
-  const AxisDriveId there = detail::drive_on(*state_.force_records, drive.joint, drive.axis);
-  if (!there || there.slot == slot) return true;
-  return journal_.refuse({Fault::bad_argument, "", "axis", "an axis that has no record yet"});
+  return !detail::is_another(detail::drive_on(*state_.force_records, drive.joint, drive.axis), slot) ||
+         journal_.refuse({Fault::bad_argument, "", "axis", "an axis that has no record yet"});
 }
 template <class S> bool CommandExecutor<S>::check_alone(const Breakable<S>& breakable, std::uint32_t slot) {
   return check_only_one(breakable, slot);
@@ -131,17 +134,14 @@ template <class S> bool CommandExecutor<S>::check_alone(const Vehicle<S>& vehicl
 
 /// Whether no record of another slot has the same part of the same body, and the body's shape has that part.
 template <class S> bool CommandExecutor<S>::check_alone(const SurfaceVelocity<S>& surface, std::uint32_t slot) {
-  const auto& all = state_.force_records->surface_velocitys;
   const bool whole = surface.part == kEveryPart;
   if (!whole && surface.part >= map_.children_of(map_.properties_of(surface.body)->shape).size())
     return journal_.refuse({Fault::bad_argument, "", "part", "kEveryPart, or a child of the body's shape"});
-  for (std::uint32_t i = 0; i < all.all().size(); ++i) {
-    const SurfaceVelocity<S>& other = all.all()[i];
-    if (i == slot || !all.is_taken(i) || !(other.body == surface.body) || other.part != surface.part) continue;
-    return journal_.refuse(whole ? FaultReport{Fault::bad_argument, "", "body", "a body that has no record yet"}
-                                 : FaultReport{Fault::bad_argument, "", "part", "a part that has no record yet"});
-  }
-  return true;
+  const auto alike = state_.force_records->surface_velocitys.id_where(
+      [&](const SurfaceVelocity<S>& other) { return other.body == surface.body && other.part == surface.part; });
+  return !detail::is_another(alike, slot) ||
+         journal_.refuse(whole ? FaultReport{Fault::bad_argument, "", "body", "a body that has no record yet"}
+                               : FaultReport{Fault::bad_argument, "", "part", "a part that has no record yet"});
 }
 template <class S> bool CommandExecutor<S>::check_alone(const OneWay<S>& one_way, std::uint32_t slot) {
   return check_only_one(one_way, slot);
@@ -174,14 +174,11 @@ template <class S> bool CommandExecutor<S>::check_alone(const SensorMount<S>& mo
 }
 /// Whether no record of another slot has the same two bodies.
 template <class S> bool CommandExecutor<S>::check_alone(const Ghost<S>& ghost, std::uint32_t slot) {
-  const auto& all = state_.force_records->ghosts;
-  for (std::uint32_t i = 0; i < all.all().size(); ++i) {
-    const Ghost<S>& other = all.all()[i];
-    if (i == slot || !all.is_taken(i)) continue;
-    if ((other.a == ghost.a && other.b == ghost.b) || (other.a == ghost.b && other.b == ghost.a))
-      return journal_.refuse({Fault::bad_argument, "", "b", "a pair that has no record yet"});
-  }
-  return true;
+  const auto alike = state_.force_records->ghosts.id_where([&](const Ghost<S>& other) {
+    return (other.a == ghost.a && other.b == ghost.b) || (other.a == ghost.b && other.b == ghost.a);
+  });
+  return !detail::is_another(alike, slot) ||
+         journal_.refuse({Fault::bad_argument, "", "b", "a pair that has no record yet"});
 }
 
 /// Whether no record of another slot has the same body, and its shape can be cast.

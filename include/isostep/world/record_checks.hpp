@@ -234,13 +234,8 @@ FaultReport fault_of_joint(const AxisDrive<S>& d, const JointProperties<S>& join
 }
 /// The record on that axis of a joint; null where there is none.
 template <class S> AxisDriveId drive_on(const ForceRecords<S>& records, JointId joint, JointAxis axis) {
-  const auto& drives = records.axis_drives;
-  for (std::uint32_t slot = 0; slot < drives.all().size(); ++slot) {
-    const AxisDrive<S>& drive = drives.all()[slot];
-    if (drives.is_taken(slot) && drive.joint == joint && drive.axis == axis)
-      return drives.slots().template id_of<AxisDriveId>(slot);
-  }
-  return {};
+  return records.axis_drives.id_where(
+      [&](const AxisDrive<S>& drive) { return drive.joint == joint && drive.axis == axis; });
 }
 
 /// Of all drives that a joint is to have.

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "isostep/dynamics/joints/symmetric_factors.hpp"
 #include "unit/dynamics/joint_world.hpp"
 #include "unit/dynamics/scalar_name.hpp"
 

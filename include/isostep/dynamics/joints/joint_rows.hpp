@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/joints/symmetric_factors.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/math/softness.hpp"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "isostep/dynamics/joints/joint_kinds.hpp"
+#include "isostep/dynamics/joints/symmetric_factors.hpp"
 
 namespace isostep::detail {
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/joints/joint_rows.hpp"
+#include "isostep/dynamics/joints/symmetric_factors.hpp"
 #include "isostep/math/lanes_select.hpp"
 #include "isostep/scalar/lanes_reciprocal.hpp"
 
