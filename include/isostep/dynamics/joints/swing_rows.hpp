@@ -147,16 +147,23 @@ ISO_INLINE void set_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, J
 /// [1] of the ellipse, beyond which rows turn with the direction of the swing: nearer its middle no limit is near.
 template <class S> inline constexpr S kConeBasis = S(0.5);
 
+/// [rad] What a spring of a swing is off its target, and [rad/s] what a motor of it runs at: without them nothing, for
+/// rows that turn with the swing mix both.
+template <class S> ISO_INLINE S off_target(const JointDrive<S>* swing, S angle) {
+  if (swing == nullptr || swing->asked == nullptr || !(S(0) < swing->asked->spring_frequency)) return S(0);
+  return angle - swing->asked->spring_target;
+}
+template <class S> ISO_INLINE S asked_speed(const JointDrive<S>* swing) {
+  return swing != nullptr && swing->asked != nullptr && swing->asked->motor ? swing->asked->motor_speed : S(0);
+}
+
 /// The rows of swings along one axis, in a, and across it: `x` is the drive along it if both are there. Nothing limits
 /// them.
 template <class S>
 ISO_INLINE void set_along(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, Vec3<Unit<S>> axis, JointDrive<S>* x,
                           JointDrive<S>* y) {
-  const auto asked = [](const JointDrive<S>* drive, S AxisDrive<S>::*what)
-                         ISO_INLINE_LAMBDA { return drive != nullptr && drive->asked ? drive->asked->*what : S(0); };
-  const S off_x = swing.angle_about_x() - asked(x, &AxisDrive<S>::spring_target);
-  const S off_y = swing.angle_about_y() - asked(y, &AxisDrive<S>::spring_target);
-  const S speed_x = asked(x, &AxisDrive<S>::motor_speed), speed_y = asked(y, &AxisDrive<S>::motor_speed);
+  const S off_x = off_target(x, swing.angle_about_x()), off_y = off_target(y, swing.angle_about_y());
+  const S speed_x = asked_speed(x), speed_y = asked_speed(y);
   const auto set = [&](JointDrive<S>* drive, Vec3<S> about, S x_part, S y_part) ISO_INLINE_LAMBDA {
     if (drive == nullptr) return;
     const auto part = [&](S of_x, S of_y) ISO_INLINE_LAMBDA { return x_part * of_x + y_part * of_y; };
