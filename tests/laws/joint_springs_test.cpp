@@ -123,5 +123,29 @@ TYPED_TEST(JointSprings, replace_rods_and_ropes_without_a_jerk) {
   }
 }
 
+// The shorter way round: an angle beyond half a turn from the target comes back from the other side. Its stretch once
+// jumped by a turn at half a turn from zero, and a bob that swung across there was driven faster on every round.
+TYPED_TEST(JointSprings, of_an_angle_pull_the_shorter_way_round) {
+  using S = TypeParam;
+  using enum SolverName;
+  for (const SolverName solver : {soft_step, pgs, worst_first, direct}) {
+    for (const double target : {2.9, -2.9, 4.0}) {
+      World<S> w(this->settings_of(solver, 8));
+      const BodyId bob = this->add_bob(w, {2, 0, 0});
+      JointProperties<S> j = w.joint_at(JointType::hinge, {}, bob, {vec<S>(1, 0, 0), Quat<Unit<S>>::identity()});
+      j.flags = joint_flag::kSpring;
+      j.spring_target = num<S>(target);
+      j.spring_frequency = S(1);
+      j.spring_damping = num<S>(0.25);
+      const JointId joint = w.create(j);
+      ASSERT_TRUE(joint) << describe(w.fault());
+      for (int i = 0; i < 600; ++i) ASSERT_TRUE(w.step().clean());
+      const double off = std::remainder(to_double(w.joint_position(joint)) - target, 2 * kPi);
+      EXPECT_NEAR(off, 0, 0.02) << kSolverNames[static_cast<int>(solver)] << target;
+      EXPECT_LT(length(real(w.angular_velocity(bob))), 0.02) << kSolverNames[static_cast<int>(solver)] << target;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace isostep::test

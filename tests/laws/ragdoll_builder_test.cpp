@@ -192,6 +192,11 @@ TYPED_TEST(Ragdolls, say_by_name_what_makes_no_figure_and_leave_the_world_as_it_
     how.pose.force = S(30);
     how.pose.target = num<S>(0.25);
   });
+  refused("pose.mass", [](auto&, auto& how) { how.pose.mass = S(1); });
+  refused("pose.frequency", [](auto&, auto& how) {
+    how.pose.force = S(30);
+    how.pose.frequency = S(0);
+  });
   EXPECT_EQ(add_ragdoll<S>(w, bones).bodies.size(), bones.size());
 }
 

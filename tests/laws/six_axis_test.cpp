@@ -331,5 +331,40 @@ TYPED_TEST(SixAxis, refuses_what_no_axis_can_do) {
   EXPECT_TRUE(w.state().force_records->axis_drives.slots().template ids<AxisDriveId>().empty());
 }
 
+/// Springs alike, made for what each swing feels of a plank: ten times as much about one axis as about the other. The
+/// swing bears the load that its own spring bears, wherever in the ellipse.
+TYPED_TEST(SixAxis, springs_of_a_cone_are_as_stiff_in_its_middle_as_at_its_edge) {
+  using S = TypeParam;
+  for (const SolverName solver : {SolverName::soft_step, SolverName::pgs, SolverName::direct}) {
+    double torque_at[2] = {};
+    for (const double angle : {0.25, 0.75}) {
+      World<S> w(this->with(solver));
+      const BodyId b = this->box(w, {0, 0, 0}, 1, 0.7, 0.05, 0.1);
+      SixAxisDefinition<S> joint;
+      joint.b = b;
+      joint.locks = joint_flag::kLockPoint | joint_flag::kCone | joint_flag::kLockTwist;
+      for (const JointAxis axis : {JointAxis::swing_x, JointAxis::swing_y}) {
+        AxisDrive<S> drive = this->limit(axis, -1, 1);
+        drive.spring_frequency = S(1);
+        drive.spring_damping = S(1);
+        joint.drives[joint.drive_count++] = drive;
+      }
+      const JointId id = w.create(six_axis(joint));
+      ASSERT_TRUE(id) << describe(w.fault());
+      // Of the same stiffness everywhere: k = I w^2 of the stiffer axis, about y.
+      const double inertia = to_double(w.inertia(b, {Unit<S>(0), Unit<S>(1), Unit<S>(0)}));
+      const double torque = inertia * 4 * kPi * kPi * angle;
+      for (int i = 0; i < 480; ++i) {
+        w.apply_force(b, Vec3<S>::zero(), vec<S>(0, torque, 0));
+        ASSERT_TRUE(w.step().clean());
+      }
+      const double swing = to_double(w.joint_position(id, JointAxis::swing_y));
+      torque_at[angle < 0.5 ? 0 : 1] = swing / angle;
+    }
+    EXPECT_NEAR(torque_at[0], 1, 0.05) << this->name(solver);
+    EXPECT_NEAR(torque_at[1], 1, 0.05) << this->name(solver);
+  }
+}
+
 }  // namespace
 }  // namespace isostep::test

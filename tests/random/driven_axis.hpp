@@ -67,8 +67,8 @@ class DrivenAxis {
   double held() const { return held_at(place_); }
   bool stores() const { return 0 < stiffness_ || yields_; }
   /// [J] that it can have given since it was last asked. A motor gives while the joint moves its way, more slowly than
-  /// it, and for a part of a step in which it becomes faster. An angle that passes half a turn stretches its spring
-  /// anew.
+  /// it, and for a part of a step in which it becomes faster. An angle with limits that passes half a turn stretches
+  /// its spring anew.
   template <class S> double work(const World<S>& w) {
     constexpr double kMargin = 1.5;
     const double before = place_, hz = w.settings().hz;
@@ -76,7 +76,7 @@ class DrivenAxis {
     const double way = place_ - before, moved = turns_ ? std::remainder(way, 2 * kPi) : way;
     double given = 0;
     if (speed_ != 0) given += force_ * std::clamp(speed_ < 0 ? -moved : moved, 0.0, kMargin * std::fabs(speed_) / hz);
-    if (turns_ && std::fabs(way) > kPi) given += std::max(held_at(place_) - held_at(before), 0.0);
+    if (turns_ && !goes_round() && std::fabs(way) > kPi) given += std::max(held_at(place_) - held_at(before), 0.0);
     return given;
   }
   /// [m] or [rad] past a hard limit. What folds so far that a swing or twist means nothing may be anywhere when it
@@ -107,8 +107,11 @@ class DrivenAxis {
     if (kind_ == JointType::six_axis) return to_double(w.joint_position(joint_, axis_));
     return kind_ == JointType::distance ? angles_of(w, p).apart : driven_place(w, p);
   }
+  bool goes_round() const { return turns_ && !limited_ && !yields_; }
   double held_at(double place) const {
-    const double stretch = std::fabs(place - target_), whole = 0.5 * stiffness_ * stretch * stretch;
+    const double way = place - target_;
+    const double stretch = std::fabs(goes_round() ? std::remainder(way, 2 * kPi) : way);
+    const double whole = 0.5 * stiffness_ * stretch * stretch;
     return 0 < most_ ? std::min(whole, most_ * stretch) : whole;
   }
 

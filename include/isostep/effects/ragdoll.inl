@@ -43,7 +43,9 @@ template <class S> class RagdollBuilder {
         .proper(S(0) <= friction, "friction", "0 or more")
         .proper(S(0) <= force, "pose.force", "0 or more")
         .proper(friction == S(0) || force == S(0), "friction", "0 where servos hold the pose")
-        .proper(settings_.pose.target == S(0), "pose.target", "0: that of every axis at rest");
+        .proper(settings_.pose.target == S(0), "pose.target", "0: that of every axis at rest")
+        .proper(settings_.pose.mass == S(0), "pose.mass", "0: what hangs on each joint at rest")
+        .proper(force == S(0) || S(0) < settings_.pose.frequency, "pose.frequency", "above 0 where pose.force is");
     for (std::size_t i = 0; i < bones_.size(); ++i) {
       const int parent = bones_[i].parent;
       list.proper(parent == -1 || (0 <= parent && static_cast<std::size_t>(parent) < i), "parent",

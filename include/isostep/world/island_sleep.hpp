@@ -41,6 +41,7 @@ template <class S> class IslandSleep {
   bool is_dynamic(std::uint32_t slot) const;
   void find_islands();
   void find_island_clocks();
+  void keep_motors_awake();
   template <class Visit> void for_each_wheel_on_ground(const Visit& visit) const;
   void tie_coupled(const Coupling<S>& coupling);
   bool mark_ready_islands();

@@ -356,5 +356,24 @@ TYPED_TEST(WorldSleep, a_slow_drifter_with_no_force_on_it_is_not_put_to_sleep_ab
   EXPECT_NEAR(to_double(w.center_of_mass(id).x), 0.6, 0.01);
 }
 
+/// Slower than what rests: half a turn a minute.
+TYPED_TEST(WorldSleep, a_slow_motor_stays_awake_and_one_at_its_stop_does_not) {
+  using S = TypeParam;
+  for (const bool stops : {false, true}) {
+    World<S> w(settings<S>(0));
+    const BodyId hand = w.create(moving<S>(add_ball(w, 0.5), {1, 0, 0}));
+    JointProperties<S> p = w.joint_at(JointType::hinge, {}, hand, Pose<S>::identity());
+    p.flags = joint_flag::kMotor | (stops ? joint_flag::kLimit : 0u);
+    p.upper = num<S>(0.03);
+    p.motor_speed = num<S>(0.03);
+    p.motor_torque = S(50);
+    const JointId joint = w.create(p);
+    ASSERT_TRUE(joint) << describe(w.fault());
+    run(w, 600);
+    EXPECT_EQ(w.is_awake(hand), !stops);
+    EXPECT_NEAR(to_double(w.joint_position(joint)), stops ? 0.03 : 0.3, 0.01);
+  }
+}
+
 }  // namespace
 }  // namespace isostep::test

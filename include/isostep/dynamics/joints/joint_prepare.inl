@@ -147,6 +147,16 @@ ISO_INLINE void set_spring_mass(const SolverMass<S>& a, const SolverMass<S>& b, 
   drive.spring_inverse = max(inverse, kLeastSpringInverse<S>);
 }
 
+/// Both swings of a cone are as stiff as the one whose spring is made for more: their rows turn with the swing, and
+/// stiffness that changed with them would give energy.
+template <class S> ISO_INLINE void even_cone(JointConstraint<S>& joint) {
+  if (joint.properties.type != JointType::six_axis || (joint.properties.flags & joint_flag::kCone) == 0) return;
+  JointDrive<S>* const x = drive_of(joint, 0);
+  JointDrive<S>* const y = drive_of(joint, 1);
+  if (x == nullptr || y == nullptr || !(S(0) < x->spring_inverse) || !(S(0) < y->spring_inverse)) return;
+  x->spring_inverse = y->spring_inverse = min(x->spring_inverse, y->spring_inverse);
+}
+
 /// A body that turns about a joint far away answers more strongly than the format holds: see Limits<S>::leverage().
 template <class S> ISO_INLINE S reach_of(const JointConstraint<S>& joint, const SolverMass<S>& a) {
   const S kappa = max(a.kappa.rows[0].x, max(a.kappa.rows[1].y, a.kappa.rows[2].z));
@@ -186,6 +196,7 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
     if (joint.holds) detail::set_spring_mass(mass_a, mass_b, joint, drive);
   }
   if (joint.holds) detail::feel_springs(mass_a, mass_b, joint);
+  detail::even_cone(joint);
   detail::load_impulses(state, joint);
 }
 
