@@ -310,5 +310,52 @@ TYPED_TEST(Characters, a_crowd_in_a_corridor_keeps_apart_and_can_be_rolled_back)
   }
 }
 
+TYPED_TEST(Characters, is_not_carried_by_what_the_ground_did_before_it_was_put_elsewhere) {
+  using S = TypeParam;
+  const BodyId train = this->box({40, 0.5, 2}, {0, -0.5, 0}, BodyType::kinematic);
+  this->box({2, 0.5, 2}, {0, -0.5, 20});
+  ASSERT_TRUE(this->w.set_velocity(train, vec<S>(20, 0, 0), Vec3<S>::zero()));
+  const CharacterId id = this->walker({0, 0, 0});
+  const BodyId body = this->w.find(id)->body;
+  run(this->w, 30);
+  EXPECT_NEAR(this->foot(id).x, 10, 0.5);
+  Pose<S> there = this->w.pose(body);
+  there.position.x = S(0);
+  there.position.z = S(20);
+  ASSERT_TRUE(this->w.set_pose(body, there));
+  EXPECT_TRUE(this->walk(id, {0, 0, 0}, 30));  // it stands there from the first step on
+  EXPECT_NEAR(this->foot(id).x, 0, 1e-3);
+  EXPECT_NEAR(this->foot(id).y, 0, 2e-3);
+}
+
+TYPED_TEST(Characters, that_was_disabled_stands_where_it_was_left_whatever_its_lift_did) {
+  using S = TypeParam;
+  const BodyId lift = this->box({2, 0.5, 2}, {0, -0.5, 0}, BodyType::kinematic);
+  const CharacterId id = this->walker({0, 0, 0});
+  const BodyId body = this->w.find(id)->body;
+  run(this->w, 10);
+  ASSERT_TRUE(this->w.set_enabled(body, false));
+  ASSERT_TRUE(this->w.set_velocity(lift, vec<S>(0, 2, 0), Vec3<S>::zero()));
+  run(this->w, 60);
+  ASSERT_TRUE(this->w.set_velocity(lift, Vec3<S>::zero(), Vec3<S>::zero()));
+  Pose<S> there = this->w.pose(body);
+  there.position.y += S(2);
+  ASSERT_TRUE(this->w.set_pose(body, there));
+  ASSERT_TRUE(this->w.set_enabled(body, true));
+  EXPECT_TRUE(this->walk(id, {0, 0, 0}, 30));
+  EXPECT_NEAR(this->foot(id).y, 2, 0.01);
+}
+
+TYPED_TEST(Characters, walks_through_what_does_not_collide) {
+  using S = TypeParam;
+  add_ground(this->w);
+  BodyDefinition<S> d = still<S>(add_box(this->w, 0.2, 2, 2), {2, 2, 0});
+  d.collide = false;
+  this->w.create(d);
+  const CharacterId id = this->walker({0, 0, 0});
+  EXPECT_TRUE(this->walk(id, {3, 0, 0}, 80));
+  EXPECT_NEAR(this->foot(id).x, 4, 0.1);
+}
+
 }  // namespace
 }  // namespace isostep::test

@@ -24,7 +24,8 @@ CharacterWalk<S>::CharacterWalk(Surroundings<S>& around, const Place& place, std
 template <class S> void CharacterWalk<S>::run(Vec3<S> carried) {
   const bool stood = character_.footing == Footing::floor;
   if (stood) at_ += carried;
-  floor_ = dot(character_.foot_at + carried, up_);
+  const bool was_put = stood && !character_.ground;  // by a command
+  floor_ = was_put ? dot(at_, up_) - place_.below : dot(character_.foot_at + carried, up_);
   look_around(carried);
   leave_overlaps(detail::kMostWayOut<S> + max_abs(carried));
   const bool jumps = stood && S(0) < character_.jump, walks = stood && !jumps;

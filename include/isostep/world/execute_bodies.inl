@@ -180,6 +180,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetPose<S>& command) {
   detail::renew_fat_box(map_, state, body, true);
   proxies_.place(state, body, now.set == Location::kAwake);
   wake_.wake_touching(slot);
+  leave_ground(slot);
   return true;
 }
 
@@ -218,7 +219,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetVelocity<S>& comman
 
 template <class S> bool CommandExecutor<S>::execute(const SetMaterial<S>& command) {
   if (!known(command.body) || !journal_.accept(detail::fault_of(command.material))) return false;
-  wake_.wake_touching(command.body.slot);
+  wake_what_rests_on(command.body);
   wake_.wake(command.body.slot);
   map_.change_properties(command.body.slot).material = command.material;
   return true;
@@ -227,7 +228,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetMaterial<S>& comman
 template <class S> bool CommandExecutor<S>::execute(const SetFilter& command) {
   if (!known(command.body)) return false;
   const std::uint32_t slot = command.body.slot;
-  wake_.wake_touching(slot);
+  wake_what_rests_on(command.body);
   wake_.wake(slot);
   BodyProperties<S>& body = map_.change_properties(slot);
   body.filter = command.filter;

@@ -104,11 +104,19 @@ template <class S> void CommandExecutor<S>::wake_coupled(std::uint32_t slot) {
   }
 }
 
+/// Of a character whose body is put elsewhere or was away: the ground has carried it so far, and no further.
+template <class S> void CommandExecutor<S>::leave_ground(std::uint32_t slot) {
+  const auto& characters = state_.force_records->characters;
+  const CharacterId id = characters.id_where([slot](const Character<S>& c) { return c.body.slot == slot; });
+  if (id && characters.find(id)->ground) state_.force_records.change().characters.change(id).ground = {};
+}
+
 /// Another body in place of one, in its slot: all that it touched has ended, joints begin without impulses.
 template <class S>
 void CommandExecutor<S>::replace(std::uint32_t slot, BodyState<S> state, const BodyProperties<S>& next) {
   destruction_.part(slot);
   wake_coupled(slot);
+  leave_ground(slot);
   for (std::size_t i = 0; i < state_.joints.states.size(); ++i) {
     const JointProperties<S>& joint = state_.joints.properties[i];
     if (joint.body_a != slot && joint.body_b != slot) continue;

@@ -98,7 +98,8 @@ template <class S> class Surroundings {
     return known.first != Range::kUnknown ? known : place(slot);
   }
   ISO_INLINE bool collides_with(std::uint32_t slot) const {
-    return should_collide(collides_, map_.properties_at(map_.location(slot)).filter);
+    const BodyProperties<S>& other = map_.properties_at(map_.location(slot));
+    return (other.flags & body_flag::kCollide) != 0 && should_collide(collides_, other.filter);
   }
   Range place(std::uint32_t slot);
   Range place_some(std::uint32_t slot, const ChildTree<S>& tree);
