@@ -106,5 +106,37 @@ TYPED_TEST(KindGhosts, it_is_state) {
   });
 }
 
+/// Their boxes are far apart as the step begins in which it meets the wall.
+TYPED_TEST(KindGhosts, what_is_fast_keeps_all_its_way) {
+  using S = TypeParam;
+  this->w.set_gravity(Vec3<S>::zero());
+  ASSERT_TRUE(this->w.add(KindGhost<S>{1, 2}));
+  const double speed = 50;
+  BodyDefinition<S> d = moving<S>(add_ball(this->w, 0.125), {0, 0, 0}, {speed, 0, 0});
+  const BodyId passes = this->body(d, 2);
+  d.position = vec<S>(0, 4, 0);
+  const BodyId is_stopped = this->body(d, 3);
+  for (const double y : {0.0, 4.0}) this->body(still<S>(add_box(this->w, 0.0625, 1, 1), {4, y, 0}), 1);
+  run(this->w, 10);
+  EXPECT_NEAR(to_double(this->w.center_of_mass(passes).x), speed / 6, 1e-2);
+  EXPECT_LT(to_double(this->w.center_of_mass(is_stopped).x), 4);
+}
+
+TYPED_TEST(KindGhosts, what_passes_a_sleeper_does_not_wake_it) {
+  using S = TypeParam;
+  this->platform({0, 0, 0}, 0);
+  const BodyId sleeper = this->ball({0, 0.375, 0}, 2), other = this->ball({0, 0.375, 2}, 3);
+  ASSERT_TRUE(settle(this->w));
+  ASSERT_TRUE(this->w.add(KindGhost<S>{1, 2}));
+  ASSERT_TRUE(settle(this->w));
+  BodyDefinition<S> d = moving<S>(add_box(this->w, 0.25, 0.25, 4), {-2, 0.5, 0}, {2, 0, 0});
+  d.type = BodyType::kinematic;
+  const BodyId sweeps = this->body(d, 1);
+  run(this->w, 90);
+  EXPECT_GT(to_double(this->w.center_of_mass(sweeps).x), 0.5);
+  EXPECT_FALSE(this->w.is_awake(sleeper));
+  EXPECT_GT(to_double(this->w.center_of_mass(other).x), 0.5);
+}
+
 }  // namespace
 }  // namespace isostep::test

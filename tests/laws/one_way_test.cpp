@@ -382,5 +382,22 @@ TYPED_TEST(OneWays, are_rolled_back_while_bodies_are_inside) {
   }
 }
 
+TYPED_TEST(OneWays, what_is_fast_passes_from_the_side_and_is_stopped_from_above) {
+  using S = TypeParam;
+  this->w.set_gravity(Vec3<S>::zero());
+  this->open(this->platform({4, 0, 0}, {0.0625, 2, 2}));
+  for (const double speed : {3.0, 20.0, 50.0}) {
+    const BodyId across = this->ball({0, 0, 0}, {speed, 0, 0}),
+                 down = this->ball({4, 2 + speed / 20, 0}, {0, -speed, 0});
+    ASSERT_TRUE(this->w.set_filter(across, {1, ~0u, 5}));
+    const int steps = static_cast<int>(480 / speed);
+    run(this->w, steps);
+    EXPECT_NEAR(this->at(across).x, speed * steps / 60, 0.02) << speed;
+    EXPECT_GT(this->at(down).y, 2) << speed;
+    this->w.destroy(across);
+    this->w.destroy(down);
+  }
+}
+
 }  // namespace
 }  // namespace isostep::test

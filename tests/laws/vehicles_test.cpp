@@ -292,5 +292,27 @@ TYPED_TEST(Vehicles, lands_on_its_springs_and_comes_to_rest) {
   this->told("lowest", lowest);
 }
 
+/// Nothing but its wheels reaches the ground.
+TYPED_TEST(Vehicles, asleep_wakes_with_what_its_ground_becomes) {
+  using S = TypeParam;
+  for (const bool filter : {false, true}) {
+    this->w = World<S>(settings<S>());
+    const BodyId ground = add_ground(this->w, 1);
+    BodyDefinition<S> d = moving<S>(add_box(this->w, 0.9, 0.3, 2.1), {0, this->kHeight, 0});
+    d.mass = num<S>(this->kMass);
+    const BodyId car = this->w.create(d);
+    for (const double x : {-1.0, 1.0}) {
+      for (const double z : {-1.0, 1.0}) ASSERT_TRUE(this->w.add(this->wheel_of(car, x, z, 0)));
+    }
+    ASSERT_TRUE(settle(this->w));
+    Material<S> ice = this->w.view(ground).properties->material;
+    ice.friction = S(0);
+    ASSERT_TRUE(filter ? this->w.set_filter(ground, {1, 0, 0}) : this->w.set_material(ground, ice));
+    EXPECT_TRUE(this->w.is_awake(car));
+    run(this->w, 60);
+    EXPECT_EQ(to_double(this->w.center_of_mass(car).y) < 0, filter);
+  }
+}
+
 }  // namespace
 }  // namespace isostep::test

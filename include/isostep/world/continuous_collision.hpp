@@ -18,6 +18,14 @@
 
 namespace isostep {
 
+/// What of a step's rules a fast body heeds. Null tables are empty ones.
+template <class S> struct ImpactRules {
+  const Ways<S>* ways = nullptr;                // what they let pass they do not stop
+  std::span<const std::uint64_t> giving_way = {};  // pairs, ascending, whose contacts press no harder than they may
+  const ResponseTable<S>* responses = nullptr;  // what does not push a bullet back does not stop it
+  const GhostTable<S>* ghosts = nullptr;        // kinds that pass each other
+};
+
 /// Input:   the state after the solver, with fat boxes; the centres' poses as the step began; the pairs of bodies that
 ///          joints keep from colliding.
 /// Output:  poses of fast bodies that would have passed something, put back to where they first touch it, with their
@@ -41,11 +49,7 @@ template <class S> class ContinuousCollision {
   ISO_INLINE ContinuousCollision(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies)
       : state_(state), map_(map), proxies_(proxies), joined_bodies_(state, map) {}
 
-  /// What leaves one of the `ways`, or passes it from below, is not stopped by it; null: there are none. Nor are pairs
-  /// `giving_way`, ascending, each of the other: their contacts press no harder than they may. Nor is a bullet by what
-  /// does not push it back, as `responses` have it; null: all do.
-  void update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined, const Ways<S>* ways = nullptr,
-              std::span<const std::uint64_t> giving_way = {}, const ResponseTable<S>* responses = nullptr);
+  void update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined, const ImpactRules<S>& rules = {});
 
  private:
   /// A fast body. Its way is that of its centre at constant speed, its turns in pieces of less than half a turn each.
@@ -82,6 +86,7 @@ template <class S> class ContinuousCollision {
   struct Rest {
     Pose<S> pose;
     const Pose<S>* carrier;
+    std::uint32_t slot;
   };
   /// A fast kinematic body.
   struct Carrier {
@@ -112,6 +117,9 @@ template <class S> class ContinuousCollision {
   bool may_stop(const Mover& mover, std::uint32_t slot, bool moving) const;
   bool is_let_out(const Mover& mover, std::uint32_t slot) const;
   bool is_pushed_back(const Mover& mover, std::uint32_t slot) const;
+  bool are_ghosts(const Mover& mover, std::uint32_t slot) const;
+  bool is_passed(const Mover& mover, const PlacedShape<S>& part, const Pose<S>& there, const PlacedShape<S>& obstacle,
+                 const Rest& rest) const;
   void cut(Mover& mover, bool moving);
   Cut first_impact(Mover& mover, bool moving);
   Pose<S> way_of(const Mover& mover, Unit<S> fraction) const;
@@ -161,9 +169,7 @@ template <class S> class ContinuousCollision {
   Proxies<S>& proxies_;
   std::span<const Pose<S>> start_;  // for one update
   std::span<const std::uint64_t> joined_;
-  const Ways<S>* ways_ = nullptr;  // null: none
-  std::span<const std::uint64_t> giving_way_;
-  const ResponseTable<S>* responses_ = nullptr;  // null: none
+  ImpactRules<S> rules_;  // null: none
   std::vector<Mover> movers_;
   std::vector<Carrier> carriers_;
   std::vector<std::uint32_t> met_;                       // by fast kinematic bodies: indices among the awake ones

@@ -4,10 +4,14 @@
 
 #include "isostep/collision/broadphase/pairs.hpp"
 #include "isostep/collision/continuous/shape_impact.hpp"
+#include "isostep/collision/narrowphase/collide.hpp"
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/dynamics/body_inertia.hpp"
 #include "isostep/geometry/bounds.hpp"
+#include "isostep/geometry/surfaces.hpp"
+#include "isostep/world/body_frames.hpp"
+#include "isostep/world/contact_pairs.hpp"
 #include "isostep/world/continuous_collision.hpp"
 #include "isostep/world/fat_box.hpp"
 
@@ -50,13 +54,11 @@ template <class S> ISO_INLINE Unit<S> share_of(std::uint32_t a, std::uint32_t b)
 
 template <class S>
 void ContinuousCollision<S>::update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined,
-                                    const Ways<S>* ways, std::span<const std::uint64_t> giving_way,
-                                    const ResponseTable<S>* responses) {
+                                    const ImpactRules<S>& rules) {
+  const auto if_any = [](const auto* table) { return table == nullptr || table->empty() ? nullptr : table; };
   start_ = start;
   joined_ = joined;
-  giving_way_ = giving_way;
-  ways_ = ways == nullptr || ways->empty() ? nullptr : ways;
-  responses_ = responses == nullptr || responses->empty() ? nullptr : responses;
+  rules_ = {if_any(rules.ways), rules.giving_way, if_any(rules.responses), if_any(rules.ghosts)};
   find_movers(survey());
   for (Mover& mover : movers_) cut(mover, false);
   for (Mover& mover : movers_) {
@@ -86,14 +88,15 @@ template <class S> bool ContinuousCollision<S>::may_stop(const Mover& mover, std
   if ((other.type == BodyType::dynamic) != moving || (other.flags & kNone) != body_flag::kCollide) return false;
   if (moving && (other.flags & body_flag::kBullet) != 0) return false;
   if (!should_collide(state_.awake.properties[mover.index].filter, other.filter)) return false;
-  if (ways_ != nullptr && is_let_out(mover, slot)) return false;
-  if (moving && responses_ != nullptr && !is_pushed_back(mover, slot)) return false;
+  if (rules_.ways != nullptr && is_let_out(mover, slot)) return false;
+  if (rules_.ghosts != nullptr && are_ghosts(mover, slot)) return false;
+  if (moving && rules_.responses != nullptr && !is_pushed_back(mover, slot)) return false;
   const std::uint64_t key = pair_key(state_.awake.states[mover.index].slot, slot);
   const auto is_in = [key](std::span<const std::uint64_t> pairs) {
     const std::size_t at = lower_bound(pairs.size(), [&](std::size_t i) { return pairs[i] < key; });
     return at < pairs.size() && pairs[at] == key;
   };
-  return !is_in(joined_) && !is_in(giving_way_);
+  return !is_in(joined_) && !is_in(rules_.giving_way);
 }
 
 /// By their velocities as the step leaves them.
@@ -102,15 +105,42 @@ template <class S> bool ContinuousCollision<S>::is_let_out(const Mover& mover, s
   const Location at = map_.location(slot);
   Vec3<Velocity<S>> velocity = own.velocity;
   if (at.set == Location::kAwake) velocity -= state_.awake.states[at.index].velocity;
-  const Way<S>*of_other = ways_->find(slot), *of_own = ways_->find(own.slot);
+  const Way<S>*of_other = rules_.ways->find(slot), *of_own = rules_.ways->find(own.slot);
   return (of_other != nullptr && of_other->lets_out(velocity)) || (of_own != nullptr && of_own->lets_out(-velocity));
+}
+
+/// Whether a one-way body lets pass what meets it there, as PairRules judges a pair: by the contact's normal, and none
+/// that has contacts. Surfaces are solid here: what passes one leaves it.
+template <class S>
+bool ContinuousCollision<S>::is_passed(const Mover& mover, const PlacedShape<S>& part, const Pose<S>& there,
+                                       const PlacedShape<S>& obstacle, const Rest& rest) const {
+  const std::uint32_t own = state_.awake.states[mover.index].slot;
+  const Way<S>*of_other = rules_.ways->find(rest.slot), *of_own = rules_.ways->find(own);
+  if ((of_other == nullptr && of_own == nullptr) || is_surface(obstacle.shape.primitive.type)) return false;
+  if (!detail::contacts_of<S>(state_.contacts, min(own, rest.slot), max(own, rest.slot)).empty()) return false;
+  Manifold<S> manifold;
+  collide<S>(part.shape, compose(Transform<S>::of(there), part.at), obstacle.shape,
+             compose(Transform<S>::of(rest.pose), obstacle.at), detail::kSpeculativeDistance<S>, manifold);
+  if (manifold.count == 0) return false;
+  const Vec3<Unit<S>> normal =
+      rest.carrier == nullptr ? manifold.normal : to_matrix(rest.carrier->orientation) * manifold.normal;
+  const auto passes = [](const Way<S>* way, Vec3<Unit<S>> outward) {
+    return way != nullptr && dot(outward, way->axis) < way->least_cosine;
+  };
+  return passes(of_other, -normal) || passes(of_own, normal);
+}
+
+/// Where their boxes met as the step began, they are among the pairs that do not touch.
+template <class S> bool ContinuousCollision<S>::are_ghosts(const Mover& mover, std::uint32_t slot) const {
+  const std::uint32_t own = state_.awake.properties[mover.index].material.kind;
+  return rules_.ghosts->find(own, map_.properties_at(map_.location(slot)).material.kind) != nullptr;
 }
 
 /// Of contacts with what is at rest the scales of masses are of no account.
 template <class S> bool ContinuousCollision<S>::is_pushed_back(const Mover& mover, std::uint32_t slot) const {
   const std::uint32_t own = state_.awake.properties[mover.index].material.kind;
   const std::uint32_t other = map_.properties_at(map_.location(slot)).material.kind;
-  const KindResponse<S>* const found = responses_->find(own, other);
+  const KindResponse<S>* const found = rules_.responses->find(own, other);
   if (found == nullptr) return true;
   const bool is_a = own == other ? state_.awake.states[mover.index].slot < slot : own == found->kind_a;
   return S(0) < (is_a ? found->inverse_mass_scale_a : found->inverse_mass_scale_b);
@@ -143,7 +173,7 @@ void ContinuousCollision<S>::sweep_against(const Mover& mover, std::uint32_t slo
   const Pose<S> place = map_.centre_pose_at(slot);
   if (moving || at.set != Location::kAwake) {
     for (std::uint32_t i = 0; i < mover.pieces; ++i)
-      sweep_piece(mover, i, mover.motion_of(i), other, {place, nullptr}, cut);
+      sweep_piece(mover, i, mover.motion_of(i), other, {place, nullptr, slot}, cut);
     return;
   }
   const CoreMotion<S> of_other = {start_[at.index], place, Vec3<S>::zero()};
@@ -151,7 +181,7 @@ void ContinuousCollision<S>::sweep_against(const Mover& mover, std::uint32_t slo
   for (std::uint32_t i = 0; i < mover.pieces; ++i) {
     const Unit<S> fraction = detail::share_of<S>(i + 1, mover.pieces);
     const Pose<S> to = detail::pose_from(pose_at(of_other, fraction), mover.poses[i + 1]);
-    sweep_piece(mover, i, {from, to, mover.motion_of(i).centre}, other, {Pose<S>::identity(), &place}, cut);
+    sweep_piece(mover, i, {from, to, mover.motion_of(i).centre}, other, {Pose<S>::identity(), &place, slot}, cut);
     from = to;
   }
 }
@@ -193,6 +223,7 @@ void ContinuousCollision<S>::sweep_piece(const Mover& mover, std::uint32_t piece
     if (way.fraction == U(1)) return;
     const U all = detail::share_of<S>(piece, mover.pieces) + way.fraction * detail::share_of<S>(1, mover.pieces);
     const Pose<S> there = pose_at(motion, way.fraction);
+    if (rules_.ways != nullptr && is_passed(mover, part, there, obstacle, rest)) return;
     cut.add(way, all, rest.carrier == nullptr ? there : compose(*rest.carrier, there), rest.carrier == nullptr);
   };
   visit_parts(body, detail::swept_box(motion, mover.reach), other, rest.pose, sweep_parts);
@@ -275,8 +306,7 @@ template <class S> void ContinuousCollision<S>::place(std::uint32_t index) {
 
 /// What lies in a surface already has contacts that push it out, but where its middle is none: it may turn, and does
 /// not gather the speed of a fall. What `moving` bodies stop keeps its speed: contacts share it with them.
-template <class S>
-void ContinuousCollision<S>::stop_middle(BodyState<S>& state, const Cut& cut, bool moving) const {
+template <class S> void ContinuousCollision<S>::stop_middle(BodyState<S>& state, const Cut& cut, bool moving) const {
   using V = Velocity<S>;
   state.centre = cut.place - rotate(state.orientation, cut.middle);
   if (moving) return;

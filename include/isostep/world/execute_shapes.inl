@@ -146,7 +146,9 @@ void CommandExecutor<S>::renew_ground(std::uint32_t body, const Pose<S>& field, 
     set.states[now.index].fat = state.fat;
     proxies_.place(set.states[now.index], set.properties[now.index], now.set == Location::kAwake);
   }
-  wake_.wake_touching(grow(detail::turned_box(changed, placed), detail::kFatMargin<S>), body);
+  const Aabb<S> there = grow(detail::turned_box(changed, placed), detail::kFatMargin<S>);
+  wake_.wake_touching(there, body);
+  wake_.wake_wheels_on(body, there);
 }
 
 }  // namespace isostep

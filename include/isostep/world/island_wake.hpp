@@ -39,6 +39,8 @@ template <class S> class IslandWake {
   /// Every island with a joint or spring to, or a contact or wheel on, a body that no island holds. Its box need not
   /// meet theirs any more: a contact sleeps as the last step found it.
   void wake_held_by(std::uint32_t slot);
+  /// Every body with a wheel on that one inside of the box [m]: its own need not reach the ground.
+  void wake_wheels_on(std::uint32_t slot, const Aabb<S>& box);
   /// Wakes the joint's island and starts the sleep clocks of its bodies anew. Returns its index among the awake joints.
   std::uint32_t wake_joint(std::uint32_t slot);
   /// The awake state of a body that is about to be changed. Not of a static one.
@@ -58,6 +60,7 @@ template <class S> class IslandWake {
   };
 
   bool is_touched(std::uint64_t pair) const;
+  bool are_ghosts(std::uint32_t a, std::uint32_t b) const;
   void start_waking(std::uint32_t island);
   void merge_woken();
   void merge_contacts();

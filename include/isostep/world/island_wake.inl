@@ -59,7 +59,19 @@ template <class S> bool IslandWake<S>::is_touched(std::uint64_t pair) const {
   const bool still = state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
   if (body.type == BodyType::kinematic && still) return false;
   if (((body.flags | map_.properties_at(a.is_asleep() ? a : b).flags) & body_flag::kSensor) != 0) return false;
-  return bodies_touch(map_, pair_a(pair), pair_b(pair));
+  return bodies_touch(map_, pair_a(pair), pair_b(pair)) && !are_ghosts(pair_a(pair), pair_b(pair));
+}
+/// Whether they pass each other, by a Ghost or a KindGhost.
+template <class S> bool IslandWake<S>::are_ghosts(std::uint32_t a, std::uint32_t b) const {
+  const ForceRecords<S>& records = *state_.force_records;
+  const auto is_of_both = [&](const Ghost<S>& ghost) {
+    return (ghost.a.slot == a && ghost.b.slot == b) || (ghost.a.slot == b && ghost.b.slot == a);
+  };
+  if (records.ghosts.id_where(is_of_both)) return true;
+  const auto kind_of = [&](std::uint32_t slot) { return map_.properties_at(map_.location(slot)).material.kind; };
+  const std::uint64_t kinds = kinds_key(kind_of(a), kind_of(b));
+  const auto is_of_kinds = [&](const KindGhost<S>& ghost) { return kinds_key(ghost.kind_a, ghost.kind_b) == kinds; };
+  return static_cast<bool>(records.kind_ghosts.id_where(is_of_kinds));
 }
 
 template <class S> void IslandWake<S>::wake_touching(std::uint32_t slot) {
@@ -95,6 +107,13 @@ template <class S> void IslandWake<S>::wake_held_by(std::uint32_t slot) {
   }
   for (const Wheel<S>& wheel : state_.force_records->wheels.all()) {
     if (wheel.body && wheel.contact_body && wheel.contact_body.slot == slot) wake(wheel.body.slot);
+  }
+}
+
+template <class S> void IslandWake<S>::wake_wheels_on(std::uint32_t slot, const Aabb<S>& box) {
+  for (const Wheel<S>& wheel : state_.force_records->wheels.all()) {
+    const bool is_on = wheel.body && wheel.contact_body && wheel.contact_body.slot == slot;
+    if (is_on && overlap(box, {wheel.contact_point, wheel.contact_point})) wake(wheel.body.slot);
   }
 }
 

@@ -26,6 +26,7 @@ template <class S> class PairRules {
 
   ISO_INLINE std::span<const std::uint64_t> apart() const { return apart_; }
   ISO_INLINE const Ways<S>& ways() const { return ways_; }
+  ISO_INLINE const GhostTable<S>& kinds() const { return kinds_; }
 
  private:
   enum class Verdict {

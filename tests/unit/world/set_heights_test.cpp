@@ -59,6 +59,36 @@ TYPED_TEST(SetHeightsOf, what_rests_over_a_pit_wakes_and_falls_in_and_what_is_be
   EXPECT_NEAR(to_double(hit->point.y), -2, 1e-3);
 }
 
+/// Its box hangs between its wheels, out of the ground's reach.
+TYPED_TEST(SetHeightsOf, a_car_over_a_pit_wakes_and_one_beside_it_sleeps_on) {
+  using S = TypeParam;
+  const auto car = [&](D3 at) {
+    BodyDefinition<S> d = moving<S>(add_box(this->world, 0.4, 0.1, 0.4), at + D3{0, 0.6, 0});
+    d.mass = S(100);
+    const BodyId chassis = this->world.create(d);
+    for (const double x : {-0.4, 0.4}) {
+      for (const double z : {-0.4, 0.4}) {
+        Wheel<S> wheel;
+        wheel.body = chassis;
+        wheel.hard_point = vec<S>(x, 0, z);
+        wheel.stiffness = S(5000);
+        wheel.damping = S(400);
+        EXPECT_TRUE(this->world.add(wheel)) << describe(this->world.fault());
+      }
+    }
+    return chassis;
+  };
+  this->world.destroy(this->over);
+  const BodyId on_pit = car({0, 0, 0}), on_ground = car({5, 0, -5});
+  ASSERT_TRUE(settle(this->world));
+  const double stands = this->height_of(on_pit);
+  ASSERT_TRUE(this->dig(this->world));
+  EXPECT_TRUE(this->world.is_awake(on_pit));
+  EXPECT_FALSE(this->world.is_awake(on_ground));
+  ASSERT_TRUE(settle(this->world));
+  EXPECT_LT(this->height_of(on_pit), stands - 1);
+}
+
 TYPED_TEST(SetHeightsOf, a_hill_lifts_what_lay_on_its_place) {
   ASSERT_TRUE(settle(this->world));
   const std::vector<std::int16_t> low(9, 205);
@@ -199,8 +229,7 @@ TYPED_TEST(SetHeightsOf, what_is_no_patch_is_refused_and_changes_nothing) {
   using S = TypeParam;
   World<S>& w = this->world;
   const std::vector<std::int16_t> four(4, 5), all(kPlaces * kPlaces, 0);
-  const std::vector<std::uint8_t> one(1, 0), two(2, 0),
-      holes((kPlaces - 1) * (kPlaces - 1), BakedHeightField::kHole);
+  const std::vector<std::uint8_t> one(1, 0), two(2, 0), holes((kPlaces - 1) * (kPlaces - 1), BakedHeightField::kHole);
   const std::uint64_t hash = w.hash();
   const auto refused = [&](const HeightPatch& patch, const char* field, std::uint32_t child = 0) {
     EXPECT_FALSE(w.set_heights(this->ground, child, patch));
