@@ -253,5 +253,27 @@ TYPED_TEST(BodyChanges, all_of_it_is_state) {
   });
 }
 
+TYPED_TEST(BodyChanges, no_lock_holds_a_body_that_is_told_where_to_be) {
+  using S = TypeParam;
+  double way[2] = {};
+  for (const bool locked : {false, true}) {
+    this->w = World<S>(settings<S>());
+    const BodyId lift = this->mover({0, 0, 0});
+    ASSERT_TRUE(!locked || this->w.set_motion(lift, S(1), S(0), S(0), body_flag::kAllLocks))
+        << describe(this->w.fault());
+    const BodyId load = this->box({0, 0.625, 0});
+    run(this->w, 30);
+    for (int i = 1; i <= 60; ++i) {
+      ASSERT_TRUE(this->w.move_to(lift, {vec<S>(0.5 * i / 60, 0, 0), Quat<Unit<S>>::identity()}));
+      run(this->w, 1);
+    }
+    way[locked ? 1 : 0] = this->at(load).x;
+    const std::uint32_t locks = this->w.view(lift).properties->flags & body_flag::kAllLocks;
+    EXPECT_EQ(locks, locked ? body_flag::kAllLocks : 0u);
+  }
+  EXPECT_GT(way[0], 0.4);
+  EXPECT_EQ(way[0], way[1]);
+}
+
 }  // namespace
 }  // namespace isostep::test

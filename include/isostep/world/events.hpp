@@ -78,7 +78,7 @@ template <class S> struct JointBroke {
 /// A contact of a body with a HitReport began fast.
 template <class S> struct ContactHit {
   BodyId a, b;
-  Vec3<S> point;         // [m] where they closed fastest
+  Vec3<S> point;         // [m] where they closed fastest, where b has it as the step ends
   Vec3<Unit<S>> normal;  // [1] from a to b
   S speed;               // [m/s] of approach along the normal, as the step began
 

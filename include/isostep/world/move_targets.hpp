@@ -37,6 +37,7 @@ template <class S> class MoveTargets {
     std::uint32_t body;    // its slot
     Pose<S> goal;          // of the centre of mass
     bool reaches;
+    std::uint32_t locks;  // of the body: none holds it in this step
   };
   BodyState<S>& state_of(const Move& move) { return state_.awake.states[map_.location(move.body).index]; }
   bool start(BodyState<S>& state, const Pose<S>& goal) const;

@@ -17,8 +17,11 @@ template <class S> void MoveTargets<S>::begin_step() {
     const MoveTarget<S>& target = targets.all()[slot];
     const Location at = map_.location(target.body.slot);
     if (at.set != Location::kAwake) continue;  // disabled
-    const Pose<S> goal = detail::centre_at(target, state_.awake.properties[at.index].local_centre);
-    moves_.push_back({slot, target.body.slot, goal, start(state_.awake.states[at.index], goal)});
+    BodyProperties<S>& body = state_.awake.properties[at.index];
+    const Pose<S> goal = detail::centre_at(target, body.local_centre);
+    const bool reaches = start(state_.awake.states[at.index], goal);
+    moves_.push_back({slot, target.body.slot, goal, reaches, body.flags & body_flag::kAllLocks});
+    body.flags &= ~body_flag::kAllLocks;
   }
 }
 
@@ -56,6 +59,7 @@ template <class S> void MoveTargets<S>::end_step() {
   if (moves_.empty()) return;
   auto& targets = state_.force_records.change().move_targets;
   for (const Move& move : moves_) {
+    state_.awake.properties[map_.location(move.body).index].flags |= move.locks;
     state_of(move).velocity = Vec3<Velocity<S>>::zero();
     state_of(move).angular_velocity = Vec3<Velocity<S>>::zero();
     targets.remove_at(move.record);

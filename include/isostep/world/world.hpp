@@ -130,7 +130,8 @@ template <class S> class World final {
   /// dynamic body of a shape without a volume, a type that a record of the body may not name, a body too light for its
   /// joints.
   bool set_type(BodyId body, BodyType type, const BodyMass<S>& mass = {});
-  /// Mass and inertia of a dynamic body, as if it had been made with them. Velocity stays.
+  /// Mass and inertia of a dynamic body, as if it had been made with them. Velocity stays. Forces of
+  /// this step that were applied before act as on the old mass.
   bool set_mass(BodyId body, const BodyMass<S>& mass);
   /// Puts a dynamic body and all that touches it or is tied to it to sleep at once: they stop, and lose what was asked
   /// of them for the next step. No event tells of it. Refused where one of them may not sleep, or the world's settings

@@ -202,7 +202,8 @@ TYPED_TEST(Breakables, bad_numbers_are_named) {
     EXPECT_STREQ(this->world_.fault().field, field);
     EXPECT_EQ(this->world_.fault().fault, fault) << field;
   };
-  refused("body", [](Breakable<S>& b) { b.body = {}; }, Fault::null_id);
+  refused(
+      "body", [](Breakable<S>& b) { b.body = {}; }, Fault::null_id);
   refused("impulse", [](Breakable<S>& b) { b.impulse = S(-1); });
   refused("pattern", [](Breakable<S>& b) { b.pattern = static_cast<BreakPattern>(4); });
   refused("most_pieces", [](Breakable<S>& b) { b.most_pieces = 7; });
@@ -211,11 +212,32 @@ TYPED_TEST(Breakables, bad_numbers_are_named) {
   refused("grain", [](Breakable<S>& b) { b.grain = Vec3<Unit<S>>::zero(); });
   refused("small_mass", [](Breakable<S>& b) { b.small_mass = S(-1); });
   refused("broken_by", [](Breakable<S>& b) { b.broken_by = S(-1); });
-  refused("hit_point", [](Breakable<S>& b) { b.hit_point.x = highest<S>(); }, Fault::out_of_range);
+  refused(
+      "hit_point", [](Breakable<S>& b) { b.hit_point.x = highest<S>(); }, Fault::out_of_range);
   refused("hit_direction", [](Breakable<S>& b) { b.hit_direction.x = Unit<S>(0.5); });
   EXPECT_TRUE(this->world_.state().force_records->untouched());
   this->make_breakable(body, 1);
   refused("body", [](Breakable<S>&) {});  // has a record
+}
+
+TYPED_TEST(Breakables, what_is_disabled_breaks_once_it_is_not) {
+  using S = TypeParam;
+  World<S>& w = this->world_;
+  BodyDefinition<S> d = moving<S>(add_box(w, 0.5, 0.5, 0.5), {0, 2, 0});
+  d.mass = S(10);
+  const BodyId crate = w.create(d);
+  this->make_breakable(crate, 1);
+  Breakable<S> marked = w.state().force_records->breakables.all()[0];
+  marked.broken_by = S(2);
+  marked.hit_direction = {Unit<S>(0), Unit<S>(-1), Unit<S>(0)};
+  ASSERT_TRUE(w.set(w.state().force_records->breakables.slots().template ids<BreakableId>()[0], marked))
+      << describe(w.fault());
+  ASSERT_TRUE(w.set_enabled(crate, false));
+  break_bodies(w, 8);
+  EXPECT_EQ(this->dynamic_bodies().size(), 1u);
+  ASSERT_TRUE(w.set_enabled(crate, true));
+  break_bodies(w, 8);
+  EXPECT_EQ(this->dynamic_bodies().size(), 8u);
 }
 
 }  // namespace

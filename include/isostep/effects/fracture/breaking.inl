@@ -23,8 +23,7 @@ template <class S> FracturePattern pattern_of(const Breakable<S>& b) {
   const std::uint32_t n = b.most_pieces;
   switch (b.pattern) {
     case BreakPattern::grain: return GrainPlanes{grid_direction(b.grain), min(n / 2 - 1, GrainPlanes::kMost), 1};
-    case BreakPattern::radial:
-      return n < 6 ? RadialCracks{n, 0} : RadialCracks{min(n / 3, RadialCracks::kMost), 2};
+    case BreakPattern::radial: return n < 6 ? RadialCracks{n, 0} : RadialCracks{min(n / 3, RadialCracks::kMost), 2};
     case BreakPattern::voronoi: return VoronoiCells{n, 128};
     default: return EightBoxes{};
   }
@@ -134,6 +133,7 @@ template <class S> BreakReport break_bodies(World<S>& world, std::uint32_t most)
   for (const BreakableId id : registry.slots().template ids<BreakableId>()) {
     const Breakable<S>& record = *registry.find(id);
     const bool is_over = record.expires != 0 && record.expires <= world.tick();
+    if (!world.is_enabled(record.body)) continue;
     if (is_over || S(0) < record.broken_by) due.push_back(id);
   }
   for (const BreakableId id : due) {
