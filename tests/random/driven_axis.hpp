@@ -107,7 +107,7 @@ class DrivenAxis {
     if (kind_ == JointType::six_axis) return to_double(w.joint_position(joint_, axis_));
     return kind_ == JointType::distance ? angles_of(w, p).apart : driven_place(w, p);
   }
-  bool goes_round() const { return turns_ && !limited_ && !yields_; }
+  bool goes_round() const { return turns_ && !swings_ && !limited_ && !yields_; }
   double held_at(double place) const {
     const double way = place - target_;
     const double stretch = std::fabs(goes_round() ? std::remainder(way, 2 * kPi) : way);

@@ -34,7 +34,7 @@ template <class S> struct Character {
   Vec3<S> move = {S(0), S(0), S(0)};      // [m/s] along the ground, world
   S jump = S(0);                          // [m/s] upwards; 0 again once it has left the ground
   Footing footing = Footing::airborne;    // from here on: how the last step left it
-  BodyId ground = {};                     // null: airborne
+  BodyId ground = {};                     // null: airborne, or put elsewhere since
   Vec3<S> foot = {S(0), S(0), S(0)};      // [m] on the ground, in its body's frame
   Vec3<S> foot_at = {S(0), S(0), S(0)};   // [m] the same, world
   Vec3<S> velocity = {S(0), S(0), S(0)};  // [m/s] world

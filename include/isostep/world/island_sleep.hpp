@@ -35,13 +35,13 @@ template <class S> class IslandSleep {
   std::uint32_t delay() const;
   void update_clocks();
   void stop_clocks_of_carried(const Belts<S>* belts);
+  void stop_clocks_of_motors();
   void stop_clocks_by_forces();
   bool some_body_is_ready() const;
 
   bool is_dynamic(std::uint32_t slot) const;
   void find_islands();
   void find_island_clocks();
-  void keep_motors_awake();
   template <class Visit> void for_each_wheel_on_ground(const Visit& visit) const;
   void tie_coupled(const Coupling<S>& coupling);
   bool mark_ready_islands();

@@ -20,6 +20,7 @@ template <class S> void IslandSleep<S>::update(std::vector<BodyId>& fell_asleep,
   if (!state_.settings.allow_sleep) return;
   update_clocks();
   stop_clocks_of_carried(belts);
+  stop_clocks_of_motors();
   stop_clocks_by_forces();
   if (!some_body_is_ready()) return;
   find_islands();
@@ -109,6 +110,29 @@ template <class S> void IslandSleep<S>::stop_clocks_of_carried(const Belts<S>* b
     }
   }
 }
+/// A motor that runs carries its bodies, even if they seem to rest. One that a limit or a load stops does not.
+template <class S> void IslandSleep<S>::stop_clocks_of_motors() {
+  const S slow = S(4) * detail::kSleepSpeed<S>;  // of two bodies neither component of which is kSleepSpeed
+  const auto is_slow = [slow](S speed) { return !(speed == S(0)) && abs(speed) < slow; };
+  const auto stop_if_runs = [&](std::uint32_t joint, std::uint32_t row) {
+    const JointState<S>& state = state_.joints.states[joint];
+    if (!state.has_drive(row) || state.piece(row) != DrivePiece::driven) return;
+    const JointProperties<S>& properties = state_.joints.properties[joint];
+    for (const std::uint32_t slot : {properties.body_a, properties.body_b}) {
+      if (slot != kNoBody && is_dynamic(slot)) state_.awake.states[map_.location(slot).index].sleep_clock = 0;
+    }
+  };
+  for (std::uint32_t i = 0; i < state_.joints.properties.size(); ++i) {
+    const JointProperties<S>& joint = state_.joints.properties[i];
+    if ((joint.flags & joint_flag::kMotor) == 0 || !is_slow(joint.motor_speed)) continue;
+    for (std::uint32_t row = 0; row < kJointRows; ++row) stop_if_runs(i, row);
+  }
+  for (const AxisDrive<S>& drive : state_.force_records->axis_drives.all()) {
+    if (!drive.motor || !is_slow(drive.motor_speed)) continue;
+    const Location at = map_.joint_location(drive.joint.slot);
+    if (!at.is_asleep()) stop_if_runs(at.index, static_cast<std::uint32_t>(drive.axis));
+  }
+}
 template <class S> bool IslandSleep<S>::some_body_is_ready() const {
   const std::uint32_t least = delay();
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
@@ -191,29 +215,6 @@ template <class S> void IslandSleep<S>::find_island_clocks() {
     if (spring.a && spring.b) keep_awake(spring.a.slot, spring.b.slot);
   }
   for_each_wheel_on_ground(keep_awake);
-  keep_motors_awake();
-}
-
-/// A motor that runs carries its bodies, however slowly. One that a limit or a load stops does not.
-template <class S> void IslandSleep<S>::keep_motors_awake() {
-  const auto keep_if_runs = [&](std::uint32_t joint, std::uint32_t row) {
-    const JointState<S>& state = state_.joints.states[joint];
-    if (!state.has_drive(row) || state.piece(row) != DrivePiece::driven) return;
-    const JointProperties<S>& properties = state_.joints.properties[joint];
-    for (const std::uint32_t slot : {properties.body_a, properties.body_b}) {
-      if (slot != kNoBody && is_dynamic(slot)) clock_[islands_.find(map_.location(slot).index)] = 0;
-    }
-  };
-  for (std::uint32_t i = 0; i < state_.joints.properties.size(); ++i) {
-    const JointProperties<S>& joint = state_.joints.properties[i];
-    if ((joint.flags & joint_flag::kMotor) == 0 || joint.motor_speed == S(0)) continue;
-    for (std::uint32_t row = 0; row < kJointRows; ++row) keep_if_runs(i, row);
-  }
-  for (const AxisDrive<S>& drive : state_.force_records->axis_drives.all()) {
-    if (!drive.motor || drive.motor_speed == S(0)) continue;
-    const Location at = map_.joint_location(drive.joint.slot);
-    if (!at.is_asleep()) keep_if_runs(at.index, static_cast<std::uint32_t>(drive.axis));
-  }
 }
 
 /// From here on `clock_` is 1 for islands that fall asleep. False: there is none.

@@ -26,8 +26,8 @@ ISO_INLINE constexpr std::uint32_t lock_of(JointAxis axis) {
 /// Servo: a spring with a largest force and no motor beside it: it goes to its target as far as it is strong enough.
 /// Stiffness: spring_mass (2 pi frequency)^2, at most as of 2^20 times what its two bodies weigh, 2^14 in Q16.16. With
 /// spring_mass 0 a spring has its frequency between those two alone, where the joint's frames coincide, and gives under
-/// the weight of what else hangs on them. It is as stiff in every other pose. In a kCone both swings are as stiff as
-/// the one that is made for more. An angle without limits is pulled the shorter way round.
+/// the weight of what else hangs on them. It is as stiff in every other pose. In a kCone the stiffer of both swings'
+/// springs acts on both. A twist or a single turn without limits is pulled the shorter way round.
 /// Soft limits: beyond them a spring of `limit_frequency` and `limit_damping` pulls back, beside the spring and the
 /// motor; a servo rests there. Those of a kCone are swing_x's.
 template <class S> struct AxisDrive {

@@ -18,7 +18,8 @@ namespace isostep {
 ///          + push), w^2 = (h c + h^2 k) / effective mass. Motor: lambda in [-most, most]. A spring's row is scaled by
 ///          w / sqrt(1 + w^2): its pivot stays near one however weak it is.
 template <class S> struct JointDrive {
-  const AxisDrive<S>* asked;  // null: the joint's properties ask
+  const AxisDrive<S>* asked;         // null: the joint's properties ask
+  const AxisDrive<S>* spring_asked;  // whose spring acts: in a cone of either swing
   JointRow<S> row;
   std::uint32_t block, place;  // which of the joint's rows it is
   S radius;                    // [m] of an angle

@@ -83,10 +83,12 @@ template <class S> ISO_INLINE void count_drive(JointConstraint<S>& joint) {
 
 /// What properties or an AxisDrive ask of an angle in (-pi, pi]. A limited angle counts from the middle of its range,
 /// so that beyond a limit it is nearer to that one than to the other; without limits that of a spring from its target,
-/// to which it turns the shorter way: a jump of the stretch by a turn would give energy on every round.
-template <class S, class Asked> ISO_INLINE void set_angle(JointDrive<S>& drive, const Asked& p, S angle) {
+/// to which it turns the shorter way: a jump of the stretch by a turn would give energy on every round. `goes_round`:
+/// not of a swing, which comes back at half a turn.
+template <class S, class Asked>
+ISO_INLINE void set_angle(JointDrive<S>& drive, const Asked& p, S angle, bool goes_round = true) {
   const S radius = drive.radius, turn = S(6.283185307179586);
-  if (drive.bounded_below || drive.sprung) {
+  if (drive.bounded_below || (drive.sprung && goes_round)) {
     const S from_middle = angle - (drive.bounded_below ? (p.lower + p.upper) * S(0.5) : p.spring_target);
     if (turn * S(0.5) < from_middle) angle -= turn;
     if (from_middle < turn * S(-0.5)) angle += turn;

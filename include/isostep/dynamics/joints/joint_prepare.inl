@@ -71,7 +71,7 @@ template <class S> ISO_INLINE void add_drive(const AxisDrive<S>& asked, JointCon
   JointDrive<S>& drive = joint.drives[joint.drive_count++];
   const std::uint32_t row = static_cast<std::uint32_t>(asked.axis);
   drive = {};
-  drive.asked = &asked;
+  drive.asked = drive.spring_asked = &asked;
   drive.block = row / 3;
   drive.place = row % 3;
   drive.push_speed = is_length(asked.axis) ? kJointPushSpeed<S> : kAnglePushSpeed<S>;
@@ -147,14 +147,23 @@ ISO_INLINE void set_spring_mass(const SolverMass<S>& a, const SolverMass<S>& b, 
   drive.spring_inverse = max(inverse, kLeastSpringInverse<S>);
 }
 
-/// Both swings of a cone are as stiff as the one whose spring is made for more: their rows turn with the swing, and
-/// stiffness that changed with them would give energy.
+/// The stiffer spring of a cone's swings acts on both: their rows turn with the swing, and a stiffness that changed
+/// with them would give energy. What is not sprung of them has no way to its target: off_target().
 template <class S> ISO_INLINE void even_cone(JointConstraint<S>& joint) {
-  if (joint.properties.type != JointType::six_axis || (joint.properties.flags & joint_flag::kCone) == 0) return;
+  if (joint.properties.type != JointType::six_axis) return;
   JointDrive<S>* const x = drive_of(joint, 0);
   JointDrive<S>* const y = drive_of(joint, 1);
-  if (x == nullptr || y == nullptr || !(S(0) < x->spring_inverse) || !(S(0) < y->spring_inverse)) return;
-  x->spring_inverse = y->spring_inverse = min(x->spring_inverse, y->spring_inverse);
+  if (!makes_cone(joint.properties.flags, x, y) || !(x->sprung || y->sprung)) return;
+  const bool of_x =
+      !y->sprung || (x->sprung && y->frequency * sqrt(x->spring_inverse) <= x->frequency * sqrt(y->spring_inverse));
+  const JointDrive<S>& stiff = of_x ? *x : *y;
+  JointDrive<S>& other = of_x ? *y : *x;
+  other.spring_asked = stiff.asked;
+  set_spring(*stiff.asked, other);
+  other.spring_inverse = stiff.spring_inverse;
+  if (!other.servo) return;
+  other.force = stiff.force;
+  other.most = stiff.most;
 }
 
 /// A body that turns about a joint far away answers more strongly than the format holds: see Limits<S>::leverage().

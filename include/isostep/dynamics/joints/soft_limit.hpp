@@ -12,7 +12,7 @@ template <class S> ISO_INLINE bool is_soft(const AxisDrive<S>& asked) {
 /// The spring of its own.
 template <class S> ISO_INLINE void set_spring(const AxisDrive<S>& asked, JointDrive<S>& drive) {
   drive.sprung = S(0) < asked.spring_frequency;
-  drive.servo = drive.sprung && !asked.motor && S(0) < asked.force;
+  drive.servo = drive.sprung && !drive.driven && !asked.motor && S(0) < asked.force;
   drive.frequency = asked.spring_frequency;
   drive.damping = asked.spring_damping;
 }
@@ -25,21 +25,21 @@ template <class S> ISO_INLINE void set_spring(const AxisDrive<S>& asked, JointDr
 ///          implicitly, without what `lagging_way` gives back: it loses at least the energy that it did not take on
 ///          that way, and a bounce gives none.
 template <class S> ISO_INLINE void yield_limit(JointDrive<S>& drive) {
-  const AxisDrive<S>& asked = *drive.asked;
+  const AxisDrive<S>&asked = *drive.asked, &spring = *drive.spring_asked;
   const bool below = drive.bounded_below && drive.position < drive.lower;
   const bool above = drive.bounded_above && drive.upper < drive.position;
   drive.bounded_below = drive.bounded_above = false;
   drive.yields = below || above;
-  set_spring(asked, drive);
+  set_spring(spring, drive);
   if (!drive.yields) return;
   const S limit = below ? drive.lower : drive.upper;
-  const S own = drive.servo ? S(0) : asked.spring_frequency;
+  const S own = drive.servo ? S(0) : spring.spring_frequency;
   const Direction<S> both = direction_of(asked.limit_frequency, own, S(0));
   const S of_limit = convert<S>(both.x), of_own = convert<S>(both.y);
   drive.sprung = true;
   drive.servo = false;
   drive.frequency = both.length;
-  drive.damping = of_limit * asked.limit_damping + of_own * asked.spring_damping;
+  drive.damping = of_limit * asked.limit_damping + of_own * spring.spring_damping;
   drive.target = limit + of_own * of_own * (drive.target - limit);
 }
 

@@ -131,6 +131,10 @@ ISO_INLINE void lock_swing(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step
 template <class S> ISO_INLINE bool is_limited(const JointDrive<S>& drive) {
   return drive.asked != nullptr && drive.asked->limited;
 }
+/// Whether the limits of both swings are an ellipse.
+template <class S> ISO_INLINE bool makes_cone(std::uint32_t flags, const JointDrive<S>* x, const JointDrive<S>* y) {
+  return (flags & joint_flag::kCone) != 0 && x != nullptr && y != nullptr && is_limited(*x) && is_limited(*y);
+}
 /// The drives of both swings, each about its axis.
 template <class S>
 ISO_INLINE void set_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, JointDrive<S>* x, JointDrive<S>* y) {
@@ -138,7 +142,7 @@ ISO_INLINE void set_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, J
     if (drive == nullptr) return;
     drive->bounded_below = drive->bounded_above = is_limited(*drive) && swing.is_clear;
     drive->row = turning_row<S>(a * rate, drive->radius);
-    if (drive->asked != nullptr) set_angle(*drive, *drive->asked, angle);
+    if (drive->asked != nullptr) set_angle(*drive, *drive->asked, angle, false);
   };
   set(x, swing.rate_about_x(), swing.angle_about_x());
   set(y, swing.rate_about_y(), swing.angle_about_y());
@@ -212,7 +216,7 @@ ISO_INLINE void end_swing(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, Jo
   stop_along(along, atan2(n.length, swing.d.z), kTwistEnds<S>);
   if (!along.soft) return;
   along.soft = along.yields = false;
-  set_spring(*along.asked, along);
+  set_spring(*along.spring_asked, along);
 }
 
 template <class S>
@@ -225,8 +229,7 @@ ISO_INLINE void linearise_swings(const JointFrames<S>& f, const Mat3<Unit<S>>& a
   }
   const SwingTwist<S> swing = SwingTwist<S>::of(f, a);
   if (!swing.is_clear && holds_twist(joint)) return end_swing(swing, a, x, y);
-  const bool cone = (joint.properties.flags & joint_flag::kCone) != 0 && x != nullptr && y != nullptr &&
-                    is_limited(*x) && is_limited(*y);
+  const bool cone = makes_cone(joint.properties.flags, x, y);
   if (cone && set_cone(swing, a, *x, *y)) return;
   set_swings(swing, a, x, y);
   if (cone) x->bounded_below = x->bounded_above = y->bounded_below = y->bounded_above = false;
