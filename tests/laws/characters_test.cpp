@@ -357,5 +357,35 @@ TYPED_TEST(Characters, walks_through_what_does_not_collide) {
   EXPECT_NEAR(this->foot(id).x, 4, 0.1);
 }
 
+TYPED_TEST(Characters, that_the_game_turns_every_frame_is_carried_all_the_same) {
+  using S = TypeParam;
+  const BodyId train = this->box({40, 0.5, 2}, {0, -0.5, 0}, BodyType::kinematic);
+  ASSERT_TRUE(this->w.set_velocity(train, vec<S>(5, 0, 0), Vec3<S>::zero()));
+  const CharacterId id = this->walker({0, 0, 0});
+  run(this->w, 10);
+  const double from = this->foot(id).x;
+  for (int i = 0; i < 60; ++i) {
+    Pose<S> pose = this->w.pose(this->w.find(id)->body);
+    pose.orientation = turn<S>({0, 1, 0}, 0.05 * i);
+    ASSERT_TRUE(this->w.set_pose(this->w.find(id)->body, pose));
+    run(this->w, 1);
+  }
+  EXPECT_NEAR(this->foot(id).x - from, 5, 0.05);
+}
+
+TYPED_TEST(Characters, that_was_disabled_does_not_follow_its_lift_aside) {
+  using S = TypeParam;
+  const BodyId lift = this->box({4, 0.5, 2}, {0, -0.5, 0}, BodyType::kinematic);
+  const CharacterId id = this->walker({0, 0, 0});
+  run(this->w, 10);
+  ASSERT_TRUE(this->w.set_enabled(this->w.find(id)->body, false));
+  ASSERT_TRUE(this->w.set_velocity(lift, vec<S>(2, 0, 0), Vec3<S>::zero()));
+  run(this->w, 60);
+  ASSERT_TRUE(this->w.set_velocity(lift, Vec3<S>::zero(), Vec3<S>::zero()));
+  ASSERT_TRUE(this->w.set_enabled(this->w.find(id)->body, true));
+  EXPECT_TRUE(this->walk(id, {0, 0, 0}, 30));
+  EXPECT_NEAR(this->foot(id).x, 0, 1e-3);
+}
+
 }  // namespace
 }  // namespace isostep::test

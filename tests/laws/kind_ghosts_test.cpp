@@ -126,15 +126,20 @@ TYPED_TEST(KindGhosts, what_passes_a_sleeper_does_not_wake_it) {
   using S = TypeParam;
   this->platform({0, 0, 0}, 0);
   const BodyId sleeper = this->ball({0, 0.375, 0}, 2), other = this->ball({0, 0.375, 2}, 3);
+  const BodyId ghost = this->ball({0, 0.375, -2}, 4);
   ASSERT_TRUE(settle(this->w));
   ASSERT_TRUE(this->w.add(KindGhost<S>{1, 2}));
   ASSERT_TRUE(settle(this->w));
   BodyDefinition<S> d = moving<S>(add_box(this->w, 0.25, 0.25, 4), {-2, 0.5, 0}, {2, 0, 0});
   d.type = BodyType::kinematic;
   const BodyId sweeps = this->body(d, 1);
+  ASSERT_TRUE(this->w.set_pose(sweeps, {vec<S>(-0.5, 0.5, 0), Quat<Unit<S>>::identity()}));  // a Ghost ends apart
+  ASSERT_TRUE(this->w.add(Ghost<S>{sweeps, ghost})) << describe(this->w.fault());
+  ASSERT_TRUE(this->w.sleep(ghost) || !this->w.is_awake(ghost));
   run(this->w, 90);
   EXPECT_GT(to_double(this->w.center_of_mass(sweeps).x), 0.5);
   EXPECT_FALSE(this->w.is_awake(sleeper));
+  EXPECT_FALSE(this->w.is_awake(ghost));
   EXPECT_GT(to_double(this->w.center_of_mass(other).x), 0.5);
 }
 

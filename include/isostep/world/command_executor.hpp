@@ -106,7 +106,7 @@ template <class S> class CommandExecutor {
   bool give_mass_anew(const BodyMass<S>& mass, BodyProperties<S>& body);
   void replace(std::uint32_t slot, BodyState<S> state, const BodyProperties<S>& next);
   void wake_coupled(std::uint32_t slot);
-  void leave_ground(std::uint32_t slot);
+  void leave_ground(std::uint32_t slot, const Pose<S>* from = nullptr);
   MoveTargetId target_of(std::uint32_t slot) const;
   void remove_target(std::uint32_t slot);
   void halt(std::uint32_t slot);

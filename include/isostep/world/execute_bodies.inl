@@ -167,6 +167,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetPose<S>& command) {
   const Pose<S> centre = BodyMap<S>::centre_pose({command.pose.position, normalise(command.pose.orientation)},
                                                  map_.properties_at(at).local_centre);
   if (!journal_.accept(detail::fault_of_place(centre.position, "position"))) return false;
+  const Pose<S> from = map_.origin_pose_at(slot);
   wake_.wake_touching(slot);
   if (map_.properties_at(map_.location(slot)).type != BodyType::dynamic) wake_.wake_held_by(slot);
   if (at.set != Location::kStatic) wake_.wake_for_change(slot);
@@ -180,7 +181,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetPose<S>& command) {
   detail::renew_fat_box(map_, state, body, true);
   proxies_.place(state, body, now.set == Location::kAwake);
   wake_.wake_touching(slot);
-  leave_ground(slot);
+  leave_ground(slot, &from);
   return true;
 }
 

@@ -104,11 +104,16 @@ template <class S> void CommandExecutor<S>::wake_coupled(std::uint32_t slot) {
   }
 }
 
-/// Of a character whose body is put elsewhere or was away: the ground has carried it so far, and no further.
-template <class S> void CommandExecutor<S>::leave_ground(std::uint32_t slot) {
+/// Of a character whose body was away, or was put elsewhere `from` there: the ground has carried it so far, and no
+/// further. One that is only turned stands where it stood.
+template <class S> void CommandExecutor<S>::leave_ground(std::uint32_t slot, const Pose<S>* from) {
+  if (map_.properties_at(map_.location(slot)).type != BodyType::kinematic) return;
   const auto& characters = state_.force_records->characters;
   const CharacterId id = characters.id_where([slot](const Character<S>& c) { return c.body.slot == slot; });
-  if (id && characters.find(id)->ground) state_.force_records.change().characters.change(id).ground = {};
+  if (!id || !characters.find(id)->ground) return;
+  const Vec3<S> at = map_.origin_pose_at(slot).position;
+  if (from != nullptr && max_abs(saturating_subtract(at, from->position)) <= characters.find(id)->skin) return;
+  state_.force_records.change().characters.change(id).ground = {};
 }
 
 /// Another body in place of one, in its slot: all that it touched has ended, joints begin without impulses.
