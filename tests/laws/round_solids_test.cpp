@@ -206,5 +206,30 @@ TYPED_TEST(RoundSolids, piles_of_them_gain_no_energy_and_come_to_rest) {
   for (const BodyId body : bodies) EXPECT_GT(this->y_of(world, body), 0.1);
 }
 
+/// An edge along a cone's axis is nearest level with its base.
+TYPED_TEST(RoundSolids, a_cone_beside_the_corner_of_a_pillar_is_left_alone) {
+  using S = TypeParam;
+  const double gap = 0.05, way = 1 + (0.5 + gap) / std::sqrt(2.0);
+  World<S> w(settings<S>());
+  add_ground(w, 0);
+  BodyDefinition<S> of_pillar = still<S>(add_box(w, 1, 1, 1), {0, 0.3, 0});
+  of_pillar.filter.category = 2;
+  const BodyId pillar = w.create(of_pillar);
+  const ShapeId cone = w.add_shape(Cone<S>{num<S>(0.5), num<S>(0.5)});
+  BodyDefinition<S> d = moving<S>(cone, {way, 0.5, way});
+  d.material.friction = S(0);
+  d.allow_sleep = false;
+  const BodyId body = w.create(d);
+  const auto meets = [&](double at) {
+    const auto hit =
+        w.overlap_first(cone, {vec<S>(at, 0.5, at), Quat<Unit<S>>::identity()}, QueryFilter{.mask = 2, .ignore = body});
+    return hit && hit->body == pillar;
+  };
+  run(w, 60);
+  EXPECT_LT(length(real(w.center_of_mass(body)) - real(d.position) + D3{0, 0.25, 0}), 0.01);
+  EXPECT_FALSE(meets(way - 0.04 / std::sqrt(2.0)));
+  EXPECT_TRUE(meets(way - 0.07 / std::sqrt(2.0)));
+}
+
 }  // namespace
 }  // namespace isostep::test

@@ -67,8 +67,8 @@ TYPED_TEST(QueryCasts, casts_meet_what_a_search_without_trees_meets) {
     ASSERT_EQ(all.size(), expected.size() + 1) << i;
     for (std::size_t k = 0; k < expected.size(); ++k) expect_same(all[k + 1], expected[k], i);
     ShapeCastHit<S> room[3];
-    const std::size_t count = q.world.cast_shape_all(cast.shape, cast.pose, cast.translation,
-                                                     std::span<ShapeCastHit<S>>(room), cast.filter);
+    const std::size_t count =
+        q.world.cast_shape_all(cast.shape, cast.pose, cast.translation, std::span<ShapeCastHit<S>>(room), cast.filter);
     ASSERT_EQ(count, std::min<std::size_t>(3, expected.size())) << i;
     for (std::size_t k = 0; k < count; ++k) expect_same(room[k], expected[k], i);
     const auto first = q.world.cast_shape(cast.shape, cast.pose, cast.translation, cast.filter);
@@ -223,10 +223,42 @@ TYPED_TEST(QueryCasts, questions_that_cannot_be_asked_are_refused) {
   refused(primitive_of(Sphere<S>{S(-1)}), here, down, Fault::bad_shape);
   refused(primitive_of(HalfSpace<S>{{Unit<S>(0), Unit<S>(1), Unit<S>(0)}, S(0)}), here, down, Fault::bad_shape);
   refused(ShapeId{}, here, down, Fault::null_id);
-    const ShapeId two = add_two_boxes(w, {1, 1, 1}, {0, 0, 0}, {1, 1, 1}, {2, 0, 0});
+  const ShapeId two = add_two_boxes(w, {1, 1, 1}, {0, 0, 0}, {1, 1, 1}, {2, 0, 0});
   refused(two, here, down, Fault::bad_shape);
   EXPECT_TRUE(w.remove_shape(two));
   refused(two, here, down, Fault::stale_id);
+}
+
+/// [m] Outside of a box's surface, or inside of it.
+template <class S> double off_box(const Pose<S>& pose, D3 half, D3 point) {
+  const D3 p = rotated<S>(conjugate(pose.orientation), point - real(pose.position));
+  const D3 over = {std::fabs(p.x) - half.x, std::fabs(p.y) - half.y, std::fabs(p.z) - half.z};
+  const double inside = std::max({over.x, over.y, over.z});
+  return inside < 0 ? -inside : length({std::max(over.x, 0.0), std::max(over.y, 0.0), std::max(over.z, 0.0)});
+}
+TYPED_TEST(QueryCasts, the_point_of_a_hit_lies_on_both_shapes) {
+  using S = TypeParam;
+  Dice dice(41);
+  const D3 half = {0.5, 0.25, 1}, cast_half = {1, 0.5, 0.25};
+  int hits = 0;
+  double worst = 0;
+  for (int i = 0; i < 400; ++i) {
+    World<S> w(settings<S>());
+    BodyDefinition<S> d = still<S>(add_box(w, half.x, half.y, half.z), {0, 0, 0});
+    d.orientation = dice.template orientation<S>();
+    w.create(d);
+    const D3 from = dice.arrow_of(4);
+    const Pose<S> start = {vec<S>(from), dice.template orientation<S>()};
+    const Vec3<S> way = vec<S>(from * -2 + dice.point(0.5));
+    const auto hit = w.cast_shape(add_box(w, cast_half.x, cast_half.y, cast_half.z), start, way);
+    if (!hit) continue;
+    ++hits;
+    const Pose<S> there = {start.position + way * convert<S>(hit->fraction), start.orientation};
+    worst = std::max({worst, off_box<S>({Vec3<S>::zero(), d.orientation}, half, real(hit->point)),
+                      off_box<S>(there, cast_half, real(hit->point))});
+  }
+  EXPECT_GT(hits, 300);
+  EXPECT_LT(worst, 3e-3);
 }
 
 }  // namespace

@@ -62,6 +62,16 @@ template <class S> class NormalsAcross {
     if (has_side_ && is_allowed(side_)) found(side_);
     if (has_side_ && is_allowed(far_side_)) found(far_side_);
   }
+  /// Of a line along the axis of a cone: from the axis to where the line is level with the base.
+  template <class Found> ISO_INLINE void visit_parallel(const Found& found) const {
+    const S rise = line_.along.y < U(0) ? solid_.half + line_.point.y : -solid_.half - line_.point.y;
+    const Vec3<S> p = line_.point + line_.along * rise;
+    const Direction<S> d = direction_of(p.x, S(0), p.z);
+    if (!(d.length > S(0))) return;
+    const Vec3<U> radial = {d.x, U(0), d.z};
+    const Vec3<U> n = normalise(radial - line_.along * dot(line_.along, radial));
+    if (is_allowed(n)) found(n);
+  }
   template <class Found> ISO_INLINE void visit_rim(int end, const Found& found) const {
     const S beyond = dot(v_, line_.point) - (end == 0 ? -solid_.half : solid_.half) * k_;
     const bool up = beyond > S(0);
@@ -128,7 +138,11 @@ ISO_INLINE void look_at_line(const Revolved<S>& solid, const LineOfOther<S>& lin
     best.offer(kind, dot(n, line.point) - solid.reach(n).most(), n, feature, end, lead);
   };
   const NormalsAcross<S> normals(solid, line);
-  if (normals.is_parallel()) return;
+  if (normals.is_parallel()) {
+    if (solid.up > Unit<S>(0))
+      normals.visit_parallel([&](Vec3<Unit<S>> n) ISO_INLINE_LAMBDA { offer(Axis::rim, n, 0); });
+    return;
+  }
   normals.visit_side([&](Vec3<Unit<S>> n) ISO_INLINE_LAMBDA { offer(Axis::side_edge, n, 0); });
   for (int end = 0; end < 2; ++end) {
     if (solid.radii[end] > S(0))

@@ -85,8 +85,9 @@ template <class S> struct CoreCast {
         const bool ends_later = gap > near && gap > closing * (latest - t) + isostep::resolution<F>() * F(4);
         if (latest < end && ends_later) return missed(found.normal, gap + closing * t);
         last.hit = true;
-        if (round == 0 || is_clear(found, noise)) last.normal = found.normal, last.on_b = found.on_b - way * t;
+        if (round == 0 || is_clear(found, noise)) last.normal = found.normal;
       }
+      last.on_b = found.on_b - way * t;
       if (gap <= near) return last;
       const U step = divide_to<U>(gap, closing) - isostep::resolution<U>();
       if (!(step > U(0))) return last;
