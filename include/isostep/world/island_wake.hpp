@@ -28,8 +28,9 @@ template <class S> class IslandWake {
   /// One island after another in this order, at the cost of one merge.
   void wake(std::span<const std::uint32_t> slots);
   void wake_all();
-  /// Islands that something awake and moving has a contact with, or something awake a wheel on. False: there was none.
-  /// Waking brings new pairs, so the caller updates the broad phase and calls again.
+  /// Islands that something awake and moving has a contact with, or something awake a wheel on, or that a fast kinematic
+  /// body is about to pass through. False: there was none. Waking brings new pairs, so the caller updates the broad phase
+  /// and calls again.
   bool wake_touched();
   /// Every island and every body that the body's fat box meets: what is moved, changed or taken away may have held them
   /// up.
@@ -59,6 +60,7 @@ template <class S> class IslandWake {
     ISO_INLINE std::uint64_t operator()(const Record& record) const { return record.key; }
   };
 
+  void find_run_over(std::size_t index);
   bool is_touched(std::uint64_t pair) const;
   bool are_ghosts(std::uint32_t a, std::uint32_t b) const;
   void start_waking(std::uint32_t island);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/collision/continuous/shape_impact.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/world/body_frames.hpp"
 #include "isostep/world/island_wake.hpp"
@@ -40,6 +41,7 @@ template <class S> bool IslandWake<S>::wake_touched() {
     if (!is_touched(pair)) continue;
     touched_.push_back(map_.location(pair_a(pair)).is_asleep() ? pair_a(pair) : pair_b(pair));
   }
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) find_run_over(i);
   for (const Wheel<S>& wheel : state_.force_records->wheels.all()) {
     if (!state_.body_slots.holds(wheel.body) || !state_.body_slots.holds(wheel.contact_body)) continue;
     if (map_.location(wheel.body.slot).set != Location::kAwake) continue;
@@ -47,6 +49,35 @@ template <class S> bool IslandWake<S>::wake_touched() {
   }
   wake(touched_);
   return !touched_.empty();
+}
+/// What sleeps in the way of a kinematic body that goes as far in the step as it is thick: it would be beyond them
+/// before they touch.
+template <class S> void IslandWake<S>::find_run_over(std::size_t index) {
+  constexpr std::uint32_t kNone = body_flag::kSensor | body_flag::kCollide;
+  const BodyProperties<S>& body = state_.awake.properties[index];
+  if (body.type != BodyType::kinematic || (body.flags & kNone) != body_flag::kCollide) return;
+  const BodyState<S>& state = state_.awake.states[index];
+  const Step<S> h = divide_to<Step<S>>(S(1), S(state_.settings.hz));
+  const Vec3<S> way = convert<S>(state.velocity) * h;
+  if (!(detail::kSpeculativeDistance<S> < max_abs(way))) return;  // it touches first
+  S thick = Limits<S>::extent();
+  for (const Child<S>& child : map_.children_of(body.shape))
+    thick = min(thick, thickness<S>(map_.contents().view(child.primitive)));
+  if (max_abs(way) < thick) return;
+  const Aabb<S> there = {saturating_add(state.fat.low, way), saturating_add(state.fat.high, way)};
+  const Aabb<S> swept = merge(state.fat, there);
+  std::vector<std::uint32_t> met;
+  proxies_.boxes().query(swept, [&](std::uint32_t other) {
+    const Location at = map_.location(other);
+    if (!at.is_asleep() || !overlap(swept, map_.state_at(at).fat)) return true;
+    const BodyProperties<S>& sleeper = map_.properties_at(at);
+    const bool meets = (sleeper.flags & kNone) == body_flag::kCollide && should_collide(body.filter, sleeper.filter);
+    if (meets && !are_ghosts(state.slot, other)) met.push_back(other);
+    return true;
+  });
+  std::vector<std::uint32_t> scratch(met.size());
+  stable_sort(met.data(), scratch.data(), static_cast<std::uint32_t>(met.size()), OwnKey{});
+  touched_.insert(touched_.end(), met.begin(), met.end());
 }
 /// Whether one of the two sleeps and the other is awake, moves and touches it.
 template <class S> bool IslandWake<S>::is_touched(std::uint64_t pair) const {

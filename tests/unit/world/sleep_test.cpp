@@ -375,5 +375,27 @@ TYPED_TEST(WorldSleep, a_slow_motor_stays_awake_and_one_at_its_stop_does_not) {
   }
 }
 
+TYPED_TEST(WorldSleep, a_fast_kinematic_body_takes_sleepers_along_as_it_does_others) {
+  using S = TypeParam;
+  double way[2] = {};
+  for (const bool asleep : {false, true}) {
+    World<S> w(settings<S>());
+    add_ground(w);
+    BodyDefinition<S> d = moving<S>(add_box(w, 0.25, 0.25, 0.25), {0, 0.25, 0});
+    d.allow_sleep = asleep;
+    const BodyId crate = w.create(d);
+    run(w, 60);
+    EXPECT_EQ(w.is_awake(crate), !asleep);
+    BodyDefinition<S> blade = still<S>(add_box(w, 0.05, 0.5, 1), {-1, 0.5, 0});
+    blade.type = BodyType::kinematic;
+    blade.velocity = vec<S>(45, 0, 0);
+    w.create(blade);
+    run(w, 6);
+    way[asleep ? 1 : 0] = to_double(w.center_of_mass(crate).x);
+  }
+  EXPECT_GT(way[0], 2);
+  EXPECT_NEAR(way[1], way[0], 0.05);
+}
+
 }  // namespace
 }  // namespace isostep::test
