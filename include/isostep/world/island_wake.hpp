@@ -28,9 +28,9 @@ template <class S> class IslandWake {
   /// One island after another in this order, at the cost of one merge.
   void wake(std::span<const std::uint32_t> slots);
   void wake_all();
-  /// Islands that something awake and moving has a contact with, or something awake a wheel on, or that a fast kinematic
-  /// body is about to pass through. False: there was none. Waking brings new pairs, so the caller updates the broad phase
-  /// and calls again.
+  /// Islands that something awake and moving has a contact with, or something awake a wheel on, or that a fast
+  /// kinematic body is about to pass through. False: there was none. Waking brings new pairs, so the caller updates the
+  /// broad phase and calls again.
   bool wake_touched();
   /// Every island and every body that the body's fat box meets: what is moved, changed or taken away may have held them
   /// up.

@@ -509,7 +509,7 @@ typedef struct iso_f32_joint_broke {
 typedef struct iso_f32_contact_hit {
   iso_body a;
   iso_body b;
-  iso_f32_vec3 point; /* [m] where they closed fastest */
+  iso_f32_vec3 point; /* [m] where they closed fastest, where b has it as the step ends */
   iso_f32_unit_vec3 normal; /* [1] from a to b */
   float speed; /* [m/s] of approach along the normal, as the step began */
   uint8_t reserved1[4];
@@ -1087,7 +1087,7 @@ typedef struct iso_f32_character {
   float jump; /* [m/s] upwards; 0 again once it has left the ground */
   iso_footing footing; /* from here on: how the last step left it */
   uint8_t reserved1[4];
-  iso_body ground; /* null: airborne */
+  iso_body ground; /* null: airborne, or put elsewhere since */
   iso_f32_vec3 foot; /* [m] on the ground, in its body's frame */
   iso_f32_vec3 foot_at; /* [m] the same, world */
   iso_f32_vec3 velocity; /* [m/s] world */

@@ -689,7 +689,7 @@ export interface JointBroke<N = number> {
 export interface ContactHit<N = number> {
   a: bigint;
   b: bigint;
-  /** [m] where they closed fastest */
+  /** [m] where they closed fastest, where b has it as the step ends */
   point: Vec3<N>;
   /** [1] from a to b */
   normal: Vec3<N>;
@@ -1319,7 +1319,7 @@ export interface Character<N = number> {
   jump: N;
   /** from here on: how the last step left it */
   footing: FootingName;
-  /** null: airborne */
+  /** null: airborne, or put elsewhere since */
   ground: bigint;
   /** [m] on the ground, in its body's frame */
   foot: Vec3<N>;

@@ -289,7 +289,7 @@ namespace Isostep.F64
     {
         public BodyId A;
         public BodyId B;
-        /// <summary>[m] where they closed fastest</summary>
+        /// <summary>[m] where they closed fastest, where b has it as the step ends</summary>
         public Vec3 Point;
         /// <summary>[1] from a to b</summary>
         public UnitVec3 Normal;
@@ -1616,7 +1616,7 @@ namespace Isostep.F64
         /// <summary>From here on: how the last step left it</summary>
         public Footing Footing;
         private fixed byte reserved2[4];
-        /// <summary>Null: airborne</summary>
+        /// <summary>Null: airborne, or put elsewhere since</summary>
         public BodyId Ground;
         /// <summary>[m] on the ground, in its body's frame</summary>
         public Vec3 Foot;
