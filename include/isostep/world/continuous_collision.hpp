@@ -20,10 +20,10 @@ namespace isostep {
 
 /// What of a step's rules a fast body heeds. Null tables are empty ones.
 template <class S> struct ImpactRules {
-  const Ways<S>* ways = nullptr;                // what they let pass they do not stop
+  const Ways<S>* ways = nullptr;                   // what they let pass they do not stop
   std::span<const std::uint64_t> giving_way = {};  // pairs, ascending, whose contacts press no harder than they may
-  const ResponseTable<S>* responses = nullptr;  // what does not push a bullet back does not stop it
-  const GhostTable<S>* ghosts = nullptr;        // kinds that pass each other
+  const ResponseTable<S>* responses = nullptr;     // what does not push a bullet back does not stop it
+  const GhostTable<S>* ghosts = nullptr;           // kinds that pass each other
 };
 
 /// Input:   the state after the solver, with fat boxes; the centres' poses as the step began; the pairs of bodies that

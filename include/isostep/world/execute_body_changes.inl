@@ -110,9 +110,10 @@ template <class S> void CommandExecutor<S>::leave_ground(std::uint32_t slot, con
   if (map_.properties_at(map_.location(slot)).type != BodyType::kinematic) return;
   const auto& characters = state_.force_records->characters;
   const CharacterId id = characters.id_where([slot](const Character<S>& c) { return c.body.slot == slot; });
-  if (!id || !characters.find(id)->ground) return;
+  const Character<S>* const character = characters.find(id);
+  if (character == nullptr || !character->ground) return;
   const Vec3<S> at = map_.origin_pose_at(slot).position;
-  if (from != nullptr && max_abs(saturating_subtract(at, from->position)) <= characters.find(id)->skin) return;
+  if (from != nullptr && max_abs(saturating_subtract(at, from->position)) <= character->skin) return;
   state_.force_records.change().characters.change(id).ground = {};
 }
 

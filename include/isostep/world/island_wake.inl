@@ -18,6 +18,11 @@ void merge_from_back(std::size_t old, std::size_t more, const OldIsLater& old_is
     put(to - 1, from_old, from_old ? --old : --more);
   }
 }
+/// In the order in which islands wake.
+inline void sort_slots(std::vector<std::uint32_t>& slots) {
+  std::vector<std::uint32_t> scratch(slots.size());
+  stable_sort(slots.data(), scratch.data(), static_cast<std::uint32_t>(slots.size()), OwnKey{});
+}
 }  // namespace detail
 
 template <class S> void IslandWake<S>::wake(std::uint32_t slot) { wake({&slot, 1}); }
@@ -53,9 +58,11 @@ template <class S> bool IslandWake<S>::wake_touched() {
 /// What sleeps in the way of a kinematic body that goes as far in the step as it is thick: it would be beyond them
 /// before they touch.
 template <class S> void IslandWake<S>::find_run_over(std::size_t index) {
-  constexpr std::uint32_t kNone = body_flag::kSensor | body_flag::kCollide;
+  const auto has_contacts = [](const BodyProperties<S>& body) {
+    return (body.flags & (body_flag::kSensor | body_flag::kCollide)) == body_flag::kCollide;
+  };
   const BodyProperties<S>& body = state_.awake.properties[index];
-  if (body.type != BodyType::kinematic || (body.flags & kNone) != body_flag::kCollide) return;
+  if (body.type != BodyType::kinematic || !has_contacts(body)) return;
   const BodyState<S>& state = state_.awake.states[index];
   const Step<S> h = divide_to<Step<S>>(S(1), S(state_.settings.hz));
   const Vec3<S> way = convert<S>(state.velocity) * h;
@@ -71,12 +78,11 @@ template <class S> void IslandWake<S>::find_run_over(std::size_t index) {
     const Location at = map_.location(other);
     if (!at.is_asleep() || !overlap(swept, map_.state_at(at).fat)) return true;
     const BodyProperties<S>& sleeper = map_.properties_at(at);
-    const bool meets = (sleeper.flags & kNone) == body_flag::kCollide && should_collide(body.filter, sleeper.filter);
-    if (meets && !are_ghosts(state.slot, other)) met.push_back(other);
+    if (has_contacts(sleeper) && should_collide(body.filter, sleeper.filter) && !are_ghosts(state.slot, other))
+      met.push_back(other);
     return true;
   });
-  std::vector<std::uint32_t> scratch(met.size());
-  stable_sort(met.data(), scratch.data(), static_cast<std::uint32_t>(met.size()), OwnKey{});
+  detail::sort_slots(met);
   touched_.insert(touched_.end(), met.begin(), met.end());
 }
 /// Whether one of the two sleeps and the other is awake, moves and touches it.
@@ -116,8 +122,7 @@ template <class S> void IslandWake<S>::wake_touching(const Aabb<S>& box, std::ui
     else if (other != slot) reset_clock(other);
     return true;
   });
-  std::vector<std::uint32_t> scratch(met.size());
-  stable_sort(met.data(), scratch.data(), static_cast<std::uint32_t>(met.size()), OwnKey{});
+  detail::sort_slots(met);
   wake(met);
 }
 

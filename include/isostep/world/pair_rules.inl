@@ -81,10 +81,9 @@ template <class S> void PairRules<S>::add_mounts(std::span<const std::uint64_t> 
 
 /// [m] that a character keeps from what is in its way; 0 of other bodies.
 template <class S> S PairRules<S>::skin_of(BodyId body) const {
-  for (const Character<S>& character : state_.force_records->characters.all()) {
-    if (character.body && character.body == body) return character.skin;
-  }
-  return S(0);
+  const auto& characters = state_.force_records->characters;
+  const CharacterId id = characters.id_where([&](const Character<S>& character) { return character.body == body; });
+  return id ? characters.find(id)->skin : S(0);
 }
 
 /// Where both lie still their boxes alone are compared, for somebody may have put them elsewhere.

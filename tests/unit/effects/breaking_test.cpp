@@ -202,8 +202,7 @@ TYPED_TEST(Breakables, bad_numbers_are_named) {
     EXPECT_STREQ(this->world_.fault().field, field);
     EXPECT_EQ(this->world_.fault().fault, fault) << field;
   };
-  refused(
-      "body", [](Breakable<S>& b) { b.body = {}; }, Fault::null_id);
+  refused("body", [](Breakable<S>& b) { b.body = {}; }, Fault::null_id);
   refused("impulse", [](Breakable<S>& b) { b.impulse = S(-1); });
   refused("pattern", [](Breakable<S>& b) { b.pattern = static_cast<BreakPattern>(4); });
   refused("most_pieces", [](Breakable<S>& b) { b.most_pieces = 7; });
@@ -212,8 +211,7 @@ TYPED_TEST(Breakables, bad_numbers_are_named) {
   refused("grain", [](Breakable<S>& b) { b.grain = Vec3<Unit<S>>::zero(); });
   refused("small_mass", [](Breakable<S>& b) { b.small_mass = S(-1); });
   refused("broken_by", [](Breakable<S>& b) { b.broken_by = S(-1); });
-  refused(
-      "hit_point", [](Breakable<S>& b) { b.hit_point.x = highest<S>(); }, Fault::out_of_range);
+  refused("hit_point", [](Breakable<S>& b) { b.hit_point.x = highest<S>(); }, Fault::out_of_range);
   refused("hit_direction", [](Breakable<S>& b) { b.hit_direction.x = Unit<S>(0.5); });
   EXPECT_TRUE(this->world_.state().force_records->untouched());
   this->make_breakable(body, 1);
