@@ -51,8 +51,8 @@ described=$(text_of src/c/interface.json 's/^"abi": \([0-9]*\).*/\1/p')
 
 work=$(mktemp -d) || exit 70
 trap 'rm -rf "$work"' EXIT
-cmake "-DGOLDENS=$root/replays/goldens" "-DOUT=$work/behaviour" -P "$root/cmake/behaviour_version.cmake" >&2 ||
-  unreadable "replays/goldens cannot be read"
+cmake "-DGOLDENS=$root/replays/goldens.txt" "-DOUT=$work/behaviour" -P "$root/cmake/behaviour_version.cmake" >&2 ||
+  unreadable "replays/goldens.txt cannot be read"
 behaviour=$(sed -n 's/.*return 0x\([0-9a-f]*\)u;.*/\1/p' "$work/behaviour")
 [ -n "$behaviour" ] || unreadable "cmake/behaviour_version.cmake: no behaviour version"
 

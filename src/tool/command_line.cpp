@@ -140,7 +140,7 @@ class ToolCommands {
     CommandLine::add_path(command, "--dir", regenerate_.directory, "where to [the repository]");
     command->add_flag("--recordings", regenerate_.record,
                       "instead the self-check's recordings, of this build's behaviour");
-    command->footer("./isostep regenerate does both, and builds in between: the behaviour is a digest of the lists.");
+    command->footer("./isostep regenerate does both, and builds in between: the behaviour is a digest of the goldens.");
   }
   void add_lab() {
     CLI::App* lab = line_.app().add_subcommand(

@@ -1,9 +1,8 @@
-# cmake -DTOOL= -DREPLAYS= -P goldens.cmake: the tool verifies every golden list and replay of the repository.
-file(GLOB goldens ${REPLAYS}/goldens/*.txt)
+# cmake -DTOOL= -DREPLAYS= -P goldens.cmake: the tool verifies every golden and replay of the repository.
+file(STRINGS ${REPLAYS}/goldens.txt goldens)
 file(GLOB_RECURSE recordings ${REPLAYS}/*.replay)
-if(NOT goldens AND NOT recordings)
-  message("no goldens yet")
-  return()
+if(NOT goldens OR NOT recordings)
+  message(FATAL_ERROR "no goldens, or no recordings, in ${REPLAYS}")
 endif()
 execute_process(COMMAND ${TOOL} verify --jobs 2 ${REPLAYS} RESULT_VARIABLE result OUTPUT_VARIABLE output
   ERROR_VARIABLE output)
@@ -17,5 +16,5 @@ list(LENGTH recordings recorded)
 math(EXPR expected "${expected} + ${recorded}")
 list(LENGTH verified count)
 if(count LESS expected)
-  message(FATAL_ERROR "${count} verified of ${expected} golden lists and recordings\n${output}")
+  message(FATAL_ERROR "${count} verified of ${expected} goldens and recordings\n${output}")
 endif()

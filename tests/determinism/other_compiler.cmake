@@ -1,5 +1,5 @@
 # cmake -DSOURCE= -DWORK= -DCOMPILER= -DGENERATOR= -DREPLAYS= -P other_compiler.cmake: the tool, built by another
-# compiler at another level of optimisation, verifies every golden list. File by file, so that each has to include
+# compiler at another level of optimisation, verifies every golden. File by file, so that each has to include
 # what it uses.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -16,9 +16,9 @@ run(${CMAKE_COMMAND} --build ${WORK} --target isostep_tool --parallel 2)
 run(${WORK}/src/tool/isostep verify --jobs 2 ${REPLAYS})
 string(REGEX MATCHALL "VERIFIED" verified "${output}")
 list(LENGTH verified count)
-file(GLOB goldens ${REPLAYS}/goldens/*.txt)
+file(STRINGS ${REPLAYS}/goldens.txt goldens)
 list(LENGTH goldens expected)
 if(count LESS expected OR expected EQUAL 0)
-  message(FATAL_ERROR "${count} verified of ${expected} golden lists\n${output}")
+  message(FATAL_ERROR "${count} verified of ${expected} goldens\n${output}")
 endif()
-message("${count} golden lists verified by ${COMPILER}")
+message("${count} goldens verified by ${COMPILER}")

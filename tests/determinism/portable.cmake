@@ -1,12 +1,12 @@
-# cmake -DTOOL= -DREPLAYS= -P portable.cmake: every scene of the golden lists, in its scalar, is saved, loaded, written and
+# cmake -DTOOL= -DREPLAYS= -P portable.cmake: every scene of the goldens, in its scalar, is saved, loaded, written and
 # rebuilt early, halfway and late, and goes on as it would have.
-file(GLOB goldens RELATIVE ${REPLAYS}/goldens ${REPLAYS}/goldens/*.txt)
+file(STRINGS ${REPLAYS}/goldens.txt goldens)
 list(LENGTH goldens count)
 if(count LESS 100)
-  message(FATAL_ERROR "${count} golden lists")
+  message(FATAL_ERROR "${count} goldens")
 endif()
 foreach(golden ${goldens})
-  string(REGEX MATCH "^([^.]+)\\.(.+)\\.txt$" parts ${golden})
+  string(REGEX MATCH "^([^ ]+) ([^ ]+) " parts ${golden})
   execute_process(COMMAND ${TOOL} selftest ${CMAKE_MATCH_1} --scalar ${CMAKE_MATCH_2} --frames 45 --every 20 --rollback 10
     RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0 OR NOT output MATCHES "3 times saved")

@@ -4,7 +4,7 @@
 
 tables=${ISOSTEP_MATRIX_TABLES:-$root/tests/matrix}
 project=${ISOSTEP_MATRIX_PROJECT:-$root}
-goldens=${ISOSTEP_MATRIX_GOLDENS:-$root/replays/goldens}
+goldens=${ISOSTEP_MATRIX_GOLDENS:-$root/replays/goldens.txt}
 matrix=${ISOSTEP_BUILD_DIR:-$root/build}/matrix
 recordings=$matrix/recordings
 all_scalars='float double Q16_16 Q32_32'

@@ -31,12 +31,12 @@ plan() {
           for scene in $scenes; do printf '%s %s\n' "$most" "$scene.$recorded"; done
         done
         ;;
-      *) (cd "$goldens" && ls ./*".$recorded.txt") | sed 's/^\.\//all /; s/\.txt$//' ;;
+      *) awk -v scalar="$recorded" '$2 == scalar {print "all " $1 "." $2}' "$goldens" ;;
     esac
   done
 }
 
-# expected_frames: of a plan, from the golden lists.
+# expected_frames: of a plan, from the goldens.
 expected_frames() {
   while read -r most name; do
     frames=$(frames_of "$name")
@@ -83,7 +83,7 @@ check_replays() {
 # results WORD: the lines of recordings whose result begins so.
 results() { awk -F '\t' -v word="$1" '$1 != "total" && NF >= 7 && index($7, word) == 1' "$at/replay.tsv"; }
 
-# take_over LIST: its state goes from the reference to the target and on, and back.
+# take_over GOLDEN: its state goes from the reference to the target and on, and back.
 take_over() {
   recording=$recordings/$1.replay
   middle=$(middle_of "$1")

@@ -66,7 +66,18 @@ std::string_view with_named_game(std::string_view scene, std::string_view scalar
   return missing;
 }
 
-/// The same for a named scene or the rigid one in a file. Throws ToolError 64 or 66, SceneError's text included.
+/// visit(scalar name, GameTag<G>{}, scene) for the named scene in every scalar in whose range it is.
+template <class Visit> void with_every_scalar(const SceneRow& row, Visit&& visit) {
+  any_scalar([&](auto scalar) {
+    using S = typename decltype(scalar)::Type;
+    const char* name = ScalarTraits<S>::kName;
+    if (row.narrow || !std::is_same_v<S, Q16_16>)
+      with_named_game(row.name, name, [&](auto tag, const auto& scene) { visit(name, tag, scene); });
+    return false;
+  });
+}
+
+/// As with_named_game, for a named scene or the rigid one in a file. Throws ToolError 64 or 66, SceneError's text included.
 template <class Visit> void with_game(const std::string& name_or_file, const std::string& scalar, Visit&& visit) {
   std::string_view missing = with_named_game(name_or_file, scalar, visit);
   if (missing == "scene") {

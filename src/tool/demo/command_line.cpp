@@ -21,7 +21,8 @@ class DemoCommands {
   void add_verify() {
     CLI::App* command =
         line_.add("verify", "replay files and compare every frame's hash", [this] { return command_verify(verify_); });
-    command->add_option("paths", verify_.paths, "replays, golden lists, or directories of them")->required();
+    CLI::Option* goldens = command->add_option("--goldens", verify_.goldens, "print every frame's hash of this scene");
+    command->add_option("paths", verify_.paths, "replays, goldens.txt, or directories of them")->excludes(goldens);
     command->add_option("--jobs", verify_.jobs, "files at a time")->check(CLI::Range(1, 256))->capture_default_str();
     command->add_flag("--json", verify_.json, "one JSON object");
     command->add_option("--max-seconds", verify_.max_seconds, "stop after so long")->check(CLI::Range(0.001, 1e6));

@@ -1,8 +1,11 @@
-// Checking one file: a replay of any game, or a golden list of hashes.
+// Checking a replay of any game, or one line of golden hashes.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "isostep/world/replay_check.hpp"
 
@@ -11,16 +14,23 @@ namespace isostep::tool {
 struct CheckedFile : CheckedReplay {
   std::string path = {};
   std::string missing = {};  // why the file could not be read; empty: it was
-  std::string limit = {};    // what stopped it, if anything did
+  std::string remark = {};   // which limit stopped it, or what else there is to say
 };
 /// 0..5 as `verify` exits, or 66.
 int status_of(const CheckedFile& file);
 std::string text_of(const CheckedFile& file);
 
-/// The named scene again, as many frames as there are lines.
-CheckedFile check_golden(const std::string& name, std::string_view text, Simd simd = Simd::best,
-                         const VerifySpan& span = {});
-/// That, or a replay, by the path's end. Of the span `go_on` counts.
-CheckedFile check_file(const std::string& path, const VerifySpan& span = {});
+/// One thing to check: a replay, or a line of a file of goldens.
+struct Checkable {
+  std::string path;  // a golden's ends in ":SCENE"
+  std::optional<std::string> golden = std::nullopt;
+};
+/// A file's one replay, or the lines of a file of goldens, by the path's end.
+std::vector<Checkable> checkables_in(const std::string& path);
+
+/// Plays the scene of the line again, as many frames as it says.
+CheckedFile check_golden(std::string_view line, Simd simd = Simd::best, const VerifySpan& span = {});
+/// Of the span `go_on` counts.
+CheckedFile check(const Checkable& what, const VerifySpan& span = {});
 
 }  // namespace isostep::tool

@@ -1,5 +1,5 @@
-// isostep regenerate: the golden hashes anew, each list run again with one lane before it is written; and the
-// recordings of the self-check, which carry the behaviour version that the lists make.
+// isostep regenerate: the golden hashes anew, each scene run again with one lane before they are written; and the
+// recordings of the self-check, which carry the behaviour version that the goldens make.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <filesystem>
@@ -10,40 +10,20 @@
 #include "selfcheck_set.hpp"
 #include "tool/common/files.hpp"
 #include "tool/common/games.hpp"
-#include "tool/common/hash_lines.hpp"
 
 namespace isostep::tool {
 namespace {
 
-/// Frames of each scene's list: past the first contacts and the wake of impacts, in a few seconds for all together.
-int golden_frames(const std::string& scene) {
-  struct Row {
-    const char* scene;
-    int frames;
-  };
-  constexpr Row kRows[] = {{"S1s", 240},       {"S3", 30},         {"S5", 60},      {"S8", 120},
-                           {"S9", 100},        {"mixed", 300},     {"medley", 180}, {"bridge", 300},
-                           {"ballistic", 240}, {"fireworks", 240}, {"springs", 300}, {"S18c", 360}};
-  for (const Row& row : kRows) {
-    if (scene == row.scene) return row.frames;
-  }
-  return 120;
-}
-
-struct Regenerated {
-  std::string name, text;  // of a recording its bytes
-};
-
-template <class Game> Regenerated regenerate(const typename Game::Scene& scene) {
+/// The scene's line, which one lane must verify.
+template <class Game> std::string regenerated_line(const char* scalar, const typename Game::Scene& scene) {
   Game game(scene);
-  const Regenerated file = {golden_name(scene.name, ScalarTraits<typename Game::World::Scalar>::kName),
-                            hash_lines(hashes_of(game, golden_frames(scene.name)))};
-  const CheckedFile checked = check_golden(file.name, file.text, Simd::scalar);
+  const std::string line = text_of(golden_of(scene.name, scalar, hashes_of(game, golden_frames(scene.name))));
+  const CheckedFile checked = check_golden(line, Simd::scalar);
   if (status_of(checked) != exit_status::kOk) {
     throw ToolError(exit_status::kSoftware,
-                    file.name + ": the widest lanes and one lane disagree: " + text_of(checked));
+                    std::string(scene.name) + " in " + scalar + ": the widest lanes and one lane disagree: " + text_of(checked));
   }
-  return file;
+  return line;
 }
 
 /// The file as it is now; empty when there is none.
@@ -62,12 +42,12 @@ class Directory {
     std::filesystem::create_directories(path, error);
     if (error) throw ToolError(exit_status::kOutput, path + ": " + error.message());
   }
+  std::string content_of(const std::string& name) const { return present(path_ + "/" + name); }
   void put(const std::string& name, std::string_view content) {
     ++files_;
-    const std::string path = path_ + "/" + name;
-    if (present(path) == content) return;
+    if (content_of(name) == content) return;
     ++changed_;
-    write_file(path, content);
+    write_file(path_ + "/" + name, content);
   }
   void tell(const char* what) const {
     std::printf("%d of %d %s changed in %s\n", changed_, files_, what, path_.c_str());
@@ -79,31 +59,32 @@ class Directory {
   int files_ = 0, changed_ = 0;
 };
 
-std::vector<Regenerated> regenerate_all() {
-  std::vector<Regenerated> all;
+/// The goldens of all scenes. Tells which of them are not among the lines of `before`.
+std::string regenerate_all(const std::string& before) {
+  std::string file;
+  std::size_t lines = 0, changed = 0;
   for (const SceneRow& row : scene_rows()) {
-    any_scalar([&](auto scalar) {
-      using S = typename decltype(scalar)::Type;
-      const char* name = ScalarTraits<S>::kName;
-      if (!row.narrow && std::is_same_v<S, Q16_16>) return false;
-      std::printf("%s\n", golden_name(row.name, name).c_str());
+    with_every_scalar(row, [&](const char* scalar, auto tag, const auto& scene) {
+      const std::string line = regenerated_line<typename decltype(tag)::Type>(scalar, scene) + "\n";
+      const bool is_new = ("\n" + before).find("\n" + line) == std::string::npos;
+      changed += is_new ? 1 : 0;
+      ++lines;
+      std::printf("%s %s%s\n", row.name.c_str(), scalar, is_new ? ": changed" : "");
       std::fflush(stdout);
-      with_named_game(row.name, name, [&](auto tag, const auto& scene) {
-        all.push_back(regenerate<typename decltype(tag)::Type>(scene));
-      });
-      return false;
+      file += line;
     });
   }
-  return all;
+  std::printf("%zu of %zu goldens changed\n", changed, lines);
+  return file;
 }
 
 int record(const RegenerateOptions& options) {
-  Directory directory(options.directory.empty() ? ISOSTEP_SELFCHECK_DIR : options.directory);
-  std::vector<Regenerated> all;  // or nothing: half a set renewed is none
+  Directory directory(options.directory.empty() ? ISOSTEP_REPLAYS_DIR "/selfcheck" : options.directory);
+  std::vector<std::pair<std::string, std::string>> all;  // or nothing: half a set renewed is none
   record_selfcheck([&](const std::string& name, const std::vector<std::uint8_t>& bytes) {
-    all.push_back({name, {bytes.begin(), bytes.end()}});
+    all.emplace_back(name, std::string(bytes.begin(), bytes.end()));
   });
-  for (const Regenerated& file : all) directory.put(file.name, file.text);
+  for (const auto& [name, bytes] : all) directory.put(name, bytes);
   directory.tell("recordings");
   return exit_status::kOk;
 }
@@ -112,10 +93,8 @@ int record(const RegenerateOptions& options) {
 
 int command_regenerate(const RegenerateOptions& options) {
   if (options.record) return record(options);
-  Directory directory(options.directory.empty() ? ISOSTEP_GOLDENS_DIR : options.directory);
-  const std::vector<Regenerated> all = regenerate_all();  // all or nothing
-  for (const Regenerated& file : all) directory.put(file.name, file.text);
-  directory.tell("lists");
+  Directory directory(options.directory.empty() ? ISOSTEP_REPLAYS_DIR : options.directory);
+  directory.put("goldens.txt", regenerate_all(directory.content_of("goldens.txt")));  // all or nothing
   if (directory.is_changed())
     std::printf("Commit them with their recordings and nothing else, and with a RESULT line in CHANGELOG.\n");
   return exit_status::kOk;

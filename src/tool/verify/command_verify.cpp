@@ -18,7 +18,9 @@
 
 #include "checked_file.hpp"
 #include "commands.hpp"
+#include "goldens.hpp"
 #include "memory_cap.hpp"
+#include "tool/common/games.hpp"
 #include "tool/common/tool.hpp"
 
 namespace isostep::tool {
@@ -26,11 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In a directory: every *.replay, and *.txt in a folder named goldens. Ascending.
-bool is_checkable(const fs::path& path) {
-  if (path.extension() == ".replay") return true;
-  return path.extension() == ".txt" && path.parent_path().filename() == "goldens";
-}
+/// In a directory: every *.replay, and goldens.txt. Ascending.
+bool is_checkable(const fs::path& path) { return path.extension() == ".replay" || path.filename() == "goldens.txt"; }
 
 std::vector<std::string> files_of(const std::vector<std::string>& paths) {
   std::vector<std::string> files;
@@ -53,13 +52,35 @@ std::vector<std::string> files_of(const std::vector<std::string>& paths) {
   return files;
 }
 
-/// Workers take the next file; results land in the files' order. The first exception ends all, and so does a limit:
+std::vector<Checkable> checkables_of(const std::vector<std::string>& paths) {
+  std::vector<Checkable> all;
+  for (const std::string& path : files_of(paths)) {
+    for (Checkable& one : checkables_in(path)) all.push_back(std::move(one));
+  }
+  return all;
+}
+
+/// Prints the hash of every frame of a scene, as today's build has them: scalar, frame and hash, a line each.
+int print_goldens(const std::string& scene_name) {
+  for (const SceneRow& row : scene_rows()) {
+    if (row.name != scene_name) continue;
+    with_every_scalar(row, [&](const char* scalar, auto tag, const auto& scene) {
+      typename decltype(tag)::Type game(scene);
+      const std::vector<std::uint64_t> hashes = hashes_of(game, golden_frames(scene_name));
+      for (std::size_t i = 0; i < hashes.size(); ++i) std::printf("%s %zu %s\n", scalar, i, hex(hashes[i]).c_str());
+    });
+    return exit_status::kOk;
+  }
+  throw ToolError(exit_status::kUsage, "no scene '" + scene_name + "'; `isostep scenes` lists them");
+}
+
+/// Workers take the next one; results land in their order. The first exception ends all, and so does a limit:
 /// between frames, or a second later in the midst of one, and then of the program.
 class Checking {
  public:
-  Checking(const std::vector<std::string>& paths, const VerifyOptions& options)
-      : paths_(paths), options_(options), results_(paths.size()), done_(paths.size()) {
-    for (std::size_t i = 0; i < paths.size(); ++i) results_[i] = stopped(paths[i], "");
+  Checking(const std::vector<Checkable>& all, const VerifyOptions& options)
+      : all_(all), options_(options), results_(all.size()), done_(all.size()) {
+    for (std::size_t i = 0; i < all.size(); ++i) results_[i] = stopped(all[i].path, "");
     if (options.max_seconds > 0) end_ = real_milliseconds() + 1e3 * options.max_seconds;
   }
 
@@ -83,7 +104,7 @@ class Checking {
     CheckedFile file;
     file.path = path;
     file.result = isostep::detail::stopped(0);
-    file.limit = limit;
+    file.remark = limit;
     return file;
   }
   static bool has_time(void* self) { return !static_cast<Checking*>(self)->is_late(); }
@@ -93,7 +114,7 @@ class Checking {
     std::optional<MemoryCap> cap;
     if (options_.max_memory > 0) cap.emplace(options_.max_memory);
     std::vector<std::thread> workers;
-    const std::size_t count = std::min<std::size_t>(static_cast<std::size_t>(options_.jobs), paths_.size());
+    const std::size_t count = std::min<std::size_t>(static_cast<std::size_t>(options_.jobs), all_.size());
     try {
       for (std::size_t i = 1; i < count; ++i) workers.emplace_back([this] { work(); });
     } catch (const std::system_error&) {
@@ -103,10 +124,10 @@ class Checking {
     for (std::thread& worker : workers) worker.join();
   }
   void work() {
-    for (std::size_t i = next_++; i < paths_.size() && !stop_; i = next_++) {
+    for (std::size_t i = next_++; i < all_.size() && !stop_; i = next_++) {
       try {
         stop_if_interrupted();
-        report(i, check_within_limits(paths_[i]));
+        report(i, check_within_limits(all_[i]));
       } catch (...) {
         const std::lock_guard<std::mutex> lock(mutex_);
         if (!failure_) failure_ = std::current_exception();
@@ -114,17 +135,17 @@ class Checking {
       }
     }
   }
-  CheckedFile check_within_limits(const std::string& path) {
+  CheckedFile check_within_limits(const Checkable& what) {
     VerifySpan span;
     span.go_on = &Checking::has_time;
     span.user = this;
     try {
-      CheckedFile file = check_file(path, span);
-      if (file.missing.empty() && file.result.outcome == VerifyOutcome::stopped) file.limit = "--max-seconds";
+      CheckedFile file = check(what, span);
+      if (file.missing.empty() && file.result.outcome == VerifyOutcome::stopped) file.remark = "--max-seconds";
       return file;
     } catch (const std::bad_alloc&) {
       if (options_.max_memory == 0) throw;
-      return stopped(path, "--max-memory");
+      return stopped(what.path, "--max-memory");
     }
   }
   /// Lines appear in order, as soon as all before them are known.
@@ -146,17 +167,17 @@ class Checking {
     std::unique_lock<std::mutex> lock(mutex_);
     const std::chrono::duration<double> most(options_.max_seconds + 1);
     if (changed_.wait_for(lock, most, [this] { return finished_; })) return;
-    for (std::size_t i = 0; i < paths_.size(); ++i) {
-      if (done_[i] == 0) results_[i].limit = "--max-seconds";
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      if (done_[i] == 0) results_[i].remark = "--max-seconds";
     }
-    for (; shown_ < paths_.size(); ++shown_) show(results_[shown_]);
+    for (; shown_ < all_.size(); ++shown_) show(results_[shown_]);
     const int status = tell_all();
     std::cout.flush();
     std::fflush(stdout);
     std::_Exit(status);
   }
 
-  const std::vector<std::string>& paths_;
+  const std::vector<Checkable>& all_;
   const VerifyOptions& options_;
   std::vector<CheckedFile> results_;
   std::vector<std::uint8_t> done_;
@@ -208,8 +229,10 @@ int Checking::tell_all() {
 }  // namespace
 
 int command_verify(const VerifyOptions& options) {
-  const std::vector<std::string> paths = files_of(options.paths);
-  return Checking(paths, options).run();
+  if (!options.goldens.empty()) return print_goldens(options.goldens);
+  if (options.paths.empty()) throw ToolError(exit_status::kUsage, "verify wants paths, or --goldens SCENE");
+  const std::vector<Checkable> all = checkables_of(options.paths);
+  return Checking(all, options).run();
 }
 
 }  // namespace isostep::tool

@@ -9,6 +9,7 @@ namespace isostep::tool {
 
 struct VerifyOptions {
   std::vector<std::string> paths;
+  std::string goldens;  // a scene whose hashes are printed instead
   int jobs = 1;
   bool json = false;
   double max_seconds = 0;  // [s] of all files together; 0: any number
@@ -18,7 +19,7 @@ int command_verify(const VerifyOptions& options);
 
 struct RegenerateOptions {
   std::string directory;  // empty: the repository's
-  bool record = false;    // the self-check's recordings instead of the lists
+  bool record = false;    // the self-check's recordings instead of the goldens
 };
 int command_regenerate(const RegenerateOptions& options);
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -85,28 +87,67 @@ TEST_F(CommandLine, VerifyLeavesOutNoRecordingOfADirectory) {
   EXPECT_NE(answer.out.find("1 of 2 verified"), std::string::npos) << answer.out;
 }
 
-/// What was true of them when they were written: every frame's hash is the golden list's, and the scene is built by the
+/// What was true of them when they were written: every frame's hash is the golden's, and the scene is built by the
 /// commands of frame 0.
-TEST_F(CommandLine, RecordsFromTheEmptyWorldOnWhatTheGoldenListsSay) {
+TEST_F(CommandLine, RecordsFromTheEmptyWorldOnWhatTheGoldensSay) {
+  const std::string file = content_of(fs::path(ISOSTEP_SOURCE_DIR) / "replays" / "goldens.txt");
   int seen = 0;
-  for (const std::string scene : {"mixed", "S6", "springs", "ballistic"}) {
-    for (const GoldenText& golden : golden_texts()) {
-      const std::optional<GoldenName> name = parse_golden_name(golden.name);
-      if (name->scene != scene || (scene == "S6" && name->scalar != "double")) continue;
-      ++seen;
-      ASSERT_EQ(run({"run", scene, "--scalar", name->scalar, "--frames", "60", "--record", path("r")}).status, 0);
-      const std::vector<std::uint8_t> file = read_file(path("r"));
-      const ReplayReader replay(file);
-      ASSERT_EQ(replay.frame_count(), 60u);
-      const auto expected = parse_hash_lines(golden.text).value();
-      for (std::size_t i = 0; i < 60; ++i) ASSERT_EQ(replay.frame(i).hash, expected[i]) << golden.name << " " << i;
-      EXPECT_EQ(replay.keyframes().size(), 1u);
-      EXPECT_EQ(replay.keyframes().at(0).frames, 60u);
-      EXPECT_LT(replay.state().size(), 400u) << "settings and nothing else";
-      EXPECT_GT(replay.frame(0).input.size(), 150u);
-    }
+  for (const std::string_view line : golden_lines(file)) {
+    const Golden golden = parse_golden(line).value();
+    if (golden.scene != "mixed" && golden.scene != "springs" && golden.scene != "ballistic") continue;
+    ++seen;
+    const std::string frames = std::to_string(golden.frames);
+    ASSERT_EQ(run({"run", golden.scene, "--scalar", golden.scalar, "--frames", frames, "--record", path("r")}).status,
+              0);
+    const std::vector<std::uint8_t> bytes = read_file(path("r"));
+    const ReplayReader replay(bytes);
+    std::vector<std::uint64_t> hashes;
+    for (std::size_t i = 0; i < replay.frame_count(); ++i) hashes.push_back(replay.frame(i).hash);
+    EXPECT_EQ(text_of(golden_of(golden.scene, golden.scalar, hashes)), line);
+    EXPECT_EQ(replay.keyframes().size(), 1u);
+    EXPECT_EQ(replay.keyframes().at(0).frames, golden.frames);
+    EXPECT_LT(replay.state().size(), 400u) << "settings and nothing else";
+    EXPECT_GT(replay.frame(0).input.size(), 150u);
   }
-  EXPECT_GE(seen, 4);
+  EXPECT_EQ(seen, 12);
+}
+
+/// A golden that differs between two marks is found by its digest, one that differs at a mark there.
+TEST_F(CommandLine, VerifiesEveryLineOfAFileOfGoldens) {
+  const std::string file = content_of(fs::path(ISOSTEP_SOURCE_DIR) / "replays" / "goldens.txt");
+  Golden golden;
+  for (const std::string_view line : golden_lines(file)) {
+    golden = parse_golden(line).value();
+    if (golden.scene == "S1x5" && golden.scalar == "q32.32") break;
+  }
+  ASSERT_EQ(golden.frames, 120u);
+  const std::string good = text_of(golden);
+  ++golden.digest;
+  const std::string digest_differs = text_of(golden);
+  ++golden.marks[0];
+  const std::string mark_differs = text_of(golden);
+  write("goldens.txt", good + "\n" + digest_differs + "\n" + mark_differs + "\nnonsense\n");
+  const Answer answer = run({"verify", folder_.string()});
+  EXPECT_EQ(answer.status, 4);
+  for (const char* said : {"goldens.txt:S1x5 +q32\\.32 VERIFIED 120 frames\n", "DIVERGED at frame 119: .*digests",
+                           "DIVERGED at frame 59: ", "goldens.txt:nonsense +CORRUPT at byte 0", "\n1 of 4 verified"}) {
+    EXPECT_TRUE(std::regex_search(answer.out, std::regex(said))) << said << "\n" << answer.out;
+  }
+  write("goldens.txt", "");
+  EXPECT_EQ(run({"verify", path("goldens.txt")}).status, 4);
+}
+
+TEST_F(CommandLine, PrintsTheHashOfEveryGoldenFrame) {
+  ASSERT_EQ(run({"run", "S1x5", "--scalar", "q16.16", "--frames", "120", "--hashes", path("h")}).status, 0);
+  const Answer answer = run({"verify", "--goldens", "S1x5"});
+  EXPECT_EQ(answer.status, 0);
+  const std::string hashes = read("h");
+  std::string lines;
+  for (const std::string_view line : golden_lines(hashes)) lines += "q16.16 " + std::string(line) + "\n";
+  EXPECT_NE(answer.out.find(lines), std::string::npos);
+  EXPECT_EQ(std::count(answer.out.begin(), answer.out.end(), '\n'), 480);
+  expect_one_line(run({"verify", "--goldens", "S0"}), 64, "no scene 'S0'");
+  expect_one_line(run({"verify"}), 64, "wants paths, or --goldens SCENE");
 }
 
 TEST_F(CommandLine, RecordsNothingOfNoFrames) {

@@ -1,13 +1,14 @@
-// The figures of a run and the golden lists as text.
+// The figures of a run, hashes and goldens as text.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "tool/common/hash_lines.hpp"
-#include "tool/verify/goldens.hpp"
 #include "tool/run/run_report.hpp"
+#include "tool/verify/goldens.hpp"
 
 namespace isostep::tool {
 namespace {
@@ -63,29 +64,73 @@ TEST_F(TrialReports, AreAnObjectForPrograms) {
   EXPECT_FALSE(nlohmann::ordered_json::parse(json_of(RunReport{})).contains("trial"));
 }
 
-TEST(Goldens, ReadBackAsTheyWereWritten) {
+TEST(HashLines, ReadBackAsTheyWereWritten) {
   const std::vector<std::uint64_t> hashes = {0, 0xffffffffffffffffu, 0x0123456789abcdefu};
   EXPECT_EQ(hash_lines(hashes), "0 0000000000000000\n1 ffffffffffffffff\n2 0123456789abcdef\n");
   EXPECT_EQ(parse_hash_lines(hash_lines(hashes)), hashes);
   EXPECT_EQ(parse_hash_lines("0 0000000000000001\r\n"), std::vector<std::uint64_t>{1});
 }
 
-TEST(Goldens, AreRefusedInAnyOtherForm) {
+TEST(HashLines, AreRefusedInAnyOtherForm) {
   for (const char* text : {"0 0000000000000000", "1 0000000000000000\n", "0 000000000000000\n", "0  0000000000000000\n",
                            "0 000000000000000g\n", "0 0000000000000000 \n", "\n", "0 0x00000000000000\n"}) {
     EXPECT_FALSE(parse_hash_lines(text)) << text;
   }
 }
 
-TEST(Goldens, AreNamedBySceneAndScalar) {
-  const std::optional<GoldenName> name = parse_golden_name("S1x5.q16.16.txt");
-  ASSERT_TRUE(name);
-  EXPECT_EQ(name->scene, "S1x5");
-  EXPECT_EQ(name->scalar, "q16.16");
-  EXPECT_EQ(golden_name("S1x5", "q16.16"), "S1x5.q16.16.txt");
-  EXPECT_FALSE(parse_golden_name("S1x5.txt"));
-  EXPECT_FALSE(parse_golden_name("S1x5.float.text"));
-  EXPECT_FALSE(parse_golden_name("txt"));
+/// 130 frames, whose hashes are their numbers.
+Golden counted_golden() {
+  std::vector<std::uint64_t> hashes(130);
+  for (std::size_t i = 0; i < hashes.size(); ++i) hashes[i] = i;
+  return golden_of("S1x5", "q16.16", hashes);
+}
+
+TEST(Goldens, HoldEverySixtiethHashAndTheLast) {
+  const Golden golden = counted_golden();
+  EXPECT_EQ(golden.marks, (std::vector<std::uint64_t>{59, 119, 129}));
+  EXPECT_EQ(frame_of_mark(golden, 1), 119u);
+  EXPECT_EQ(frame_of_mark(golden, 2), 129u);
+  EXPECT_EQ(golden_of("S1", "float", {7}).marks, std::vector<std::uint64_t>{7});
+  EXPECT_EQ(golden_of("S1", "float", std::vector<std::uint64_t>(60, 7)).marks, std::vector<std::uint64_t>{7});
+}
+
+TEST(Goldens, HaveADigestOfEveryFrame) {
+  std::vector<std::uint64_t> hashes(130, 1);
+  const std::uint64_t digest = golden_of("S1", "float", hashes).digest;
+  hashes[70] = 2;
+  EXPECT_NE(golden_of("S1", "float", hashes).digest, digest);
+}
+
+TEST(Goldens, ReadBackAsTheyWereWritten) {
+  const Golden golden = counted_golden();
+  const std::string line = text_of(golden);
+  EXPECT_TRUE(std::regex_match(
+      line, std::regex("S1x5 q16\\.16 130 [0-9a-f]{16} 000000000000003b 0000000000000077 0000000000000081")))
+      << line;
+  const std::optional<Golden> back = parse_golden(line);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->scene, "S1x5");
+  EXPECT_EQ(back->scalar, "q16.16");
+  EXPECT_EQ(back->frames, 130u);
+  EXPECT_EQ(back->digest, golden.digest);
+  EXPECT_EQ(back->marks, golden.marks);
+}
+
+TEST(Goldens, AreRefusedInAnyOtherForm) {
+  const std::string hash = " 0123456789abcdef";
+  EXPECT_TRUE(parse_golden("S1 float 60" + hash + hash));
+  for (const std::string& line :
+       {std::string(), std::string("S1"), "S1 float" + hash + hash, "S1 float 61" + hash + hash, "S1 float 0" + hash,
+        "S1 float 60" + hash, "S1 float 60" + hash + hash + hash, "S1 float 60" + hash + hash + " ",
+        "S1  float 60" + hash + hash, "S1 float 060" + hash + hash, "S1 float -60" + hash + hash,
+        "S1 float 60" + hash + " 123456789abcdef", "S1 float 60" + hash + " 0123456789ABCDEF"}) {
+    EXPECT_FALSE(parse_golden(line)) << line;
+  }
+}
+
+TEST(Goldens, AreLinesOfAFile) {
+  EXPECT_EQ(golden_lines("a\r\nb\n\nc"), (std::vector<std::string_view>{"a", "b", "", "c"}));
+  EXPECT_TRUE(golden_lines("").empty());
 }
 
 }  // namespace
