@@ -92,6 +92,11 @@ constexpr NamedScene kScenes[] = {
     {"S18c", "200 characters walk over the pile of S4", walkers},
     {"street", "four cars and four walkers in the town, driven by bots", street, false},
     {"S20", "S7 with the limits of a body's joints", limited_ragdolls},
+    {"figures", "160 figures of 23 parts fall in a heap on the hills", figures, false},
+    {"trees", "50 trees of 22 hulls fall on a mesh of 30 000 quads", trees, false},
+    {"joint_grid", "a curtain of 10 000 balls and 19 700 joints", joint_grid},
+    {"washer", "8000 cubes in a drum that turns and has no ends", washer},
+    {"large_world", "10 000 tiles, 10 km wide, and 100 balls", large_world},
     {"town", "a mesh of streets, houses, stairs, ramps, a hill; who falls, rolls, tumbles, is shot", town, false},
     {"yard", "the same on static hulls, placed by a seed", yard, false},
     {"mixed", "bodies, joints, sensors and sleep, made and destroyed", mixed},
@@ -114,8 +119,7 @@ constexpr NamedScene kScenes[] = {
     {"tower", "a ball at a tower of 100 boxes that break", breakable_tower},
     {"sledges", "sledges along, askew of and across their runners", sledges},
     {"slopes", "crates on slopes of 20, 25 and 30 degrees", slopes},
-    ISO_FOR_EACH_BROAD_PHASE(ISO_COARSE)
-    {"elements", "the fewest bodies that ask for one of every record", elements},
+    ISO_FOR_EACH_BROAD_PHASE(ISO_COARSE){"elements", "the fewest bodies that ask for one of every record", elements},
     {"rolling", "balls roll on, against four resistances", rolling},
     {"medley", "the fewest bodies that ask for every part of the engine", medley},
 };

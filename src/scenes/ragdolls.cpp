@@ -7,12 +7,6 @@
 namespace isostep::scenes {
 namespace {
 
-struct RagdollPart {
-  ScenePart part;
-  double x, y;    // [m] from the ragdoll's origin
-  double mass;    // [kg]
-  bool sideways;  // along x
-};
 std::vector<RagdollPart> ragdoll_parts() {
   return {{box_part({0.15, 0.10, 0.10}), 0, 0, 1.0, false},     // pelvis
           {box_part({0.18, 0.22, 0.11}), 0, 0.34, 2.0, false},  // torso
@@ -27,29 +21,16 @@ std::vector<RagdollPart> ragdoll_parts() {
           {capsule_part(0.06, 0.14), -0.09, -0.74, 0.4, false}};
 }
 
-/// A quarter of a turn that lays z onto an axis: about x, or about y.
-struct Axis {
-  double x, y;  // of the quaternion, whose z is 0 and whose w is kHalfRoot
-};
-const Axis kUp = {-kHalfRoot, 0}, kDown = {kHalfRoot, 0}, kRight = {0, kHalfRoot}, kLeft = {0, -kHalfRoot};
-
-struct RagdollJoint {
-  int a, b;
-  double x, y;          // [m]
-  Axis axis;            // upright: what twists and hinges turn about
-  double cone;          // [rad] 0: a hinge
-  double lower, upper;  // [rad]
-};
-const RagdollJoint kRagdollJoints[] = {{0, 1, 0, 0.11, kUp, 0.5, -0.4, 0.4},         // spine
-                                       {1, 2, 0, 0.57, kUp, 0.6, -0.7, 0.7},         // neck
-                                       {1, 3, 0.19, 0.48, kRight, 1.3, -0.6, 0.6},   // shoulders
-                                       {1, 4, -0.19, 0.48, kLeft, 1.3, -0.6, 0.6},   //
-                                       {3, 5, 0.505, 0.48, kUp, 0, -2.4, 0},         // elbows
-                                       {4, 6, -0.505, 0.48, kUp, 0, 0, 2.4},         //
-                                       {0, 7, 0.09, -0.11, kDown, 0.9, -0.5, 0.5},   // hips
-                                       {0, 8, -0.09, -0.11, kDown, 0.9, -0.5, 0.5},  //
-                                       {7, 9, 0.09, -0.53, kRight, 0, 0, 2.4},       // knees
-                                       {8, 10, -0.09, -0.53, kRight, 0, 0, 2.4}};
+const RagdollJoint kRagdollJoints[] = {{0, 1, 0, 0.11, kAxisUp, 0.5, -0.4, 0.4},         // spine
+                                       {1, 2, 0, 0.57, kAxisUp, 0.6, -0.7, 0.7},         // neck
+                                       {1, 3, 0.19, 0.48, kAxisRight, 1.3, -0.6, 0.6},   // shoulders
+                                       {1, 4, -0.19, 0.48, kAxisLeft, 1.3, -0.6, 0.6},   //
+                                       {3, 5, 0.505, 0.48, kAxisUp, 0, -2.4, 0},         // elbows
+                                       {4, 6, -0.505, 0.48, kAxisUp, 0, 0, 2.4},         //
+                                       {0, 7, 0.09, -0.11, kAxisDown, 0.9, -0.5, 0.5},   // hips
+                                       {0, 8, -0.09, -0.11, kAxisDown, 0.9, -0.5, 0.5},  //
+                                       {7, 9, 0.09, -0.53, kAxisRight, 0, 0, 2.4},       // knees
+                                       {8, 10, -0.09, -0.53, kAxisRight, 0, 0, 2.4}};
 
 /// With its frame tilted about x as its ragdoll is.
 void limit(SceneJoint& joint, const RagdollJoint& of, const SinCos<double>& half_tilt) {
@@ -64,28 +45,33 @@ void limit(SceneJoint& joint, const RagdollJoint& of, const SinCos<double>& half
 
 }  // namespace
 
-void add_ragdoll(Scene& scene, Point origin, double tilt, bool limited) {
+void add_ragdoll(Scene& scene, std::span<const RagdollPart> parts, std::span<const RagdollJoint> joints, Point origin,
+                 double tilt, bool limited) {
   const SinCos<double> whole = sin_cos(tilt), half = sin_cos(tilt / 2);
-  const auto place = [&](double x, double y) {
-    return Point{origin.x + x, origin.y + whole.cos * y, origin.z + whole.sin * y};
+  const auto place = [&](double x, double y, double z) {
+    return Point{origin.x + x, origin.y + whole.cos * y - whole.sin * z, origin.z + whole.sin * y + whole.cos * z};
   };
   const int first = static_cast<int>(scene.bodies.size());
-  for (const RagdollPart& part : ragdoll_parts()) {
-    SceneBody body = body_of(part.part, place(part.x, part.y));
+  for (const RagdollPart& part : parts) {
+    SceneBody body = body_of(part.part, place(part.x, part.y, part.z));
     body.orientation = part.sideways ? Rotation{half.sin * kHalfRoot, half.sin * kHalfRoot, -half.cos * kHalfRoot,
                                                 half.cos * kHalfRoot}
                                      : Rotation{half.sin, 0, 0, half.cos};
     body.mass = part.mass;
     scene.bodies.push_back(body);
   }
-  for (const RagdollJoint& of : kRagdollJoints) {
+  for (const RagdollJoint& of : joints) {
     SceneJoint joint;
     joint.a = first + of.a;
     joint.b = first + of.b;
-    joint.anchor = vector_of(place(of.x, of.y));
+    joint.anchor = vector_of(place(of.x, of.y, of.z));
     if (limited) limit(joint, of, half);
     scene.joints.push_back(joint);
   }
+}
+
+void add_ragdoll(Scene& scene, Point origin, double tilt, bool limited) {
+  add_ragdoll(scene, ragdoll_parts(), kRagdollJoints, origin, tilt, limited);
 }
 
 namespace {
