@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -78,10 +79,12 @@ template <class S> struct SweepTest {
 /// that few moves cost little and many cost one build. Boxes on the way are exact except above a moved leaf until then.
 /// Source:  Catto 2022-2024, Box2D 3 (enlarge, then rebuild the enlarged part); Goldsmith, Salmon 1987, IEEE CG&A 7(5)
 ///          (insertion by surface area).
+/// Boxes that come in order, row by row, would hang one below the other: where the tree is half as high again as it
+/// needs to be, `insert` rotates the nodes above the new leaf, as an AVL tree does.
 /// Cost:    insert, remove O(height); update O(height) at worst; optimise O(m log m), m = subtrees below marked nodes.
 /// Limits:  box.low <= box.high; coordinates within 4 position limits (geometry/limits.hpp), so that doubled centres
 ///          and half areas fit.
-///          Height at most kMaxHeight, kept by rebuilding.
+///          Height at most kMaxHeight, kept by rebuilding where rotations are not enough.
 template <class S> class AabbTree {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -113,6 +116,8 @@ template <class S> class AabbTree {
 
   ISO_INLINE std::uint32_t size() const { return size_; }
   ISO_INLINE std::uint32_t height() const { return size_ == 0 ? 0u : nodes_[kRoot].height; }
+  /// For tests: leaves and subtrees that all builds together were made over.
+  ISO_INLINE std::uint64_t built() const { return built_; }
   ISO_INLINE bool contains(std::uint32_t slot) const { return slot < leaf_of_.size() && leaf_of_[slot] != kNone; }
   ISO_INLINE const Aabb<S>& box(std::uint32_t slot) const { return nodes_[leaf_of_[slot]].box; }
 
@@ -159,6 +164,10 @@ template <class S> class AabbTree {
   static constexpr std::uint32_t kFreeHeight = 0xffffffffu;
   static constexpr std::uint32_t kMaxDepth = 32;
   static constexpr std::uint32_t kMaxGiants = 8;
+  /// Half as much again as the least height of so many leaves: an AVL tree is no higher, and few insertions rotate.
+  static ISO_INLINE std::uint32_t height_to_level(std::uint32_t leaves) {
+    return 2u + 3u * static_cast<std::uint32_t>(std::bit_width(leaves)) / 2u;
+  }
 
   struct Node {
     Aabb<S> box;
@@ -183,7 +192,9 @@ template <class S> class AabbTree {
   std::uint32_t allocate_pair();
   void free_pair(std::uint32_t pair);
   void place(std::uint32_t at, const Node& node);
+  bool refit(std::uint32_t node);
   void refit_from(std::uint32_t node);
+  void level_from(std::uint32_t node);
   std::uint32_t find_sibling(const Aabb<S>& box) const;
   void collect_items(bool all);
   void build();
@@ -195,6 +206,7 @@ template <class S> class AabbTree {
   std::uint32_t top_ = 0;               // nodes ever in use, the rest of nodes_ is spare
   std::uint32_t free_ = kNone;          // first free pair
   std::uint32_t size_ = 0;
+  std::uint64_t built_ = 0;
 
   std::vector<Node> items_;  // subtrees to be built over
   std::vector<Centre> centres_;

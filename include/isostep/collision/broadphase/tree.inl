@@ -38,18 +38,40 @@ template <class S> void AabbTree<S>::place(std::uint32_t at, const Node& node) {
   }
 }
 
-/// Exact boxes and heights from `node` to the root, as far as anything changes.
+/// Exact box and height of an inner node. Returns whether either changed.
+template <class S> bool AabbTree<S>::refit(std::uint32_t at) {
+  Node& node = nodes_[at];
+  const Node& left = nodes_[node.child];
+  const Node& right = nodes_[node.child + 1u];
+  const Aabb<S> box = merge(left.box, right.box);
+  const std::uint32_t height = 1u + (left.height < right.height ? right.height : left.height);
+  if (box == node.box && height == node.height) return false;
+  node.box = box;
+  node.height = height;
+  return true;
+}
+/// The same from a node to the root, as far as anything changes.
 template <class S> void AabbTree<S>::refit_from(std::uint32_t at) {
-  while (at != kNone) {
-    Node& node = nodes_[at];
-    const Node& left = nodes_[node.child];
-    const Node& right = nodes_[node.child + 1u];
-    const Aabb<S> box = merge(left.box, right.box);
-    const std::uint32_t height = 1u + (left.height < right.height ? right.height : left.height);
-    if (box == node.box && height == node.height) return;
-    node.box = box;
-    node.height = height;
-    at = node.parent;
+  while (at != kNone && refit(at)) at = nodes_[at].parent;
+}
+
+/// Rotates every node from `at` to the root whose children differ in height by two or more: the higher child's higher
+/// child trades places with the lower child. The nodes are marked.
+template <class S> void AabbTree<S>::level_from(std::uint32_t at) {
+  for (; at != kNone; at = nodes_[at].parent) {
+    const std::uint32_t first = nodes_[at].child;
+    const std::uint32_t low = nodes_[first + 1u].height < nodes_[first].height ? first + 1u : first;
+    const std::uint32_t high = low ^ 1u;
+    if (nodes_[low].height + 2u <= nodes_[high].height) {
+      const std::uint32_t below = nodes_[high].child;
+      const std::uint32_t rising = nodes_[below].height < nodes_[below + 1u].height ? below + 1u : below;
+      const Node risen = nodes_[rising];
+      place(rising, nodes_[low]);
+      place(low, risen);
+      nodes_[high].marked = 1;
+      refit(high);
+    }
+    refit(at);
   }
 }
 
@@ -57,7 +79,7 @@ template <class S> void AabbTree<S>::refit_from(std::uint32_t at) {
 /// Stopping at n costs area(n + box). Going on to child c costs n's growth and, for a leaf c, area(c + box); for an
 /// inner c at least its growth and area(box). What the ancestors of n grow is common to both; n's growth, taken from
 /// both, leaves area(n) against the child's part. Of what costs the same the lower: boxes in one place would make a
-/// list of the tree otherwise, which is built anew each time that it is too high.
+/// list of the tree otherwise.
 template <class S> std::uint32_t AabbTree<S>::find_sibling(const Aabb<S>& box) const {
   const Sum<S> own = half_area(box);
   std::uint32_t at = kRoot;
@@ -97,7 +119,8 @@ template <class S> void AabbTree<S>::insert(std::uint32_t slot, const Aabb<S>& b
   nodes_[sibling].child = pair;
   nodes_[sibling].height = kFreeHeight;  // differs from what refit_from finds, so that it starts
   refit_from(sibling);
-  for (std::uint32_t at = sibling; at != kNone; at = nodes_[at].parent) nodes_[at].marked = 1;
+  for (std::uint32_t at = sibling; at != kNone && nodes_[at].marked == 0; at = nodes_[at].parent) nodes_[at].marked = 1;
+  if (height() > height_to_level(size_)) level_from(sibling);
   if (height() > kMaxHeight) rebuild();
 }
 
@@ -187,6 +210,7 @@ template <class S> void AabbTree<S>::collect_items(bool all) {
 /// long as all items are leaves.
 template <class S> void AabbTree<S>::build() {
   const std::uint32_t count = static_cast<std::uint32_t>(items_.size());
+  built_ += count;
   if (count == size_) {  // all items are leaves, so no node is in use: lay the nodes out in the order of a walk
     top_ = 2;
     free_ = kNone;
