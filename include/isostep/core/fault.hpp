@@ -35,12 +35,14 @@ struct FaultReport {
   const char* command = "";   // apply_force
   const char* field = "";     // material.friction; empty: no field alone
   const char* expected = "";  // 0 to 16
+  static constexpr std::uint32_t kNoChild = 0xffffffffu;
+  std::uint32_t child = kNoChild;  // of a shape that is refused: the part that the field is of
 
   friend ISO_INLINE constexpr bool operator==(const FaultReport& report, Fault fault) { return report.fault == fault; }
   friend ISO_INLINE constexpr bool operator!=(const FaultReport& report, Fault fault) { return report.fault != fault; }
   friend ISO_INLINE constexpr bool operator==(const FaultReport& a, const FaultReport& b) {
     return a.fault == b.fault && std::string_view(a.command) == b.command && std::string_view(a.field) == b.field &&
-           std::string_view(a.expected) == b.expected;
+           std::string_view(a.expected) == b.expected && a.child == b.child;
   }
 };
 
@@ -51,7 +53,8 @@ struct FaultHandler {
   void* user = nullptr;
 };
 
-/// "create_body: material.friction: a number is beyond the scalar's limits; expected 0 to 16"
+/// "create_body: material.friction: a number is beyond the scalar's limits; expected 0 to 16", or
+/// "add_shape: child 3: primitive.radius: the sizes, normals or parts make no shape; expected above 0"
 std::string describe(const FaultReport& report);
 
 }  // namespace isostep

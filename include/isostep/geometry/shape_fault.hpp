@@ -50,4 +50,34 @@ ISO_INLINE constexpr const char* describe(ShapeFault fault) {
   return "unknown fault";
 }
 
+/// What the field that is wrong should be.
+ISO_INLINE constexpr const char* expected_of(ShapeFault fault) {
+  switch (fault) {
+    case ShapeFault::none: break;
+    case ShapeFault::no_children: return "one or more";
+    case ShapeFault::unknown_type: return "one of ShapeType";
+    case ShapeFault::not_finite: return "a finite number";
+    case ShapeFault::unused_field_set: return "0: the type does not use it";
+    case ShapeFault::size_not_positive: return "above 0";
+    case ShapeFault::size_too_small: return "Limits::minimum_size() or more";
+    case ShapeFault::size_too_large: return "up to Limits::extent()";
+    case ShapeFault::offset_too_large: return "up to Limits::position()";
+    case ShapeFault::normal_not_unit: return "a vector of length 1";
+    case ShapeFault::orientation_not_unit: return "a quaternion of length 1";
+    case ShapeFault::blob_missing: return "a blob of the type";
+    case ShapeFault::blob_not_valid: return "bytes that make a shape of the type";
+    case ShapeFault::outside_extent: return "all of the child up to Limits::extent() from the body's origin";
+    case ShapeFault::too_many_triangles: return "fewer than 2^31 triangles";
+    case ShapeFault::radius_not_in_range: return "0 to Limits::extent()";
+  }
+  return "";
+}
+
+/// What is wrong with which part of a shape.
+struct ShapeFaultPlace {
+  ShapeFault fault = ShapeFault::none;
+  std::uint32_t child = 0;
+  const char* field = "";  // of Child: primitive.radius
+};
+
 }  // namespace isostep

@@ -16,14 +16,17 @@ template <class S> ShapeFault validate(const Primitive<S>& primitive);
 template <class S> ShapeFault validate(const Pose<S>& pose);
 /// `blobs`: what the children name, as Primitive::blob counts them.
 template <class S> ShapeFault validate(std::span<const Child<S>> children, std::span<const BlobRef> blobs = {});
+/// The same with its place.
+template <class S> ShapeFaultPlace find_fault(std::span<const Child<S>> children, std::span<const BlobRef> blobs = {});
 
 /// A valid child with its normal and orientation scaled to unit length; what already is stays bit for bit.
 template <class S> Child<S> normalised(const Child<S>& child);
 
-#define ISO_EXTERN(S)                                                            \
-  extern template ShapeFault validate<S>(const Primitive<S>&);                   \
-  extern template ShapeFault validate<S>(const Pose<S>&);                        \
-  extern template ShapeFault validate<S>(std::span<const Child<S>>, std::span<const BlobRef>); \
+#define ISO_EXTERN(S)                                                                                 \
+  extern template ShapeFault validate<S>(const Primitive<S>&);                                        \
+  extern template ShapeFault validate<S>(const Pose<S>&);                                             \
+  extern template ShapeFault validate<S>(std::span<const Child<S>>, std::span<const BlobRef>);        \
+  extern template ShapeFaultPlace find_fault<S>(std::span<const Child<S>>, std::span<const BlobRef>); \
   extern template Child<S> normalised<S>(const Child<S>&);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

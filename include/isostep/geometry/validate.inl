@@ -38,28 +38,88 @@ template <class S> ShapeFault fault_of_blob(const Primitive<S>& p, const Blob* b
 }
 }  // namespace detail
 
-template <class S> ShapeFault validate(std::span<const Child<S>> children, std::span<const BlobRef> blobs) {
-  if (children.empty()) return ShapeFault::no_children;
+namespace detail {
+/// Of a part with NaN or infinity.
+template <class S> const char* field_not_finite(const Child<S>& child) {
+  const Primitive<S>& p = child.primitive;
+  return !is_finite(p.half)              ? "primitive.half"
+         : !is_finite(p.radius)          ? "primitive.radius"
+         : !is_finite(p.normal)          ? "primitive.normal"
+         : !is_finite(p.offset)          ? "primitive.offset"
+         : !is_finite(child.pose.position) ? "pose.position"
+                                         : "pose.orientation";
+}
+/// Of a part whose type does not use it.
+template <class S> const char* field_unused(const Primitive<S>& p) {
+  const Primitive<S> used = visit_shape(p, [](const auto& shape) { return shape.primitive(); });
+  return !(used.half == p.half)       ? "primitive.half"
+         : !(used.radius == p.radius) ? "primitive.radius"
+         : !(used.normal == p.normal) ? "primitive.normal"
+         : !(used.offset == p.offset) ? "primitive.offset"
+                                      : "primitive.blob";
+}
+/// Of a part with a wrong size: its radius, if it has one and would have another fault with a good one.
+template <class S> const char* field_of_size(const Primitive<S>& p, ShapeFault fault) {
+  if (p.blob != 0) return "primitive.blob";
+  Primitive<S> other = p;
+  other.radius = S(1);
+  const ShapeFault with_another = validate(other);
+  return with_another == fault || with_another == ShapeFault::unused_field_set ? "primitive.half" : "primitive.radius";
+}
+template <class S> const char* field_of(const Child<S>& child, ShapeFault fault) {
+  switch (fault) {
+    case ShapeFault::none:
+    case ShapeFault::no_children:
+    case ShapeFault::too_many_triangles: break;
+    case ShapeFault::unknown_type: return "primitive.type";
+    case ShapeFault::not_finite: return field_not_finite(child);
+    case ShapeFault::unused_field_set: return field_unused(child.primitive);
+    case ShapeFault::size_not_positive:
+    case ShapeFault::size_too_small:
+    case ShapeFault::size_too_large: return field_of_size(child.primitive, fault);
+    case ShapeFault::offset_too_large: return "primitive.offset";
+    case ShapeFault::normal_not_unit: return "primitive.normal";
+    case ShapeFault::orientation_not_unit: return "pose.orientation";
+    case ShapeFault::blob_missing:
+    case ShapeFault::blob_not_valid: return "primitive.blob";
+    case ShapeFault::outside_extent: return "pose.position";
+    case ShapeFault::radius_not_in_range: return "primitive.radius";
+  }
+  return "";
+}
+/// Of one part alone; `leaves` counts those of all.
+template <class S> ShapeFault fault_of_child(const Child<S>& child, const Blob* blob, std::uint64_t& leaves) {
+  ShapeFault fault = validate(child.primitive);
+  if (fault == ShapeFault::none) fault = validate(child.pose);
+  if (fault == ShapeFault::none) fault = fault_of_blob(child.primitive, blob);
+  if (fault != ShapeFault::none) return fault;
+  leaves += leaves_of<S>({child.primitive, blob == nullptr ? nullptr : content_of<S>(*blob)});
+  if (leaves >> 31 != 0) return ShapeFault::too_many_triangles;
   const S extent = Limits<S>::extent();
   const Aabb<S> room = Aabb<S>::around(Vec3<S>::zero(), {extent, extent, extent});
+  // The position alone first: only then is the box around the child free of overflow.
+  if (!contains(room, Aabb<S>{child.pose.position, child.pose.position})) return ShapeFault::outside_extent;
+  if (!is_bounded(child.primitive.type)) return ShapeFault::none;
+  const Child<S> unit = normalised(child);
+  const ShapeView<S> view = {unit.primitive, blob == nullptr ? nullptr : content_of<S>(*blob)};
+  return contains(room, bounds(view, Transform<S>::of(unit.pose))) ? ShapeFault::none : ShapeFault::outside_extent;
+}
+}  // namespace detail
+
+template <class S>
+ShapeFaultPlace find_fault(std::span<const Child<S>> children, std::span<const BlobRef> blobs) {
+  if (children.empty()) return {ShapeFault::no_children, 0, ""};
   std::uint64_t leaves = 0;
-  for (const Child<S>& child : children) {
-    const std::uint32_t name = child.primitive.blob;
+  for (std::uint32_t i = 0; i < children.size(); ++i) {
+    const std::uint32_t name = children[i].primitive.blob;
     const Blob* blob = name != 0 && name <= blobs.size() ? blobs[name - 1].get() : nullptr;
-    ShapeFault fault = validate(child.primitive);
-    if (fault == ShapeFault::none) fault = validate(child.pose);
-    if (fault == ShapeFault::none) fault = detail::fault_of_blob(child.primitive, blob);
-    if (fault != ShapeFault::none) return fault;
-    leaves += leaves_of<S>({child.primitive, blob == nullptr ? nullptr : content_of<S>(*blob)});
-    if (leaves >> 31 != 0) return ShapeFault::too_many_triangles;
-    // The position alone first: only then is the box around the child free of overflow.
-    if (!contains(room, Aabb<S>{child.pose.position, child.pose.position})) return ShapeFault::outside_extent;
-    if (!is_bounded(child.primitive.type)) continue;
-    const Child<S> unit = normalised(child);
-    const ShapeView<S> view = {unit.primitive, blob == nullptr ? nullptr : content_of<S>(*blob)};
-    if (!contains(room, bounds(view, Transform<S>::of(unit.pose)))) return ShapeFault::outside_extent;
+    const ShapeFault fault = detail::fault_of_child(children[i], blob, leaves);
+    if (fault != ShapeFault::none) return {fault, i, detail::field_of(children[i], fault)};
   }
-  return ShapeFault::none;
+  return {};
+}
+template <class S> ShapeFault validate(std::span<const Child<S>> children, std::span<const BlobRef> blobs) {
+  return find_fault(children, blobs).fault;
 }
 
 template <class S> Child<S> normalised(const Child<S>& child) {

@@ -29,6 +29,15 @@ template <class S> ISO_INLINE bool is_direction(const Vec3<Unit<S>>& v) {
 /// By its length, not by axis.
 template <class S> bool no_longer(Vec3<S> v, S limit) { return !(limit < length(v)); }
 
+/// A shape that is refused.
+ISO_INLINE FaultReport report_of(const ShapeFaultPlace& place) {
+  if (place.fault == ShapeFault::none) return {};
+  const Fault fault = place.fault == ShapeFault::not_finite ? Fault::not_finite : Fault::bad_shape;
+  const bool of_all = place.fault == ShapeFault::no_children || place.fault == ShapeFault::too_many_triangles;
+  if (of_all) return {fault, "", "children", expected_of(place.fault)};
+  return {fault, "", place.field, expected_of(place.fault), place.child};
+}
+
 /// What is required of a command's fields, in order; the first that is not met is the fault.
 class Checklist {
  public:
@@ -183,6 +192,8 @@ template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_
       .in_range(S(0) <= j.cone && j.cone <= kMaxAngle<S>, "cone", "0 to 2 pi")
       .proper((j.flags & ~rules.flags) == 0, "flags", rules.flag_names)
       .proper(j.lower <= j.upper, "lower", "no more than upper")
+      .proper(length || (j.flags & joint_flag::kLimit) == 0 || j.upper - j.lower <= kMaxAngle<S>, "upper",
+              "no more than 2 pi above lower: a turn further is the same angle")
       .also(rules.own)
       .proper(S(0) <= j.motor_torque, "motor_torque", "0 or more")
       .proper(!sprung || (S(0) < j.spring_frequency && j.spring_frequency <= S(substep_rate) * S(0.5)),

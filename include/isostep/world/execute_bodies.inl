@@ -42,6 +42,8 @@ template <class S> bool CommandExecutor<S>::check_mass(const BodyMass<S>& d, con
       detail::Checklist()
           .ask(zero < d.density || zero < d.mass, Fault::bad_mass, "density", "above 0 where mass is 0")
           .ask(!(shape.mass == zero), Fault::bad_mass, "shape", "one with a volume that the scalar can count")
+          .ask(zero < d.mass || shape.mass < Limits<S>::mass(), Fault::bad_mass, "density",
+               "one at which the shape is lighter than Limits::mass()")
           .report());
 }
 

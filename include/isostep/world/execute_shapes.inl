@@ -15,11 +15,9 @@ template <class S> ShapeId CommandExecutor<S>::execute(const AddShape<S>& comman
   }
   std::vector<BlobRef> blobs(command.blobs.size());
   if (!find_blobs(command, blobs)) return {};
-  const ShapeFault fault = validate(std::span<const Child<S>>(command.children), blobs);
-  if (fault != ShapeFault::none) {
-    const bool finite = fault != ShapeFault::not_finite;
-    journal_.refuse(finite ? FaultReport{Fault::bad_shape, "", describe(fault), ""}
-                           : FaultReport{Fault::not_finite, "", "shape", ""});
+  const ShapeFaultPlace wrong = find_fault(std::span<const Child<S>>(command.children), blobs);
+  if (wrong.fault != ShapeFault::none) {
+    journal_.refuse(detail::report_of(wrong));
     return {};
   }
   const ShapeId id = state_.shape_slots.template take<ShapeId>(state_.settings.id_space);
@@ -112,7 +110,7 @@ template <class S> bool CommandExecutor<S>::accept_patch(const Result<BakedHeigh
   if (!changed.ok())
     return journal_.refuse({Fault::bad_argument, "", "materials", "none, or one a cell, and somewhere no hole"});
   const ShapeFault fault = detail::fault_of_surface<S>(changed.value());
-  if (fault != ShapeFault::none) return journal_.refuse({Fault::bad_shape, "", describe(fault), ""});
+  if (fault != ShapeFault::none) return journal_.refuse({Fault::bad_shape, "", "heights", expected_of(fault)});
   const bool fits = state_.geometry->names().size() < kMaxBlobs;
   return fits || journal_.refuse({Fault::bad_shape, "", "heights", "fewer than kMaxBlobs in a world"});
 }

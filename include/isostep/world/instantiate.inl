@@ -68,6 +68,7 @@
   template ShapeFault validate<OwnScalar>(const Primitive<OwnScalar>&);                                               \
   template ShapeFault validate<OwnScalar>(const Pose<OwnScalar>&);                                                    \
   template ShapeFault validate<OwnScalar>(std::span<const Child<OwnScalar>>, std::span<const BlobRef>);               \
+  template ShapeFaultPlace find_fault<OwnScalar>(std::span<const Child<OwnScalar>>, std::span<const BlobRef>);        \
   template Child<OwnScalar> normalised<OwnScalar>(const Child<OwnScalar>&);                                           \
   ISO_COLLIDE_OF(, OwnScalar)                                                                                         \
   ISO_HULL_PAIRS_OF(, OwnScalar)                                                                                      \

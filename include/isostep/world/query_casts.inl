@@ -64,6 +64,7 @@ template <class S> FaultReport Queries<S>::fault_of_ray(Vec3<S> origin, Vec3<S> 
   return detail::Checklist()
       .also(detail::fault_of_place(origin, "origin"))
       .also(detail::fault_of_place(translation, "translation"))
+      .proper(!(translation == Vec3<S>::zero()), "translation", "a length above 0")
       .report();
 }
 template <class S>

@@ -15,7 +15,8 @@ namespace isostep {
 template <class S> FaultReport Queries<S>::fault_of_shape(const QueryShape<S>& shape, const Pose<S>& pose) const {
   const auto kind = [](ShapeFault f) { return f == ShapeFault::not_finite ? Fault::not_finite : Fault::bad_shape; };
   const ShapeFault of_pose = validate(pose);
-  const FaultReport bad_pose = {kind(of_pose), "", describe(of_pose), ""};
+  const bool turned = of_pose == ShapeFault::orientation_not_unit;
+  const FaultReport bad_pose = {kind(of_pose), "", turned ? "pose.orientation" : "pose", expected_of(of_pose)};
   if (shape.of_world) {
     const FaultReport of_id = detail::fault_of_id(state_.shape_slots, shape.id, state_.settings.id_space, "shape");
     if (of_id != Fault::none) return of_id;
@@ -24,8 +25,9 @@ template <class S> FaultReport Queries<S>::fault_of_shape(const QueryShape<S>& s
       return {Fault::bad_shape, "", "shape", "one convex part"};
   } else {
     const Child<S> part = {shape.primitive, Pose<S>::identity()};
-    const ShapeFault of_shape = validate(std::span<const Child<S>>(&part, 1));
-    if (of_shape != ShapeFault::none) return {kind(of_shape), "", describe(of_shape), ""};
+    FaultReport of_shape = detail::report_of(find_fault(std::span<const Child<S>>(&part, 1)));
+    of_shape.child = FaultReport::kNoChild;  // it has one alone
+    if (of_shape.fault != Fault::none) return of_shape;
   }
   return of_pose == ShapeFault::none ? FaultReport{} : bad_pose;
 }

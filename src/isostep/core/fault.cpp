@@ -25,9 +25,9 @@ const char* fault_text(Fault fault) {
 
 std::string describe(const FaultReport& report) {
   std::string text;
-  for (const char* part : {report.command, report.field}) {
-    if (part[0] != '\0') text.append(part).append(": ");
-  }
+  if (report.command[0] != '\0') text.append(report.command).append(": ");
+  if (report.child != FaultReport::kNoChild) text.append("child ").append(std::to_string(report.child)).append(": ");
+  if (report.field[0] != '\0') text.append(report.field).append(": ");
   text += fault_text(report.fault);
   if (report.expected[0] != '\0') text.append("; expected ").append(report.expected);
   return text;

@@ -332,7 +332,7 @@ TYPED_TEST(WorldFaults, the_first_of_a_chain_of_refusals_is_kept) {
   this->expect_fault(Fault::null_id, "apply_impulse", "body");
   EXPECT_EQ(w.first_fault(), Fault::bad_shape);
   EXPECT_STREQ(w.first_fault().command, "add_shape");
-  EXPECT_STREQ(w.first_fault().field, describe(ShapeFault::size_not_positive));
+  EXPECT_STREQ(w.first_fault().field, "primitive.radius");
   EXPECT_TRUE(w.wake(this->a));
   EXPECT_EQ(w.fault(), Fault::none);
   EXPECT_EQ(w.first_fault(), Fault::bad_shape);
