@@ -15,17 +15,9 @@ namespace isostep {
 /// What particle worlds are called in a replay's header.
 inline constexpr char kParticleWorldName[] = "particles";
 
-/// Of everything in the settings that a replay's header does not name by itself.
+/// Of all settings: those that a replay's header names by itself as well, so that none is forgotten.
 template <class S> ISO_INLINE std::uint64_t settings_digest(const ParticleSettings<S>& settings) {
-  std::vector<std::uint8_t> bytes;
-  Writer writer(bytes);
-  writer.write(settings.gravity);
-  writer.write(settings.integrator);
-  writer.write(settings.stepping);
-  writer.write(settings.iterations);
-  writer.write(settings.pairs);
-  writer.write(settings.looks);
-  return hash_bytes(bytes.data(), bytes.size());
+  return hash_records_by_fields(&settings, 1);
 }
 
 /// What must be equal where a recording of such a world is replayed. `scene` is kept by reference.

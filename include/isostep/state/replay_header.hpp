@@ -62,7 +62,7 @@ struct ReplayIdentity {
   std::uint32_t hz;         // [1/s]
   std::uint32_t substeps;
   std::string_view solver;
-  std::uint64_t settings_digest;  // hash of every other setting
+  std::uint64_t settings_digest;  // hash of all settings
   std::string_view scene;
   std::string_view world;  // its kind, as "particles"; empty: rigid bodies
   std::string_view hash_algorithm = kHashName;

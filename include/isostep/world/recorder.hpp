@@ -12,15 +12,9 @@
 
 namespace isostep {
 
-/// Of everything in the settings that a replay's header does not name by itself.
+/// Of all settings: those that a replay's header names by itself as well, so that none is forgotten.
 template <class S> ISO_INLINE std::uint64_t settings_digest(const Settings<S>& settings) {
-  std::vector<std::uint8_t> bytes;
-  Writer writer(bytes);
-  writer.write(settings.gravity);
-  writer.write(settings.allow_sleep);
-  writer.write(settings.id_space);
-  writer.write(settings.projection);
-  return hash_bytes(bytes.data(), bytes.size());
+  return hash_records_by_fields(&settings, 1);
 }
 
 ISO_INLINE const char* solver_name(SolverName solver) {
