@@ -10,6 +10,7 @@
 #include "isostep/world/query_batches.inl"
 #include "isostep/world/query_casts.inl"
 #include "isostep/world/query_overlaps.inl"
+#include "isostep/world/record_checks.hpp"
 
 namespace isostep {
 
@@ -113,8 +114,13 @@ template <class S> S Queries<S>::joint_position(JointId joint) const {
 }
 template <class S> S Queries<S>::joint_position(JointId joint, JointAxis axis) const {
   const JointProperties<S>* properties = map_.properties_of(joint);
-  const bool known = properties != nullptr && properties->type == JointType::six_axis;
-  return known ? detail::position_of(axis, properties->flags, detail::frames_of(map_, *properties)) : S(0);
+  if (properties == nullptr || properties->type != JointType::six_axis) return S(0);
+  const auto& drives = state_.force_records->axis_drives;
+  const auto find = [&](JointAxis of) { return drives.find(detail::drive_on(*state_.force_records, joint, of)); };
+  const bool swings = axis == JointAxis::swing_x || axis == JointAxis::swing_y;
+  const int tilting =
+      swings ? detail::tilting_swing(properties->flags, find(JointAxis::swing_x), find(JointAxis::swing_y)) : -1;
+  return detail::position_of(axis, properties->flags, tilting, detail::frames_of(map_, *properties));
 }
 
 }  // namespace isostep

@@ -7,8 +7,10 @@
 namespace isostep {
 
 /// Lengths: b's origin along the axes of a. Angles: with two of them locked the third is a turn about that axis, as a
-/// hinge's; else swings and a twist, see SwingTwist. Limits of swings hold while the z axes are less than 120 degrees
-/// apart; where a twist is locked, limited or sprung there is a stop at 149. kLock...: holds that axis. kCone: of two
+/// hinge's; else swings and a twist, see SwingTwist. A swing that is locked, or has limits within 80 degrees beside a
+/// swing without, is how far b's z axis tilts out of the plane across, and the other swing is a turn, which goes round:
+/// see TiltTurn. Where a twist is locked, limited or sprung beside swings there is a stop at 149 degrees; limits of a
+/// kCone hold while the z axes are less than 120 degrees apart. kLock...: holds that axis. kCone: of two
 /// swings with limits, `upper` are the half axes of an ellipse in which b's z axis stays. Their springs and motors are
 /// to be alike: beyond half of the ellipse those of x act along the swing, and those of y across it.
 template <class S> struct SixAxisJoint : detail::SlidingJoint<S> {

@@ -38,6 +38,48 @@ template <class S> struct SwingTwist {
   ISO_INLINE Vec3<S> rate(Vec3<S> gradient, S s) const { return cross(d, gradient) * (S(2) / (S(1) + s * s)); }
 };
 
+/// [rad] Limits within which a swing is a tilt.
+template <class S> inline constexpr S kMostTilt = S(1.4);
+template <class S> ISO_INLINE bool is_limited(const AxisDrive<S>* drive) { return drive != nullptr && drive->limited; }
+/// The swing, 0 about x and 1 about y, that is the tilt of b's z axis out of the plane across its limit, or -1. One is
+/// locked, or has limits beside a swing that has none: the other is then a turn, which goes round. Limits of
+/// SwingTwist's angle would meet where the z axes point in opposite directions, and stop that turn.
+template <class S> ISO_INLINE int tilting_swing(std::uint32_t flags, const AxisDrive<S>* x, const AxisDrive<S>* y) {
+  const AxisDrive<S>* const swings[2] = {x, y};
+  for (int i = 0; i < 2; ++i) {
+    if ((flags & joint_flag::kLockSwingX << i) != 0) return i;
+    if (!is_limited(swings[i]) || is_limited(swings[1 - i]) || (flags & joint_flag::kLockSwingX << (1 - i)) != 0)
+      continue;
+    if (-kMostTilt<S> <= swings[i]->lower && swings[i]->upper <= kMostTilt<S>) return i;
+  }
+  return -1;
+}
+/// Where b's z axis points, in frame a, as a tilt and a turn.
+/// Symbols: e = a's x axis where the swing about y tilts, -y where that about x does; rho = sin of the angle between d
+///          and e. The tilt is asin(d . e), its rate w . (d x e) / rho. p = the axis turned about, x or y: the rate of
+///          the turn is w . (p - (p . d) d) / rho^2.
+template <class S> struct TiltTurn {
+  Vec3<S> tilt_rate, turn_rate;  // [1] in a
+  S tilt, turn;                  // [rad]
+
+  static ISO_INLINE TiltTurn of(int tilting, Vec3<S> d) {
+    const int k = 1 - tilting;  // the axis turned about, and the component of d that tilts
+    const Direction<S> across = direction_of(d[tilting], d.z, S(0));
+    const S way = tilting == 1 ? d.x : -d.y, sign = tilting == 1 ? S(1) : S(-1);
+    const S rho = max(across.length, S(1.0 / 16));
+    Vec3<S> p = Vec3<S>::zero();
+    p[k] = S(1);
+    TiltTurn t;
+    t.tilt = atan2(way, across.length);
+    t.turn = atan2(-(sign * d[tilting]), d.z);
+    t.tilt_rate = Vec3<S>::zero();
+    t.tilt_rate[tilting] = convert<S>(across.y);
+    t.tilt_rate.z = -convert<S>(across.x);
+    t.turn_rate = (p - d * d[k]) * (S(1) / (rho * rho));
+    return t;
+  }
+};
+
 /// As angular_row(), of an axis that need not be a direction.
 template <class S> ISO_INLINE JointRow<S> turning_row(Vec3<S> axis, S radius) {
   const Vec3<S> angular = axis * radius;
@@ -53,19 +95,23 @@ ISO_INLINE constexpr int only_free_turn(std::uint32_t flags) {
                                                                        : -1;
 }
 
-/// [rad] in (-pi, pi], of an axis that is no length.
-template <class S> ISO_INLINE S angle_of(JointAxis axis, std::uint32_t flags, const JointFrames<S>& f) {
+/// [rad] in (-pi, pi], of an axis that is no length; `tilting`: see tilting_swing().
+template <class S> ISO_INLINE S angle_of(JointAxis axis, std::uint32_t flags, int tilting, const JointFrames<S>& f) {
   const int place = static_cast<int>(axis) - 3;
   const Quat<Unit<S>> q = relative_rotation(f);
   const Unit<S> parts[3] = {q.x, q.y, q.z};
   if (place == 2 || only_free_turn(flags) == place) return S(2) * atan2_to<S>(parts[place], q.w);
   const Vec3<Unit<S>> d = transposed_times(to_matrix(f.a), to_matrix(f.b).column(2));
+  if (tilting >= 0) {
+    const TiltTurn<S> now = TiltTurn<S>::of(tilting, convert<S>(d));
+    return place == tilting ? now.tilt : now.turn;
+  }
   const S up = S(1) + convert<S>(d.z);
   return place == 1 ? S(2) * atan2(convert<S>(d.x), up) : S(-2) * atan2(convert<S>(d.y), up);
 }
 /// [m] or [rad]
-template <class S> ISO_INLINE S position_of(JointAxis axis, std::uint32_t flags, const JointFrames<S>& f) {
-  if (!is_length(axis)) return angle_of(axis, flags, f);
+template <class S> ISO_INLINE S position_of(JointAxis axis, std::uint32_t flags, int tilting, const JointFrames<S>& f) {
+  if (!is_length(axis)) return angle_of(axis, flags, tilting, f);
   return dot(f.between, to_matrix(f.a).column(static_cast<int>(axis)));
 }
 
@@ -107,11 +153,11 @@ ISO_INLINE void linearise_turn_about(int free, const JointFrames<S>& f, const Ma
   block.rows[i] = angular_row<S>(a.column(i), joint.radius);
   block.rows[j] = angular_row<S>(a.column(j), joint.radius);
   block.error[i] = bounded_error(-(joint.radius * tilt[j]), h);
-  block.error[j] = bounded_error(joint.radius * tilt[i], h);
+  block.error[j] = bounded_error(joint.radius * part_across(tilt[i], tilt[free]), h);
   JointDrive<S>* const drive = drive_of(joint, static_cast<std::uint32_t>(free));
   if (drive == nullptr) return;
   drive->row = angular_row<S>(a.column(free), drive->radius);
-  set_angle(*drive, *drive->asked, angle_of(static_cast<JointAxis>(3 + free), joint.properties.flags, f));
+  set_angle(*drive, *drive->asked, angle_of(static_cast<JointAxis>(3 + free), joint.properties.flags, -1, f));
 }
 
 /// One swing is locked: b's z axis stays in a plane of a.
@@ -128,8 +174,9 @@ ISO_INLINE void lock_swing(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step
   block.error[place] = bounded_error(about_x ? -off : off, h);
 }
 
-template <class S> ISO_INLINE bool is_limited(const JointDrive<S>& drive) {
-  return drive.asked != nullptr && drive.asked->limited;
+template <class S> ISO_INLINE bool is_limited(const JointDrive<S>& drive) { return is_limited(drive.asked); }
+template <class S> ISO_INLINE const AxisDrive<S>* asked_of(const JointDrive<S>* drive) {
+  return drive == nullptr ? nullptr : drive->asked;
 }
 /// Whether the limits of both swings are an ellipse.
 template <class S> ISO_INLINE bool makes_cone(std::uint32_t flags, const JointDrive<S>* x, const JointDrive<S>* y) {
@@ -190,6 +237,14 @@ template <class S> ISO_INLINE void stop_along(JointDrive<S>& drive, S angle, S m
   drive.bounded_above = true;
 }
 
+/// Such a drive ends where a twist that is held does. That does not yield.
+template <class S> ISO_INLINE void stop_hard(JointDrive<S>& drive, S angle) {
+  stop_along(drive, angle, kTwistEnds<S>);
+  if (!drive.soft) return;
+  drive.soft = drive.yields = false;
+  set_spring(*drive.spring_asked, drive);
+}
+
 /// Both swings within an ellipse: a row along the swing, on which the limit acts, and one across it.
 /// Symbols: e = sqrt((s_x / t_x)^2 + (s_y / t_y)^2), t = tan(half axis / 2). d x gradient of e points along the row's
 ///          axis n, and (e - 1) / its length is the angle that is left, to first order: 4 % short at 0.2 rad.
@@ -212,11 +267,83 @@ template <class S>
 ISO_INLINE void end_swing(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, JointDrive<S>* x, JointDrive<S>* y) {
   const Direction<S> n = direction_of(-swing.d.y, swing.d.x, S(0));
   set_along(swing, a, {n.x, n.y, Unit<S>(0)}, x, y);
-  JointDrive<S>& along = x != nullptr ? *x : *y;
-  stop_along(along, atan2(n.length, swing.d.z), kTwistEnds<S>);
-  if (!along.soft) return;
-  along.soft = along.yields = false;
-  set_spring(*along.spring_asked, along);
+  stop_hard(x != nullptr ? *x : *y, atan2(n.length, swing.d.z));
+}
+
+/// [rad] and the row of the swing about x or y where it is near a limit beyond 120 degrees: its angle there.
+/// Symbols: the limit L of SwingTwist's angle is a plane that cuts the sphere of d: d . n = sin(L / 2), with n = (cos(L /
+///          2), -sin(L / 2)) along e and z. So it holds as asin(d . n) does, whose rate is w . (d x n) / |d x n|: however
+///          near the z axes come to opposite directions, a row is as long as elsewhere.
+template <class S> struct SwingLimit {
+  Vec3<S> rate;  // [1] in a
+  S left;        // [rad] until the limit, negative beyond
+
+  static ISO_INLINE SwingLimit of(const SwingTwist<S>& swing, std::uint32_t place, S limit, bool above) {
+    const S half = limit * S(0.5);
+    const auto of_half = sin_cos(half);
+    const S sine = of_half.sin, cosine = of_half.cos;
+    Vec3<S> n = {S(0), S(0), -sine};
+    if (place == 1) n.x = cosine;
+    else n.y = -cosine;
+    const Vec3<S> turned = cross(swing.d, n);
+    const Direction<S> along = direction_of(turned.x, turned.y, turned.z);
+    const S beyond = atan2(dot(swing.d, n), along.length) - half;
+    return {convert<S>(Vec3<Unit<S>>{along.x, along.y, along.z}), above ? -beyond : beyond};
+  }
+};
+/// The nearer limit of a swing beyond 120 degrees. Returns how much is left [rad].
+template <class S> ISO_INLINE S set_limit(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, JointDrive<S>& drive) {
+  const SwingLimit<S> low = SwingLimit<S>::of(swing, drive.place, drive.asked->lower, false);
+  const SwingLimit<S> high = SwingLimit<S>::of(swing, drive.place, drive.asked->upper, true);
+  const bool above = high.left < low.left;
+  set_angle(drive, *drive.asked, drive.place == 1 ? swing.angle_about_y() : swing.angle_about_x(), false);
+  drive.row = turning_row<S>(a * (above ? high.rate : low.rate), drive.radius);
+  drive.bounded_above = above;
+  drive.bounded_below = !above;
+  drive.upper = drive.position + high.left * drive.radius;
+  drive.lower = drive.position - low.left * drive.radius;
+  return above ? high.left : low.left;
+}
+/// Swings beyond 120 degrees of which one at least has limits, and no cone: those, and the stop of end_swing() on the
+/// row that needs it most.
+template <class S>
+ISO_INLINE void limit_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, bool ends, JointDrive<S>* x,
+                             JointDrive<S>* y) {
+  set_swings(swing, a, x, y);
+  const S far = S(4);  // [rad] more than any limit leaves
+  S left_x = far, left_y = far;
+  if (x != nullptr && is_limited(*x)) left_x = set_limit(swing, a, *x);
+  if (y != nullptr && is_limited(*y)) left_y = set_limit(swing, a, *y);
+  if (!ends) return;
+  const Direction<S> n = direction_of(-swing.d.y, swing.d.x, S(0));
+  const S angle = atan2(n.length, swing.d.z);
+  if (!(kTwistEnds<S> - angle < max(left_x, left_y))) return;
+  const bool on_x = left_y <= left_x;
+  set_along(swing, a, {n.x, n.y, Unit<S>(0)}, on_x ? x : nullptr, on_x ? nullptr : y);
+  stop_hard(on_x ? *x : *y, angle);
+}
+
+/// One swing tilts, the other turns: see tilting_swing(). `ends`: the twist is held.
+template <class S>
+ISO_INLINE void set_tilt_and_turn(const TiltTurn<S>& now, int tilting, bool ends, const Mat3<Unit<S>>& a,
+                                  JointConstraint<S>& joint) {
+  JointDrive<S>* const tilt = drive_of(joint, static_cast<std::uint32_t>(tilting));
+  JointDrive<S>* const turn = drive_of(joint, static_cast<std::uint32_t>(1 - tilting));
+  const auto set = [&](JointDrive<S>* drive, Vec3<S> rate, S angle, bool goes_round) ISO_INLINE_LAMBDA {
+    if (drive == nullptr) return;
+    drive->row = turning_row<S>(a * rate, drive->radius);
+    drive->bounded_below = drive->bounded_above = is_limited(*drive);
+    drive->position = angle * drive->radius;
+    if (drive->asked != nullptr) set_angle(*drive, *drive->asked, angle, goes_round);
+  };
+  set(tilt, now.tilt_rate, now.tilt, false);
+  set(turn, now.turn_rate, now.turn, !ends);
+  if (!ends || turn == nullptr) return;
+  const S most = kTwistEnds<S> * turn->radius;
+  if (turn->soft && most < abs(turn->position)) stop_hard(*turn, abs(now.turn));
+  turn->upper = is_limited(*turn) ? min(turn->upper, most) : most;
+  turn->lower = is_limited(*turn) ? max(turn->lower, -most) : -most;
+  turn->bounded_below = turn->bounded_above = true;
 }
 
 template <class S>
@@ -228,8 +355,12 @@ ISO_INLINE void linearise_swings(const JointFrames<S>& f, const Mat3<Unit<S>>& a
     if (drive != nullptr) drive->soft = drive->asked != nullptr && is_soft(*drive->asked);
   }
   const SwingTwist<S> swing = SwingTwist<S>::of(f, a);
-  if (!swing.is_clear && holds_twist(joint)) return end_swing(swing, a, x, y);
-  const bool cone = makes_cone(joint.properties.flags, x, y);
+  const bool cone = makes_cone(joint.properties.flags, x, y), ends = holds_twist(joint);
+  const int tilting = tilting_swing(joint.properties.flags, asked_of(x), asked_of(y));
+  if (tilting >= 0) return set_tilt_and_turn(TiltTurn<S>::of(tilting, swing.d), tilting, ends, a, joint);
+  const bool limited = is_limited(asked_of(x)) || is_limited(asked_of(y));
+  if (!swing.is_clear && limited && !cone) return limit_swings(swing, a, ends, x, y);
+  if (!swing.is_clear && ends) return end_swing(swing, a, x, y);
   if (cone && set_cone(swing, a, *x, *y)) return;
   set_swings(swing, a, x, y);
   if (cone) x->bounded_below = x->bounded_above = y->bounded_below = y->bounded_above = false;
