@@ -145,7 +145,9 @@ template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa
     store_row(levers(a.column(2), L::load(stops.twist_radius)), 2, rows);
     const auto error = [most](L e) ISO_INLINE_LAMBDA { return convert<V>(clamp(e, -most, most)); };
     const Vec3<U> tilt = transposed_times(a, zb);
-    store(Vec3<V>{error(-(radius * tilt.y)), error(radius * tilt.x), V::zero()}, node.error);
+    const U more = select(less(tilt.x, U::zero()), tilt.z, -tilt.z);  // part_across()
+    const U across = tilt.x + select(less(tilt.z, U::zero()), more, U::zero());
+    store(Vec3<V>{error(-(radius * tilt.y)), error(radius * across), V::zero()}, node.error);
   }
   /// Returns the cosine of half the swing, kLeastTwistCosine or more.
   static ISO_INLINE L write_twist(const Stops& stops, Vec3<U> za, Vec3<U> zb, Rows& rows) {

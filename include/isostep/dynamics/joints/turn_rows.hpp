@@ -18,6 +18,13 @@ ISO_INLINE void weld_block(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step
   block.error = {bounded_error(twice * q.x, h), bounded_error(twice * q.y, h), bounded_error(twice * q.z, h)};
 }
 
+/// [1] `across` of two axes that are to coincide, `along` of the other one, with what keeps it from ending where they
+/// point in opposite directions: there their cross product is zero, as where they coincide.
+template <class U> ISO_INLINE U part_across(U across, U along) {
+  if (!(along < U(0))) return across;
+  return across < U(0) ? across + along : across - along;
+}
+
 /// z axes coincide.
 /// Symbols: z_a x z_b is the rotation, to first order, by which b's axis has left a's; it has no part along z_a.
 template <class S>
@@ -28,7 +35,8 @@ ISO_INLINE void axle_block(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step
   block.rows[0] = angular_row<S>(a.column(0), joint.radius);
   block.rows[1] = angular_row<S>(a.column(1), joint.radius);
   block.rows[2] = JointRow<S>::zero();
-  block.error = {bounded_error(-(joint.radius * tilt.y), h), bounded_error(joint.radius * tilt.x, h), Velocity<S>(0)};
+  block.error = {bounded_error(-(joint.radius * tilt.y), h),
+                 bounded_error(joint.radius * part_across(tilt.x, tilt.z), h), Velocity<S>(0)};
 }
 
 /// The drive of the angle about z where the z axes coincide.
