@@ -22,7 +22,7 @@ template <class S, class Visit> void each_body(const WorldState<S>& state, Visit
   const auto each = [&](const BodySet<S>& set) {
     for (std::size_t i = 0; i < set.states.size(); ++i) visit(set.states[i], set.properties[i]);
   };
-  each(*state.static_bodies);
+  state.static_bodies.each(visit);
   each(state.awake);
   for (const auto& island : state.sleeping) each(island->bodies);
 }
@@ -98,9 +98,7 @@ template <class S> std::vector<Part> parts_of(const WorldState<S>& state) {
       return;
     const Mat3<double> axes = to_matrix(unit_in_double(body.orientation));
     const Vec3<double> origin = in_double(body.centre) - axes * in_double(properties.local_centre);
-    const ShapeRecord& shape = (*state.shapes)[properties.shape];
-    for (std::uint32_t i = 0; i < shape.child_count; ++i) {
-      const Child<S>& child = (*state.children)[shape.first_child + i];
+    for (const Child<S>& child : state.shapes[properties.shape]->children) {
       Solid solid = {};
       solid.type = child.primitive.type;
       solid.axes = axes * to_matrix(unit_in_double(child.pose.orientation));

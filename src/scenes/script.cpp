@@ -34,7 +34,9 @@ template <class S> void destroy_with_shape(World<S>& world, BodyId body) {
     }
   };
   std::uint32_t shape = 0;
-  find(*world.state().static_bodies, shape);
+  world.state().static_bodies.each([&](const BodyState<S>& state, const BodyProperties<S>& properties) {
+    if (state.slot == body.slot) shape = properties.shape;
+  });
   find(world.state().awake, shape);
   for (const auto& island : world.state().sleeping) find(island->bodies, shape);
   const ShapeId id = world.state().shape_slots.template id_of<ShapeId>(shape);

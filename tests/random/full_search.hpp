@@ -140,8 +140,8 @@ template <class S> class FullSearch {
   }
   ShapeView<S> view_of(const QueryShape<S>& shape) const {
     if (!shape.of_world) return {shape.primitive, nullptr};
-    const ShapeRecord& record = (*world_.state().shapes)[shape.id.slot];
-    return world_.view(bodies_.front()).contents.view((*world_.state().children)[record.first_child].primitive);
+    const std::vector<Child<S>>& parts = world_.state().shapes[shape.id.slot]->children;
+    return world_.view(bodies_.front()).contents.view(parts[0].primitive);
   }
   std::vector<ShapeCastHit<S>> cast_core(const ConvexCore<S>& core, S touch, const ShapeCast<S>& asked) const {
     std::vector<ShapeCastHit<S>> all;

@@ -88,7 +88,7 @@ template <class S> class RandomRules {
   }
   std::uint32_t parts_of(BodyId body) const {
     const WorldState<S>& state = world_.state();
-    return (*state.shapes)[world_.view(body).properties->shape].child_count;
+    return static_cast<std::uint32_t>(state.shapes[world_.view(body).properties->shape]->children.size());
   }
   Ghost<S> drawn(Ghost<S> ghost) {
     ghost.a = moving_body();

@@ -154,9 +154,9 @@ template <class Visitor> class StateFields {
       visit_(name, value);
     }
   }
-  template <class T, class Arrays> void shared(T& value, const Arrays& arrays) const {
-    if constexpr (Visitor::kEdits) arrays(visit_, value.change());
-    else arrays(visit_, *value);
+  template <class List> void bodies_in_pages(List& list) const {
+    if constexpr (Visitor::kEdits) list.change_arrays(visit_);
+    else list.arrays(visit_);
   }
   template <class Records> void records(Records& value) const {
     using Value = std::remove_cvref_t<decltype(*value)>;

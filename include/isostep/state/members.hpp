@@ -20,7 +20,7 @@
 // these here, the walk over fields (fields.inl) and the differ of the tool. Members have the order of the hash and of
 // the portable form. A member is visited as one of
 //   visit("name", value)         a record with `fields`, a number, a SlotMap, a Registry, or a vector of records
-//   visit.shared(value, arrays)  Shared<T>: arrays(visit, value) visits its vectors, two at most
+//   visit.bodies_in_pages(list)  StaticBodies, or another list of two arrays in pages that may be empty
 //   visit.islands("name", list)  a PagedArray of immutable objects, each with `sections(visit, self)` and `hash`
 //   visit.records(value)         Shared<T>: registries that T::first_members visits, and T::newer_members. A state to
 //                                which none was ever added has the hash and the portable form of one that knows of
@@ -58,13 +58,20 @@ class StateHasher {
     combiner_.add(registry.remembered().get(
         [&]() ISO_INLINE_LAMBDA { return hash_records_by_fields(registry.all().data(), registry.all().size()); }));
   }
-  template <class T, class Arrays> ISO_INLINE void shared(const Shared<T>& value, const Arrays& arrays) {
-    int which = 0;
-    const auto add = [&](const char*, const auto& records) ISO_INLINE_LAMBDA {
-      combiner_.add(value.remembered(which++).get(
-          [&]() ISO_INLINE_LAMBDA { return hash_records(records.data(), records.size()); }));
-    };
-    arrays(add, *value);
+  /// Page by page, so that a change costs its page; empty ones do not show.
+  template <class List> ISO_INLINE void bodies_in_pages(const List& list) {
+    combiner_.add(list.remembered_of_all(0).get([&]() ISO_INLINE_LAMBDA {
+      HashCombiner all;
+      for (std::size_t p = 0; p < list.pages(); ++p) {
+        const auto& page = list.page(p);
+        if (page.states.empty()) continue;
+        all.add(list.remembered(p, 0).get(
+            [&]() ISO_INLINE_LAMBDA { return hash_records(page.states.data(), page.states.size()); }));
+        all.add(list.remembered(p, 1).get(
+            [&]() ISO_INLINE_LAMBDA { return hash_records(page.properties.data(), page.properties.size()); }));
+      }
+      return all.value();
+    }));
   }
   template <class List> ISO_INLINE void islands(const char*, const List& list) {
     const auto add_page = [&](HashCombiner& combiner, std::size_t p) ISO_INLINE_LAMBDA {
@@ -109,7 +116,7 @@ class StateSize {
   template <class Record, class Id> ISO_INLINE void operator()(const char* name, const Registry<Record, Id>& registry) {
     (*this)(name, registry.slots());
   }
-  template <class T, class Arrays> ISO_INLINE void shared(const Shared<T>&, const Arrays&) {}
+  template <class List> ISO_INLINE void bodies_in_pages(const List& list) { bytes_ += list.pages() * sizeof(void*); }
   template <class List> ISO_INLINE void islands(const char*, const List& list) {
     bytes_ += list.pages() * sizeof(void*);
   }
@@ -133,8 +140,17 @@ class StateWriter {
     write_slots(writer_, registry.slots());
     writer_.write_array(registry.all());
   }
-  template <class T, class Arrays> ISO_INLINE void shared(const Shared<T>& value, const Arrays& arrays) {
-    arrays(*this, *value);
+  /// As two arrays: the pages do not show.
+  template <class List> ISO_INLINE void bodies_in_pages(const List& list) {
+    const auto write = [&](auto array) ISO_INLINE_LAMBDA {
+      writer_.write_count(list.size());
+      for (std::size_t p = 0; p < list.pages(); ++p) {
+        const auto& records = list.page(p).*array;
+        writer_.write_records(records.data(), records.size());
+      }
+    };
+    write(&List::Page::states);
+    write(&List::Page::properties);
   }
   template <class List> ISO_INLINE void islands(const char*, const List& list) {
     writer_.write_count(list.size());
@@ -178,8 +194,15 @@ template <class ReadStore = ReadNoStore> class StateReader {
     read_slots(reader_, registry.slots());
     reader_.read_array(registry.change_all(), kMaxRecords);
   }
-  template <class T, class Arrays> ISO_INLINE void shared(Shared<T>& value, const Arrays& arrays) {
-    arrays(*this, value.change());
+  template <class List> ISO_INLINE void bodies_in_pages(List& list) {
+    typename List::Page all;
+    reader_.read_array(all.states, kMaxRecords);
+    reader_.read_array(all.properties, kMaxRecords);
+    bool good = all.states.size() == all.properties.size();
+    for (std::size_t i = 0; good && i < all.states.size(); ++i)
+      good = all.states[i].slot < kMaxRecords && (i == 0 || all.states[i - 1].slot < all.states[i].slot);
+    if (!good) reader_.fail(ErrorCode::corrupt, "static bodies ascend by slot, each with its properties");
+    for (std::size_t i = 0; i < all.states.size() && reader_.ok(); ++i) list.insert(all.states[i], all.properties[i]);
   }
   template <class Island, std::uint32_t kPageSize>
   ISO_INLINE void islands(const char*, PagedArray<std::shared_ptr<const Island>, kPageSize>& list) {

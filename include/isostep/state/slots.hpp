@@ -13,19 +13,16 @@ namespace isostep::detail {
 
 inline constexpr std::uint32_t kMaxRecords = 1u << 24;  // of any kind in a file; more is a damaged count
 
-/// Of the free list's start and the entries one after another; the pages they lie in do not show.
+/// Of the free list's start and the entries page by page, so that a slot taken or given back costs its page.
 ISO_INLINE std::uint64_t hash_slots(const SlotMap& slots) {
   return slots.remembered_hash().get([&]() ISO_INLINE_LAMBDA {
     const SlotMap::Entries& entries = slots.entries();
     HashCombiner combiner;
     combiner.add(slots.first_free());
-    if (entries.pages() <= 1) {
-      combiner.add(entries.empty() ? hash_bytes(nullptr, 0) : hash_records(entries.page(0), entries.size()));
-      return combiner.value();
+    for (std::size_t p = 0; p < entries.pages(); ++p) {
+      combiner.add(entries.remembered(p).get(
+          [&]() ISO_INLINE_LAMBDA { return hash_records(entries.page(p), entries.page_size(p)); }));
     }
-    HashStream stream;
-    for (std::size_t p = 0; p < entries.pages(); ++p) update_records(stream, entries.page(p), entries.page_size(p));
-    combiner.add(stream.value());
     return combiner.value();
   });
 }

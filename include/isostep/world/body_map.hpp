@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// The array that holds a body or joint, and its place there.
+/// The array that holds a body or joint, and its place there: an index, or a place of StaticBodies.
 struct Location {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::uint32_t kStatic = 0xfffffffeu;
@@ -50,7 +50,7 @@ template <class S> class BodyMap {
   /// Whether the body takes part; what is disabled lies among the static ones. kNoBody, the world itself, does.
   ISO_INLINE bool is_enabled(std::uint32_t slot) const {
     if (slot == kNoBody || locations_[slot].set != Location::kStatic) return true;
-    return isostep::is_enabled(state_.static_bodies->properties[locations_[slot].index]);
+    return isostep::is_enabled(state_.static_bodies.properties(locations_[slot].index));
   }
   /// Of a joint, whether both of its bodies take part: if not, it holds nothing.
   ISO_INLINE bool is_enabled(const JointProperties<S>& joint) const {
@@ -60,28 +60,36 @@ template <class S> class BodyMap {
   // Records. Those by id are null for an id that names nothing.
   ISO_INLINE const BodyState<S>& state_at(Location at) const {
     if (at.set == Location::kAwake) return state_.awake.states[at.index];
-    if (at.set == Location::kStatic) return state_.static_bodies->states[at.index];
+    if (at.set == Location::kStatic) return state_.static_bodies.state(at.index);
     return state_.sleeping[at.set]->bodies.states[at.index];
   }
   ISO_INLINE const BodyProperties<S>& properties_at(Location at) const {
     if (at.set == Location::kAwake) return state_.awake.properties[at.index];
-    if (at.set == Location::kStatic) return state_.static_bodies->properties[at.index];
+    if (at.set == Location::kStatic) return state_.static_bodies.properties(at.index);
     return state_.sleeping[at.set]->bodies.properties[at.index];
   }
   const BodyState<S>* state_of(BodyId body) const;
   const BodyProperties<S>* properties_of(BodyId body) const;
   const JointProperties<S>* properties_of(JointId joint) const;
   /// Of a body that does not sleep, to be changed.
+  BodyState<S>& change_state(std::uint32_t slot);
   BodyProperties<S>& change_properties(std::uint32_t slot);
   ISO_INLINE std::span<const Child<S>> children_of(std::uint32_t shape_slot) const {
-    const ShapeRecord& record = (*state_.shapes)[shape_slot];
-    return {state_.children->data() + record.first_child, record.child_count};
+    return state_.shapes[shape_slot]->children;
   }
   /// Null: the shape has no such child, or it is no height field.
   const Child<S>* height_field_of(std::uint32_t shape_slot, std::uint32_t child) const;
   /// Null: the shape has few children.
   ISO_INLINE const ChildTree<S>* tree_of(std::uint32_t shape_slot) const {
-    return shape_slot < state_.trees->size() ? (*state_.trees)[shape_slot].get() : nullptr;
+    return state_.shapes[shape_slot]->tree.get();
+  }
+  /// [m] Of all its children the least thickness().
+  ISO_INLINE S thinnest_of(std::uint32_t shape_slot) const { return state_.shapes[shape_slot]->thinnest; }
+  /// [m] Of all shapes.
+  S least_thickness() const;
+  /// Whether a body has the shape.
+  ISO_INLINE bool is_used(std::uint32_t shape_slot) const {
+    return shape_slot < uses_.size() && uses_[shape_slot] != 0;
   }
   /// Of the blobs that children name.
   ISO_INLINE Contents<S> contents() const { return {contents_.data()}; }
@@ -112,14 +120,25 @@ template <class S> class BodyMap {
   /// Counts the bodies that an island's contacts and joints name. `by`: 1 when it falls asleep; modulo 2^32, -1 when it
   /// wakes.
   void count_names(const SleepingIsland<S>& island, std::uint32_t by);
+  /// The bodies of a page of StaticBodies from row `from` on were moved.
+  void relabel_static(std::size_t page, std::size_t from = 0);
+  /// Counts the bodies of a shape. `by`: 1 when one comes; modulo 2^32, -1 when it goes.
+  ISO_INLINE void count_use(std::uint32_t shape_slot, std::uint32_t by) {
+    if (uses_.size() <= shape_slot) uses_.resize(shape_slot + 1);
+    uses_[shape_slot] += by;
+  }
   /// For every slot that the state has handed out.
   void make_room();
   /// After the state's blobs have changed.
   void renew_contents();
-  /// After a shape's children have, or the content of what they name; then contents come first.
-  void renew_tree(std::uint32_t shape_slot);
-  /// Of a state that came without them.
-  void renew_trees();
+  /// After the one at a place has.
+  void renew_content(std::uint32_t place);
+  /// Of children as a world stores them, or of none, with all that follows from them; contents come first.
+  static std::shared_ptr<const StoredShape<S>> stored(std::vector<Child<S>> children, Contents<S> contents);
+  /// In place of the shape that the slot has; its number is among those handed out.
+  void put_shape(std::uint32_t slot, std::vector<Child<S>> children);
+  /// The shapes of the state are others.
+  ISO_INLINE void forget_thickness() { knows_thickness_ = false; }
 
   template <class Visit> void visit_scratch(const Visit& visit) {
     visit("locations", std::span(locations_.data(), state_.body_slots.entries().size()));
@@ -133,6 +152,9 @@ template <class S> class BodyMap {
   std::vector<Location> locations_, joint_locations_;
   std::vector<std::uint32_t> names_;   // by body slot
   std::vector<const void*> contents_;  // by place in the geometry store
+  std::vector<std::uint32_t> uses_;    // by shape slot: bodies that have it
+  mutable S thickness_ = S(0);         // [m] least_thickness(), where it is known
+  mutable bool knows_thickness_ = false;
 };
 
 #define ISO_EXTERN(S) extern template class BodyMap<S>;

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <utility>
+
+#include "isostep/collision/continuous/shape_impact.hpp"
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/geometry/content.hpp"
+#include "isostep/state/members.hpp"
 #include "isostep/world/body_map.hpp"
 
 namespace isostep {
@@ -26,10 +30,15 @@ template <class S> const JointProperties<S>* BodyMap<S>::properties_of(JointId j
   const JointSet<S>& set = at.is_asleep() ? state_.sleeping[at.set]->joints : state_.joints;
   return &set.properties[at.index];
 }
+template <class S> BodyState<S>& BodyMap<S>::change_state(std::uint32_t slot) {
+  const Location at = locations_[slot];
+  if (at.set == Location::kAwake) return state_.awake.states[at.index];
+  return state_.static_bodies.change_page_of(at.index).states[at.index % StaticBodies<S>::kPageSlots];
+}
 template <class S> BodyProperties<S>& BodyMap<S>::change_properties(std::uint32_t slot) {
   const Location at = locations_[slot];
-  return at.set == Location::kAwake ? state_.awake.properties[at.index]
-                                    : state_.static_bodies.change().properties[at.index];
+  if (at.set == Location::kAwake) return state_.awake.properties[at.index];
+  return state_.static_bodies.change_page_of(at.index).properties[at.index % StaticBodies<S>::kPageSlots];
 }
 
 template <class S> const Child<S>* BodyMap<S>::height_field_of(std::uint32_t shape_slot, std::uint32_t child) const {
@@ -59,14 +68,25 @@ template <class S> void BodyMap<S>::relabel(const JointSet<S>& joints, std::uint
     joint_locations_[joints.states[i].slot] = {set, static_cast<std::uint32_t>(i)};
 }
 
+template <class S> void BodyMap<S>::relabel_static(std::size_t page, std::size_t from) {
+  const std::vector<BodyState<S>>& states = state_.static_bodies.page(page).states;
+  for (std::size_t row = from; row < states.size(); ++row)
+    locations_[states[row].slot] = {Location::kStatic, StaticBodies<S>::place_of(page, row)};
+}
+
 template <class S> void BodyMap<S>::insert(const BodyState<S>& state, const BodyProperties<S>& body) {
-  const bool fixed = is_fixed(body);
-  BodySet<S>& set = fixed ? state_.static_bodies.change() : state_.awake;
+  make_room();
+  count_use(body.shape, 1);
+  if (is_fixed(body)) {
+    const std::uint32_t place = state_.static_bodies.insert(state, body);
+    relabel_static(place / StaticBodies<S>::kPageSlots, place % StaticBodies<S>::kPageSlots);
+    return;
+  }
+  BodySet<S>& set = state_.awake;
   const auto at = static_cast<std::ptrdiff_t>(place_of_slot(set.states, state.slot));
   set.states.insert(set.states.begin() + at, state);
   set.properties.insert(set.properties.begin() + at, body);
-  make_room();
-  relabel(set, fixed ? Location::kStatic : Location::kAwake, static_cast<std::size_t>(at));
+  relabel(set, Location::kAwake, static_cast<std::size_t>(at));
 }
 template <class S> void BodyMap<S>::insert(const JointState<S>& state, const JointProperties<S>& joint) {
   const auto at = static_cast<std::ptrdiff_t>(place_of_slot(state_.joints.states, state.slot));
@@ -77,11 +97,17 @@ template <class S> void BodyMap<S>::insert(const JointState<S>& state, const Joi
 }
 template <class S> void BodyMap<S>::erase(std::uint32_t slot) {
   const Location at = locations_[slot];
-  BodySet<S>& set = at.set == Location::kStatic ? state_.static_bodies.change() : state_.awake;
+  count_use(properties_at(at).shape, ~0u);
+  locations_[slot] = Location{};
+  if (at.set == Location::kStatic) {
+    state_.static_bodies.erase(at.index);
+    relabel_static(at.index / StaticBodies<S>::kPageSlots, at.index % StaticBodies<S>::kPageSlots);
+    return;
+  }
+  BodySet<S>& set = state_.awake;
   const auto index = static_cast<std::ptrdiff_t>(at.index);
   set.states.erase(set.states.begin() + index);
   set.properties.erase(set.properties.begin() + index);
-  locations_[slot] = Location{};
   relabel(set, at.set, at.index);
 }
 template <class S> void BodyMap<S>::erase_joint(std::uint32_t slot) {
@@ -106,16 +132,40 @@ template <class S> void BodyMap<S>::count_names(const SleepingIsland<S>& island,
 
 template <class S> void BodyMap<S>::renew_contents() { find_contents<S>(state_.geometry->contents(), contents_); }
 
-template <class S> void BodyMap<S>::renew_tree(std::uint32_t shape_slot) {
-  const std::span<const Child<S>> children = children_of(shape_slot);
-  const bool many = children.size() >= ChildTree<S>::kLeastChildren;
-  if (!many && tree_of(shape_slot) == nullptr) return;
-  ChildTrees<S>& trees = state_.trees.change();
-  if (trees.size() <= shape_slot) trees.resize(shape_slot + 1);
-  trees[shape_slot] = many ? std::make_shared<const ChildTree<S>>(children, contents()) : nullptr;
+template <class S> void BodyMap<S>::renew_content(std::uint32_t place) {
+  contents_.resize(state_.geometry->names().size());
+  if (!state_.geometry->is_taken(place)) return;
+  contents_[place] = content_of<S>(*state_.geometry->content(place));
 }
-template <class S> void BodyMap<S>::renew_trees() {
-  for (std::uint32_t shape = 0; shape < state_.shapes->size(); ++shape) renew_tree(shape);
+
+template <class S>
+std::shared_ptr<const StoredShape<S>> BodyMap<S>::stored(std::vector<Child<S>> children, Contents<S> contents) {
+  auto shape = std::make_shared<StoredShape<S>>();
+  shape->children = std::move(children);
+  shape->hash = detail::hash_sections(*shape);
+  if (shape->children.size() >= ChildTree<S>::kLeastChildren)
+    shape->tree = std::make_shared<const ChildTree<S>>(std::span<const Child<S>>(shape->children), contents);
+  shape->thinnest = detail::kThick<S>;
+  for (const Child<S>& child : shape->children)
+    shape->thinnest = min(shape->thinnest, thickness<S>(contents.view(child.primitive)));
+  return shape;
+}
+
+template <class S> void BodyMap<S>::put_shape(std::uint32_t slot, std::vector<Child<S>> children) {
+  while (state_.shapes.size() <= slot) state_.shapes.push_back(nullptr);
+  const std::shared_ptr<const StoredShape<S>> earlier = state_.shapes[slot];
+  const std::shared_ptr<const StoredShape<S>> next = stored(std::move(children), contents());
+  if (next->thinnest < thickness_) thickness_ = next->thinnest;
+  if (earlier != nullptr && earlier->thinnest <= thickness_) forget_thickness();
+  state_.shapes.change(slot) = next;
+}
+
+template <class S> S BodyMap<S>::least_thickness() const {
+  if (knows_thickness_) return thickness_;
+  thickness_ = detail::kThick<S>;
+  for (std::uint32_t slot = 0; slot < state_.shapes.size(); ++slot) thickness_ = min(thickness_, thinnest_of(slot));
+  knows_thickness_ = true;
+  return thickness_;
 }
 
 template <class S> void BodyMap<S>::make_room() {

@@ -106,8 +106,7 @@ template <class S> class ContinuousCollision {
   void find_way(Mover& mover) const;
   Survey survey() const;
   S thinnest_static() const;
-  S least_inner_radius() const;
-  S thinnest_of(std::uint32_t shape) const;
+  std::uint64_t thinnest_of_page(std::size_t page) const;
   void find_movers(const Survey& survey);
   bool may_move(std::size_t index) const;
   void add_if_fast(std::size_t index, S thinnest);

@@ -14,34 +14,30 @@ template <class S> ISO_INLINE S number_kept(std::uint64_t kept) {
 }
 }  // namespace detail
 
-template <class S> S ContinuousCollision<S>::thinnest_of(std::uint32_t shape) const {
-  S least = detail::kThick<S>;
-  for (const Child<S>& child : map_.children_of(shape))
-    least = min(least, thickness<S>(map_.contents().view(child.primitive)));
-  return least;
-}
+/// Page by page, so that a body that is made costs its page.
 template <class S> S ContinuousCollision<S>::thinnest_static() const {
-  return detail::number_kept<S>(state_.static_bodies.remembered(2).get([&] {
-    S least = state_.static_bodies->states.empty() ? highest<S>() : detail::kThick<S>;
-    for (const BodyProperties<S>& body : state_.static_bodies->properties) least = min(least, thinnest_of(body.shape));
+  const StaticBodies<S>& bodies = state_.static_bodies;
+  return detail::number_kept<S>(bodies.remembered_of_all(1).get([&] {
+    S least = bodies.empty() ? highest<S>() : detail::kThick<S>;
+    for (std::size_t p = 0; p < bodies.pages(); ++p)
+      least = min(least, detail::number_kept<S>(bodies.remembered(p, 2).get([&] { return thinnest_of_page(p); })));
     return detail::number_to_keep(least);
   }));
 }
-template <class S> S ContinuousCollision<S>::least_inner_radius() const {
-  return detail::number_kept<S>(state_.shapes.remembered(2).get([&] {
-    S least = detail::kThick<S>;
-    for (std::uint32_t slot = 0; slot < state_.shapes->size(); ++slot) least = min(least, thinnest_of(slot));
-    return detail::number_to_keep(least);
-  }));
+template <class S> std::uint64_t ContinuousCollision<S>::thinnest_of_page(std::size_t page) const {
+  S least = highest<S>();
+  for (const BodyProperties<S>& body : state_.static_bodies.page(page).properties)
+    least = min(least, map_.thinnest_of(body.shape));
+  return detail::number_to_keep(least);
 }
 
 /// Kinematic bodies are few, and may sleep: then any shape may be one's.
 template <class S> typename ContinuousCollision<S>::Survey ContinuousCollision<S>::survey() const {
   Survey found = {thinnest_static(), false, false};
-  if (!state_.sleeping.empty()) found.thinnest = min(found.thinnest, least_inner_radius());
+  if (!state_.sleeping.empty()) found.thinnest = min(found.thinnest, map_.least_thickness());
   for (const BodyProperties<S>& body : state_.awake.properties) {
     if (body.type == BodyType::kinematic) {
-      found.thinnest = min(found.thinnest, thinnest_of(body.shape));
+      found.thinnest = min(found.thinnest, map_.thinnest_of(body.shape));
       found.kinematic = true;
     }
     if ((body.flags & body_flag::kBullet) != 0) found.bullets = true;
@@ -56,7 +52,7 @@ template <class S> void ContinuousCollision<S>::find_movers(const Survey& survey
   carriers_.clear();
   const S thinnest = survey.bullets ? S(0) : survey.thinnest;
   if (detail::kThick<S> < thinnest) return;  // nothing stops anybody
-  const S least = (least_inner_radius() + thinnest) * S(0.5);
+  const S least = (map_.least_thickness() + thinnest) * S(0.5);
   const S way = least * S(0.75);
   const auto squared = product(way, way), turning = product(least * S(state_.settings.hz), S(0.25));
   const std::span<const BodyState<S>> states = state_.awake.states;

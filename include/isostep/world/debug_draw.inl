@@ -32,7 +32,8 @@ template <class S> class BodySketch {
   ISO_INLINE void draw_all() const {
     const bool any = options_.bodies || options_.masses || options_.boxes;
     if (any) {
-      draw_set(*state_.static_bodies, false, DrawnBody::kNoIsland);
+      for (std::size_t p = 0; p < state_.static_bodies.pages(); ++p)
+        draw_set(state_.static_bodies.page(p), false, DrawnBody::kNoIsland);
       draw_set(state_.awake, true, DrawnBody::kNoIsland);
       for (std::uint32_t i = 0; i < state_.sleeping.size(); ++i) draw_set(state_.sleeping[i]->bodies, false, i);
     }

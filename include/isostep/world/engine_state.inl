@@ -69,6 +69,18 @@ template <class S> void WorldEngine<S>::write_portable(Writer& writer) const {
   WorldState<S>::members(detail::StateWriter(writer), state_);
 }
 
+namespace detail {
+/// With what follows from the children, which the portable form leaves out.
+template <class S> void complete_shapes(WorldState<S>& state) {
+  std::vector<const void*> contents;
+  find_contents<S>(state.geometry->contents(), contents);
+  for (std::uint32_t slot = 0; slot < state.shapes.size(); ++slot) {
+    std::shared_ptr<const StoredShape<S>>& shape = state.shapes.change(slot);
+    shape = BodyMap<S>::stored(shape->children, Contents<S>{contents.data()});
+  }
+}
+}  // namespace detail
+
 template <class S> Result<void> WorldEngine<S>::read_portable(Reader& reader) {
   WorldState<S> next;
   const auto kind = reader.read<std::uint32_t>();
@@ -85,8 +97,8 @@ template <class S> Result<void> WorldEngine<S>::read_portable(Reader& reader) {
   }
   const Result<void> result = reader.result("world");
   if (!reader.ok()) return result;
+  detail::complete_shapes(next);
   load(next);
-  map_.renew_trees();
   return result;
 }
 

@@ -138,7 +138,7 @@ template <class S> std::size_t CommandExecutor<S>::destroy_all(std::span<const B
     journal_.record<Command>(DestroyBody{body});
     ++count;
     // Sleepers are woken to be destroyed: so that the awake stay few, those that are gone leave now and then.
-    const std::size_t marked = destruction_.marked();
+    const std::size_t marked = destruction_.marked_awake();
     if (marked > 64 && marked > state_.awake.states.size() / 4) destruction_.erase_marked();
   }
   destruction_.erase_marked();
@@ -174,9 +174,8 @@ template <class S> bool CommandExecutor<S>::execute(const SetPose<S>& command) {
   if (map_.properties_at(map_.location(slot)).type != BodyType::dynamic) wake_.wake_held_by(slot);
   if (at.set != Location::kStatic) wake_.wake_for_change(slot);
   const Location now = map_.location(slot);
-  BodySet<S>& set = now.set == Location::kStatic ? state_.static_bodies.change() : state_.awake;
-  BodyState<S>& state = set.states[now.index];
-  const BodyProperties<S>& body = set.properties[now.index];
+  BodyState<S>& state = map_.change_state(slot);
+  const BodyProperties<S>& body = map_.properties_at(now);
   state.orientation = centre.orientation;
   state.centre = centre.position;
   render_poses_.start_here(state);

@@ -21,17 +21,17 @@ template <class S> ShapeId CommandExecutor<S>::execute(const AddShape<S>& comman
     return {};
   }
   const ShapeId id = state_.shape_slots.template take<ShapeId>(state_.settings.id_space);
-  std::vector<ShapeRecord>& shapes = state_.shapes.change();
-  std::vector<Child<S>>& pool = state_.children.change();
-  if (shapes.size() <= id.slot) shapes.resize(id.slot + 1, ShapeRecord{0, 0});
-  shapes[id.slot] = {static_cast<std::uint32_t>(pool.size()), static_cast<std::uint32_t>(command.children.size())};
+  std::vector<Child<S>> children;
+  children.reserve(command.children.size());
   for (const Child<S>& child : command.children) {
-    pool.push_back(normalised(child));
-    std::uint32_t& blob = pool.back().primitive.blob;
-    if (blob != 0) blob = 1 + state_.geometry.change().take(blobs[blob - 1]);
+    children.push_back(normalised(child));
+    std::uint32_t& blob = children.back().primitive.blob;
+    if (blob == 0) continue;
+    const std::uint32_t place = state_.geometry.change().take(blobs[blob - 1]);
+    map_.renew_content(place);
+    blob = 1 + place;
   }
-  if (!blobs.empty()) map_.renew_contents();
-  map_.renew_tree(id.slot);
+  map_.put_shape(id.slot, std::move(children));
   return id;
 }
 
@@ -59,25 +59,13 @@ template <class S> bool CommandExecutor<S>::find_blobs(const AddShape<S>& comman
 template <class S> bool CommandExecutor<S>::execute(const RemoveShape& command) {
   if (!known(state_.shape_slots, command.shape, "shape")) return false;
   const std::uint32_t slot = command.shape.slot;
-  for (std::uint32_t body = 0; body < map_.slots(); ++body) {
-    if (map_.location(body).set != Location::kNone && map_.properties_at(map_.location(body)).shape == slot) {
-      return journal_.refuse({Fault::shape_in_use, "", "shape", "no body with it"});
-    }
+  if (map_.is_used(slot)) return journal_.refuse({Fault::shape_in_use, "", "shape", "no body with it"});
+  for (const Child<S>& child : map_.children_of(slot)) {
+    if (child.primitive.blob == 0) continue;
+    state_.geometry.change().give_back(child.primitive.blob - 1);
+    map_.renew_content(child.primitive.blob - 1);
   }
-  std::vector<ShapeRecord>& shapes = state_.shapes.change();
-  std::vector<Child<S>>& pool = state_.children.change();
-  const ShapeRecord gone = shapes[slot];
-  const auto first = pool.begin() + static_cast<std::ptrdiff_t>(gone.first_child);
-  for (auto child = first; child != first + static_cast<std::ptrdiff_t>(gone.child_count); ++child) {
-    if (child->primitive.blob != 0) state_.geometry.change().give_back(child->primitive.blob - 1);
-  }
-  map_.renew_contents();
-  pool.erase(first, first + static_cast<std::ptrdiff_t>(gone.child_count));
-  for (ShapeRecord& record : shapes) {
-    if (record.first_child > gone.first_child) record.first_child -= gone.child_count;
-  }
-  shapes[slot] = {0, 0};
-  map_.renew_tree(slot);
+  map_.put_shape(slot, {});
   state_.shape_slots.give_back(slot);
   return true;
 }
@@ -118,14 +106,16 @@ template <class S> bool CommandExecutor<S>::accept_patch(const Result<BakedHeigh
 template <class S>
 void CommandExecutor<S>::replace_blob(std::uint32_t shape, std::uint32_t child, const BlobRef& blob) {
   const BlobRef known = state_.geometry->find(BlobMention{blob->id(), nullptr}, assets_);
-  const std::uint32_t place = (*state_.shapes)[shape].first_child + child;
-  std::uint32_t& name = state_.children.change()[place].primitive.blob;
+  const std::span<const Child<S>> now = map_.children_of(shape);
+  std::vector<Child<S>> children(now.begin(), now.end());
+  std::uint32_t& name = children[child].primitive.blob;
   GeometryStore& store = state_.geometry.change();
-  const std::uint32_t old = name - 1;
-  name = 1 + store.take(known != nullptr ? known : blob);
+  const std::uint32_t old = name - 1, place = store.take(known != nullptr ? known : blob);
+  name = 1 + place;
   store.give_back(old);
-  map_.renew_contents();
-  map_.renew_tree(shape);
+  map_.renew_content(old);
+  map_.renew_content(place);
+  map_.put_shape(shape, std::move(children));
 }
 /// A body whose field, at a pose in its frame, has changed inside a box of the field's frame.
 template <class S>
@@ -140,9 +130,8 @@ void CommandExecutor<S>::renew_ground(std::uint32_t body, const Pose<S>& field, 
   const Aabb<S> fat = state.fat;
   detail::renew_fat_box(map_, state, properties, true);
   if (!(state.fat == fat)) {
-    BodySet<S>& set = now.set == Location::kStatic ? state_.static_bodies.change() : state_.awake;
-    set.states[now.index].fat = state.fat;
-    proxies_.place(set.states[now.index], set.properties[now.index], now.set == Location::kAwake);
+    map_.change_state(body).fat = state.fat;
+    proxies_.place(state, map_.properties_at(now), now.set == Location::kAwake);
   }
   const Aabb<S> there = grow(detail::turned_box(changed, placed), detail::kFatMargin<S>);
   wake_.wake_touching(there, body);

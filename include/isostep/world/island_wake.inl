@@ -115,7 +115,8 @@ template <class S> void IslandWake<S>::wake_touching(std::uint32_t slot) {
   if (proxies_.present(slot)) wake_touching(proxies_.boxes().box(slot), slot);
 }
 template <class S> void IslandWake<S>::wake_touching(const Aabb<S>& box, std::uint32_t slot) {
-  if (!state_.settings.allow_sleep) return;  // nobody sleeps, nor counts the time
+  if (!state_.settings.allow_sleep) return;                               // nobody sleeps, nor counts the time
+  if (state_.awake.states.empty() && state_.sleeping.empty()) return;  // a level before anything is in it
   std::vector<std::uint32_t> met;
   proxies_.boxes().query(box, [&](std::uint32_t other) {
     if (map_.location(other).is_asleep()) met.push_back(other);

@@ -148,11 +148,10 @@ template <class S> class RecordValidator {
   template <class Record> bool ties_well(const Record&) const { return true; }
   bool ties_well(const SurfaceVelocity<S>& surface) const {
     const std::uint32_t shape = seen_.properties_of_body[surface.body.slot]->shape;
-    return surface.part == kEveryPart || surface.part < (*state_.shapes)[shape].child_count;
+    return surface.part == kEveryPart || surface.part < state_.shapes[shape]->children.size();
   }
   bool ties_well(const Character<S>& character) const {
-    const auto& shape = (*state_.shapes)[seen_.properties_of_body[character.body.slot]->shape];
-    return detail::can_walk<S>({state_.children->data() + shape.first_child, shape.child_count});
+    return detail::can_walk<S>(state_.shapes[seen_.properties_of_body[character.body.slot]->shape]->children);
   }
   bool ties_well(const SensorMount<S>& mount) const {
     return (seen_.properties_of_body[mount.sensor.slot]->flags & body_flag::kSensor) != 0;

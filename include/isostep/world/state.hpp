@@ -11,40 +11,33 @@
 #include "isostep/core/paged_array.hpp"
 #include "isostep/core/shared.hpp"
 #include "isostep/core/slot_map.hpp"
-#include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/forces/force_list.hpp"
 #include "isostep/dynamics/joints/joint_record.hpp"
 #include "isostep/geometry/geometry_store.hpp"
 #include "isostep/geometry/shape.hpp"
+#include "isostep/world/body_set.hpp"
 #include "isostep/world/events.hpp"
 #include "isostep/world/settings.hpp"
 
 namespace isostep {
 
-/// A shape's parts: a run of the children's pool. A free slot has none.
-struct ShapeRecord {
-  std::uint32_t first_child;
-  std::uint32_t child_count;
+/// A shape, never changed once made: worlds and snapshots share it. That of a free slot has no children.
+template <class S> struct StoredShape {
+  std::vector<Child<S>> children;
+  std::uint64_t hash = 0;  // of them
+  // No state of its own: follows from the children and the content that they name.
+  std::shared_ptr<const ChildTree<S>> tree;  // null: the shape has few children
+  S thinnest = S(0);                         // [m] of the thickness() of each child
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("first_child", self.first_child);
-    visit("child_count", self.child_count);
+  static constexpr std::size_t kLeastWritten = 4;  // [bytes] one count
+
+  template <class Visitor, class Self> static ISO_INLINE void sections(Visitor&& visit, Self&& self) {
+    visit("children", self.children);
   }
 };
-
-/// Bodies side by side, ascending by slot.
-template <class S> struct BodySet {
-  std::vector<BodyState<S>> states;
-  std::vector<BodyProperties<S>> properties;
-
-  // As the compiler makes them, but no weak functions in each of the files that copy what is Shared.
-  ISO_INLINE BodySet() = default;
-  ISO_INLINE BodySet(const BodySet&) = default;
-  ISO_INLINE BodySet(BodySet&&) = default;
-  ISO_INLINE BodySet& operator=(const BodySet&) = default;
-  ISO_INLINE BodySet& operator=(BodySet&&) = default;
-};
+/// By slot, shared a page at a time.
+template <class S> using StoredShapes = PagedArray<std::shared_ptr<const StoredShape<S>>, 64>;
 /// Joints side by side, ascending by slot.
 template <class S> struct JointSet {
   std::vector<JointState<S>> states;
@@ -111,11 +104,9 @@ template <class S> struct WorldState {
   std::uint64_t tick = 0;  // steps taken
   SlotMap body_slots, shape_slots, joint_slots;
   // What only commands change: copies have it in common until one of them does.
-  Shared<std::vector<ShapeRecord>> shapes;  // by slot
-  Shared<std::vector<Child<S>>> children;   // the shapes' pool
-  Shared<GeometryStore> geometry;           // what they name
-  Shared<ChildTrees<S>> trees;              // no state of its own: follows from the children and what they name
-  Shared<BodySet<S>> static_bodies;
+  StoredShapes<S> shapes;
+  Shared<GeometryStore> geometry;  // what their children name
+  StaticBodies<S> static_bodies;
   BodySet<S> awake;
   std::vector<Contact<S>> contacts;  // ascending by key
   JointSet<S> joints;
@@ -125,19 +116,15 @@ template <class S> struct WorldState {
   UntoldEvents untold;
   SleepingIslands<S> sleeping;
 
-  /// All of it but the trees, in the order of the hash and of the portable form: see state/members.hpp.
+  /// In the order of the hash and of the portable form: see state/members.hpp.
   template <class Visitor, class Self> static ISO_INLINE void members(Visitor&& visit, Self&& self) {
     visit("settings", self.settings);
     visit("tick", self.tick);
     visit("body_slots", self.body_slots);
     visit("shape_slots", self.shape_slots);
     visit("joint_slots", self.joint_slots);
-    visit.shared(self.shapes, [](auto&& of, auto& shapes) ISO_INLINE_LAMBDA { of("shapes", shapes); });
-    visit.shared(self.children, [](auto&& of, auto& children) ISO_INLINE_LAMBDA { of("children", children); });
-    visit.shared(self.static_bodies, [](auto&& of, auto& bodies) ISO_INLINE_LAMBDA {
-      of("static_bodies", bodies.states);
-      of("static_properties", bodies.properties);
-    });
+    visit.islands("shapes", self.shapes);
+    visit.bodies_in_pages(self.static_bodies);
     visit("bodies", self.awake.states);
     visit("properties", self.awake.properties);
     visit("contacts", self.contacts);

@@ -24,15 +24,18 @@ template <class S> class StateLoader {
   void load(const WorldState<S>& from);
 
  private:
-  void forget_places(bool other_static);
-  void forget(const BodySet<S>& bodies, const JointSet<S>& joints);
-  void renew_places(bool other_static);
-  void place(const BodySet<S>& bodies, std::uint32_t set);
+  void find_differences(const WorldState<S>& from);
+  void forget_places();
+  void forget(const BodySet<S>& bodies);
+  void forget(const JointSet<S>& joints);
+  void renew_places();
+  void place(const BodySet<S>& bodies, bool awake);
 
   WorldState<S>& state_;
   BodyMap<S>& map_;
   Proxies<S>& proxies_;
   std::vector<std::uint32_t> other_islands_;  // indices at which the two states differ
+  std::vector<std::uint32_t> other_pages_;    // likewise, of static bodies
   std::vector<std::uint32_t> forgotten_;      // slots of bodies
 };
 

@@ -38,7 +38,9 @@ template <class S> class StateValidator {
       if (!detail::lie_in(*slots, s.id_space)) return "a slot is of another id space";
     }
     if (const char* rule = shapes()) return rule;
-    if (const char* rule = bodies(*state_.static_bodies, Location::kStatic)) return rule;
+    for (std::size_t p = 0; p < state_.static_bodies.pages(); ++p) {
+      if (const char* rule = bodies(state_.static_bodies.page(p), Location::kStatic)) return rule;
+    }
     if (const char* rule = bodies(state_.awake, Location::kAwake)) return rule;
     for (std::uint32_t i = 0; i < state_.sleeping.size(); ++i) {
       if (const char* rule = bodies(state_.sleeping[i]->bodies, i)) return rule;
@@ -60,41 +62,33 @@ template <class S> class StateValidator {
   }
 
  private:
-  /// The taken shapes' parts fill the pool without gap or overlap.
+  /// A slot that is taken has a valid shape, a free one a shape without parts.
   const char* shapes() {
-    if (state_.shapes->size() != state_.shape_slots.entries().size()) return "as many shapes as shape slots";
-    leaves_of_shape_.assign(state_.shapes->size(), 0);
-    std::vector<std::uint8_t> used(state_.children->size(), 0);
-    std::size_t total = 0;
-    for (std::uint32_t i = 0; i < state_.shapes->size(); ++i) {
-      const ShapeRecord& shape = (*state_.shapes)[i];
+    if (state_.shapes.size() != state_.shape_slots.entries().size()) return "as many shapes as shape slots";
+    leaves_of_shape_.assign(state_.shapes.size(), 0);
+    for (std::uint32_t i = 0; i < state_.shapes.size(); ++i) {
+      const std::span<const Child<S>> parts = parts_of(i);
       if (!state_.shape_slots.is_taken(i)) {
-        if (shape.first_child != 0 || shape.child_count != 0) return "a free shape has no parts";
+        if (!parts.empty()) return "a free shape has no parts";
         continue;
       }
-      if (shape.first_child > state_.children->size() ||
-          shape.child_count > state_.children->size() - shape.first_child || shape.child_count > kMaxChildren) {
-        return "a shape's parts lie outside the pool";
-      }
-      for (std::uint32_t c = 0; c < shape.child_count; ++c) {
-        if (used[shape.first_child + c]++ != 0) return "two shapes share a part";
-      }
-      total += shape.child_count;
-      if (validate(parts_of(i), state_.geometry->contents()) != ShapeFault::none) return "a shape is not valid";
-      leaves_of_shape_[i] = leaves_of_parts(parts_of(i));
+      if (parts.size() > kMaxChildren || validate(parts, state_.geometry->contents()) != ShapeFault::none)
+        return "a shape is not valid";
+      leaves_of_shape_[i] = leaves_of_parts(parts);
     }
-    if (total != state_.children->size()) return "a part belongs to no shape";
     return blobs();
   }
   /// Every blob is used as often as its name says.
   const char* blobs() const {
     const GeometryStore& store = *state_.geometry;
     std::vector<std::uint64_t> uses(store.names().size(), 0);
-    for (const Child<S>& child : *state_.children) {
-      const std::uint32_t blob = child.primitive.blob;
-      const bool exists = blob != 0 && store.is_taken(blob - 1);
-      if (blob != 0 && !exists) return "a part names no blob";
-      if (exists) ++uses[blob - 1];
+    for (const auto& shape : state_.shapes) {
+      for (const Child<S>& child : shape->children) {
+        const std::uint32_t blob = child.primitive.blob;
+        const bool exists = blob != 0 && store.is_taken(blob - 1);
+        if (blob != 0 && !exists) return "a part names no blob";
+        if (exists) ++uses[blob - 1];
+      }
     }
     for (std::uint32_t place = 0; place < uses.size(); ++place) {
       const BlobName& name = store.names()[place];
@@ -105,9 +99,7 @@ template <class S> class StateValidator {
     }
     return nullptr;
   }
-  std::span<const Child<S>> parts_of(std::uint32_t shape) const {
-    return {state_.children->data() + (*state_.shapes)[shape].first_child, (*state_.shapes)[shape].child_count};
-  }
+  std::span<const Child<S>> parts_of(std::uint32_t shape) const { return state_.shapes[shape]->children; }
 
   /// Of valid ones.
   std::uint32_t leaves_of_parts(std::span<const Child<S>> parts) const {
@@ -145,7 +137,7 @@ template <class S> class StateValidator {
       return "a body's type does not fit its set";
     }
     if ((p.flags & ~kKnown) != 0) return "a body has an unknown flag";
-    if (p.shape >= state_.shapes->size() || !state_.shape_slots.is_taken(p.shape)) return "a body's shape is unknown";
+    if (p.shape >= state_.shapes.size() || !state_.shape_slots.is_taken(p.shape)) return "a body's shape is unknown";
     if (!detail::is_unit<S>(p.principal) || !is_finite(p.local_centre) ||
         !detail::within(p.local_centre, Limits<S>::extent())) {
       return "a body's centre or axes are out of range";

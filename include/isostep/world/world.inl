@@ -264,7 +264,7 @@ template <class S> std::vector<JointId> World<S>::joints() const {
 template <class S> WorldCounts World<S>::counts() const {
   const WorldState<S>& state = engine_->state_;
   WorldCounts counts = {};
-  counts.static_bodies = static_cast<std::uint32_t>(state.static_bodies->states.size());
+  counts.static_bodies = static_cast<std::uint32_t>(state.static_bodies.size());
   counts.awake = static_cast<std::uint32_t>(state.awake.states.size());
   counts.contacts = static_cast<std::uint32_t>(state.contacts.size());
   for (const Contact<S>& contact : state.contacts) counts.points += contact.count;

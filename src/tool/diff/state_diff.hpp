@@ -73,12 +73,10 @@ class RowKeys {
   template <class Rows> void operator()(const char* name, const Rows& rows) {
     if constexpr (requires { key_of(rows[0]); }) {
       std::vector<RowKey>& keys = all_[name];
-      for (const auto& row : rows) keys.push_back(key_of(row));
+      for (std::size_t i = 0; i < rows.size(); ++i) keys.push_back(key_of(rows[i]));
     }
   }
-  template <class Shared, class Arrays> void shared(const Shared& value, const Arrays& arrays) {
-    arrays(*this, *value);
-  }
+  template <class List> void bodies_in_pages(const List& list) { list.arrays(*this); }
   template <class List> void islands(const char*, const List&) {}
   template <class Records> void records(const Records& value) {
     std::remove_cvref_t<decltype(*value)>::members(*this, *value);
@@ -105,9 +103,7 @@ class RowKeys {
 struct MemberList {
   std::vector<const void*> members;
   template <class T> void operator()(const char*, const T& member) { members.push_back(&member); }
-  template <class Shared, class Arrays> void shared(const Shared& value, const Arrays& arrays) {
-    arrays(*this, *value);
-  }
+  template <class List> void bodies_in_pages(const List& list) { members.push_back(&list); }
   template <class List> void islands(const char*, const List& list) { members.push_back(&list); }
   template <class Records> void records(const Records& value) {
     std::remove_cvref_t<decltype(*value)>::members(*this, *value);
@@ -141,8 +137,15 @@ class StateDiffer {
       diff_value(path, a, b, report_);
     }
   }
-  template <class Shared, class Arrays> void shared(const Shared& value, const Arrays& arrays) {
-    arrays(*this, *value);
+  template <class List> void bodies_in_pages(const List& list) {
+    const List& b = other(list);
+    list.arrays([&](const char* name, const auto& of_a) {
+      b.arrays([&](const char* name_b, const auto& of_b) {
+        if constexpr (std::is_same_v<decltype(of_a), decltype(of_b)>) {
+          if (std::string_view(name) == name_b) rows(PathPart{outer_, name, 0}, name, of_a, of_b);
+        }
+      });
+    });
   }
   template <class Records> void records(const Records& value) {
     std::remove_cvref_t<decltype(*value)>::members(*this, *value);
@@ -150,7 +153,7 @@ class StateDiffer {
   template <class Store> void store(const char* name, const Store& a) {
     rows(PathPart{outer_, name, 0}, name, a->names(), other(a)->names());
   }
-  /// Islands are the same by their first body.
+  /// Islands are the same by their first body, shapes by their slot.
   template <class List> void islands(const char* name, const List& a) {
     const List& b = other(a);
     const PathPart path{outer_, name, 0};
@@ -158,8 +161,7 @@ class StateDiffer {
     for (std::size_t i = 0; i < a.size(); ++i) {
       const PathPart item{&path, nullptr, i};
       using Island = std::remove_cvref_t<decltype(*a[i])>;
-      const auto& bodies = a[i]->bodies.states;
-      const Island* const same = bodies.empty() ? nullptr : island_of(b, bodies.front().slot);
+      const Island* const same = same_in(b, i, *a[i]);
       if (same == nullptr || same == a[i].get()) continue;
       const auto walk = [](auto& visit, const Island& island) { Island::sections(visit, island); };
       StateDiffer(&item, walk, *a[i], *same, report_);
@@ -177,6 +179,15 @@ class StateDiffer {
   void slots(const PathPart& path, const SlotMap& a, const SlotMap& b) {
     diff_value(PathPart{&path, "first_free", 0}, a.first_free(), b.first_free(), report_);
     RowPairs<SlotMap::Entries>(nullptr, nullptr).diff(path, a.entries(), b.entries(), false, report_);
+  }
+  /// What stands for a[i] in the other list, or null.
+  template <class List, class Island>
+  static const Island* same_in(const List& list, std::size_t i, const Island& island) {
+    if constexpr (requires { island.bodies; }) {
+      return island.bodies.states.empty() ? nullptr : island_of(list, island.bodies.states.front().slot);
+    } else {
+      return i < list.size() ? list[i].get() : nullptr;
+    }
   }
   /// Of the island that has the body, or null.
   template <class List> static auto island_of(const List& list, std::uint32_t slot) -> decltype(list[0].get()) {

@@ -121,7 +121,7 @@ TYPED_TEST(Compounds, worlds_that_load_or_read_them_go_on_alike) {
   World<S> read(settings<S>(-10));
   Reader reader(bytes);
   ASSERT_TRUE(read.read_portable(reader).ok());
-  EXPECT_NE(read.state().trees->at(tray.slot), nullptr);
+  EXPECT_NE(read.state().shapes[tray.slot]->tree, nullptr);
   run(world, 40);
   run(read, 40);
   EXPECT_EQ(world.hash(), hash);
@@ -136,7 +136,7 @@ TYPED_TEST(Compounds, a_shape_that_is_removed_leaves_no_tree_to_the_next_in_its_
   const ShapeId ball = add_ball(world, 0.5);
   ASSERT_EQ(ball.slot, tray.slot);
   world.create(moving<S>(ball, {0, 0, 0}));
-  EXPECT_EQ(world.state().trees->at(ball.slot), nullptr);
+  EXPECT_EQ(world.state().shapes[ball.slot]->tree, nullptr);
   EXPECT_TRUE(world.cast_ray(vec<S>(0, 2, 0), vec<S>(0, -4, 0)));
   EXPECT_FALSE(world.cast_ray(vec<S>(0.9, 2, 0), vec<S>(0, -4, 0)));
 }

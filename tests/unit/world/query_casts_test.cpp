@@ -16,8 +16,7 @@ template <class S> class QueryCasts : public ::testing::Test {
     QueryWorld<S>& q = scene;
     const ShapeId shape = q.solids()[q.dice.below(static_cast<std::uint32_t>(q.solids().size()))];
     ShapeCast<S> cast = {shape, {vec<S>(q.place()), q.dice.template orientation<S>()}, q.way(i), q.filter()};
-    const ShapeRecord& record = (*q.world.state().shapes)[shape.slot];
-    const Child<S>& part = (*q.world.state().children)[record.first_child];
+    const Child<S>& part = q.world.state().shapes[shape.slot]->children[0];
     if (part.primitive.blob == 0 && q.dice.one_in(2)) cast.shape = part.primitive;
     return {cast, FullSearch<S>(q.world).cast_shape(cast)};
   }

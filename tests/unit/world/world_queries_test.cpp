@@ -28,27 +28,14 @@ template <class S> class WorldQueries : public ::testing::Test {
       if ((body.filter.category & filter.mask) == 0 || (!filter.sensors && (body.flags & body_flag::kSensor) != 0))
         continue;
       const Transform<S> placed = Transform<S>::of(world.pose(id));
-      const ShapeRecord& shape = (*world.state().shapes)[body.shape];
-      for (std::uint32_t i = 0; i < shape.child_count; ++i) {
-        const Child<S>& child = (*world.state().children)[shape.first_child + i];
+      for (const Child<S>& child : world.state().shapes[body.shape]->children)
         visit(id, child.primitive, compose(placed, Transform<S>::of(child.pose)));
-      }
     }
   }
   const BodyProperties<S>& properties(BodyId id) const {
-    const BodySet<S>* sets[] = {&*world.state().static_bodies, &world.state().awake};
-    for (const BodySet<S>* set : sets) {
-      for (std::size_t i = 0; i < set->states.size(); ++i) {
-        if (set->states[i].slot == id.slot) return set->properties[i];
-      }
-    }
-    for (const auto& island : world.state().sleeping) {
-      for (std::size_t i = 0; i < island->bodies.states.size(); ++i) {
-        if (island->bodies.states[i].slot == id.slot) return island->bodies.properties[i];
-      }
-    }
-    ADD_FAILURE() << "a body in no set";
-    return world.state().static_bodies->properties[0];
+    const BodyProperties<S>* const found = world.view(id).properties;
+    EXPECT_NE(found, nullptr) << "a body in no set";
+    return *found;
   }
 
   World<S> world;

@@ -90,9 +90,6 @@ template <class S> class ChildTree {
   bool has_surfaces_ = false;
 };
 
-/// By shape slot; null where a shape has few children or there is none. May be shorter than the slots.
-template <class S> using ChildTrees = std::vector<std::shared_ptr<const ChildTree<S>>>;
-
 #define ISO_EXTERN(S) extern template class ChildTree<S>;
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN
