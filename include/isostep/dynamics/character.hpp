@@ -11,7 +11,7 @@ using CharacterId = Id<struct CharacterTag>;
 
 enum class Footing : std::uint32_t {
   airborne,
-  floor,  // it walks
+  floor,  // it walks: on one plane, or between several steep ones that hold it together
   steep   // it touches ground that it cannot stand on
 };
 

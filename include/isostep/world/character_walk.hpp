@@ -25,6 +25,12 @@ template <class S> inline constexpr S kGrazing = S(0.125);
 template <class S> inline constexpr S kTouchingSkins = S(1.0625);
 /// [m] a step up is worth taking from so much more way on.
 template <class S> inline constexpr S kWorthAStep = S(0x1p-10);
+/// [1] least sine of the angle between two planes that have an edge.
+template <class S> inline constexpr S kLeastEdge = S(1.0 / 64);
+/// [1] of a way of one metre into a plane that is rounding.
+template <class S> inline constexpr S kPlaneSlack = S(0x1p-10);
+/// [1] cosine of the angle between normals of one plane.
+template <class S> inline constexpr S kOnePlane = S(1 - 0x1p-12);
 /// [m] of height above step_height that is rounding.
 template <class S> inline constexpr S kStepSlack = S(0x1p-11);
 
@@ -98,6 +104,10 @@ template <class S> class CharacterWalk {
   bool step_up(Vec3<S> from, Vec3<S> way);
   void find_ground(bool walks, Vec3<S> carried);
   void stand_on(const Hit& hit, S gap);
+  bool supports(const NearContact<S>& contact) const;
+  bool has_supports() const;
+  Vec3<S> slide_of(const Planes& planes) const;
+  bool stand_between();
 
   // character_slide.inl
   std::optional<Hit> cast(Vec3<S> way) { return around_.cast(at_, way); }

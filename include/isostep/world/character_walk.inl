@@ -202,12 +202,77 @@ template <class S> void CharacterWalk<S>::find_ground(bool walks, Vec3<S> carrie
   const Vec3<S> down = convert<S>(up_) * -reach;
   const std::optional<Hit> hit = rises ? std::nullopt : cast(down);
   if (hit && is_walkable(*hit)) return stand_on(*hit, reach * hit->fraction);
-  if (walks) set_velocity(flat(character_.move) + speed_of(carried));
   const bool near = hit && reach * hit->fraction < S(2) * character_.skin;
+  if (!rises && (near || has_supports()) && stand_between()) return;
+  if (walks) set_velocity(flat(character_.move) + speed_of(carried));
   character_.footing = near ? Footing::steep : Footing::airborne;
   character_.ground = near ? hit->body : BodyId{};
   character_.normal = near ? hit->normal : Vec3<Unit<S>>::zero();
   if (near) foot_ = hit->point;
+}
+
+/// What stays where it is, within two skins.
+template <class S> bool CharacterWalk<S>::supports(const NearContact<S>& contact) const {
+  return walks_[contact.body.slot] == detail::obstacle::kFixed && separation_of(contact) < character_.skin * S(2);
+}
+/// Whether several do, among what was near as the step began.
+template <class S> bool CharacterWalk<S>::has_supports() const {
+  int count = 0;
+  for (const NearContact<S>& contact : memory_.contacts) count += supports(contact) ? 1 : 0;
+  return 1 < count;
+}
+
+/// [1] The steepest way down that planes leave, as long as the sine of its slope; zero where they hold.
+/// Symbols: of all ways that lead into no plane it is the one nearest to straight down, so it is down itself, or down
+///          less its part into one plane, or its part along the edge of two.
+template <class S> Vec3<S> CharacterWalk<S>::slide_of(const Planes& planes) const {
+  const Vec3<S> down = -convert<S>(up_);
+  Vec3<S> steepest = Vec3<S>::zero();
+  const auto try_way = [&](Vec3<S> way) {
+    for (int i = 0; i < planes.count; ++i) {
+      if (dot(way, planes.normals[i]) < -detail::kPlaneSlack<S>) return;
+    }
+    if (dot(steepest, down) < dot(way, down)) steepest = way;
+  };
+  try_way(down);
+  for (int i = 0; i < planes.count; ++i) {
+    const Vec3<Unit<S>> n = planes.normals[i];
+    try_way(down - convert<S>(n) * dot(down, n));
+    for (int j = i + 1; j < planes.count; ++j) {
+      const Direction<S> edge = detail::heading<S>(convert<S>(cross(n, planes.normals[j])));
+      if (!(detail::kLeastEdge<S> < edge.length)) continue;
+      const Vec3<Unit<S>> along = detail::unit_of<S>(edge);
+      try_way(convert<S>(along) * dot(down, along));
+    }
+  }
+  return steepest;
+}
+
+/// Whether it stands on several planes at once that are too steep one by one: between two slopes, in a pit, on a slope
+/// against a wall. They bear it as one plane would on which it slid as steeply. Its ground is the flattest.
+template <class S> bool CharacterWalk<S>::stand_between() {
+  around_.find_contacts(at_, character_.skin * S(2), memory_.contacts);
+  contacts_at_ = at_;
+  Planes planes;
+  const NearContact<S>* flattest = nullptr;
+  for (const NearContact<S>& contact : memory_.contacts) {
+    if (!supports(contact) || planes.count == detail::kMostPlanes) continue;
+    if (flattest == nullptr || dot(flattest->normal, up_) < dot(contact.normal, up_)) flattest = &contact;
+    bool known = false;
+    for (int i = 0; i < planes.count; ++i)
+      known = known || detail::kOnePlane<S> < dot(convert<S>(contact.normal), planes.normals[i]);
+    if (!known) planes.normals[planes.count++] = contact.normal;
+  }
+  const Vec3<S> slides = slide_of(planes);
+  const S least = character_.least_up;
+  if (flattest == nullptr || S(1) - least * least < dot(slides, slides)) return false;
+  const Direction<S> normal = detail::heading<S>(convert<S>(up_) + slides);
+  character_.footing = Footing::floor;
+  character_.ground = flattest->body;
+  character_.normal = detail::unit_of<S>(normal);
+  set_velocity(speed_of(way()));
+  foot_ = flattest->point;
+  return true;
 }
 
 /// `gap` [m] down to it.
