@@ -89,8 +89,8 @@ template <class S> struct Vehicle {
 
 /// A wheel that slides along `suspension` from its hard point, without mass of its own but for its turning. Forward is
 /// axle x up, where up is against `suspension`; a positive spin rolls forward.
-///   ground      a sphere of the wheel's radius is cast along the suspension once a step, where it meets nothing level
-///               enough a ray; what it meets is a plane for the step, which moves with its body
+///   ground      a sphere of the wheel's radius is cast along the suspension, or a ray where it meets nothing level
+///               enough: each step, and each sub-step on what is no plane as far as it gets; that moves with its body
 ///   suspension  stiffness (free_length - length) - damping d(length)/dt, by backward Euler, never below 0: it pushes.
 ///               Shorter than free_length - travel it does not get. Wheels of a body with the same `axle` other than 0
 ///               are joined by a bar, which adds anti_roll times the difference of their lengths.

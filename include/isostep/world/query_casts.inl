@@ -104,8 +104,8 @@ template <class S> FaultReport Queries<S>::fault_of_cast(const ShapeCast<S>& cas
       .also(detail::fault_of_place(cast.translation, "translation"))
       .report();
 }
-/// Of an accepted cast. Bodies that rest on each other overlap by up to kDeepOverlap: that is touch.
-template <class S> template <class List> void Queries<S>::gather_cast(const ShapeCast<S>& cast, List& list) const {
+/// visit(probe) of an accepted cast. Bodies that rest on each other overlap by up to kDeepOverlap: that is touch.
+template <class S> template <class Visit> void Queries<S>::visit_cast(const ShapeCast<S>& cast, const Visit& visit) const {
   const Asked asked = asked_of(cast.shape, cast.pose);
   const Transform<S> start = Transform<S>::of(asked.pose);
   const QueryFilter& filter = cast.filter;
@@ -118,9 +118,12 @@ template <class S> template <class List> void Queries<S>::gather_cast(const Shap
                                   {cast.translation, Unit<S>(1), touch},
                                   filter.back_faces,
                                   filter.start_inside == StartInside::ignore};
-      gather(detail::CastProbe<S>(solid, shape.bounds(start)), filter, list);
+      visit(detail::CastProbe<S>(solid, shape.bounds(start)));
     }
   });
+}
+template <class S> template <class List> void Queries<S>::gather_cast(const ShapeCast<S>& cast, List& list) const {
+  visit_cast(cast, [&](const auto& probe) { gather(probe, cast.filter, list); });
 }
 template <class S> std::optional<ShapeCastHit<S>> Queries<S>::cast_shape(const ShapeCast<S>& cast) const {
   ShapeCastHit<S> hit;
@@ -140,6 +143,39 @@ std::size_t Queries<S>::cast_shape_all(const ShapeCast<S>& cast, std::span<Shape
   if (!journal_.accept_call("cast_shape_all", fault_of_cast(cast))) return 0;
   detail::NearestHits<S, Unit<S>> list(out);
   gather_cast(cast, list);
+  return list.count();
+}
+
+
+// ---- among what is known to be near
+
+template <class S>
+void Queries<S>::find_near(const Aabb<S>& box, const QueryFilter& filter, std::vector<std::uint32_t>& out) const {
+  proxies_.boxes().query(box, [&](std::uint32_t slot) {
+    if (sees(filter, slot)) out.push_back(slot);
+    return true;
+  });
+}
+template <class S>
+template <class Probe, class List>
+void Queries<S>::meet_among(const Probe& probe, const QueryFilter& filter, std::span<const std::uint32_t> slots,
+                            const Aabb<S>& box, List& list) const {
+  for (const std::uint32_t slot : slots) {
+    if (overlap(map_.state_at(map_.location(slot)).fat, box)) meet(probe, filter, slot, list);
+  }
+}
+template <class S>
+std::size_t Queries<S>::cast_among(std::span<const std::uint32_t> slots, const Aabb<S>& box, const ShapeCast<S>& cast,
+                                   std::span<ShapeCastHit<S>> out) const {
+  detail::NearestHits<S, Unit<S>> list(out);
+  visit_cast(cast, [&](const auto& probe) { meet_among(probe, cast.filter, slots, box, list); });
+  return list.count();
+}
+template <class S>
+std::size_t Queries<S>::ray_among(std::span<const std::uint32_t> slots, const Aabb<S>& box, const RayCast<S>& ray,
+                                  std::span<RayCastHit<S>> out) const {
+  detail::NearestHits<S, S> list(out);
+  meet_among(detail::RayProbe<S>(ray.origin, ray.translation, ray.filter), ray.filter, slots, box, list);
   return list.count();
 }
 

@@ -17,7 +17,8 @@
 namespace isostep {
 
 /// Input:   the records of wheels and vehicles, the bodies as a sub-step finds them and what else is about to
-///          accelerate them; once a step the broad phase, for the ground below each wheel.
+///          accelerate them; the broad phase, for the ground below each wheel: once a step, and in
+///          every sub-step where it is no plane as far as the wheel gets in the step.
 /// Output:  an impulse for each awake body and its ground; the wheels' records from `spin` on.
 /// Keeps:   nothing from step to step but memory.
 /// Order:   bodies ascending by slot, the wheels of each ascending by slot. Each iteration solves all of them once, so
@@ -47,7 +48,28 @@ template <class S> class WheelForces {
   static constexpr V kSettled = V(0x1p-7);  // [1] of the load: what changes an impulse by less is the last iteration
   static constexpr std::uint32_t kMostMet = 8;  // bodies that a wheel looks at for ground
   static constexpr std::uint32_t kNone = ~0u;
+  static constexpr int kMostLooks = 8;        // along the way of a step: half a radius apart up to four radii
+  static constexpr S kLevel = S(1.0 / 64);    // [1] of the radius: the ground is a plane that differs by no more
+  static constexpr S kAround = S(0.125);          // [m] what sub-steps make of a way that velocities do not tell
+  static constexpr U kLeastFacing = U(0.25);  // [1] cosine of the plane's tilt, seen from the suspension
 
+  /// Where a wheel's suspension is.
+  struct Stance {
+    Vec3<S> hard_point;  // [m] world
+    Vec3<U> down;        // [1] world
+  };
+  /// The way of the sphere that looks for ground: from a radius above the highest to a radius below the lowest that the
+  /// wheel's middle gets.
+  struct Search {
+    Vec3<S> start, way;  // [m] world
+    Aabb<S> box;         // [m] world, around it
+  };
+  /// What a wheel stands on.
+  struct Ground {
+    BodyId body = {};    // null: no ground
+    Vec3<S> point = {};  // [m] world
+    Vec3<U> normal = {};
+  };
   /// A wheel in this step.
   struct Run {
     std::uint32_t slot, row, ground;  // of its record; of SolverBodies
@@ -55,6 +77,7 @@ template <class S> class WheelForces {
     std::uint32_t vehicle;            // slot of its record; kNone
     std::uint32_t group;              // that it is of
     BodyId met;                       // null: no ground
+    bool uneven;                      // no plane for the whole step: it is looked for in every sub-step
     Vec3<S> point;                    // [m] of the ground as the step began, world
     Vec3<S> ground_arm;               // [m] that from the ground's centre of mass
     Vec3<U> normal;                   // [1]
@@ -95,6 +118,8 @@ template <class S> class WheelForces {
   /// The wheels of one body.
   struct Group {
     std::uint32_t row, first, end, vehicle;
+    Aabb<S> region;                     // [m] world, of which all ground is known
+    std::uint32_t first_near, end_near;  // of near_
     bool geared;      // some wheel is driven, and the gear is not neutral
     Engine engine;
     bool ends_early;  // nothing but its own wheels changes what they find
@@ -109,9 +134,18 @@ template <class S> class WheelForces {
   void find_who_ends_early();
   void join_bars(const Group& group);
   void steer(const Group& group);
-  void find_ground(Run& run);
-  template <class Hits> bool take_ground(Run& run, const Hits& hits, std::size_t count, Vec3<U> down);
-  bool bears(std::uint32_t body, BodyId ground) const;
+  void find_ground(Group& group);
+  void follow_ground();
+  template <class Hits> static Ground first_that_bears(const Hits& hits, Vec3<U> down);
+  Stance stance_of(const Run& run) const;
+  Search search_of(const Run& run, const Stance& at) const;
+  void look_around(Group& group, const Aabb<S>& box);
+  Ground ground_below(const Run& run, const Stance& at);
+  void stand_on(Run& run, const Ground& ground);
+  S length_over(const Run& run, const Stance& at, const Ground& ground) const;
+  Vec3<S> way_of(const Run& run, const Stance& at) const;
+  bool is_uneven(const Run& run, const Stance& at, const Ground& ground);
+  bool bears(std::uint32_t body, std::uint32_t ground) const;
   // wheel_forces.inl
   const Wheel<S>& wheel(const Run& run) const { return state_.force_records->wheels.all()[run.slot]; }
   bool leads(const Run& run) const { return &runs_[run.leader] == &run; }
@@ -158,6 +192,7 @@ template <class S> class WheelForces {
   std::vector<Group> groups_;
   std::vector<std::uint32_t> first_;  // by row: where its wheels begin
   std::vector<std::uint32_t> order_;  // of runs: the first wheels of all bodies, then the second, and so on
+  std::vector<std::uint32_t> near_;   // slots of what wheels might stand on, body by body
   std::vector<MotionRow<V>> motion_;  // by row: as the sub-step would leave it
   std::vector<Push> pushes_;
   const SolverBodies<S>* bodies_ = nullptr;

@@ -18,6 +18,7 @@ auto WheelForces<S>::solve(const SolverBodies<S>& bodies, const std::vector<Acce
   h_ = divide_to<Step<S>>(S(1), S(rate));
   pushes_.clear();
   motion_.resize(bodies.mass.size());
+  follow_ground();
   const auto next = [&](std::uint32_t row) { return detail::next_motion(state_, bodies, accelerations, row, h_); };
   for (const Group& group : groups_) motion_[group.row] = next(group.row);
   for (const Run& run : runs_) motion_[run.ground] = next(run.ground);
@@ -58,7 +59,7 @@ template <class S> void WheelForces<S>::place(Run& run, const Mat3<U>& turn) {
   const Vec3<S> point =
       stands ? run.point : run.point + convert<S>(moved.linear) + cross(convert<S>(moved.angular), run.ground_arm);
   const U facing = -dot(down, run.normal);
-  if (facing < U(0.25)) return;
+  if (facing < kLeastFacing) return;
   run.lean = divide_to<S>(S(1), facing);
   const S height = dot(centre - point + hard_arm, run.normal);
   const S length = saturate_to<S>(product(height - w.radius, run.lean));

@@ -13,6 +13,7 @@ namespace isostep {
 template <class S> void WheelForces<S>::begin_step() {
   runs_.clear();
   groups_.clear();
+  near_.clear();
   if (!any()) return;
   list_runs();
   list_groups();
@@ -21,7 +22,7 @@ template <class S> void WheelForces<S>::begin_step() {
     gear_up(group);
     steer(group);
     join_bars(group);
-    for (std::uint32_t i = group.first; i < group.end; ++i) find_ground(runs_[i]);
+    find_ground(group);
   }
   find_who_ends_early();
 }
@@ -38,7 +39,7 @@ template <class S> void WheelForces<S>::list_runs() {
   runs_.resize(first_.back());
   for (std::uint32_t row = 1; row + 1 < first_.size(); ++row) {
     if (first_[row] == first_[row + 1]) continue;
-    groups_.push_back({row, first_[row], first_[row + 1], kNone, false, {}, false, false, false});
+    groups_.push_back({row, first_[row], first_[row + 1], kNone, {}, 0, 0, false, {}, false, false, false});
   }
   const Settings<S>& s = state_.settings;
   const S rate = S(integration_rate(s.solver, s.hz, s.substeps));
@@ -155,51 +156,143 @@ template <class S> void WheelForces<S>::steer(const Group& group) {
 }
 
 /// Whether the two would collide.
-template <class S> bool WheelForces<S>::bears(std::uint32_t body, BodyId ground) const {
-  const BodyProperties<S>&a = state_.awake.properties[body - 1], &b = *map_.properties_of(ground);
+template <class S> bool WheelForces<S>::bears(std::uint32_t body, std::uint32_t ground) const {
+  const BodyProperties<S>&a = state_.awake.properties[body - 1], &b = map_.properties_at(map_.location(ground));
   return (b.flags & body_flag::kCollide) != 0 && should_collide(a.filter, b.filter);
 }
-/// The first that bears, is not held from the start and is not too steep.
+/// The first that is not held from the start and is not too steep.
 template <class S>
 template <class Hits>
-bool WheelForces<S>::take_ground(Run& run, const Hits& hits, std::size_t count, Vec3<U> down) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto& hit = hits[i];
-    if (hit.inside || !bears(run.row, hit.body) || U(-0.5) < dot(hit.normal, down)) continue;
-    const Location at = map_.location(hit.body.slot);
-    run.met = hit.body;
-    run.ground = map_.row_of(hit.body.slot);
-    run.point = hit.point;
-    run.ground_arm = hit.point - map_.state_at(at).centre;
-    run.normal = hit.normal;
-    const S friction = map_.properties_at(at).material.friction;
-    run.mu_along = sqrt(saturate_to<S>(product(wheel(run).grip_along, friction)));
-    run.mu_across = sqrt(saturate_to<S>(product(wheel(run).grip_across, friction)));
-    return true;
+auto WheelForces<S>::first_that_bears(const Hits& hits, Vec3<U> down) -> Ground {
+  for (const auto& hit : hits) {
+    if (!hit.inside && dot(hit.normal, down) <= U(-0.5)) return {hit.body, hit.point, hit.normal};
   }
-  return false;
+  return {};
 }
-template <class S> void WheelForces<S>::find_ground(Run& run) {
-  const Wheel<S>& w = wheel(run);
+template <class S> auto WheelForces<S>::stance_of(const Run& run) const -> Stance {
   const BodyState<S>& state = state_.awake.states[run.row - 1];
-  const BodyProperties<S>& body = state_.awake.properties[run.row - 1];
-  const Vec3<S> hard_point = state.centre + rotate(state.orientation, w.hard_point - body.local_centre);
-  const Vec3<U> down = rotate(state.orientation, w.suspension);
-  // From a radius above the highest to a radius below the lowest that the wheel's middle gets.
+  const Vec3<S> local = wheel(run).hard_point - state_.awake.properties[run.row - 1].local_centre;
+  return {state.centre + rotate(state.orientation, local), rotate(state.orientation, wheel(run).suspension)};
+}
+template <class S> auto WheelForces<S>::search_of(const Run& run, const Stance& at) const -> Search {
+  const Wheel<S>& w = wheel(run);
   const S first = w.free_length - w.travel - w.radius, way = w.travel + w.radius + w.radius;
-  const Vec3<S> start = hard_point + down * first;
+  const Vec3<S> start = at.hard_point + at.down * first, along = at.down * way;
+  return {start, along, grow(Aabb<S>{min(start, start + along), max(start, start + along)}, w.radius)};
+}
+/// Adds what is there to what the wheels of a body might stand on.
+template <class S> void WheelForces<S>::look_around(Group& group, const Aabb<S>& box) {
+  const BodyProperties<S>& body = state_.awake.properties[group.row - 1];
   QueryFilter filter;
   filter.mask = body.filter.mask;
   filter.group = body.filter.group;
-  filter.ignore = w.body;
-  const ShapeCast<S> cast = {Sphere<S>{w.radius}.primitive(), {start, Quat<U>::identity()}, down * way, filter};
+  filter.ignore = wheel(runs_[group.first]).body;
+  group.region = box;
+  group.first_near = static_cast<std::uint32_t>(near_.size());
+  queries_.find_near(box, filter, near_);
+  std::size_t kept = group.first_near;
+  for (std::size_t i = kept; i < near_.size(); ++i) {
+    if (bears(group.row, near_[i])) near_[kept++] = near_[i];
+  }
+  near_.resize(kept);
+  group.end_near = static_cast<std::uint32_t>(kept);
+}
+/// What a sphere meets, or where that is not level enough a ray.
+template <class S> auto WheelForces<S>::ground_below(const Run& run, const Stance& at) -> Ground {
+  const Search search = search_of(run, at);
+  Group& group = groups_[run.group];
+  if (!contains(group.region, search.box)) look_around(group, grow(search.box, wheel(run).radius));
+  const auto near = std::span(near_).subspan(group.first_near, group.end_near - group.first_near);
+  const Primitive<S> sphere = Sphere<S>{wheel(run).radius}.primitive();
   ShapeCastHit<S> met[kMostMet];
-  const std::size_t count = queries_.cast_shape_all(cast, std::span<ShapeCastHit<S>>(met));
-  run.length = w.free_length;
-  if (count == 0 || take_ground(run, met, count, down)) return;
+  const std::size_t count = queries_.cast_among(
+      near, search.box, {sphere, {search.start, Quat<U>::identity()}, search.way}, std::span<ShapeCastHit<S>>(met));
+  const Ground ground = first_that_bears(std::span(met, count), at.down);
+  if (count == 0 || ground.body) return ground;
   RayCastHit<S> struck[kMostMet];
-  take_ground(run, struck,
-              queries_.cast_ray_all(start, down * (way + w.radius), std::span<RayCastHit<S>>(struck), filter), down);
+  const std::size_t rays =
+      queries_.ray_among(near, search.box, {search.start, search.way + at.down * wheel(run).radius},
+                         std::span<RayCastHit<S>>(struck));
+  return first_that_bears(std::span(struck, rays), at.down);
+}
+template <class S> void WheelForces<S>::stand_on(Run& run, const Ground& ground) {
+  run.met = ground.body;
+  run.ground = 0;
+  if (!ground.body) return;
+  const Location at = map_.location(ground.body.slot);
+  run.ground = map_.row_of(ground.body.slot);
+  run.point = ground.point;
+  run.ground_arm = ground.point - map_.state_at(at).centre;
+  run.normal = ground.normal;
+  const S friction = map_.properties_at(at).material.friction;
+  run.mu_along = sqrt(saturate_to<S>(product(wheel(run).grip_along, friction)));
+  run.mu_across = sqrt(saturate_to<S>(product(wheel(run).grip_across, friction)));
+}
+
+/// [m] Of the suspension, where the wheel touches that plane; free_length over no ground.
+template <class S> S WheelForces<S>::length_over(const Run& run, const Stance& at, const Ground& ground) const {
+  const Wheel<S>& w = wheel(run);
+  const U facing = ground.body ? -dot(at.down, ground.normal) : U(0);
+  if (facing < kLeastFacing) return w.free_length;
+  const S height = dot(at.hard_point - ground.point, ground.normal) - w.radius;
+  return min(w.free_length, divide_to<S>(height, facing));
+}
+/// [m] How far it goes in this step, across the suspension; by its ground's motion if that is known.
+template <class S> Vec3<S> WheelForces<S>::way_of(const Run& run, const Stance& at) const {
+  const BodyState<S>& state = state_.awake.states[run.row - 1];
+  Vec3<V> speed = detail::velocity_at<S>(&state, at.hard_point - state.centre);
+  if (run.ground != 0) speed -= detail::velocity_at<S>(&state_.awake.states[run.ground - 1], run.ground_arm);
+  const Vec3<S> way = convert<S>(speed) / S(state_.settings.hz);
+  return way - at.down * dot(way, at.down);
+}
+/// Whether the plane found where the step begins is not that of the ground further on. A bump that is higher than a
+/// 32nd of the radius is met by one of the looks at least, for a wheel is wider than it is long.
+template <class S> bool WheelForces<S>::is_uneven(const Run& run, const Stance& at, const Ground& ground) {
+  const S radius = wheel(run).radius;
+  const Vec3<S> way = way_of(run, at);
+  const S far = length(way);
+  if (far < radius * S(0.125)) return false;  // over an edge the plane errs by less than a 128th of the radius
+  int looks = 1;
+  while (looks < kMostLooks && radius * S(0.5) * S(looks) < far) ++looks;
+  for (int i = looks; i > 0; --i) {
+    const Stance there = {at.hard_point + way * divide_to<U>(S(i), S(looks)), at.down};
+    const S found = length_over(run, there, ground_below(run, there));
+    if (radius * kLevel < abs(found - length_over(run, there, ground))) return true;
+  }
+  return false;
+}
+/// Below all wheels of a body, from one look around them.
+template <class S> void WheelForces<S>::find_ground(Group& group) {
+  const std::span<Run> runs = std::span(runs_).subspan(group.first, group.end - group.first);
+  const S edge = Limits<S>::position() * S(2);
+  Aabb<S> region = {{edge, edge, edge}, {-edge, -edge, -edge}};
+  for (const Run& run : runs) {
+    const Stance at = stance_of(run);
+    const Aabb<S> box = search_of(run, at).box;
+    const Vec3<S> way = way_of(run, at);
+    region = merge(region, merge(box, Aabb<S>{box.low + way, box.high + way}));
+  }
+  look_around(group, grow(region, kAround));
+  for (Run& run : runs) {
+    const Stance at = stance_of(run);
+    const Ground ground = ground_below(run, at);
+    run.length = wheel(run).free_length;
+    stand_on(run, ground);
+    run.uneven = is_uneven(run, at, ground);
+  }
+}
+/// The ground where the wheel has got to, of those that need it.
+template <class S> void WheelForces<S>::follow_ground() {
+  bool any = false;
+  for (Run& run : runs_) {
+    if (!run.uneven) continue;
+    any = true;
+    stand_on(run, ground_below(run, stance_of(run)));
+    if (run.ground == 0) continue;
+    const MotionRow<V>& moved = bodies_->displacement[run.ground];
+    run.point -= convert<S>(moved.linear) + cross(convert<S>(moved.angular), run.ground_arm);
+  }
+  if (any) find_who_ends_early();
 }
 
 }  // namespace isostep
