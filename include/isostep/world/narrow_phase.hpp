@@ -26,7 +26,8 @@ template <class S> struct ContactRules {
 ///          geometry; the overlaps of sensors.
 /// Keeps:   nothing from step to step but memory.
 /// Method:  PartPairs gathers pairs of parts in groups. Each pair of a group fills a manifold of its own, so groups are
-///          collided in any order; then manifolds are merged in order with the last step's contacts.
+///          collided in any order, and those of one flat surface joined; then manifolds are merged in order with the
+///          last step's contacts.
 template <class S> class NarrowPhase {
  public:
   ISO_INLINE NarrowPhase(WorldState<S>& state, const BodyMap<S>& map) : state_(state), part_pairs_(state, map) {}
@@ -61,13 +62,16 @@ template <class S> class NarrowPhase {
   }
 
  private:
-  static constexpr std::size_t kLeastSharedPairs = 4 * PartGroup::kMost;  // some 60 us of float
+  static constexpr std::size_t kLeastSharedPairs = 4 * PartGroup::kEnough;  // some 60 us of float
 
   void update_alone();
   void update_shared(const TaskRunner& runner);
   static void run_piece(void* phase, std::uint32_t stage, std::uint32_t piece);
   void collide_group(std::size_t group, std::uint8_t* counts, Manifold<S>* manifolds) const;
   void collide_others(const PairRun<S>& run) const;
+  void join_flat(const PairRun<S>& run) const;
+  std::uint32_t join_flat(const PairRun<S>& run, std::uint32_t begin) const;
+  bool lie_alike(const PartPair& x, const PartPair& y) const;
   std::size_t place_group(std::size_t group, const std::uint8_t* counts);
   void merge_group(std::size_t group, const std::uint8_t* counts, const Manifold<S>* manifolds, std::size_t next,
                    std::size_t& old_cursor);

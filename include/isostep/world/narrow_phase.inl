@@ -4,7 +4,7 @@
 
 #include <bit>
 
-#include "isostep/collision/narrowphase/surface_triangle.hpp"
+#include "isostep/collision/narrowphase/flat_patch.hpp"
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/dynamics/contact_friction.hpp"
 #include "isostep/world/narrow_phase.hpp"
@@ -86,6 +86,7 @@ void inherit_across_edges(const TriangleContacts<S>& old, const ContactGeometry<
     if (!is_new) continue;
     const Velocity<S> share = Velocity<S>(static_cast<std::int32_t>(holder->count));
     for (int axis = 0; axis < 3; ++axis) contact.friction_impulse[axis] += holder->friction_impulse[axis] / share;
+    contact.twist_impulse += holder->twist_impulse / share;
   }
 }
 }  // namespace detail
@@ -112,10 +113,11 @@ std::uint32_t NarrowPhase<S>::update(std::span<const std::uint64_t> pairs, const
 template <class S> void NarrowPhase<S>::update_alone() {
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) part_pairs_.frame_awake_body(i);
   part_pairs_.gather(pairs_);
-  point_counts_.resize(PartGroup::kMost);
-  manifolds_.resize(PartGroup::kMost);
   std::size_t old_cursor = 0;
   for (std::size_t group = 0; group < part_pairs_.groups(); ++group) {  // merged while its manifolds are in the cache
+    const std::size_t size = part_pairs_.group(group).parts.size();
+    if (point_counts_.size() < size) point_counts_.resize(size);
+    if (manifolds_.size() < size) manifolds_.resize(size);
     collide_group(group, point_counts_.data(), manifolds_.data());
     const std::size_t first = place_group(group, point_counts_.data());
     merge_group(group, point_counts_.data(), manifolds_.data(), first, old_cursor);
@@ -135,15 +137,15 @@ template <class S> void NarrowPhase<S>::run_piece(void* data, std::uint32_t stag
     const std::size_t pieces = phase.pieces_;
     for (std::size_t i = count * piece / pieces; i < count * (piece + 1) / pieces; ++i) work(i);
   };
-  const auto counts = [&](std::size_t group) { return phase.point_counts_.data() + group * PartGroup::kMost; };
-  const auto manifolds = [&](std::size_t group) { return phase.manifolds_.data() + group * PartGroup::kMost; };
+  const auto counts = [&](std::size_t group) { return phase.point_counts_.data() + part_pairs.group(group).first; };
+  const auto manifolds = [&](std::size_t group) { return phase.manifolds_.data() + part_pairs.group(group).first; };
   const std::size_t groups = part_pairs.groups();
   switch (stage) {
     case 0: return each(phase.state_.awake.states.size(), [&](std::size_t i) { part_pairs.frame_awake_body(i); });
     case 1:
       part_pairs.gather(phase.pairs_);
-      phase.point_counts_.resize(part_pairs.groups() * PartGroup::kMost);
-      phase.manifolds_.resize(part_pairs.groups() * PartGroup::kMost);
+      phase.point_counts_.resize(part_pairs.parts());
+      phase.manifolds_.resize(part_pairs.parts());
       return;
     case 2: return each(groups, [&](std::size_t g) { phase.collide_group(g, counts(g), manifolds(g)); });
     case 3:
@@ -179,6 +181,7 @@ void NarrowPhase<S>::collide_group(std::size_t index, std::uint8_t* counts, Mani
   kernels_->spheres(run_of(group.spheres));
   kernels_->boxes(run_of(group.boxes));
   collide_others(run_of(group.others));
+  join_flat(run_of(group.others));
 }
 template <class S> void NarrowPhase<S>::collide_others(const PairRun<S>& run) const {
   for (std::uint32_t i = run.begin; i < run.end; ++i) {
@@ -189,6 +192,58 @@ template <class S> void NarrowPhase<S>::collide_others(const PairRun<S>& run) co
     collide_parts(kernels_->polyhedra, a, pair.child_a, b, pair.child_b, margin, out);
     run.counts[run.order[i]] = static_cast<std::uint8_t>(out.count);
   }
+}
+
+/// Of a convex part on triangles of one surface the manifolds of one flat piece and one material: the first of them
+/// becomes that of all, and the others have none.
+template <class S> void NarrowPhase<S>::join_flat(const PairRun<S>& run) const {
+  std::uint32_t i = run.begin;
+  while (i < run.end) {
+    const PartPair& pair = run.pairs[run.order[i]];
+    const BodyFrame<S>&a = run.frames[pair.frame_a], &b = run.frames[pair.frame_b];
+    i = (a.surfaces || b.surfaces) && !(a.sensor || b.sensor) ? join_flat(run, i) : i + 1;
+  }
+}
+/// Of two bodies; returns where those of the next two begin.
+template <class S> std::uint32_t NarrowPhase<S>::join_flat(const PairRun<S>& run, std::uint32_t begin) const {
+  constexpr S kTie = S(0x1p-12);  // [m] what lies level differs by less
+  const PartPair& bodies = run.pairs[run.order[begin]];
+  std::uint32_t end = begin;
+  const auto same_bodies = [&](const PartPair& pair) {
+    return pair.frame_a == bodies.frame_a && pair.frame_b == bodies.frame_b;
+  };
+  while (end < run.end && same_bodies(run.pairs[run.order[end]])) ++end;
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const std::uint32_t at = run.order[i];
+    if (run.counts[at] == 0) continue;
+    FlatPatch<S> patch(run.manifolds[at]);
+    bool any = false;
+    for (std::uint32_t j = i + 1; j < end; ++j) {
+      const std::uint32_t other = run.order[j];
+      if (run.counts[other] == 0 || !patch.takes(run.manifolds[other]) || !lie_alike(run.pairs[at], run.pairs[other]))
+        continue;
+      patch.add(run.manifolds[other]);
+      run.counts[other] = 0;
+      any = true;
+    }
+    if (!any) continue;
+    patch.write(kTie, run.manifolds[at]);
+    run.counts[at] = static_cast<std::uint8_t>(run.manifolds[at].count);
+  }
+  return end;
+}
+/// Whether pairs of the same two bodies are of one convex part, and of triangles of one surface and material.
+template <class S> bool NarrowPhase<S>::lie_alike(const PartPair& x, const PartPair& y) const {
+  const std::vector<BodyFrame<S>>& frames = part_pairs_.frames();
+  const bool of_a = frames[x.frame_a].surfaces;
+  if (of_a ? x.child_b != y.child_b : x.child_a != y.child_a) return false;
+  const BodyFrame<S>& ground = frames[of_a ? x.frame_a : x.frame_b];
+  const Leaf p = detail::leaf_at(ground, of_a ? x.child_a : x.child_b),
+             q = detail::leaf_at(ground, of_a ? y.child_a : y.child_b);
+  if (p.child != q.child) return false;
+  const ShapeView<S> surface = detail::part(ground, p.child);
+  return is_surface(surface.primitive.type) &&
+         listed_material(surface, p.triangle) == listed_material(surface, q.triangle);
 }
 
 template <class S>

@@ -13,9 +13,12 @@
 namespace isostep {
 
 /// Pairs of parts that are collided and merged together: they fit in a core's cache. The lists are places in `parts`,
-/// ascending: of two plain spheres, of two plain boxes, of anything else.
+/// ascending: of two plain spheres, of two plain boxes, of anything else. What a body meets of one with surfaces is in
+/// one group, so that triangles in one plane are known together.
 struct PartGroup {
-  static constexpr std::size_t kMost = 256;  // pairs
+  static constexpr std::size_t kEnough = 256;  // pairs
+  static constexpr std::size_t kMost = 4096;   // pairs, of a body on a fine mesh
+  std::size_t first;                           // of its parts, among those of all groups
   std::span<const PartPair> parts;
   std::span<const std::uint32_t> spheres, boxes, others;
 };
@@ -45,6 +48,7 @@ template <class S> class PartPairs {
   ISO_INLINE const std::vector<BodyFrame<S>>& frames() const { return frames_; }
   ISO_INLINE const std::vector<Material<S>>& materials() const { return materials_; }
   ISO_INLINE std::size_t groups() const { return groups_.size(); }
+  ISO_INLINE std::size_t parts() const { return parts_.size(); }
   PartGroup group(std::size_t index) const;
 
   template <class Visit> void visit_scratch(const Visit& visit) {
@@ -61,9 +65,9 @@ template <class S> class PartPairs {
     std::uint32_t index = kNone;
     std::uint32_t traits = 0;
   };
-  /// Where each list stands when a group begins.
+  /// Where all parts and each list stand when a group begins.
   struct ListEnds {
-    std::uint32_t spheres, boxes, others;
+    std::uint32_t parts, spheres, boxes, others;
   };
   /// Two parts that are compared, and two that are collided.
   struct Budget {
@@ -80,6 +84,7 @@ template <class S> class PartPairs {
   template <class Visit>
   bool visit_sorted_leaves(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks, Visit& visit);
   void add_part(std::vector<std::uint32_t>& list, const PartPair& part);
+  bool ends_group(const PartPair& part) const;
   ListEnds list_ends() const;
 
   const WorldState<S>& state_;

@@ -125,25 +125,30 @@ bool PartPairs<S>::visit_sorted_leaves(const BodyFrame<S>& a, const BodyFrame<S>
   return whole;
 }
 template <class S> ISO_INLINE void PartPairs<S>::add_part(std::vector<std::uint32_t>& list, const PartPair& part) {
-  const auto place = static_cast<std::uint32_t>(parts_.size() % PartGroup::kMost);
-  if (place == 0) groups_.push_back(list_ends());
-  list.push_back(place);
+  if (groups_.empty() || ends_group(part)) groups_.push_back(list_ends());
+  list.push_back(static_cast<std::uint32_t>(parts_.size()) - groups_.back().parts);
   parts_.push_back(part);
+}
+template <class S> ISO_INLINE bool PartPairs<S>::ends_group(const PartPair& part) const {
+  const std::size_t size = parts_.size() - groups_.back().parts;
+  if (size < PartGroup::kEnough) return false;
+  const PartPair& last = parts_.back();
+  const bool continues = last.frame_a == part.frame_a && last.frame_b == part.frame_b;
+  const bool on_surface = frames_[part.frame_a].surfaces || frames_[part.frame_b].surfaces;
+  return !continues || !on_surface || size == PartGroup::kMost;
 }
 
 template <class S> typename PartPairs<S>::ListEnds PartPairs<S>::list_ends() const {
-  return {static_cast<std::uint32_t>(spheres_.size()), static_cast<std::uint32_t>(boxes_.size()),
-          static_cast<std::uint32_t>(others_.size())};
+  return {static_cast<std::uint32_t>(parts_.size()), static_cast<std::uint32_t>(spheres_.size()),
+          static_cast<std::uint32_t>(boxes_.size()), static_cast<std::uint32_t>(others_.size())};
 }
 template <class S> PartGroup PartPairs<S>::group(std::size_t index) const {
   const ListEnds from = groups_[index], to = index + 1 < groups_.size() ? groups_[index + 1] : list_ends();
-  const auto part_of = [](const std::vector<std::uint32_t>& list, std::uint32_t begin, std::uint32_t end) {
+  const auto part_of = [](const auto& list, std::uint32_t begin, std::uint32_t end) {
     return std::span(list).subspan(begin, end - begin);
   };
-  const std::size_t first = index * PartGroup::kMost;
-  return {std::span(parts_).subspan(first, min(parts_.size() - first, std::size_t{PartGroup::kMost})),
-          part_of(spheres_, from.spheres, to.spheres), part_of(boxes_, from.boxes, to.boxes),
-          part_of(others_, from.others, to.others)};
+  return {from.parts, part_of(parts_, from.parts, to.parts), part_of(spheres_, from.spheres, to.spheres),
+          part_of(boxes_, from.boxes, to.boxes), part_of(others_, from.others, to.others)};
 }
 
 }  // namespace isostep

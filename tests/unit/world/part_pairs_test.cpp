@@ -88,7 +88,7 @@ TYPED_TEST(PartPairsOf, of_compounds_only_parts_that_are_near_each_other_pair_an
   EXPECT_EQ(this->gather(), 0u);
   EXPECT_EQ(this->parts(), 300u);
   ASSERT_EQ(this->pairs->groups(), 2u);
-  EXPECT_EQ(this->pairs->group(0).parts.size(), PartGroup::kMost);
+  EXPECT_EQ(this->pairs->group(0).parts.size(), PartGroup::kEnough);
   EXPECT_EQ(this->pairs->group(1).others.size(), 44u);
 }
 

@@ -148,6 +148,24 @@ ISO_INLINE std::uint32_t vertex_between(const Polyhedron<S>& a, std::uint32_t be
   return first == a.origin(2 * after) || first == a.origin(2 * after + 1) ? first : a.origin(2 * before + 1);
 }
 
+/// Which corners of a face would be kept if the triangle went on in its plane, by the edge that begins there: its
+/// neighbours choose the same ones. All, of a face that is not level with it to `margin`.
+template <class S> struct KeptCorners {
+  bool kept[kTriangleEdge];
+
+  ISO_INLINE KeptCorners(FacePolygon<S> face, S margin, S tie) {
+    bool level = face.count > kMaxContactPoints;
+    for (int i = 0; i < face.count; ++i) {
+      level = level && abs(face.points[i].height) <= margin;
+      kept[face.points[i].after] = true;
+    }
+    if (!level) return;
+    for (int i = 0; i < face.count; ++i) kept[face.points[i].after] = false;
+    reduce_to_four(face, tie);
+    for (int i = 0; i < face.count; ++i) kept[face.points[i].after] = true;
+  }
+};
+
 /// The polyhedron's lowest face over the triangle.
 template <class S>
 ISO_INLINE void touch_plane(const Polyhedron<S>& a, const Transform<S>& ta, const SurfaceTriangle<S>& triangle,
@@ -158,15 +176,22 @@ ISO_INLINE void touch_plane(const Polyhedron<S>& a, const Transform<S>& ta, cons
   const auto vertex = [&](std::uint32_t i) ISO_INLINE_LAMBDA { return a.vertices[i]; };
   const auto height = [&](Vec3<S> p) ISO_INLINE_LAMBDA { return triangle.height_of(p); };
   project_face(a, face, across, vertex, height, polygons[0]);
+  const KeptCorners<S> corners(polygons[0], margin, tie);
   unsigned now = 0;
+  bool ends = false;  // the surface, or its plane, under the face
   const S slack = triangle.slack();
-  for (int k = 0; k < 3; ++k)
-    now ^= clip_to_edge(triangle, across, k, slack, polygons[now], polygons[now ^ 1u]) ? 1u : 0u;
+  for (int k = 0; k < 3; ++k) {
+    const bool cuts = clip_to_edge(triangle, across, k, slack, polygons[now], polygons[now ^ 1u]);
+    now ^= cuts ? 1u : 0u;
+    ends = ends || (cuts && !triangle.edges[k].flat);
+  }
   FacePolygon<S>& polygon = polygons[now];
   int kept = 0;
   for (int i = 0; i < polygon.count; ++i) {
     const ClipPoint<S>& p = polygon.points[i];
-    if (p.height <= margin && !is_cut_flat(triangle, p)) polygon.points[kept++] = p;
+    const bool own = p.before < kTriangleEdge && p.after < kTriangleEdge;
+    const bool counts = own ? ends || corners.kept[p.after] : !is_cut_flat(triangle, p);
+    if (p.height <= margin && counts) polygon.points[kept++] = p;
   }
   polygon.count = kept;
   if (kept == 0) return;

@@ -149,11 +149,21 @@ template <class S> class RevolvedTouch {
       const Vec3<S> p = solid_.rim_point(end, static_cast<int>(k));
       polygons[0].points[k] = {p.x, p.z, face.height(p), (k + 15) & 15u, k};
     }
+    const RimPolygon<S> rim_points = polygons[0];
     unsigned now = 0;
-    for (int k = 0; k < face.sides.count; ++k)
-      now ^= clip_to_side(face.sides, k, end, polygons[now], polygons[now ^ 1u]) ? 1u : 0u;
+    bool cut = false, ends = false;  // the face, under the disc
+    for (int k = 0; k < face.sides.count; ++k) {
+      const bool cuts = clip_to_side(face.sides, k, end, polygons[now], polygons[now ^ 1u]);
+      now ^= cuts ? 1u : 0u;
+      cut = cut || cuts;
+      ends = ends || (cuts && !face.sides.sides[k].is_flat);
+    }
     RimPolygon<S>& polygon = polygons[now];
-    keep_near(polygon, [&](const ClipPoint<S>& p) ISO_INLINE_LAMBDA { return !is_cut_flat(face.sides, p); });
+    const std::uint32_t rim_mask = ends || !cut ? 0xffffu : four_of(rim_points);
+    keep_near(polygon, [&](const ClipPoint<S>& p) ISO_INLINE_LAMBDA {
+      const bool own = p.before < kSideName && p.after < kSideName;
+      return own ? (rim_mask >> p.after & 1u) != 0 : !is_cut_flat(face.sides, p);
+    });
     const std::uint32_t rim = end == 0 ? 0 : 16;
     for (int i = 0; i < polygon.count; ++i) {
       const ClipPoint<S>& p = polygon.points[i];
@@ -161,6 +171,13 @@ template <class S> class RevolvedTouch {
       add_over(face, {p.u, end == 0 ? -solid_.half : solid_.half, p.v}, p.height,
                own ? face.own | rim | p.after : face.cut | p.before << 8 | p.after);
     }
+  }
+  /// Bits of the points that would be kept if the face went on in its plane: neighbours choose the same ones.
+  ISO_INLINE std::uint32_t four_of(RimPolygon<S> polygon) const {
+    keep_near(polygon, [](const ClipPoint<S>&) ISO_INLINE_LAMBDA { return true; });
+    std::uint32_t mask = 0;
+    for (int i = 0; i < polygon.count; ++i) mask |= 1u << polygon.points[i].after;
+    return mask;
   }
   ISO_INLINE bool clip_to_side(const FaceSides<S>& sides, int k, int end, const RimPolygon<S>& from,
                                RimPolygon<S>& to) const {
