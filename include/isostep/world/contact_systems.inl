@@ -4,6 +4,7 @@
 
 #include "isostep/world/body_frames.inl"
 #include "isostep/world/contact_responses.inl"
+#include "isostep/world/flush_contacts.inl"
 #include "isostep/world/narrow_phase.inl"
 #include "isostep/world/pair_rules.inl"
 #include "isostep/world/proxies.inl"
@@ -13,5 +14,6 @@
   template class Proxies<S>;               \
   template class PairRules<S>;             \
   template class PartPairs<S>;             \
+  template class FlushContacts<S>;         \
   template class NarrowPhase<S>;           \
   template class ContactResponses<S>;

@@ -10,6 +10,7 @@
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/belt.hpp"
 #include "isostep/dynamics/kind_table.hpp"
+#include "isostep/world/flush_contacts.hpp"
 #include "isostep/world/part_pairs.hpp"
 #include "isostep/world/step_tools.hpp"
 
@@ -30,7 +31,8 @@ template <class S> struct ContactRules {
 ///          last step's contacts.
 template <class S> class NarrowPhase {
  public:
-  ISO_INLINE NarrowPhase(WorldState<S>& state, const BodyMap<S>& map) : state_(state), part_pairs_(state, map) {}
+  ISO_INLINE NarrowPhase(WorldState<S>& state, const BodyMap<S>& map)
+      : state_(state), part_pairs_(state, map), flush_(state, map) {}
 
   /// Returns how many pairs of compounds lack parts, because the budget is used up. A step with many pairs is shared
   /// among the threads of `tools`.
@@ -83,6 +85,7 @@ template <class S> class NarrowPhase {
 
   WorldState<S>& state_;
   PartPairs<S> part_pairs_;
+  FlushContacts<S> flush_;
   MaterialTable<S> material_table_;
   std::span<const std::uint64_t> pairs_;  // for one update
   const Belts<S>* belts_ = nullptr;       // null: none runs

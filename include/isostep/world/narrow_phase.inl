@@ -7,6 +7,7 @@
 #include "isostep/collision/narrowphase/flat_patch.hpp"
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/dynamics/contact_friction.hpp"
+#include "isostep/world/flush_contacts.inl"
 #include "isostep/world/narrow_phase.hpp"
 #include "isostep/world/part_pairs.inl"
 
@@ -106,6 +107,7 @@ std::uint32_t NarrowPhase<S>::update(std::span<const std::uint64_t> pairs, const
   else update_alone();
   state_.contacts.resize(placed_);
   geometry_.resize(placed_);
+  flush_.update(state_.contacts, geometry_);
   pairs_ = {};
   return part_pairs_.cut_compounds();
 }
