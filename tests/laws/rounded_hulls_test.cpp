@@ -152,5 +152,30 @@ TYPED_TEST(RoundedHulls, a_fast_one_does_not_pass_a_thin_wall) {
   }
 }
 
+/// Its corners are over triangles whose edges its own edges cross, nearer than the corners.
+TYPED_TEST(RoundedHulls, lie_on_a_mesh_and_not_in_it) {
+  using S = TypeParam;
+  for (const double radius : {0.01, 0.02, 0.05}) {
+    World<S> world(settings<S>(-10));
+    this->add_floor(world, 0, 0.6);
+    const double a = 0.2;
+    const std::vector<D3> corners = {{a, a, a}, {a, -a, -a}, {-a, a, -a}, {-a, -a, a}};
+    const ShapeId shape = add_hull(world, hull_blob(std::span<const D3>(corners)).value(), radius);
+    BodyDefinition<S> d = this->awake(shape, {0.13, 0.5, 0.31}, 0.5);
+    d.orientation = turn<S>({0.7956, 0.2387, 0.5569}, 0.8);
+    const BodyId body = world.create(d);
+    run(world, 120);
+    double lowest = 1;
+    for (int i = 0; i < 120; ++i) {
+      world.step();
+      for (const D3 corner : corners) {
+        const double height = rotated<S>(world.pose(body).orientation, corner).y - radius;
+        lowest = std::min(lowest, to_double(world.center_of_mass(body).y) + height);
+      }
+    }
+    EXPECT_GT(lowest, -0.005) << "radius " << radius;
+  }
+}
+
 }  // namespace
 }  // namespace isostep::test

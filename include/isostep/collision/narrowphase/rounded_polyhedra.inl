@@ -143,11 +143,15 @@ void collide_rounded_triangle(const RoundedPolyhedron<S>& a, const Transform<S>&
   if (gap.distance - a.radius > margin) return;
   collide_polyhedron_triangle(a.core, ta, frame, baked, reach, out);
   const S inner = a.core.inner_radius, tolerance = axis_tolerance(inner, max_abs(frame.centre) + inner);
-  if (!gap.is_apart || gap.corners == 3 ||
-      gap.is_told_by(out, transposed_times(ta.rotation, out.normal), tolerance))
+  const Vec3<Unit<S>> normal = transposed_times(ta.rotation, out.normal);
+  if (!gap.is_apart || gap.corners == 3 || gap.is_told_by(out, normal, tolerance))
     return grow_cores(out, a.radius, S(0), margin);
+  const bool owned = is_owned(triangle, gap);
+  // An edge of the solid over one of the surface that nothing touches may be nearer than its corners over the triangle.
+  constexpr double kUpright = 0x1p-8;  // [1]
+  if (!owned && max_abs(normal + triangle.normal) <= Unit<S>(kUpright)) return grow_cores(out, a.radius, S(0), margin);
   out.clear();
-  if (is_owned(triangle, gap)) gap.touch(ta, a.radius, S(0), out);
+  if (owned) gap.touch(ta, a.radius, S(0), out);
 }
 
 }  // namespace isostep
