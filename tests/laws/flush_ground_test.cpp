@@ -79,17 +79,17 @@ TYPED_TEST(FlushGround, lets_pass_what_slides_over_it) {
   }
 }
 
-/// An edge that stands out, and a tile that lies lower, are there as ever.
+/// An edge that stands out is there as ever; at 1 m/s a cube has not the energy to tip over it.
 TYPED_TEST(FlushGround, stops_what_meets_a_tile_that_stands_out) {
   using S = TypeParam;
-  for (const double step : {0.05, 0.2}) {
+  for (const double step : {0.02, 0.05, 0.2}) {
     World<S> w(settings<S>());
     w.create(still<S>(add_box(w, 2, 0.5, 2), {-2, -0.5, 0}));
     w.create(still<S>(add_box(w, 2, 0.5, 2), {2, step - 0.5, 0}));
-    BodyDefinition<S> d = moving<S>(this->cube(w), {-1, 0.25, 0}, {3, 0, 0});
+    BodyDefinition<S> d = moving<S>(this->cube(w), {-1, 0.25, 0}, {1, 0, 0});
     d.material.friction = S(0);
     const BodyId body = w.create(d);
-    run(w, 60);
+    run(w, 120);
     EXPECT_LT(to_double(w.center_of_mass(body).x), -0.2) << "a step of " << step << " m";
   }
 }

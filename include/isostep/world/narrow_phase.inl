@@ -196,7 +196,7 @@ template <class S> void NarrowPhase<S>::collide_others(const PairRun<S>& run) co
   }
 }
 
-/// Of a convex part on triangles of one surface the manifolds of one flat piece and one material: the first of them
+/// Of a convex part on the triangles of one body the manifolds of one flat piece and one material: the first of them
 /// becomes that of all, and the others have none.
 template <class S> void NarrowPhase<S>::join_flat(const PairRun<S>& run) const {
   std::uint32_t i = run.begin;
@@ -234,18 +234,19 @@ template <class S> std::uint32_t NarrowPhase<S>::join_flat(const PairRun<S>& run
   }
   return end;
 }
-/// Whether pairs of the same two bodies are of one convex part, and of triangles of one surface and material.
+/// Whether pairs of the same two bodies are of one convex part, and of triangles of one material and belt.
 template <class S> bool NarrowPhase<S>::lie_alike(const PartPair& x, const PartPair& y) const {
   const std::vector<BodyFrame<S>>& frames = part_pairs_.frames();
   const bool of_a = frames[x.frame_a].surfaces;
   if (of_a ? x.child_b != y.child_b : x.child_a != y.child_a) return false;
   const BodyFrame<S>& ground = frames[of_a ? x.frame_a : x.frame_b];
-  const Leaf p = detail::leaf_at(ground, of_a ? x.child_a : x.child_b),
-             q = detail::leaf_at(ground, of_a ? y.child_a : y.child_b);
-  if (p.child != q.child) return false;
-  const ShapeView<S> surface = detail::part(ground, p.child);
-  return is_surface(surface.primitive.type) &&
-         listed_material(surface, p.triangle) == listed_material(surface, q.triangle);
+  const std::uint32_t leaf_x = of_a ? x.child_a : x.child_b, leaf_y = of_a ? y.child_a : y.child_b;
+  if (belts_ != nullptr && belts_->find(ground.slot, leaf_x) != belts_->find(ground.slot, leaf_y)) return false;
+  const Leaf p = detail::leaf_at(ground, leaf_x), q = detail::leaf_at(ground, leaf_y);
+  const ShapeView<S> of_p = detail::part(ground, p.child), of_q = detail::part(ground, q.child);
+  if (!is_surface(of_p.primitive.type) || !is_surface(of_q.primitive.type)) return false;
+  const SurfaceMaterial *const m = listed_material(of_p, p.triangle), *const n = listed_material(of_q, q.triangle);
+  return m == n || (m != nullptr && n != nullptr && *m == *n);
 }
 
 template <class S>
