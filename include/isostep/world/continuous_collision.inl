@@ -46,6 +46,10 @@ template <class S> Vec3<Velocity<S>> turned_back(const BodyState<S>& state, Quat
   const Mat3<Unit<S>> back = to_matrix(normalise(orientation * conjugate(state.orientation)));
   return back * state.angular_velocity;
 }
+/// Between two places at the edge of the world rounding leads beyond it, and joints reach there too.
+template <class S> ISO_INLINE void put_centre(BodyState<S>& state, Vec3<S> place) {
+  state.centre = held_within(place, Limits<S>::position());
+}
 /// a / b for 0 <= a <= b, b of 1 or 4.
 template <class S> ISO_INLINE Unit<S> share_of(std::uint32_t a, std::uint32_t b) {
   return divide_to<Unit<S>>(S(static_cast<std::int32_t>(a)), S(static_cast<std::int32_t>(b)));
@@ -294,7 +298,7 @@ template <class S> void ContinuousCollision<S>::put_at(std::uint32_t index, cons
   BodyState<S>& state = state_.awake.states[index];
   if (detail::turns_freely(state_.awake.properties[index]))
     state.angular_velocity = detail::turned_back(state, pose.orientation);
-  state.centre = pose.position;
+  detail::put_centre(state, pose.position);
   state.orientation = pose.orientation;
 }
 template <class S> void ContinuousCollision<S>::place(std::uint32_t index) {
@@ -308,7 +312,7 @@ template <class S> void ContinuousCollision<S>::place(std::uint32_t index) {
 /// not gather the speed of a fall. What `moving` bodies stop keeps its speed: contacts share it with them.
 template <class S> void ContinuousCollision<S>::stop_middle(BodyState<S>& state, const Cut& cut, bool moving) const {
   using V = Velocity<S>;
-  state.centre = cut.place - rotate(state.orientation, cut.middle);
+  detail::put_centre(state, cut.place - rotate(state.orientation, cut.middle));
   if (moving) return;
   const V inwards = max(V(0), saturate_to<V>(dot_sum(cut.normal, state.velocity)));
   state.velocity -= Vec3<V>{round_to<V>(product(cut.normal.x, inwards)), round_to<V>(product(cut.normal.y, inwards)),
