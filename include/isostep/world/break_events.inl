@@ -5,6 +5,7 @@
 #include "isostep/world/break_events.hpp"
 #include "isostep/world/contact_events.inl"
 #include "isostep/world/contact_pairs.hpp"
+#include "isostep/world/finite_guard.hpp"
 
 namespace isostep {
 
@@ -58,6 +59,7 @@ void BreakEvents<S>::mark(const SolvedContacts<S>& contacts, std::uint32_t slot,
   breakable.broken_by = blow.impulse;
   breakable.hit_point = transposed_times(turn, arm) + map_.properties_at(at).local_centre;
   breakable.hit_direction = transposed_times(turn, direction);
+  detail::keep_finite(breakable);
   events.broke.push_back({breakable.body, blow.impulse, body.centre + arm, direction});
 }
 

@@ -9,6 +9,7 @@
 #include "isostep/world/characters.hpp"
 #include "isostep/world/checks.hpp"
 #include "isostep/world/fat_box.hpp"
+#include "isostep/world/finite_guard.hpp"
 #include "isostep/world/surroundings.inl"
 
 namespace isostep {
@@ -91,6 +92,7 @@ template <class S> void Characters<S>::update() {
   std::vector<Character<S>>& changed = state_.force_records.change().characters.change_all();
   for (const Move& move : moves_) {
     changed[move.record] = move.character;
+    detail::keep_finite(changed[move.record]);
     put(move);
   }
   for (const Push& each : pushes_) push(each);

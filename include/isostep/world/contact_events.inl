@@ -5,6 +5,7 @@
 #include "isostep/dynamics/reduced_mass.hpp"
 #include "isostep/world/contact_events.hpp"
 #include "isostep/world/event_order.hpp"
+#include "isostep/world/finite_guard.hpp"
 
 namespace isostep {
 namespace detail {
@@ -28,7 +29,7 @@ ISO_INLINE S normal_impulse(const WorldState<S>& state, const SolvedContacts<S>&
     total = total + product(mass, contacts.impulses[i]);
   }
   const auto most = product(highest<S>(), Velocity<S>(1));
-  return most < total ? highest<S>() : round_to<S>(total);
+  return most < total ? highest<S>() : finite_of(round_to<S>(total));
 }
 
 }  // namespace detail

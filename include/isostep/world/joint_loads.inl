@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/world/contact_events.inl"
+#include "isostep/world/finite_guard.hpp"
 #include "isostep/world/joint_loads.hpp"
 
 namespace isostep {
@@ -25,6 +26,7 @@ template <class S> bool JointLoads<S>::measure(JointLoad<S>& load) const {
   const auto size_of = [&](Vec3<S> v) { return saturate_to<S>(product(mass, saturate_to<S>(product(length(v), hz)))); };
   load.force = size_of(impulse.linear);
   load.torque = size_of(impulse.angular);
+  detail::keep_finite(load);
   const auto breaks = [](S limit, S size) { return S(0) < limit && limit < size; };
   return breaks(load.break_force, load.force) || breaks(load.break_torque, load.torque);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/world/finite_guard.hpp"
 #include "isostep/world/wheel_forces.hpp"
 
 namespace isostep {
@@ -63,6 +64,7 @@ template <class S> void WheelForces<S>::end_engines() {
     if (kChanging < abs(change)) state_.awake.states[group.row - 1].sleep_clock = 0;
     vehicle.engine_spin = group.engine.spin;
     vehicle.clutch_load = group.engine.clutch;
+    detail::keep_finite(vehicle);
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/world/checks.hpp"
+#include "isostep/world/finite_guard.hpp"
 #include "isostep/world/wheel_clutch.inl"
 #include "isostep/world/wheel_drive.inl"
 #include "isostep/world/wheel_ground.inl"
@@ -227,6 +228,7 @@ template <class S> void WheelForces<S>::end_step() {
     w.load = force(run.load);
     w.along = force(run.push_along);
     w.across = force(run.push_across);
+    detail::keep_finite(w);
     constexpr V kTurning = V(0.05);
     if (kTurning < abs(run.spin.rim)) state_.awake.states[run.row - 1].sleep_clock = 0;
   }
