@@ -14,6 +14,29 @@ namespace detail {
 inline constexpr int kMostPlacings = 8;
 /// [1] of its way to where it is stopped that a mechanism is put back to at most: less would be no way forward.
 template <class S> inline constexpr Unit<S> kLeastPart = Unit<S>(0.125);
+/// Ties go to the first.
+template <class S>
+std::uint32_t heaviest_of(std::span<const std::uint32_t> bodies, std::span<const BodyProperties<S>> properties) {
+  std::uint32_t heaviest = bodies[0];
+  for (const std::uint32_t body : bodies) {
+    if (properties[heaviest].mass < properties[body].mass) heaviest = body;
+  }
+  return heaviest;
+}
+/// [1] How much a joint may move a body that the other one holds: what is lighter follows what is heavier.
+template <class S>
+Unit<S> share_of_pull(const WorldState<S>& state, const BodyMap<S>& map, const typename JoinedBodies<S>::Link& link) {
+  const JointProperties<S>& joint = state.joints.properties[link.joint];
+  const std::uint32_t holder = link.is_b ? joint.body_a : joint.body_b;
+  const S own = state.awake.properties[link.body].mass;
+  if (holder == kNoBody || map.location(holder).set != Location::kAwake) return Unit<S>(1);
+  const BodyProperties<S>& other = state.awake.properties[map.location(holder).index];
+  return other.type == BodyType::dynamic && other.mass < own ? divide_to<Unit<S>>(other.mass, own) : Unit<S>(1);
+}
+template <class S> Vec3<S> no_longer_than(Vec3<S> v, S most) {
+  const S size = length(v);
+  return most < size ? v * divide_to<Unit<S>>(most, size) : v;
+}
 /// [rad] Two bodies that turn by less in a step turn by less than half a turn against each other.
 template <class S> inline constexpr S kFarTurn = S(1.5);
 }  // namespace detail
@@ -45,7 +68,7 @@ template <class S> void ContinuousCollision<S>::stop_mechanism(std::span<const s
   const Leader leader = leader_of(mechanism);
   if (leader.fraction == Unit<S>(1)) return;
   const bool carried = meets_carrier(mechanism);  // what may have stopped it goes on with it
-  std::uint32_t root = leader.body;
+  std::uint32_t root = detail::heaviest_of<S>(mechanism, state_.awake.properties);
   Unit<S> part = Unit<S>(1);
   bool is_free = false;
   for (int times = 0; times < detail::kMostPlacings && !is_free; ++times) {
@@ -100,7 +123,16 @@ bool ContinuousCollision<S>::meets_carrier(std::span<const std::uint32_t> mechan
 template <class S> void ContinuousCollision<S>::place_tree(std::span<const Link> tree, Unit<S> fraction, bool closes) {
   for (const Link& link : tree) {
     const bool is_root = link.joint == JoinedBodies<S>::kNone;
-    put_at(link.body, is_root ? own_way(link.body, fraction) : joined_pose(link, fraction, closes));
+    const Pose<S> own = own_way(link.body, fraction);
+    if (is_root) {
+      put_at(link.body, own);
+      continue;
+    }
+    Pose<S> there = joined_pose(link, fraction, closes);
+    const S most = length(ends_[link.body].position - start_[link.body].position) *
+                   detail::share_of_pull(state_, map_, link);
+    there.position = own.position + detail::no_longer_than(there.position - own.position, most);
+    put_at(link.body, there);
   }
 }
 
