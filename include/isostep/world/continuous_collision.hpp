@@ -39,10 +39,12 @@ template <class S> struct ImpactRules {
 ///          Of all impacts of a body the earliest counts; ties go to the lowest slot, then part. What hits a kinematic
 ///          body is swept in that one's frame and goes on with it to the end of the step.
 ///          3. Mechanisms of which a body was stopped stop as a whole (continuous_joined.inl): each joint goes from how
-///             it was to how it would be as far as that body did of its way, and bodies are where joints have them.
+///             it was to how it would be as far as that body did of its way, and bodies are where joints have them,
+///             from the heaviest outwards, but none further from its own way than that is long.
 ///             Points that joints hold together are closed.
 /// Touch:   a body that touches at the start is swept as a smaller one, deeper inside of it: an impact at time 0 is no
-///          reason to let the rest of it pass. Touching less deep than that of the first of them is not cut.
+///          reason to let the rest of it pass. Touching less deep than that of the first of them is not cut. What slips
+///          deeper where it was stopped goes on: see free_way().
 /// Limits:  two bodies may squeeze a third.
 template <class S> class ContinuousCollision {
  public:

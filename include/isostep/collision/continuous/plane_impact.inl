@@ -22,17 +22,19 @@ template <class S> class PlaneAdvance {
     TimeOfImpact<S> result = {Impact::none, Unit<S>(0), coarser_of<Unit<S>>(-normal_), Vec3<S>::zero(),
                               Vec3<S>::zero(), S(0), 0};
     U t = U(0);
+    bool stays = false;  // nearer than the target in every round so far
     for (result.rounds = 1; result.rounds <= kMostRounds; ++result.rounds) {
       const GapBound<F> bound = bound_at(t);
       const F noise = gap_noise(core_.core.extent + max_abs(core_.from + core_.way * t - point_)) +
                       core_.reach * resolution<F>() * F(4);
       const F target = max(target_, noise * F(8)), keep = target * F(0.5);
       const F separation = bound.at(U(0)).height - noise;
-      const bool at_start = result.rounds == 1;
-      result.impact = at_start ? Impact::at_start : Impact::touch;
+      const bool near = separation <= target, begins = result.rounds == 1;
+      stays = near && (begins || stays);
+      result.impact = begins ? Impact::at_start : stays && t < kAtOnce<U> ? Impact::stays : Impact::touch;
       result.separation = coarser_down<S>(separation);
-      if (separation <= (at_start ? keep : target)) return result;
-      result.impact = separation <= target ? Impact::touch : Impact::cut_off;
+      if (separation <= (begins ? keep : target)) return result;
+      result.impact = near ? Impact::touch : Impact::cut_off;
       const U rest = U(1) - t;
       GapBound<F> above = bound;
       above.gap = bound.gap - (keep + noise);

@@ -31,9 +31,11 @@ template <class S> struct FreeWay {
 /// Method:  `a` is swept as a solid that is kGraze deep in it (a quarter of its inner radius, if that is less), up to
 ///          where the two overlap by half to three quarters of that: what does not touch the solid grazes. To stop
 ///          where all of `a` touches would hold what slides or tips over: contacts close gaps of that size.
-///          What overlaps by as much from the start is swept as the solid a quarter of the inner radius deep in `a`.
-///          If even that does, what is swept is a ball in its middle, of three quarters of that radius down to a
-///          sixteenth; the smallest goes nowhere but away from what it touches.
+///          What overlaps by as much from the start is swept as a solid twice as deep in `a`, and so on up to half of
+///          the inner radius. If even that does, what is swept is a ball in its middle, of three quarters of that
+///          radius down to a sixteenth; the smallest goes nowhere but away from what it touches.
+///          Where an earlier step stopped it, a motion that dips in at once, a turn with a contact at one end, would
+///          stop for ever: it goes as far as the solid another kGraze deep, unless that does not get on either.
 template <class S>
 FreeWay<S> free_way(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                     const Pose<S>& pose_of_b);

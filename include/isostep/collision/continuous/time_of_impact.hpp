@@ -14,6 +14,7 @@ enum class Impact : std::uint8_t {
   none,      // they stay apart to the end
   touch,     // at `fraction` they are apart by the target or less
   at_start,  // they are apart by half the target or less, or overlap, at the start; nothing is said of what follows
+  stays,     // as touch, but at once, and they were that near from the start on: where an earlier motion was stopped
   cut_off,   // as touch, but the rounds ended while they were further apart: early, never late
 };
 

@@ -77,6 +77,9 @@ template <class F> struct Turning {
   }
 };
 
+/// [1] of a motion: what gets so far gets on.
+template <class U> inline constexpr U kAtOnce = U(0.125);
+
 /// L(d) of time_of_impact.hpp.
 template <class F> struct GapBound {
   using U = Unit<F>;
@@ -133,6 +136,7 @@ template <class S> class Advance {
   ISO_INLINE Result run() const {
     Result result = {Impact::none, U(0), Vec3<U>::zero(), Vec3<F>::zero(), Vec3<F>::zero(), F(0), 0};
     Simplex<F> simplex = {};
+    bool stays = false;  // nearer than the target in every round so far
     for (result.rounds = 1; result.rounds <= kMostRounds; ++result.rounds) {
       const U t = result.fraction;
       const Transform<F> ta = a_.at(t), tb = b_.at(t), b_in_a = relative(ta, tb);
@@ -147,10 +151,11 @@ template <class S> class Advance {
       result.normal = ta.rotation * found.normal;
       result.on_a = to_world(ta, found.on_a);
       result.on_b = to_world(ta, found.on_b);
-      const bool at_start = result.rounds == 1;  // then nearer than the target they still may go on
-      result.impact = at_start ? Impact::at_start : Impact::touch;
-      if (found.distance == F(0) || result.separation <= (at_start ? keep : target)) return result;
-      result.impact = result.separation <= target ? Impact::touch : Impact::cut_off;
+      const bool near = result.separation <= target, begins = result.rounds == 1;
+      stays = near && (begins || stays);
+      result.impact = begins ? Impact::at_start : stays && t < kAtOnce<U> ? Impact::stays : Impact::touch;
+      if (found.distance == F(0) || result.separation <= (begins ? keep : target)) return result;
+      result.impact = near ? Impact::touch : Impact::cut_off;
       const U rest = U(1) - t;
       const U step = bound_at(t, ta, tb, result.normal, keep + noise).proved(result.separation - keep, rest);
       if (!(step < rest)) return {Impact::none, U(1), Vec3<U>::zero(), result.on_a, result.on_b, F(0), result.rounds};
