@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/joints/joint_sway.hpp"
 #include "isostep/dynamics/joints/slide_rows.hpp"
 
 namespace isostep {
 
 /// Origins lower..upper apart (lower = upper: rod, lower = 0: rope). kSpring: a spring instead; with kLimit both.
+/// Two more drives stand across it: joint_sway.hpp.
 template <class S> struct DistanceJoint {
   static constexpr JointType kType = JointType::distance;
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kLimit | joint_flag::kSpring;
@@ -24,16 +26,17 @@ template <class S> struct DistanceJoint {
   static ISO_INLINE bool is_free(const JointProperties<S>& p, std::uint32_t) { return !is_rod(p); }
   static ISO_INLINE void count_rows(JointConstraint<S>& joint) {
     const JointProperties<S>& p = joint.properties;
-    const bool spring = (p.flags & joint_flag::kSpring) != 0;
-    const bool rod = is_rod(p);
-    JointDrive<S>& drive = joint.drives[0];
     joint.block_count = 1;
-    joint.drive_count = rod ? 0 : 1;
-    drive.block = drive.place = 0;
-    drive.push_speed = detail::kJointPushSpeed<S>;
-    drive.bounded_below = is_bounded(p) && p.lower > S(0);
-    drive.bounded_above = is_bounded(p);
-    drive.sprung = spring && !rod;
+    joint.drive_count = 0;
+    if (!is_rod(p)) {
+      JointDrive<S>& drive = joint.drives[joint.drive_count++];
+      drive.block = drive.place = 0;
+      drive.push_speed = detail::kJointPushSpeed<S>;
+      drive.bounded_below = is_bounded(p) && p.lower > S(0);
+      drive.bounded_above = is_bounded(p);
+      drive.sprung = (p.flags & joint_flag::kSpring) != 0;
+    }
+    detail::add_sways(joint);
   }
   /// Coinciding points have no direction: y is taken, and a rod grows along it.
   static ISO_INLINE void linearise(const detail::JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
@@ -41,24 +44,26 @@ template <class S> struct DistanceJoint {
     const Vec3<Unit<S>> unit =
         d.length > S(0) ? Vec3<Unit<S>>{d.x, d.y, d.z} : Vec3<Unit<S>>{Unit<S>(0), Unit<S>(1), Unit<S>(0)};
     const JointProperties<S>& p = joint.properties;
-    const Vec3<S> zero = Vec3<S>::zero();
-    const JointRow<S> row = {convert<S>(unit), cross(f.arm_a, unit), cross(f.arm_b, unit), zero, zero};
     JointBlock<S>& block = joint.blocks[0];
     detail::empty_block(block);
-    if (joint.drive_count == 0) {
-      block.rows[0] = row;
+    if (is_rod(p)) {
+      block.rows[0] = detail::line_row(f, unit);
       block.error.x = detail::bounded_error(d.length - p.upper, h);
-      return;
+      return detail::set_sways(f, unit, d.length, h, joint.drives);
     }
     JointDrive<S>& drive = joint.drives[0];
-    drive.row = row;
+    drive.row = detail::line_row(f, unit);
     drive.position = d.length;
     drive.lower = p.lower;
     drive.upper = p.upper;
     drive.target = p.spring_target;
+    detail::set_sways(f, unit, d.length, h, joint.drives + 1);
   }
 
-  static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) { return detail::pull_of_rows(joint); }
+  static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) {
+    const Vec3<Velocity<S>> of_rod = detail::pull_of_rows(joint);
+    return is_rod(joint.properties) ? of_rod : of_rod + scaled(joint.drives[0].row.linear, joint.drives[0].impulse);
+  }
   static ISO_INLINE S error(const JointProperties<S>& p, const Pose<S>& a, const Pose<S>& b) {
     const S apart = distance(a.position, b.position);
     return is_bounded(p) ? max(S(0), max(apart - p.upper, p.lower - apart)) : S(0);

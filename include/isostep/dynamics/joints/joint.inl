@@ -83,6 +83,7 @@ template <class S> void linearise_joint(JointConstraint<S>& joint, const JointSt
     if (drive.soft) detail::yield_limit(drive);
     drive.piece = detail::valid_piece(drive, drive.piece);
     drive.spring = S(0);  // of a soft limit that the last sub-step left, too
+    if (drive.sways) detail::weigh_sway(joint, step, drive);
     if (!drive.sprung) continue;
     const S angle = S(6.283185307179586) * (drive.frequency * step.h);
     const S a1 = S(2) * drive.damping + angle;
@@ -173,7 +174,8 @@ template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];
     const DriveBounds<S> bounds = detail::bounds_of(drive, step, relax);
-    changes = detail::judge_drive(drive, speed_along(drive.row, m), bounds, step.h, may_hold) || changes;
+    if (drive.sways) changes = detail::judge_sway(joint, drive, may_hold) || changes;
+    else changes = detail::judge_drive(drive, speed_along(drive.row, m), bounds, step.h, may_hold) || changes;
   }
   return changes;
 }

@@ -28,9 +28,11 @@ template <class S> struct JointDrive {
   bool bounded_below, bounded_above, sprung, driven;
   bool servo;                  // sprung, not driven: the spring gives no more than most_impulse()
   bool soft, yields;           // its limits are soft; it is beyond one, and the limit's spring acts
+  bool sways;                  // stands across a rod, rope or spring, as a damper: joint_sway.hpp
   S frequency, damping;        // [Hz], [1] of the spring
   S spring_inverse;            // [1] reduced mass / mass that the spring is made for, in the row's unit
   S half_tangent;              // [1] of a swing's limit: tan(upper / 2)
+  S sway, sway_left;           // [s/m] of one that sways: h / length; [1] what explicit steps can follow
   S force, most;               // [m/s^2] most impulse a second of the motor or servo, [m/s] and in a sub-step
   Velocity<S> push_speed;      // [m/s] with which it returns from beyond a limit
   Velocity<S> speed;           // [m/s] of the motor

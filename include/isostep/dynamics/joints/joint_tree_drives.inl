@@ -20,17 +20,20 @@ void JointTrees<S>::each_drive(const Batch& batch, const TreeRun<S>& run, const 
   }
 }
 
-/// Rows, errors and springs of the joints that are more than a point and have no stops.
+/// Rows, errors and springs of the joints that are more than a point and have no stops. What a rod pulls with stands in
+/// the lanes.
 template <class S>
 void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
                                const JointStep<S>& step) {
   const auto width = static_cast<std::uint32_t>(batch.kernels->width);
+  const TreeNodeView<S> nodes(run.memory, run.shape, width);
   for (std::uint32_t j = 0; j < run.shape.joints.size(); ++j) {
     const TreeJoint& of = run.shape.joints[j];
     if (of.stops != TreeJoint::kNoStops || (!of.turns && run.shape.nodes[of.node].is_point())) continue;
     for (std::uint32_t lane = 0; lane < width; ++lane) {
       if ((run.lanes >> lane & 1u) == 0) continue;
       JointConstraint<S>& joint = joints[run.joints[j * width + lane]];
+      if (joint.drive_count > 0 && joint.drives[0].sways) joint.blocks[0].impulse.x = nodes.impulse(of.node, 0, lane);
       linearise_joint(joint, step);
     }
   }
@@ -91,11 +94,18 @@ bool JointTrees<S>::judge_drives(const Batch& batch, const TreeRun<S>& run, std:
                                  const JointStep<S>& step, bool may_hold) const {
   const auto width = static_cast<std::uint32_t>(batch.kernels->width);
   const TreeDriveView<S> view(run.memory, run.shape, width);
+  const TreeNodeView<S> nodes(run.memory, run.shape, width);
   bool off = false;
   each_drive(batch, run, [&](const TreeDrive& of, std::size_t d, std::uint32_t lane, bool has_tree) {
     if (!has_tree) return;
-    JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];
+    JointConstraint<S>& joint = joints[run.joints[of.joint * width + lane]];
+    JointDrive<S>& drive = joint.drives[of.index];
     drive.impulse = view.impulse(d, lane);
+    if (drive.sways) {
+      if (of.index == 0) joint.blocks[0].impulse.x = nodes.impulse(of.node, 0, lane);
+      off = detail::judge_sway(joint, drive, may_hold) || off;
+      return;
+    }
     const DriveBounds<S> bounds = {view.low(d, lane), view.high(d, lane)};
     off = detail::judge_drive(drive, view.speed(d, lane), bounds, step.h, may_hold) || off;
   });

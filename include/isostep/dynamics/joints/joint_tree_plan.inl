@@ -94,7 +94,7 @@ void JointTrees<S>::place_in_tree(std::span<const JointConstraint<S>> joints, co
                                   std::uint32_t j) {
   const bool a_moves = bodies.moves(joints[j].row_a), b_moves = bodies.moves(joints[j].row_b);
   const std::uint32_t set = sets_.find(a_moves ? joints[j].row_a : joints[j].row_b);
-  if (asked_[set] == 0 || set_mass_[set] * detail::kLeastCompliance < S >> set_lightest_[set]) {
+  if (asked_[set] == 0 || set_mass_[set] * detail::kTreeCompliance < S >> set_lightest_[set]) {
     role_[j] = detail::kLoose;
     return;
   }

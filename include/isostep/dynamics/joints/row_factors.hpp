@@ -20,7 +20,7 @@ ISO_INLINE SymmetricFactors<Lanes<S, W, Isa>> factor_rows(const Mat3<Lanes<S, W,
   using L = Lanes<S, W, Isa>;
   const L soft = L::broadcast(softness), zero = L::zero();
   SymmetricFactors<L> factors = factor_symmetric(m, soft);
-  if (!(S(4) * softness < detail::kLeastCompliance<S>)) return factors;
+  if (!(S(4) * softness < detail::kTreeCompliance<S>)) return factors;
   const L most = L::broadcast(S(0.25) / softness);
   Mat3<L> rest = m;
   for (int left = 0; left < 3; ++left) {

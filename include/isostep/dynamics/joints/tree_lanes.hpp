@@ -137,6 +137,27 @@ template <class S> class TreeDriveView {
   std::size_t width_;
 };
 
+/// Likewise the impulses of its nodes.
+template <class S> class TreeNodeView {
+ public:
+  ISO_INLINE TreeNodeView(unsigned char* memory, const TreeShape& shape, std::size_t width)
+      : first_(memory + (shape.bodies.size() * sizeof(TreeBodyLanes<S, 1>) +
+                         shape.joints.size() * sizeof(TreeJointLanes<S, 1>)) *
+                            width),
+        width_(width) {}
+
+  ISO_INLINE Velocity<S> impulse(std::size_t node, std::size_t row, std::size_t lane) const {
+    using Node = TreeNodeLanes<S, 1>;
+    constexpr std::size_t kBefore = offsetof(Node, impulse);
+    const std::size_t word = node * sizeof(Node) + kBefore;
+    return *reinterpret_cast<const Velocity<S>*>(first_ + (word + row * sizeof(S)) * width_ + lane * sizeof(S));
+  }
+
+ private:
+  const unsigned char* first_;
+  std::size_t width_;
+};
+
 /// As TreeStopLanes.
 template <class S> struct TreeStopLimits {
   SinCos<Unit<S>> middle;

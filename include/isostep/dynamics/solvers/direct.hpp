@@ -129,6 +129,7 @@ template <class S> class DirectSolver {
   void soften(Island& island, std::uint32_t r, const JointDrive<S>& drive);
   V most_impulse(const JointDrive<S>& drive) const;
   void keep_joint(JointConstraint<S>& joint, const Island& island, std::uint32_t first) const;
+  bool tighten(Island& island);
 
   // direct_contacts.inl
   ISO_INLINE Block& block_of(const StepContext<S>& context, std::uint32_t c) {

@@ -204,6 +204,10 @@ template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& co
     for (std::uint32_t i = 0; i < island_count_; ++i) {
       place_rows(context, islands_[i]);
       solve(context, islands_[i], Pass::biased);
+      for (int again = 0; again < detail::kMostPieceChanges && tighten(islands_[i]); ++again) {
+        ++islands_[i].solves_left;  // beside those that the step's work is divided among
+        solve(context, islands_[i], Pass::biased);
+      }
     }
     const bool any_followed = bodies_.integrate_positions(context, 0, count);
     for (std::uint32_t i = 0; i < island_count_; ++i) {

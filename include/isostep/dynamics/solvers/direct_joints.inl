@@ -182,4 +182,22 @@ void DirectSolver<S>::keep_joint(JointConstraint<S>& joint, const Island& island
   }
 }
 
+/// Rods that came to pull much harder have their rows across placed anew: judge_sway(). Whether there are any.
+template <class S> bool DirectSolver<S>::tighten(Island& island) {
+  bool any = false;
+  for (std::size_t k = 0; k < island.joints.size(); ++k) {
+    JointConstraint<S>& joint = joints_[island.joints[k]];
+    if (joint.drive_count == 0 || !joint.drives[joint.drive_count - 1].sways) continue;
+    keep_joint(joint, island, island.joint_blocks[k]);
+    bool tightens = false;
+    for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+      if (joint.drives[i].sways) tightens = detail::judge_sway(joint, joint.drives[i], true) || tightens;
+    }
+    if (tightens) place_joint(joint, island, island.joint_blocks[k]);
+    any = any || tightens;
+  }
+  if (any) island.system.assemble();
+  return any;
+}
+
 }  // namespace isostep
