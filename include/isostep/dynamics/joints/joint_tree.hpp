@@ -58,6 +58,9 @@ template <class S> class JointTrees {
   static constexpr std::uint32_t kMaxBlocksAtBody = 24;
   /// Of the joints solved one by one: a second sweep takes S6's worst separation from 0.6 m to 0.09, four to 0.087.
   static constexpr int kLooseSweeps = 2;
+  /// Relaxations of them and of the trees that they tie: what closed their errors would stay as speed where one is not
+  /// enough. After one a grid of 10 by 10 bodies that hangs still swings at 10 m/s two seconds later.
+  static constexpr int kLooseRelaxations = 4;
 
   /// A block of a joint that is eliminated in its turn; its links lead to blocks that are eliminated later.
   struct Node {
@@ -99,6 +102,7 @@ template <class S> class JointTrees {
 
   // joint_tree_plan.inl
   void find_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, JointOrder order);
+  void add_joint(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, std::uint32_t j);
   void weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, JointOrder order);
   void place_in_tree(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, std::uint32_t j);
   void list_joints_of_bodies(std::span<const JointConstraint<S>> joints);

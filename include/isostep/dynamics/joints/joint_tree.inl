@@ -93,10 +93,12 @@ template <class S>
 void JointTrees<S>::solve(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step,
                           bool relax) {
   if (batch < batches_.size()) return solve(batches_[batch], joints, step, relax);
-  for (int sweep = 0; sweep < kLooseSweeps; ++sweep) {
-    for (const std::uint32_t j : loose_) solve_joint(joints[j], step, relax);
+  for (int round = 0; round < (relax ? kLooseRelaxations : 1); ++round) {
+    for (int sweep = 0; sweep < kLooseSweeps; ++sweep) {
+      for (const std::uint32_t j : loose_) solve_joint(joints[j], step, relax);
+    }
+    for (const Batch& odd : odd_batches_) solve(odd, joints, step, relax);
   }
-  for (const Batch& odd : odd_batches_) solve(odd, joints, step, relax);
 }
 template <class S> void JointTrees<S>::store(std::uint32_t batch, std::span<JointConstraint<S>> joints) {
   if (batch < batches_.size()) return store(batches_[batch], joints);

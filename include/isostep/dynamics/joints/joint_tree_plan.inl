@@ -36,26 +36,39 @@ void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const
   degree_.assign(rows, 0);
   blocks_.assign(rows, 0);
   anchored_.assign(rows, 0);
-  for (std::uint32_t j = 0; j < joints.size(); ++j) {
-    const JointConstraint<S>& joint = joints[j];
-    if (!joint.holds) continue;
-    const bool a_moves = bodies.moves(joint.row_a), b_moves = bodies.moves(joint.row_b);
-    bool fits = true;
-    for (const std::uint32_t row : {joint.row_a, joint.row_b}) {
-      if (bodies.moves(row) && blocks_[row] + joint.block_count > kMaxBlocksAtBody) fits = false;
+  // What hangs on the world comes first: of a loop through it the joint yields that ties two such sets together, not
+  // an end that bears one of them.
+  for (const bool hangs : {true, false}) {
+    for (std::uint32_t j = 0; j < joints.size(); ++j) {
+      const JointConstraint<S>& joint = joints[j];
+      if (joint.holds && hangs == !(bodies.moves(joint.row_a) && bodies.moves(joint.row_b))) add_joint(joint, bodies, j);
     }
-    if (a_moves && b_moves && sets_.find(joint.row_a) == sets_.find(joint.row_b)) fits = false;
-    role_[j] = fits ? detail::kTree : detail::kLoose;
-    if (!fits) continue;
-    if (a_moves && b_moves) sets_.join(joint.row_a, joint.row_b);
-    if (a_moves) blocks_[joint.row_a] += joint.block_count;
-    if (b_moves) blocks_[joint.row_b] += joint.block_count;
   }
   weigh_sets(joints, bodies, order);
   for (std::uint32_t j = 0; j < joints.size(); ++j) {
-    if (role_[j] == detail::kTree) place_in_tree(joints, bodies, j);
+    if (role_[j] >= detail::kTree) place_in_tree(joints, bodies, j);
     if (role_[j] == detail::kLoose) loose_.push_back(j);
   }
+}
+
+/// A joint of a tree, unless it closes a loop of bodies or meets too many others.
+template <class S>
+void JointTrees<S>::add_joint(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, std::uint32_t j) {
+  const bool a_moves = bodies.moves(joint.row_a), b_moves = bodies.moves(joint.row_b);
+  bool fits = true;
+  for (const std::uint32_t row : {joint.row_a, joint.row_b}) {
+    if (bodies.moves(row) && blocks_[row] + joint.block_count > kMaxBlocksAtBody) fits = false;
+  }
+  const std::uint32_t a = a_moves ? sets_.find(joint.row_a) : 0, b = b_moves ? sets_.find(joint.row_b) : 0;
+  if (a_moves && b_moves && a == b) fits = false;
+  role_[j] = fits ? detail::kTree : detail::kLoose;
+  if (!fits) return;
+  const bool a_hangs = !a_moves || anchored_[a] != 0, b_hangs = !b_moves || anchored_[b] != 0;
+  if (a_hangs && b_hangs) role_[j] = detail::kClosing;
+  if (a_moves && b_moves) sets_.join(joint.row_a, joint.row_b);
+  anchored_[sets_.find(a_moves ? joint.row_a : joint.row_b)] = a_hangs || b_hangs ? 1 : 0;
+  if (a_moves) blocks_[joint.row_a] += joint.block_count;
+  if (b_moves) blocks_[joint.row_b] += joint.block_count;
 }
 
 /// The softest thing a tree's elimination leaves is near the least reduced mass of its joints over its whole mass.
@@ -71,7 +84,7 @@ void JointTrees<S>::weigh_sets(std::span<const JointConstraint<S>> joints, const
     mass = min(mass + min(bodies.mass[row].mass, Limits<S>::mass()), Limits<S>::mass());
   }
   for (std::uint32_t j = 0; j < joints.size(); ++j) {
-    if (role_[j] != detail::kTree) continue;
+    if (role_[j] < detail::kTree) continue;
     const bool a_moves = bodies.moves(joints[j].row_a);
     const std::uint32_t row = a_moves ? joints[j].row_a : joints[j].row_b;
     const std::uint32_t set = sets_.find(row);
@@ -100,9 +113,6 @@ void JointTrees<S>::place_in_tree(std::span<const JointConstraint<S>> joints, co
   }
   if (a_moves) ++degree_[joints[j].row_a];
   if (b_moves) ++degree_[joints[j].row_b];
-  if (a_moves && b_moves) return;
-  if (anchored_[set] != 0) role_[j] = detail::kClosing;
-  anchored_[set] = 1;
 }
 
 template <class S> void JointTrees<S>::list_joints_of_bodies(std::span<const JointConstraint<S>> joints) {
