@@ -44,8 +44,8 @@ template <class S> ISO_INLINE Velocity<S> tension_of(const JointConstraint<S>& j
 ///          can follow is left to them.
 /// Symbols: p = impulse of the rod itself, as velocity of the reduced mass: that of the sub-step before, and of this
 ///          one if it is much more. sway = h / l.
-template <class S> ISO_INLINE void set_sways(const JointFrames<S>& f, Vec3<Unit<S>> unit, S length, Step<S> h,
-                                             JointDrive<S>* sways) {
+template <class S>
+ISO_INLINE void set_sways(const JointFrames<S>& f, Vec3<Unit<S>> unit, S length, Step<S> h, JointDrive<S>* sways) {
   const Tangents<Unit<S>> across = tangents_of(unit);
   sways[0].row = line_row(f, across.t);
   sways[1].row = line_row(f, across.u);
@@ -72,8 +72,7 @@ ISO_INLINE void weigh_sway(const JointConstraint<S>& joint, const JointStep<S>& 
   set_sway(drive, excess_sway(drive, tension_of(joint)));
 }
 /// Whether the rod came to pull so much harder in this pass that its ends would be driven: the pass begins again.
-template <class S>
-ISO_INLINE bool judge_sway(const JointConstraint<S>& joint, JointDrive<S>& drive, bool may_hold) {
+template <class S> ISO_INLINE bool judge_sway(const JointConstraint<S>& joint, JointDrive<S>& drive, bool may_hold) {
   drive.next = drive.piece;
   const S excess = excess_sway(drive, tension_of(joint));
   if (!may_hold || !(drive.sway_left + S(1.5) * (drive.spring * drive.spring) < excess)) return false;

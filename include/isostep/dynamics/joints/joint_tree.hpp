@@ -102,6 +102,8 @@ template <class S> class JointTrees {
 
   // joint_tree_plan.inl
   void find_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, JointOrder order);
+  /// The softest thing a tree's elimination leaves is near the least reduced mass of its joints over its whole mass.
+  static ISO_INLINE bool is_too_heavy(S mass, S lightest) { return lightest < mass * detail::kTreeCompliance<S>; }
   void add_joint(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, std::uint32_t j);
   void weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, JointOrder order);
   void place_in_tree(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, std::uint32_t j);

@@ -36,12 +36,16 @@ void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const
   degree_.assign(rows, 0);
   blocks_.assign(rows, 0);
   anchored_.assign(rows, 0);
+  set_mass_.resize(rows);
+  set_lightest_.assign(rows, Limits<S>::mass());
+  for (std::size_t row = 0; row < rows; ++row) set_mass_[row] = min(bodies.mass[row].mass, Limits<S>::mass());
   // What hangs on the world comes first: of a loop through it the joint yields that ties two such sets together, not
   // an end that bears one of them.
   for (const bool hangs : {true, false}) {
     for (std::uint32_t j = 0; j < joints.size(); ++j) {
       const JointConstraint<S>& joint = joints[j];
-      if (joint.holds && hangs == !(bodies.moves(joint.row_a) && bodies.moves(joint.row_b))) add_joint(joint, bodies, j);
+      if (joint.holds && hangs == !(bodies.moves(joint.row_a) && bodies.moves(joint.row_b)))
+        add_joint(joint, bodies, j);
     }
   }
   weigh_sets(joints, bodies, order);
@@ -51,7 +55,8 @@ void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const
   }
 }
 
-/// A joint of a tree, unless it closes a loop of bodies or meets too many others.
+/// A joint of a tree, unless it closes a loop of bodies, meets too many others, or ties two sets that hang by
+/// themselves into one that is too heavy: a wide net falls into its columns.
 template <class S>
 void JointTrees<S>::add_joint(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, std::uint32_t j) {
   const bool a_moves = bodies.moves(joint.row_a), b_moves = bodies.moves(joint.row_b);
@@ -64,33 +69,34 @@ void JointTrees<S>::add_joint(const JointConstraint<S>& joint, const SolverBodie
   role_[j] = fits ? detail::kTree : detail::kLoose;
   if (!fits) return;
   const bool a_hangs = !a_moves || anchored_[a] != 0, b_hangs = !b_moves || anchored_[b] != 0;
-  if (a_hangs && b_hangs) role_[j] = detail::kClosing;
+  const S mass = min((a_moves ? set_mass_[a] : S(0)) + (b_moves ? set_mass_[b] : S(0)), Limits<S>::mass());
+  const S reduced =
+      a_moves ? bodies.mass[joint.row_a].mass * joint.share.a : bodies.mass[joint.row_b].mass * joint.share.b;
+  const S lightest = min(reduced, min(a_moves ? set_lightest_[a] : reduced, b_moves ? set_lightest_[b] : reduced));
+  if (a_hangs && b_hangs) {
+    if (a_moves && b_moves && is_too_heavy(mass, lightest)) {
+      role_[j] = detail::kLoose;
+      return;
+    }
+    role_[j] = detail::kClosing;
+  }
   if (a_moves && b_moves) sets_.join(joint.row_a, joint.row_b);
-  anchored_[sets_.find(a_moves ? joint.row_a : joint.row_b)] = a_hangs || b_hangs ? 1 : 0;
+  const std::uint32_t set = sets_.find(a_moves ? joint.row_a : joint.row_b);
+  anchored_[set] = a_hangs || b_hangs ? 1 : 0;
+  set_mass_[set] = mass;
+  set_lightest_[set] = lightest;
   if (a_moves) blocks_[joint.row_a] += joint.block_count;
   if (b_moves) blocks_[joint.row_b] += joint.block_count;
 }
 
-/// The softest thing a tree's elimination leaves is near the least reduced mass of its joints over its whole mass.
+/// Trees that are solved at once.
 template <class S>
 void JointTrees<S>::weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies,
                                JointOrder order) {
   asked_.assign(blocks_.size(), order == JointOrder::trees ? 1 : 0);
-  set_mass_.assign(blocks_.size(), S(0));
-  set_lightest_.assign(blocks_.size(), Limits<S>::mass());
-  for (std::uint32_t row = 0; row < blocks_.size(); ++row) {
-    if (blocks_[row] == 0) continue;
-    S& mass = set_mass_[sets_.find(row)];
-    mass = min(mass + min(bodies.mass[row].mass, Limits<S>::mass()), Limits<S>::mass());
-  }
   for (std::uint32_t j = 0; j < joints.size(); ++j) {
-    if (role_[j] < detail::kTree) continue;
-    const bool a_moves = bodies.moves(joints[j].row_a);
-    const std::uint32_t row = a_moves ? joints[j].row_a : joints[j].row_b;
-    const std::uint32_t set = sets_.find(row);
-    if (joints[j].drive_count > 0) asked_[set] = 1;
-    S& lightest = set_lightest_[set];
-    lightest = min(lightest, bodies.mass[row].mass * (a_moves ? joints[j].share.a : joints[j].share.b));
+    if (role_[j] < detail::kTree || joints[j].drive_count == 0) continue;
+    asked_[sets_.find(bodies.moves(joints[j].row_a) ? joints[j].row_a : joints[j].row_b)] = 1;
   }
   if (order == JointOrder::trees) return;
   // What is solved once a step throws off what a tree is tied to besides.
@@ -107,7 +113,7 @@ void JointTrees<S>::place_in_tree(std::span<const JointConstraint<S>> joints, co
                                   std::uint32_t j) {
   const bool a_moves = bodies.moves(joints[j].row_a), b_moves = bodies.moves(joints[j].row_b);
   const std::uint32_t set = sets_.find(a_moves ? joints[j].row_a : joints[j].row_b);
-  if (asked_[set] == 0 || set_mass_[set] * detail::kTreeCompliance < S >> set_lightest_[set]) {
+  if (asked_[set] == 0 || is_too_heavy(set_mass_[set], set_lightest_[set])) {
     role_[j] = detail::kLoose;
     return;
   }
