@@ -86,11 +86,12 @@ template <class S, int W, class Isa> struct BodyKernel {
   // ---- velocities
 
   static ISO_INLINE void accelerate(const BodyRun<S>& run, std::size_t first, H h, Motion& m) {
-    const BodyFactors<S>* const rows = run.factors + first;
-    L factor[4];
-    load_rows<4, S>([rows](int i) ISO_INLINE_LAMBDA { return &rows[i].gravity_scale; }, factor);
-    Vec3<L> acceleration = {L::broadcast(run.gravity.x) * factor[0], L::broadcast(run.gravity.y) * factor[0],
-                            L::broadcast(run.gravity.z) * factor[0]};
+    BodyFlight<S>* const flights = run.flights + first;
+    V fall[4];
+    load_rows<4, Velocity<S>>([flights](int i) ISO_INLINE_LAMBDA { return &flights[i].fall.x; }, fall);
+    m.linear += {fall[0], fall[1], fall[2]};
+    const V fallen[4] = {m.linear.x, m.linear.y, m.linear.z, V::zero()};
+    store_rows<4, Velocity<S>>([flights](int i) ISO_INLINE_LAMBDA { return &flights[i].fallen.x; }, fallen, kAll);
     if (run.accelerations != nullptr) {
       alignas(kLaneAlignment<S, W>) S in[6][W];
       for (int i = 0; i < W; ++i) {
@@ -100,13 +101,15 @@ template <class S, int W, class Isa> struct BodyKernel {
           in[3 + axis][i] = of.angular[axis];
         }
       }
-      acceleration += Vec3<L>{L::load(in[0]), L::load(in[1]), L::load(in[2])};
+      m.linear += over({L::load(in[0]), L::load(in[1]), L::load(in[2])}, h);
       m.angular += over({L::load(in[3]), L::load(in[4]), L::load(in[5])}, h);
     }
-    m.linear += over(acceleration, h);
     if (which(run.kinds + first, body_kind::kDamped) == 0) return;
-    m.linear = times(factor[1], m.linear);
-    m.angular = times(factor[2], m.angular);
+    const BodyFactors<S>* const rows = run.factors + first;
+    L factor[4];
+    load_rows<4, S>([rows](int i) ISO_INLINE_LAMBDA { return &rows[i].linear_keep; }, factor);
+    m.linear = times(factor[0], m.linear);
+    m.angular = times(factor[1], m.angular);
   }
 
   /// Turns solids that are slow; returns the bodies that have still to turn.
@@ -166,7 +169,7 @@ template <class S, int W, class Isa> struct BodyKernel {
     if (moves == 0) return;
     Motion d = load(run.displacement + first);
     // The centre follows the displacement, not the moves: where S is coarse, small moves add up before they round.
-    d.linear += times(h, v.linear);
+    d.linear += times(h, mean_velocity(run.flights + first, v.linear));
     d.angular += times(h, w);
     store(d, run.displacement + first, moves);
     place(run, first, d.linear, moves);
@@ -175,6 +178,15 @@ template <class S, int W, class Isa> struct BodyKernel {
     const Quat<U> q = integrate(orientation(states), turned, U::broadcast(Unit<S>(0.5)));
     const U rotation[4] = {q.x, q.y, q.z, q.w};
     store_rows<4, Unit<S>>([states](int i) ISO_INLINE_LAMBDA { return &states[i].orientation.x; }, rotation, moves);
+  }
+  /// Over the sub-step: see BodyFlight.
+  static ISO_INLINE Vec3<V> mean_velocity(const BodyFlight<S>* flights, Vec3<V> v) {
+    V flight[8];
+    load_rows<8, Velocity<S>>([flights](int i) ISO_INLINE_LAMBDA { return &flights[i].fallen.x; }, flight);
+    const Mask free = equal(v.x, flight[0]) & equal(v.y, flight[1]) & equal(v.z, flight[2]);
+    const L half = L::broadcast(S(0.5));
+    const Vec3<V> fall = {flight[4], flight[5], flight[6]};
+    return select(free, v - times(half, fall), v);
   }
   static ISO_INLINE void place(const BodyRun<S>& run, std::size_t first, Vec3<V> displacement, std::uint32_t moves) {
     alignas(kLaneAlignment<S, W>) S at[3][W];

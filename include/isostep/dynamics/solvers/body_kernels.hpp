@@ -26,8 +26,18 @@ inline constexpr std::uint8_t kTilted = 64;  // its principal axes are not those
 
 /// What forces and damping do to a body in a sub-step.
 template <class S> struct BodyFactors {
-  S gravity_scale, linear_keep, angular_keep;  // [1]
-  S reserved;                                  // 0: rows of four numbers
+  S linear_keep, angular_keep;  // [1]
+  S reserved[2];                // 0: rows of four numbers
+};
+
+/// What nothing but gravity moves in a sub-step goes along a parabola: by half of what it gains less than its new
+/// velocity says. So its energy stays, whatever the sub-steps. Other forces may depend on where a body is: taken so,
+/// they would drive it. Rows of four numbers.
+template <class S> struct BodyFlight {
+  Vec3<Velocity<S>> fallen;  // [m/s] velocity after a sub-step of gravity alone
+  Velocity<S> pad0;
+  Vec3<Velocity<S>> fall;  // [m/s] what a sub-step of gravity adds to it
+  Velocity<S> pad1;
 };
 
 /// Free turning: gyroscopic.hpp. Rows of four numbers.
@@ -46,7 +56,6 @@ template <class S> struct BodyRun {
   Step<S> h;                             // [s]
   Velocity<S> rapid;                     // [rad/s] what turns faster about an axis is finished one by one
   Velocity<S> fast;                      // [rad/s] what turns faster about an axis moves one by one
-  Vec3<S> gravity;                       // [m/s^2]
   const Acceleration<S>* accelerations;  // or null
   BodyState<S>* states;
   const BodyProperties<S>* properties;
@@ -55,6 +64,7 @@ template <class S> struct BodyRun {
   const Vec3<S>* start;  // [m] centres when the step began
   const std::uint8_t* kinds;
   const BodyFactors<S>* factors;
+  BodyFlight<S>* flights;
   BodyTurn<S>* turns;
   std::uint32_t* left;  // place for one number a body
 };

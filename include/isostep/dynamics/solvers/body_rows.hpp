@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/body_inertia.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 
@@ -38,12 +39,30 @@ template <class S> class BodyRows {
   /// The row's inertia about the world's axes becomes that of now.
   void renew_inertia(const StepContext<S>& context, std::uint32_t row);
 
+  /// Free turning takes the row's angular velocity as it is: none of it is a push of the solver's (gyroscopic.hpp).
+  ISO_INLINE void accept_turning(const StepContext<S>& context, std::uint32_t row) {
+    if (row == 0 || (kinds_[row - 1] & body_kind::kTurns) == 0) return;
+    const Mat3<Unit<S>> axes = detail::world_axes(context.states[row - 1].orientation, context.properties[row - 1]);
+    turns_[row - 1].known = transposed_times(axes, rows_.velocity[row].angular);
+  }
+
   /// Velocities back into context.states, after integration.
   void store(const StepContext<S>& context, std::size_t first, std::size_t end) const;
 
   /// See rigid_solver.hpp.
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage);
 
+  /// [m/s] What forces are to add to a row's velocity in the sub-step.
+  ISO_INLINE Vec3<Velocity<S>> gain_of(const StepContext<S>& context, std::uint32_t row) const {
+    if (!rows_.moves(row)) return Vec3<Velocity<S>>::zero();
+    const Vec3<Velocity<S>> fall = flights_[row - 1].fall;
+    if (context.accelerations.empty()) return fall;
+    const Step<S> h = divide_to<Step<S>>(S(1), S(rate_));
+    const Vec3<S> a = context.accelerations[row - 1].linear;
+    const auto over = [h](S x) ISO_INLINE_LAMBDA { return round_to<Velocity<S>>(product(x, h)); };
+    return fall + Vec3<Velocity<S>>{over(a.x), over(a.y), over(a.z)};
+  }
+  ISO_INLINE std::int32_t rate() const { return rate_; }
   ISO_INLINE std::size_t count() const { return rows_.mass.size() - 1; }
   ISO_INLINE SolverBodies<S>& rows() { return rows_; }
   ISO_INLINE const SolverBodies<S>& rows() const { return rows_; }
@@ -61,6 +80,7 @@ template <class S> class BodyRows {
   std::vector<Vec3<S>> start_;  // [m] centres when the step began
   std::vector<std::uint8_t> kinds_;
   std::vector<BodyFactors<S>> factors_;
+  std::vector<BodyFlight<S>> flights_;
   std::vector<BodyTurn<S>> turns_;   // of those that turn freely
   std::vector<std::uint32_t> left_;  // to be finished one by one
   std::int32_t rate_ = 1;            // [1/s] sub-steps

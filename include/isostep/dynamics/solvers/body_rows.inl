@@ -49,6 +49,7 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::
   start_.resize(count);
   kinds_.resize(count);
   factors_.resize(count);
+  flights_.resize(count);
   turns_.resize(count);
   left_.resize(count);
   const Velocity<S> fast = angular_speed_to_renew<S>(context.hz, true);
@@ -57,19 +58,23 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::
   rows_.mass[0] = {S(0), Mat3<S>::diagonal(Vec3<S>::zero())};
   // Implicit: v' = v / (1 + h c), stable at any damping.
   const auto keep = [h](S damping) ISO_INLINE_LAMBDA { return damping > S(0) ? S(1) / (S(1) + damping * h) : S(1); };
+  const auto fall = [h](S acceleration) ISO_INLINE_LAMBDA { return round_to<Velocity<S>>(product(acceleration, h)); };
   for (std::size_t i = 0; i < count; ++i) {
     const BodyState<S>& state = context.states[i];
     const BodyProperties<S>& body = context.properties[i];
     start_[i] = state.centre;
     rows_.velocity[i + 1] = {state.velocity, Velocity<S>(0), state.angular_velocity, Velocity<S>(0)};
     kinds_[i] = detail::kind_of(body);
-    factors_[i] = {body.gravity_scale, keep(body.linear_damping), keep(body.angular_damping), S(0)};
+    factors_[i] = {keep(body.linear_damping), keep(body.angular_damping), {}};
+    flights_[i] = {};
     SolverMass<S>& mass = rows_.mass[i + 1];
     if (body.type != BodyType::dynamic) {
       mass = rows_.mass[0];
       continue;
     }
     mass.mass = body.mass;
+    flights_[i].fall = {fall(context.gravity.x * body.gravity_scale), fall(context.gravity.y * body.gravity_scale),
+                        fall(context.gravity.z * body.gravity_scale)};
     if (fast < max_abs(state.angular_velocity)) {
       began_with_followed_ = began_with_followed_ || is_followed(context, static_cast<std::uint32_t>(i + 1));
     }
@@ -98,7 +103,6 @@ template <class S> BodyRun<S> BodyRows<S>::run_of(const StepContext<S>& context,
           divide_to<Step<S>>(S(1), S(rate_)),
           rapid_angular_speed<S>(context.hz),
           min(angular_speed_to_renew<S>(context.hz, true), angular_speed_limit<S>(rate_) * Velocity<S>(0.5)),
-          context.gravity,
           context.accelerations.empty() ? nullptr : context.accelerations.data(),
           context.states.data(),
           context.properties.data(),
@@ -107,6 +111,7 @@ template <class S> BodyRun<S> BodyRows<S>::run_of(const StepContext<S>& context,
           start_.data(),
           kinds_.data(),
           factors_.data(),
+          flights_.data(),
           turns_.data(),
           left_.data()};
 }
@@ -174,7 +179,11 @@ template <class S> void BodyRows<S>::move(const StepContext<S>& context, std::si
   MotionRow<V>& d = rows_.displacement[body + 1];
   BodyState<S>& state = context.states[body];
   const auto times = [h](V a) { return round_to<V>(product(a, h)); };
-  d.linear += {times(v.linear.x), times(v.linear.y), times(v.linear.z)};
+  const BodyFlight<S>& flight = flights_[body];
+  Vec3<V> mean = v.linear;
+  for (int axis = 0; axis < 3 && v.linear == flight.fallen; ++axis)
+    mean[axis] = v.linear[axis] - round_to<V>(product(S(0.5), flight.fall[axis]));
+  d.linear += {times(mean.x), times(mean.y), times(mean.z)};
   // The depth of contacts does not follow what turns so fast: the tangent of its arc would lead far from them.
   if (!is_followed(context, static_cast<std::uint32_t>(body + 1)))
     d.angular += {times(v.angular.x), times(v.angular.y), times(v.angular.z)};
