@@ -50,6 +50,22 @@ template <class S> Vec3<Velocity<S>> turned_back(const BodyState<S>& state, Quat
 template <class S> ISO_INLINE void put_centre(BodyState<S>& state, Vec3<S> place) {
   state.centre = held_within(place, Limits<S>::position());
 }
+/// The velocity of a body that falls by `left_out` less: without what gravity [m/s^2] did on that part of its way. What
+/// keeps it would bounce higher than it fell. s' = sqrt(s^2 - 2 work), by its mean speed, so that no square has to fit.
+template <class S> Vec3<Velocity<S>> without_fall(Vec3<Velocity<S>> velocity, Vec3<S> gravity, Vec3<S> left_out) {
+  using V = Velocity<S>;
+  const Heading<S> down = heading_of(gravity);
+  const V falls = round_to<V>(dot_sum(down.direction, velocity)), speed = abs(falls);
+  const S work = saturate_to<S>(product(down.length, dot(down.direction, left_out)));  // [m^2/s^2]
+  if (!(V(0) < speed) || work == S(0) || (work < S(0)) != (falls < V(0))) return velocity;
+  V left = speed;
+  for (int i = 0; i < 4; ++i) {
+    const V mean = round_to<V>(product(S(0.5), speed) + product(S(0.5), left));
+    if (!(work < saturate_to<S>(product(speed, mean)))) return velocity - down.direction * falls;
+    left = max(speed - divide_to<V>(work, mean), V(0));
+  }
+  return velocity + down.direction * (falls < V(0) ? speed - left : left - speed);
+}
 /// a / b for 0 <= a <= b, b of 1 or 4.
 template <class S> ISO_INLINE Unit<S> share_of(std::uint32_t a, std::uint32_t b) {
   return divide_to<Unit<S>>(S(static_cast<std::int32_t>(a)), S(static_cast<std::int32_t>(b)));
@@ -290,7 +306,11 @@ template <class S> void ContinuousCollision<S>::cut(Mover& mover, bool moving) {
     const Quat<Unit<S>> turned = way_of(mover, cut.fraction_of_middle).orientation;
     mover.stopped = {cut.place - rotate(turned, cut.middle), turned};
   }
+  const Vec3<S> end = now(mover.index).position;
   put_at(mover.index, cut.pose);
+  BodyState<S>& state = state_.awake.states[mover.index];
+  const S scale = state_.awake.properties[mover.index].gravity_scale;
+  state.velocity = detail::without_fall(state.velocity, state_.settings.gravity * scale, end - state.centre);
   if (cut.fraction_of_middle < cut.fraction) stop_middle(state_.awake.states[mover.index], cut, moving);
   place(mover.index);
 }
