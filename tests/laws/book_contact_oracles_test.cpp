@@ -60,7 +60,7 @@ TYPED_TEST(BookContactOracles, two_bodies_part_by_newtons_rule) {
   }
 }
 
-// O9. Peak n at h_0 e^(2n), of a body, three times; the fourth of soft_step is 2.7 % lower than that.
+// O9. Peak n at h_0 e^(2n), of a body, three times.
 TYPED_TEST(BookContactOracles, a_body_bounces_to_its_share_of_the_height) {
   using S = TypeParam;
   for (const SolverName solver : {SolverName::soft_step, SolverName::worst_first}) {

@@ -22,7 +22,6 @@ template <class S> template <class Visit> void WorldEngine<S>::visit_scratch(con
     case Stage::colour_constraints: return solved(SolverStage::colour);
     case Stage::prepare: return solved(SolverStage::prepare);
     case Stage::solve_substeps: return solved(SolverStage::solve);
-    case Stage::restitution: return solved(SolverStage::apply_restitution);
     case Stage::store_impulses: solver_.visit_impulses(visit); return solved(SolverStage::store);
     case Stage::finalise_bodies: return visit("report", report_);
     case Stage::continuous: return;

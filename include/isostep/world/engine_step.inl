@@ -126,8 +126,6 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
   after(Stage::prepare);
   solver.solve_substeps(context);
   after(Stage::solve_substeps);
-  solver.apply_restitution(context);
-  after(Stage::restitution);
   solver.store_impulses(context);
   report_.unsolved = solver.unsolved();
   after(Stage::store_impulses);

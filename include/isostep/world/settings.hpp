@@ -33,7 +33,7 @@ template <class S> struct Settings {
   std::int32_t most_pairs = 1 << 19;
   Projection projection = Projection::nonlinear;  // of worst_first; other solvers take any and use none
   /// [m/s] 0..Limits::speed(): what meets more slowly does not bounce. Rest is a rain of small bounces without it;
-  /// of a gas at restitution 1 glancing blows below it lose their energy.
+  /// of what nothing presses together all bounces above a sixteenth of it.
   S restitution_threshold = S(0.25);
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {

@@ -15,7 +15,6 @@ enum class Stage : std::uint32_t {
   colour_constraints,
   prepare,
   solve_substeps,
-  restitution,
   store_impulses,
   finalise_bodies,
   continuous,
@@ -24,11 +23,11 @@ enum class Stage : std::uint32_t {
   update_sleep,
   move_characters,
 };
-inline constexpr std::uint32_t kStages = 14;
+inline constexpr std::uint32_t kStages = 13;
 inline constexpr const char* kStageNames[kStages] = {
-    "find_pairs",  "apply_forces",   "update_manifolds", "colour_constraints", "prepare",     "solve_substeps",
-    "restitution", "store_impulses", "finalise_bodies",  "continuous",         "update_sensors", "emit_events",
-    "update_sleep", "move_characters"};
+    "find_pairs",     "apply_forces",   "update_manifolds", "colour_constraints", "prepare",
+    "solve_substeps", "store_impulses", "finalise_bodies",  "continuous",         "update_sensors",
+    "emit_events",    "update_sleep",   "move_characters"};
 
 /// Of one step: before its first stage, then after each.
 inline constexpr std::uint32_t kTraceHashes = kStages + 1;

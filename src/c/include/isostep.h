@@ -151,9 +151,9 @@ enum {
 typedef uint32_t iso_stage;
 enum {
   ISO_STAGE_FIND_PAIRS = 0, ISO_STAGE_APPLY_FORCES = 1, ISO_STAGE_UPDATE_MANIFOLDS = 2,
-  ISO_STAGE_COLOUR_CONSTRAINTS = 3, ISO_STAGE_PREPARE = 4, ISO_STAGE_SOLVE_SUBSTEPS = 5, ISO_STAGE_RESTITUTION = 6,
-  ISO_STAGE_STORE_IMPULSES = 7, ISO_STAGE_FINALISE_BODIES = 8, ISO_STAGE_CONTINUOUS = 9, ISO_STAGE_UPDATE_SENSORS = 10,
-  ISO_STAGE_EMIT_EVENTS = 11, ISO_STAGE_UPDATE_SLEEP = 12, ISO_STAGE_MOVE_CHARACTERS = 13
+  ISO_STAGE_COLOUR_CONSTRAINTS = 3, ISO_STAGE_PREPARE = 4, ISO_STAGE_SOLVE_SUBSTEPS = 5, ISO_STAGE_STORE_IMPULSES = 6,
+  ISO_STAGE_FINALISE_BODIES = 7, ISO_STAGE_CONTINUOUS = 8, ISO_STAGE_UPDATE_SENSORS = 9, ISO_STAGE_EMIT_EVENTS = 10,
+  ISO_STAGE_UPDATE_SLEEP = 11, ISO_STAGE_MOVE_CHARACTERS = 12
 };
 typedef uint32_t iso_body_flag;
 enum {
@@ -542,7 +542,7 @@ typedef struct iso_f32_settings {
   int32_t most_pairs;
   iso_projection projection; /* of worst_first; other solvers take any and use none */
   /* [m/s] 0..Limits::speed(): what meets more slowly does not bounce. Rest is a rain of small bounces without it; of
-     a gas at restitution 1 glancing blows below it lose their energy. */
+     what nothing presses together all bounces above a sixteenth of it. */
   float restitution_threshold;
   uint8_t reserved2[4];
 } iso_f32_settings;

@@ -729,7 +729,7 @@ export interface Settings<N = number> {
   mostPairs: number;
   /** of worst_first; other solvers take any and use none */
   projection: ProjectionName;
-  /** [m/s] 0..Limits::speed(): what meets more slowly does not bounce. Rest is a rain of small bounces without it; of a gas at restitution 1 glancing blows below it lose their energy. */
+  /** [m/s] 0..Limits::speed(): what meets more slowly does not bounce. Rest is a rain of small bounces without it; of what nothing presses together all bounces above a sixteenth of it. */
   restitutionThreshold: N;
 }
 

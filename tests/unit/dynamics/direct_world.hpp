@@ -91,7 +91,6 @@ template <class S> class DirectWorld {
     solver.colour_constraints(context);
     solver.prepare(context);
     solver.solve_substeps(context);
-    solver.apply_restitution(context);
     solver.store_impulses(context);
   }
 

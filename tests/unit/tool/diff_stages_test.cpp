@@ -100,8 +100,7 @@ Arrays with(Arrays arrays, const Arrays& more) {
   return arrays;
 }
 /// What does not depend on the solver, and what its stages add.
-std::map<std::string, Arrays> rigid_scratch(const Arrays& colour, const Arrays& prepare, const Arrays& solve,
-                                            const Arrays& restitute) {
+std::map<std::string, Arrays> rigid_scratch(const Arrays& colour, const Arrays& prepare, const Arrays& solve) {
   const Arrays rows = {"solver_velocity", "solver_displacement"}, joints = {"joint_constraints"};
   return {
       {"find_pairs", {"pairs", "locations", "joint_locations"}},
@@ -110,7 +109,6 @@ std::map<std::string, Arrays> rigid_scratch(const Arrays& colour, const Arrays& 
       {"colour_constraints", with(with(with(rows, joints), {"solver_mass", "solver_start", "solver_inertia"}), colour)},
       {"prepare", prepare},
       {"solve_substeps", with(with(rows, joints), solve)},
-      {"restitution", with(rows, restitute)},
       {"store_impulses", {"step_impulses"}},
       {"finalise_bodies", {"report"}},
       {"update_sensors", {"sensor_begin", "sensor_end"}},
@@ -123,26 +121,24 @@ const Arrays kBlocks = {"prepared", "prepared[].tangents", "prepared[].normals",
 
 TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithSoftStep) {
   const tool::Input input(file("a", rigid_recording<float>(SolverName::soft_step, 44)));
-  inject_everywhere<World<float>>(input, rigid_scratch({"colours", "order"}, kBlocks, kBlocks, kBlocks), kRigidOwners,
-                                  true);
+  inject_everywhere<World<float>>(input, rigid_scratch({"colours", "order"}, kBlocks, kBlocks), kRigidOwners, true);
 }
 TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithGaussSeidel) {
   const tool::Input input(file("a", rigid_recording<Q32_32>(SolverName::pgs, 44)));
-  inject_everywhere<World<Q32_32>>(input, rigid_scratch({"colours", "order"}, kBlocks, kBlocks, kBlocks), kRigidOwners,
-                                   false);
+  inject_everywhere<World<Q32_32>>(input, rigid_scratch({"colours", "order"}, kBlocks, kBlocks), kRigidOwners, false);
 }
 TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithWorstFirst) {
   const tool::Input input(file("a", rigid_recording<Q16_16>(SolverName::worst_first, 44)));
   inject_everywhere<World<Q16_16>>(
-      input, rigid_scratch({"points", "rolling", "held_joints", "ends", "neighbours"}, {}, {"points"}, {}),
-      kRigidOwners, false);
+      input, rigid_scratch({"points", "rolling", "held_joints", "ends", "neighbours"}, {}, {"points"}), kRigidOwners,
+      false);
 }
 TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithTheDirectSolver) {
   const tool::Input input(file("a", rigid_recording<double>(SolverName::direct, 44)));
   const Arrays islands = {"islands[].joints", "islands[].contacts", "islands[].bodies", "islands[].joint_blocks",
                           "islands[].contact_blocks"};
   const Arrays rows = with(kBlocks, {"islands[].blocks", "islands[].blocks[].rows"});
-  inject_everywhere<World<double>>(input, rigid_scratch(islands, kBlocks, rows, rows), kRigidOwners, false);
+  inject_everywhere<World<double>>(input, rigid_scratch(islands, kBlocks, rows), kRigidOwners, false);
 }
 
 const std::map<std::string, std::string> kParticleOwners = {

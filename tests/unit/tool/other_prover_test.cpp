@@ -45,7 +45,7 @@ TEST_F(Recorded, AnotherProgramIsCompared) {
     const std::string& file;
     const char *stage, *path, *apart;
   } faults[] = {{rigid, "colour_constraints", "islands[0].bodies[0]", "4 apart [body slot "},
-                {rigid, "restitution", "solver_velocity[3].angular.y", "4 lsb apart [body slot "},
+                {rigid, "solve_substeps", "solver_velocity[3].angular.y", "4 lsb apart [body slot "},
                 {particles, "solve_substeps", "rows[6].separation", "4 ulp apart [particle slot"},
                 {particles, "commands", "velocity.y[7]", "4 ulp apart [particle slot 7]\n"}};
   for (const auto& fault : faults) {

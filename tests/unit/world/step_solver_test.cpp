@@ -76,7 +76,6 @@ TYPED_TEST(StepSolvers, the_solver_of_the_settings_moves_the_bodies_and_tells_th
       chosen.colour_constraints(context);
       chosen.prepare(context);
       chosen.solve_substeps(context);
-      chosen.apply_restitution(context);
       chosen.store_impulses(context);
     });
     return used;

@@ -34,13 +34,11 @@ template <class S, int W> struct AngularRow {
 template <class S, int W> struct NormalRow {
   AngularRow<S, W> row;
   Velocity<S> separation[W];     // [m] when the step began; overlaps deepened by Schedule::penetration_bias
-  Velocity<S> approach[W];       // [m/s] normal speed when the step began, for restitution
   Velocity<S> total_impulse[W];  // [m/s] given over the step, but for the sub-step that runs
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("row", self.row);
     visit("separation", self.separation);
-    visit("approach", self.approach);
     visit("total_impulse", self.total_impulse);
   }
 };
@@ -64,8 +62,7 @@ template <class S, int W, int P> struct ContactBlock {
   S normal[3][W];  // [1] from a to b
   S share_a[W];    // [1] MassShare
   S share_b[W];
-  S friction[W];     // [1]
-  S restitution[W];  // [1]
+  S friction[W];  // [1]
   FrictionRow<S, W> tangents[2];
   AngularRow<S, W> twist;  // its radius is inside the Jacobian
   Velocity<S> spin[W];     // [m/s] of b's surface against a's along the twist: -0, which added changes no bit, for none

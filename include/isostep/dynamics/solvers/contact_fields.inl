@@ -37,7 +37,6 @@ template <class S> class LaneOfBlock {
     visit("share_a", block.share_a);
     visit("share_b", block.share_b);
     visit("friction", block.friction);
-    visit("restitution", block.restitution);
     visit("tangents", block.tangents);
     visit("twist", block.twist);
     visit("normals", normals);

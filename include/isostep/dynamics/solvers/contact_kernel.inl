@@ -151,7 +151,8 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
   }
 
   /// Biased: overlap is pushed apart softly, at a bounded speed. Relaxed: no push, so that none of it stays as speed.
-  /// A gap may close in either, no more.
+  /// A gap may close in either, no more; relaxed, an open one only gives back: what closes it is the next sub-step's,
+  /// which may see it bounce.
   template <bool Relax>
   static ISO_INLINE void solve_normals(ContactBlock<S, W, P>& c, const Shares& share, const PassLanes& pass,
                                        const Motion& da, const Motion& db, Motion& a, Motion& b) {
@@ -164,6 +165,7 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       if constexpr (Relax) {
         const V speed = along(c.normal, n.row, a, b) + max(gap, V::zero());
         change = times(L::load(n.row.effective_mass), speed);
+        change = select(less(V::zero(), separation), max(change, V::zero()), change);
       } else {
         const auto apart = less(V::zero(), separation);
         const V overlap = max(times(pass.bias_rate, separation), V::zero() - pass.push_speed);
@@ -218,34 +220,10 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       scatter(run.velocity, bodies.b, bodies.write_b, b);
     }
   }
-
-  static void apply_restitution(const BlockRun<S>& run, const ContactPass<S>& pass) {
-    const V threshold = V::zero() - V::broadcast(pass.restitution_speed);
-    for (std::int32_t i = 0; i < run.count; ++i) {
-      ContactBlock<S, W, P>& c = contact_of(static_cast<Block*>(run.blocks)[i]);
-      const BlockBodies& bodies = run.bodies[i];
-      Motion a = gather(run.velocity, bodies.a), b = gather(run.velocity, bodies.b);
-      const Shares share = {L::load(c.share_a), L::load(c.share_b)};
-      const L bounce = L::load(c.restitution);
-      for (NormalRow<S, W>& n : c.normals) {
-        const V approach = V::load(n.approach);
-        const V old = V::load(n.row.impulse);
-        // Only where something pushed: a gap that merely closed has nothing to give back.
-        const auto pushed = less(V::zero(), V::load(n.total_impulse) + old);
-        const auto acts = less(L::zero(), bounce) & less(approach, threshold) & pushed;
-        const V speed = along(c.normal, n.row, a, b) + times(bounce, approach);
-        const V next = select(acts, max(old - times(L::load(n.row.effective_mass), speed), V::zero()), old);
-        next.store(n.row.impulse);
-        push(c.normal, n.row, share, next - old, a, b);
-      }
-      scatter(run.velocity, bodies.a, bodies.write_a, a);
-      scatter(run.velocity, bodies.b, bodies.write_b, b);
-    }
-  }
 };
 
 template <class S, int W, class Isa> constexpr ContactKernels<S> make_contact_kernels(const char* name) {
-  ContactKernels<S> table = {name, W, &ContactPreparer<S, W, Isa>::prepare, &ContactStorer<S, W, Isa>::store, {}, {},
+  ContactKernels<S> table = {name, W, &ContactPreparer<S, W, Isa>::prepare, &ContactStorer<S, W, Isa>::store, {},
                              {},   {}};
   const auto fill = [&]<int P, bool Rolling>() {
     using Kernel = ContactKernel<S, W, Isa, P, Rolling>;
@@ -253,7 +231,6 @@ template <class S, int W, class Isa> constexpr ContactKernels<S> make_contact_ke
     table.warm_start[variant] = &Kernel::warm_start;
     table.solve[variant] = &Kernel::template solve<false>;
     table.relax[variant] = &Kernel::template solve<true>;
-    table.apply_restitution[variant] = &Kernel::apply_restitution;
   };
   fill.template operator()<1, false>();
   fill.template operator()<2, false>();

@@ -16,11 +16,10 @@ namespace isostep {
 /// What one pass over the contacts needs to know.
 template <class S> struct ContactPass {
   Softness<S> softness;
-  S rate;                         // [1/s] sub-steps a second
-  Velocity<S> push_speed;         // [m/s] overlap is pushed apart no faster than this
-  Velocity<S> max_separation;     // [m] beyond this a gap counts as this, so that rate times gap fits
-  Velocity<S> max_load;           // [m/s] a heavier load counts as this for friction, so that its cone fits the format
-  Velocity<S> restitution_speed;  // [m/s] slower approaches do not bounce
+  S rate;                      // [1/s] sub-steps a second
+  Velocity<S> push_speed;      // [m/s] overlap is pushed apart no faster than this
+  Velocity<S> max_separation;  // [m] beyond this a gap counts as this, so that rate times gap fits
+  Velocity<S> max_load;        // [m/s] a heavier load counts as this for friction, so that its cone fits the format
 };
 
 /// A run of blocks of one shape: W contacts of one point count each, no two of which write the same body.
@@ -70,7 +69,6 @@ template <class S> struct ContactKernels {
   void (*warm_start[kContactVariants])(const BlockRun<S>&);
   void (*solve[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
   void (*relax[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
-  void (*apply_restitution[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
 };
 
 /// The kernels for `simd`. Null when the processor or build lacks it; never for `best`. Every scalar has its own full

@@ -37,7 +37,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     V twist;
   };
   struct Materials {
-    L friction, restitution, rolling;
+    L friction, rolling;
     Vec3<L> surface;
   };
   struct Arms {
@@ -84,7 +84,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     L w[8];
     gather<8>(
         geometry, [](const Geometry& g) ISO_INLINE_LAMBDA { return &g.points[kMaxContactPoints - 1].arm_b.z; }, w);
-    return {w[2], w[3], w[4], {w[5], w[6], w[7]}};
+    return {w[2], w[4], {w[5], w[6], w[7]}};
   }
   static ISO_INLINE Body gather_body(const PrepareRun<S>& run, const std::uint32_t* rows) {
     const Velocity<S>* motion[W];
@@ -105,6 +105,16 @@ template <class S, int W, class Isa> struct ContactPreparer {
             m[0],
             {{{m[1], m[2], m[3]}, {m[4], m[5], m[6]}, {m[7], r[2], r[3]}}},
             less(L::zero(), m[0])};
+  }
+
+  /// What did not touch in the last step and may bounce: its overlap is an impact's, as deep as impacts.hpp takes it.
+  static ISO_INLINE Mask bouncing(const Contact<S>* const* contacts, const Geometry* const* geometry) {
+    std::uint32_t bits = 0;
+    ISO_UNROLL for (int i = 0; i < W; ++i) {
+      const bool fresh = (contacts[i]->flags & contact_flag::kTouching) == 0;
+      bits |= (fresh && S(0) < geometry[i]->material.restitution ? 1u : 0u) << i;
+    }
+    return Mask::from_bits(bits);
   }
 
   // ---- storing
@@ -238,14 +248,14 @@ template <class S, int W, class Isa> struct ContactPreparer {
     store(n, block.normal);
     const Materials material = gather_material(geometry);
     material.friction.store(block.friction);
-    material.restitution.store(block.restitution);
 
     const Impulses impulses = gather_impulses(contacts);
     V total = V::zero();
     Arms sum = {{L::zero(), L::zero(), L::zero()}, {L::zero(), L::zero(), L::zero()}};
     Arms first = sum;
     Vec3<L> arms_b[kMaxContactPoints];
-    const L bias = L::broadcast(run.penetration_bias), most_bias = L::broadcast(run.most_bias);
+    const L most_bias = L::broadcast(run.most_bias);
+    const L bias = select(bouncing(contacts, geometry), L::zero(), L::broadcast(run.penetration_bias));
     for (int p = 0; p < run.points; ++p) {
       NormalRow<S, W>& row = block.normals[p];
       L separation;
@@ -253,7 +263,6 @@ template <class S, int W, class Isa> struct ContactPreparer {
       const V impulse = impulses.normal[p];
       make.pushing(n, arms, impulse, row.row);
       convert<V>(separation - min(bias * max(-separation, L::zero()), most_bias)).store(row.separation);
-      round_to<V>(dot_sum(relative_velocity(a, b, arms), normal)).store(row.approach);
       (-impulse).store(row.total_impulse);  // the first warm start is the last step's
       total = total + impulse;
       sum = {sum.a + arms.a, sum.b + arms.b};

@@ -10,6 +10,7 @@
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
 #include "isostep/dynamics/solvers/direct_system.hpp"
+#include "isostep/dynamics/solvers/impacts.hpp"
 #include "isostep/dynamics/solvers/prepared_joints.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 
@@ -27,8 +28,7 @@ namespace isostep {
 ///          and joints are solved for the rest: an island's step ends after some 25 ms of double a sub-step. unsolved()
 ///          returns how many islands.
 ///          Friction is an octagon inside the cone, along the slip or the friction borne. Of a drive's two limits the
-///          nearer counts. Impulses that are stored are held within the speed limit. Restitution: one solve more
-///          without friction. While tension is taken implicitly (joint_tension.hpp) bodies conserve momentum, not
+///          nearer counts. Impulses that are stored are held within the speed limit. While tension is taken implicitly (joint_tension.hpp) bodies conserve momentum, not
 ///          angular momentum.
 /// Order:   blocks stand in the order of joints, then contacts, of an island; islands touch nothing in common. One
 ///          thread.
@@ -38,7 +38,6 @@ template <class S> class DirectSolver {
   void colour_constraints(const StepContext<S>& context);
   void prepare(const StepContext<S>& context);
   void solve_substeps(const StepContext<S>& context);
-  void apply_restitution(const StepContext<S>& context);
   void store_impulses(const StepContext<S>& context);
   /// Some solve was swept, or its pivots came to no end.
   std::uint32_t unsolved() const;
@@ -60,8 +59,8 @@ template <class S> class DirectSolver {
   /// solve may take all that is left but kLeastPivots for each that comes.
   static constexpr std::uint64_t kMostWork = 500'000;
 
-  /// biased: errors are closed; relaxed: they are left; bounced: what is left of an approach is returned.
-  enum class Pass : std::uint32_t { biased, relaxed, bounced };
+  /// biased: errors are closed; relaxed: they are left.
+  enum class Pass : std::uint32_t { biased, relaxed };
 
   /// M^-1/2 of a body: root 2^root_exponent for what moves; times turn 2^turn_exponent, lower triangular, for turning.
   struct BodyRoot {
@@ -138,8 +137,7 @@ template <class S> class DirectSolver {
   void place_contact(const StepContext<S>& context, Island& island, std::uint32_t k);
   void ask_contact(const StepContext<S>& context, Island& island, std::uint32_t k, Pass pass);
   void guess_contact(const StepContext<S>& context, Island& island, std::uint32_t k);
-  void keep_contact(const StepContext<S>& context, Island& island, std::uint32_t k, Pass pass);
-  bool bounces(const StepContext<S>& context, const Island& island);
+  void keep_contact(const StepContext<S>& context, Island& island, std::uint32_t k);
 
   // direct.inl
   void place_rows(const StepContext<S>& context, Island& island);
@@ -150,6 +148,7 @@ template <class S> class DirectSolver {
   void apply(const Island& island);
 
   BodyRows<S> bodies_;
+  Impacts<S> impacts_;
   PreparedJoints<S> joints_;
   std::int32_t rate_ = 1;  // [1/s] sub-steps
   DisjointSets sets_;

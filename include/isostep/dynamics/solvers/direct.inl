@@ -14,6 +14,7 @@ namespace isostep {
 template <class S> void DirectSolver<S>::colour_constraints(const StepContext<S>& context) {
   rate_ = integration_rate(SolverName::direct, context.hz, context.substeps);
   bodies_.gather(context, rate_);
+  impacts_.begin(context, bodies_.rows());
   joints_.prepare(context, bodies_.rows());
   find_islands(context);
 }
@@ -194,6 +195,7 @@ template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& co
   const std::size_t count = bodies_.count();
   for (std::int32_t substep = 0; substep < context.substeps; ++substep) {
     bodies_.renew_forces(context);
+    if (impacts_.any()) impacts_.bounce(context, bodies_);
     bodies_.integrate_velocities(context, 0, count);
     for (const Carried<S>& carried : context.carried) {
       Block& block = block_of(context, carried.contact);
@@ -217,20 +219,9 @@ template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& co
       for (std::size_t k = 0; k < island.joints.size(); ++k) {
         keep_joint(joints_[island.joints[k]], island, island.joint_blocks[k]);
       }
-      for (std::uint32_t k = 0; k < island.contacts.size(); ++k) keep_contact(context, island, k, Pass::relaxed);
+      for (std::uint32_t k = 0; k < island.contacts.size(); ++k) keep_contact(context, island, k);
     }
     joints_.add_impulses(context);
-  }
-}
-
-template <class S> void DirectSolver<S>::apply_restitution(const StepContext<S>& context) {
-  for (std::uint32_t i = 0; i < island_count_; ++i) {
-    Island& island = islands_[i];
-    if (!bounces(context, island)) continue;
-    for (const std::uint32_t row : island.bodies) free_velocity_[row] = bodies_.rows().velocity[row];
-    island.system.release();
-    solve(context, island, Pass::bounced);
-    for (std::uint32_t k = 0; k < island.contacts.size(); ++k) keep_contact(context, island, k, Pass::bounced);
   }
 }
 
@@ -245,6 +236,7 @@ template <class S> void DirectSolver<S>::store_impulses(const StepContext<S>& co
     kernels.store({memory_[c].bytes, 1, static_cast<std::int32_t>(points), rolls(context, c), &order_[c],
                    context.contacts.data(), context.step_impulses.data()});
   }
+  impacts_.store(context);
   bodies_.store(context, 0, bodies_.count());
   joints_.store(context);
 }

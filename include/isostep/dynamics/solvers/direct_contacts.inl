@@ -63,13 +63,11 @@ void DirectSolver<S>::ask_contact(const StepContext<S>& context, Island& island,
     const NormalRow<S, 1>& row = block.normals[p];
     const V separation = row.separation[0] + speed_of(island, r, bodies_.rows().displacement);
     V wanted = V(0);
-    if (separation > V(0)) wanted = -scaled(rate, min(separation, farthest));
+    // Relaxed, a gap that is still open pushes nothing: what closes it is the next sub-step's, which may see it bounce.
+    const bool opens = pass == Pass::relaxed && separation > V(0) && !(impulse_of(island, r) > V(0));
+    if (separation > V(0)) wanted = -scaled(rate, opens ? farthest : min(separation, farthest));
     else if (pass == Pass::biased)
       wanted = min(-scaled(detail::kDirectContactShare<S> * rate, max(separation, -farthest)), detail::kPushSpeed<S>);
-    // Only where something pushed: a gap that merely closed has nothing to give back.
-    const bool bounces = pass == Pass::bounced && block.restitution[0] > S(0) && row.total_impulse[0] > V(0) &&
-                         row.approach[0] < -context.restitution_threshold;
-    if (bounces) wanted = -scaled(block.restitution[0], row.approach[0]);
     ask(r, wanted);
   }
 }
@@ -100,31 +98,17 @@ template <class S> void DirectSolver<S>::guess_contact(const StepContext<S>& con
   system.guess_friction(k, fresh);
 }
 
-template <class S>
-void DirectSolver<S>::keep_contact(const StepContext<S>& context, Island& island, std::uint32_t k, Pass pass) {
+template <class S> void DirectSolver<S>::keep_contact(const StepContext<S>& context, Island& island, std::uint32_t k) {
   Block& block = block_of(context, island.contacts[k]);
   const DirectPatch<N>& patch = island.system.patches()[k];
   for (std::uint32_t p = 0; p < patch.points; ++p) {
     const V impulse = impulse_of(island, patch.normal + p);
     NormalRow<S, 1>& row = block.normals[p];
     row.total_impulse[0] = saturating_add(row.total_impulse[0], impulse);
-    row.row.impulse[0] = pass == Pass::bounced ? saturating_add(row.row.impulse[0], impulse) : impulse;
+    row.row.impulse[0] = impulse;
   }
-  if (pass == Pass::bounced) return;
   for (std::uint32_t t = 0; t < 2; ++t) block.tangents[t].row.impulse[0] = impulse_of(island, patch.first + t);
   block.twist.impulse[0] = patch.points > 1 ? impulse_of(island, patch.first + 2) : V(0);
-}
-
-template <class S> bool DirectSolver<S>::bounces(const StepContext<S>& context, const Island& island) {
-  for (const std::uint32_t c : island.contacts) {
-    const Block& block = block_of(context, c);
-    if (!(block.restitution[0] > S(0))) continue;
-    for (std::uint32_t p = 0; p < context.contacts[c].count; ++p) {
-      const NormalRow<S, 1>& row = block.normals[p];
-      if (row.approach[0] < -context.restitution_threshold && row.total_impulse[0] > V(0)) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace isostep

@@ -95,7 +95,7 @@ template <class S> void DirectSolver<S>::find_islands(const StepContext<S>& cont
     island.shapes.resize(3 * island.system.block_count());
     island.asked.resize(3 * island.system.block_count());
     island.work_left = kMostWork * static_cast<std::uint64_t>(context.substeps);
-    island.solves_left = 2 * static_cast<std::uint32_t>(context.substeps) + 1;  // the last for restitution
+    island.solves_left = 2 * static_cast<std::uint32_t>(context.substeps);
     island.system.tie(static_cast<std::uint32_t>(island.bodies.size()), kMostBlocks,
                       island.work_left / island.solves_left);
   }

@@ -18,7 +18,6 @@ concept RigidSolver = requires(Solver solver, const Solver& solved, const StepCo
   solver.colour_constraints(context);  // takes bodies and joints over; decides in which order everything is solved
   solver.prepare(context);
   solver.solve_substeps(context);  // moves context.states
-  solver.apply_restitution(context);
   solver.store_impulses(context);  // into contacts, step_impulses, joint_states and the velocities of states
   { solved.unsolved() } -> std::same_as<std::uint32_t>;  // islands of this step that it left before they were solved
 };

@@ -10,6 +10,7 @@
 #include "isostep/dynamics/colouring.hpp"
 #include "isostep/dynamics/joints/joint_tree.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
+#include "isostep/dynamics/solvers/impacts.hpp"
 #include "isostep/dynamics/solvers/pass_plan.hpp"
 #include "isostep/dynamics/solvers/prepared_joints.hpp"
 #include "isostep/dynamics/solvers/schedule.hpp"
@@ -44,7 +45,6 @@ template <class S> class Sequential {
   void colour_constraints(const StepContext<S>& context);
   void prepare(const StepContext<S>& context);
   void solve_substeps(const StepContext<S>& context);
-  void apply_restitution(const StepContext<S>& context);
   void store_impulses(const StepContext<S>& context);
   ISO_INLINE std::uint32_t unsolved() const { return 0; }  // it does what it does to all alike
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context);
@@ -75,6 +75,7 @@ template <class S> class Sequential {
     prepare,
     respond,
     renew_forces,
+    bounce,
     integrate_velocities,
     warm_start_joints,
     warm_start,
@@ -88,7 +89,6 @@ template <class S> class Sequential {
     relax,
     store_joints,
     add_joint_impulses,
-    apply_restitution,
     store,
     store_bodies,
   };
@@ -135,6 +135,7 @@ template <class S> class Sequential {
   ScheduleOf schedule_of_;
   Schedule<S> schedule_ = {};
   BodyRows<S> bodies_;
+  Impacts<S> impacts_;
   PreparedJoints<S> joints_;
   JointTrees<S> joint_trees_;
   Colouring colouring_;

@@ -43,6 +43,7 @@ template <class S> void Sequential<S>::colour_constraints(const StepContext<S>& 
   constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * detail::kDepths * kContactVariants;
   schedule_ = schedule_of_(context);
   bodies_.gather(context, schedule_.rate);
+  impacts_.begin(context, bodies_.rows());
   joints_.prepare(context, bodies_.rows());
   const std::size_t count = context.contacts.size();
   const SolverBodies<S>& bodies = bodies_.rows();

@@ -3,22 +3,19 @@
 #pragma once
 
 #include "isostep/dynamics/solvers/body_rows.inl"
+#include "isostep/dynamics/solvers/impacts.inl"
 #include "isostep/dynamics/solvers/sequential.hpp"
 
 namespace isostep {
 
 namespace detail {
 
-template <class S> ContactPass<S> contact_pass(const Schedule<S>& schedule, Velocity<S> restitution_threshold) {
+template <class S> ContactPass<S> contact_pass(const Schedule<S>& schedule) {
   const S rate = S(schedule.rate);
   // A gap wider than a sub-step covers at 64 m/s counts as that: nothing so far apart closes within the sub-step. Loads
   // beyond a 64th of the format (32 m/s for Q16.16) count as that: times friction and the cone's slope they still fit.
-  return {schedule.contact_softness,
-          rate,
-          kPushSpeed<S>,
-          divide_to<Velocity<S>>(S(64), rate),
-          highest<Velocity<S>>() * Velocity<S>(1.0 / 64),
-          restitution_threshold};
+  return {schedule.contact_softness, rate, kPushSpeed<S>, divide_to<Velocity<S>>(S(64), rate),
+          highest<Velocity<S>>() * Velocity<S>(1.0 / 64)};
 }
 }  // namespace detail
 
@@ -40,7 +37,7 @@ template <class S> void Sequential<S>::run(const StepContext<S>& context) {
   const S rate = S(schedule_.rate);
   Job job = {this,
              context,
-             detail::contact_pass(schedule_, context.restitution_threshold),
+             detail::contact_pass(schedule_),
              {context.states.data(), &bodies_.rows(), rate, divide_to<Step<S>>(S(1), rate), schedule_.joint_softness,
               rapid_angular_speed<S>(context.hz), angular_speed_to_follow<S>(schedule_.rate)}};
   run_stages(runner_, pieces_, &Sequential::do_piece, &job);
@@ -61,6 +58,7 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     case Work::respond: return solver.respond(job.context);
     case Work::relieve: return solver.relieve(job.context);
     case Work::add_joint_impulses: return solver.joints_.add_impulses(job.context);
+    case Work::bounce: return solver.impacts_.bounce(job.context, solver.bodies_);
     case Work::renew_forces: return solver.bodies_.renew_forces(job.context);
     case Work::warm_start_joints:
     case Work::solve_joints:
@@ -78,7 +76,6 @@ template <class S> void Sequential<S>::do_slice(const Job& job, Work work, const
     case Work::warm_start: return run.kernels->warm_start[run.variant](blocks_of(slice));
     case Work::solve: return run.kernels->solve[run.variant](blocks_of(slice), job.pass);
     case Work::relax: return run.kernels->relax[run.variant](blocks_of(slice), job.pass);
-    case Work::apply_restitution: return run.kernels->apply_restitution[run.variant](blocks_of(slice), job.pass);
     case Work::store: return store_slice(job.context, slice);
     default: return;
   }
@@ -117,6 +114,7 @@ template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& cont
   const std::uint32_t joints = min(joint_trees_.batch_count(), kMaxPieces);
   for (std::int32_t substep = 0; substep < schedule_.substeps; ++substep) {
     if (context.forces.renew != nullptr) add_stage(Work::renew_forces, 1);
+    if (impacts_.any()) add_stage(Work::bounce, 1);
     add_stage(Work::integrate_velocities, body_pieces_);
     add_stage(Work::begin_contacts, 1);
     add_stage(Work::warm_start_joints, joints);
@@ -141,17 +139,11 @@ template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& cont
   if (context.watched) run(context);
 }
 
-template <class S> void Sequential<S>::apply_restitution(const StepContext<S>& context) {
-  bool bounces = false;
-  for (const ContactGeometry<S>& g : context.geometry) bounces = bounces || g.material.restitution > S(0);
-  if (bounces) add_pass(Work::apply_restitution, colours_[detail::kShallow], context);
-  if (context.watched) run(context);
-}
-
 template <class S> void Sequential<S>::store_impulses(const StepContext<S>& context) {
   add_stages(Work::store, all_);
   add_stage(Work::store_bodies, body_pieces_);
   run(context);
+  impacts_.store(context);
   joints_.store(context);
 }
 

@@ -116,7 +116,7 @@ void WorstFirstResolver<S, Queue>::visit_scratch(const Visit& visit, SolverStage
     visit("ends", ends_);
     visit("neighbours", std::span(neighbours_.data(), first_[bodies_.rows().mass.size()]));
   }
-  if (stage != SolverStage::solve) return;  // impacts are done with the sub-steps
+  if (stage != SolverStage::solve) return;
   visit("islands_left", islands_left_);
   visit.each("points", points_.size(), [&](const auto& of_point, std::size_t i) {
     Point& point = points_[i];
@@ -124,7 +124,6 @@ void WorstFirstResolver<S, Queue>::visit_scratch(const Visit& visit, SolverStage
     of_point("impulse", point.impulse);
     of_point("total_impulse", point.total_impulse);
     of_point("least_speed", point.least_speed);
-    of_point("target", point.target);
     of_point("friction_impulse", point.friction.impulse);
   });
 }

@@ -66,7 +66,7 @@ template <class S> struct StepContext {
 };
 
 /// The calls of rigid_solver.hpp, for those who look at what each leaves.
-enum class SolverStage : std::uint32_t { colour, prepare, solve, apply_restitution, store };
+enum class SolverStage : std::uint32_t { colour, prepare, solve, store };
 
 namespace detail {
 template <class S> inline constexpr Velocity<S> kPushSpeed = Velocity<S>(3);  // [m/s] overlap ends no faster

@@ -9,25 +9,24 @@
 #include "isostep/core/island_budgets.hpp"
 #include "isostep/core/tournament_tree.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
+#include "isostep/dynamics/solvers/impacts.hpp"
 #include "isostep/dynamics/solvers/prepared_joints.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 #include "isostep/dynamics/solvers/worst_first_rows.hpp"
 
 namespace isostep {
 
-/// Each sub-step: velocities are integrated and resolved, positions integrated and resolved.
+/// Each sub-step: what meets fast bounces (impacts.hpp), velocities are integrated and resolved, then positions.
 /// Source:  Millington 2007, ch. 14-15: impulses (306-321), nonlinear projection, relaxation, rotation limit (322-330),
 ///          worst first (338-346), micro-collisions (351-358), friction (359-361).
-/// Symbols: v = speed of b against a along the normal, g = the part of it that this sub-step's forces made,
-///          C = separation, e = restitution. Bounce: v' = -e (v - min(g, 0)) where that was faster than the threshold.
+/// Symbols: v = speed of b against a along the normal, C = separation.
 /// Order:   a pass takes the row that is furthest from its aim, and looks again at all that share a moving body with
 ///          it; ties go to the lowest index: contact points in canonical order, then joints.
 /// Differs: a pass begins with the impulses that the last one came to, adds to them, and lets them give way again. From
 ///          nothing, as in the book, its iterations carry a weight through few bodies: at 4 sub-steps a stack of twenty
 ///          boxes falls within two seconds and S6, a chain of fifty links, comes 1.4 m apart, where now the stack is
 ///          0.7 mm deep in itself and the chain comes 0.08 m apart. Friction is a vector within the cone of all that
-///          its point bears, and as urgent as any speed. What an impulse takes from g it takes from both bodies' share
-///          of g. A gap that would close within the sub-step is hit at once, so nothing gets through. Geometry is the
+///          its point bears, and as urgent as any speed. A gap that would close within the sub-step is hit at once, so nothing gets through. Geometry is the
 ///          step's: each gap follows the displacements, nothing is re-measured. A row that cannot be bettered waits
 ///          until a neighbour moves.
 /// Projection: of projection.hpp. All aim at the same, a quarter of an overlap a sub-step, at 3 m/s at most. Joints'
@@ -59,7 +58,6 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
   void colour_constraints(const StepContext<S>& context);
   void prepare(const StepContext<S>& context);
   void solve_substeps(const StepContext<S>& context);
-  void apply_restitution(const StepContext<S>&) {}  // done with the impacts
   void store_impulses(const StepContext<S>& context);
   /// As often as a pass left them.
   ISO_INLINE std::uint32_t unsolved() const { return islands_left_; }
@@ -106,7 +104,7 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
   void carry(const StepContext<S>& context);
   void warm_start(const Point& row);
   void hold(JointConstraint<S>& joint);
-  void forget_impact(Point& row);
+  void forget_impulses(Point& row);
   V most_beside(std::size_t index, const Point& row) const;
   ISO_INLINE V most_of(const Point& row) const {
     return most_beside(static_cast<std::size_t>(&row - points_.data()), row);
@@ -138,9 +136,9 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
   void undo(const StepContext<S>& context, std::uint32_t body, S share);
 
   BodyRows<S> bodies_;
+  Impacts<S> impacts_;
   PreparedJoints<S> joints_;
-  std::vector<Motion> gained_;  // by row of the bodies: of velocity, what this sub-step's forces made
-  std::vector<Motion> moved_;   // by row of the bodies: of velocity_based, the last step's motion, less what went back
+  std::vector<Motion> moved_;  // by row of the bodies: of velocity_based, the last step's motion, less what went back
   std::vector<Point> points_;
   std::vector<TangentPair<S>> rolling_;
   std::vector<std::uint32_t> held_;        // of joints_: those that hold something
@@ -150,7 +148,6 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
   IslandBudgets budgets_;                  // of a pass
   std::vector<V> urgency_;                 // [m/s] or [m], by row; 0: nothing is to be done
   Queue worst_;                            // of urgency_
-  V restitution_threshold_ = V(0);         // [m/s] of this step
   bool any_followed_ = false;
   std::uint32_t islands_left_ = 0;  // by the passes of this step, with something still to be done
 };

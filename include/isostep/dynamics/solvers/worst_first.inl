@@ -13,7 +13,7 @@ namespace isostep {
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::colour_constraints(const StepContext<S>& context) {
   bodies_.gather(context, integration_rate(SolverName::worst_first, context.hz, context.substeps));
   joints_.prepare(context, bodies_.rows());
-  gained_.resize(bodies_.rows().velocity.size());
+  impacts_.begin(context, bodies_.rows());
   const SolverBodies<S>& bodies = bodies_.rows();
   const auto mover = [&](std::uint32_t row) { return bodies.moves(row) ? row : 0u; };
   points_.clear();
@@ -78,7 +78,6 @@ void WorstFirstResolver<S, Queue>::add_point(const StepContext<S>& context, std:
   row.friction.surface[0] = saturate_to<V>(dot_sum(g.material.surface_velocity, basis.t));
   row.friction.surface[1] = saturate_to<V>(dot_sum(g.material.surface_velocity, basis.u));
   row.mu = g.material.friction;
-  row.restitution = g.material.restitution;
   row.separation = convert<V>(at.separation);
   load_impulses(context.contacts[contact], point, row);
   if (g.material.rolling_resistance > S(0)) add_rolling(g, point, a, b, row);
@@ -284,13 +283,13 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::store_impulse
     const V total = saturating_add(row.total_impulse, row.impulse);
     context.step_impulses[row.contact] = saturating_add(context.step_impulses[row.contact], total);
     if (total > V(0)) contact.flags |= contact_flag::kTouching;
-    if (row.least_speed < row.target) forget_impact(row);
     contact.normal_impulse[place] = row.impulse;
     for (int k = 0; k < 2; ++k) {
       const Vec3<V> part = scaled(row.friction.rows[k].linear, row.friction.impulse[k]);
       contact.friction_impulse = saturated_sum<S>(contact.friction_impulse, part);
     }
   }
+  impacts_.store(context);
   bodies_.store(context, 0, bodies_.count());
   joints_.store(context);
 }

@@ -42,11 +42,9 @@ template <class S> struct PointRow {
   TangentPair<S> friction;
   S mass;           // [1] effective, along the normal
   S mu;             // [1] coefficient of friction
-  S restitution;    // [1]
   S lever;          // [1] resisting torque per normal impulse, over the pair's radius
   V separation;     // [m] when the step began
   V least_speed;    // [m/s] the gap may close in the sub-step, no more
-  V target;         // [m/s] speed above which the impulse gives way: the least one, or that of the bounce
   V least_gap;      // [m] what this sub-step's projection aims at
   V impulse;        // [m/s] of this sub-step
   V total_impulse;  // [m/s] of the sub-steps before
@@ -63,11 +61,9 @@ template <class S> struct PointRow {
     visit("friction", self.friction);
     visit("mass", self.mass);
     visit("mu", self.mu);
-    visit("restitution", self.restitution);
     visit("lever", self.lever);
     visit("separation", self.separation);
     visit("least_speed", self.least_speed);
-    visit("target", self.target);
     visit("least_gap", self.least_gap);
     visit("impulse", self.impulse);
     visit("total_impulse", self.total_impulse);

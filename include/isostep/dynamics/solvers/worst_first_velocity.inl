@@ -23,9 +23,8 @@ template <class S> ISO_INLINE Velocity<S> motion_tolerance(const Motion<S>& a, c
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::begin_velocities(const StepContext<S>& context, const JointStep<S>& step) {
   SolverBodies<S>& bodies = bodies_.rows();
-  restitution_threshold_ = context.restitution_threshold;
-  for (std::size_t i = 0; i < gained_.size(); ++i) gained_[i] = bodies.velocity[i];
   bodies_.renew_forces(context);
+  if (impacts_.any()) impacts_.bounce(context, bodies_);
   bodies_.integrate_velocities(context, 0, bodies_.count());
   carry(context);
   // A gap wider than a sub-step covers at 64 m/s counts as that: times the rate it fits.
@@ -33,9 +32,8 @@ void WorstFirstResolver<S, Queue>::begin_velocities(const StepContext<S>& contex
   const auto is_followed = [&](std::uint32_t body) { return any_followed_ && bodies_.is_followed(context, body); };
   for (Point& row : points_) {
     row.total_impulse = saturating_add(row.total_impulse, row.impulse);
-    if (row.least_speed < row.target || is_followed(row.a) || is_followed(row.b)) forget_impact(row);
+    if (is_followed(row.a) || is_followed(row.b)) forget_impulses(row);
     row.least_speed = -scaled(step.rate, clamp(gap(row), V(0), widest));
-    row.target = row.least_speed;
     warm_start(row);
   }
   for (const std::uint32_t j : held_) {
@@ -45,10 +43,6 @@ void WorstFirstResolver<S, Queue>::begin_velocities(const StepContext<S>& contex
     factor_joint(joint);
     apply_impulses(joint, step);
     hold(joint);
-  }
-  for (std::size_t i = 0; i < gained_.size(); ++i) {
-    gained_[i].linear = bodies.velocity[i].linear - gained_[i].linear;
-    gained_[i].angular = bodies.velocity[i].angular - gained_[i].angular;
   }
 }
 
@@ -103,8 +97,8 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::hold(JointCon
   }
 }
 
-/// What bounced is no longer borne: an impact is not to begin again.
-template <class S, class Queue> void WorstFirstResolver<S, Queue>::forget_impact(Point& row) {
+/// Those of before met other axes.
+template <class S, class Queue> void WorstFirstResolver<S, Queue>::forget_impulses(Point& row) {
   row.impulse = row.friction.impulse[0] = row.friction.impulse[1] = V(0);
   if (row.rolling == kNoPair) return;
   TangentPair<S>& pair = rolling_[row.rolling];
@@ -129,7 +123,7 @@ template <class S, class Queue> Velocity<S> WorstFirstResolver<S, Queue>::motion
   const V speed = detail::along(row.normal, a, b);
   V most = min(saturating_subtract(row.least_speed, speed), saturating_subtract(most_of(row), row.impulse));
   const bool pushes = V(0) < row.impulse;
-  if (pushes) most = max(most, min(saturating_subtract(speed, row.target), row.impulse));
+  if (pushes) most = max(most, min(saturating_subtract(speed, row.least_speed), row.impulse));
   const auto look_across = [&](const TangentPair<S>& pair, S slope) ISO_INLINE_LAMBDA {
     if (!pushes && pair.impulse[0] == V(0) && pair.impulse[1] == V(0)) return;
     const V limit = saturate_to<V>(product(slope, row.impulse));
@@ -187,27 +181,11 @@ void WorstFirstResolver<S, Queue>::resolve_motion(JointConstraint<S>& joint, con
   hold(joint);
 }
 
-/// Newton's law of impact on the speed that forces did not make (pp. 111, 357). An impulse that is more than enough
-/// gives way, down to none, and what then closes elsewhere counts as made by forces: it was borne until now.
+/// An impulse that is more than enough gives way, down to none.
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::resolve_normal(Point& row, Motion& a, Motion& b) {
   const V speed = detail::along(row.normal, a, b);
-  const bool closes = speed < row.least_speed;
-  if (!closes && !(row.target < speed)) return;
-  V aim = row.target;
-  V gained_change = V(0);
-  if (closes) {
-    const V gained = min(detail::along(row.normal, gained_[row.a], gained_[row.b]), V(0));
-    const V former = saturating_subtract(speed, gained);
-    aim = row.least_speed;
-    if (former < -restitution_threshold_) aim = max(aim, -saturate_to<V>(product(row.restitution, former)));
-    row.target = max(row.target, aim);
-    gained_change = saturate_to<V>(product(row.mass, -max(gained, speed)));
-  }
-  const V change = saturate_to<V>(product(row.mass, saturating_subtract(aim, speed)));
+  const V change = saturate_to<V>(product(row.mass, saturating_subtract(row.least_speed, speed)));
   const V next = max(min(saturating_add(row.impulse, change), most_of(row)), V(0));
-  if (!closes) gained_change = next - row.impulse;
-  else if (row.most < highest<V>()) gained_change = min(gained_change, next - row.impulse);
-  detail::push(row.normal, row.share, gained_change, gained_[row.a], gained_[row.b]);
   detail::push(row.normal, row.share, next - row.impulse, a, b);
   row.impulse = next;
 }

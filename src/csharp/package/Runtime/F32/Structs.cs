@@ -345,7 +345,7 @@ namespace Isostep.F32
         /// <summary>Of worst_first; other solvers take any and use none</summary>
         public Projection Projection;
         /// <summary>[m/s] 0..Limits::speed(): what meets more slowly does not bounce. Rest is a rain of small bounces
-        /// without it; of a gas at restitution 1 glancing blows below it lose their energy.</summary>
+        /// without it; of what nothing presses together all bounces above a sixteenth of it.</summary>
         public float RestitutionThreshold;
         private fixed byte reserved2[4];
 

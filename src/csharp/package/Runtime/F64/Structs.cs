@@ -343,7 +343,7 @@ namespace Isostep.F64
         public Projection Projection;
         private fixed byte reserved2[4];
         /// <summary>[m/s] 0..Limits::speed(): what meets more slowly does not bounce. Rest is a rain of small bounces
-        /// without it; of a gas at restitution 1 glancing blows below it lose their energy.</summary>
+        /// without it; of what nothing presses together all bounces above a sixteenth of it.</summary>
         public double RestitutionThreshold;
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>

@@ -179,14 +179,13 @@ namespace Isostep
         ColourConstraints = 3,
         Prepare = 4,
         SolveSubsteps = 5,
-        Restitution = 6,
-        StoreImpulses = 7,
-        FinaliseBodies = 8,
-        Continuous = 9,
-        UpdateSensors = 10,
-        EmitEvents = 11,
-        UpdateSleep = 12,
-        MoveCharacters = 13,
+        StoreImpulses = 6,
+        FinaliseBodies = 7,
+        Continuous = 8,
+        UpdateSensors = 9,
+        EmitEvents = 10,
+        UpdateSleep = 11,
+        MoveCharacters = 12,
     }
 
     [Flags]
