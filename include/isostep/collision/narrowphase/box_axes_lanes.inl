@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "isostep/collision/narrowphase/box_axes.hpp"
+#include "isostep/collision/narrowphase/face_clip.hpp"
 #include "isostep/collision/narrowphase/pair_lanes.inl"
 
 namespace isostep {
@@ -78,6 +78,31 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     (weigh_cross<K>(boxes, q, worth, best), ...);
   }
 
+  /// Which of three is the largest: neither 0 nor 1: 2.
+  struct Largest {
+    Mask is0, is1;
+
+    template <class T> ISO_INLINE T pick(T x, T y, T z) const { return select(is0, x, select(is1, y, z)); }
+  };
+  static ISO_INLINE Largest largest_of(const L (&x)[3]) {
+    const Mask is0 = less_equal(x[1], x[0]) & less_equal(x[2], x[0]);
+    return {is0, less_equal(x[2], x[1]) & ~is0};
+  }
+  /// are_beside() of box_axes.hpp.
+  static ISO_INLINE Mask are_beside(const Boxes& boxes, const L (&offset_a)[3], const Largest& a,
+                                    const L (&offset_b)[3], const Largest& b) {
+    const Mask below_a = less(a.pick(offset_a[0], offset_a[1], offset_a[2]), L::zero());
+    const Mask below_b = less(b.pick(offset_b[0], offset_b[1], offset_b[2]), L::zero());
+    U along[3];
+    ISO_UNROLL for (int i = 0; i < 3; ++i) {
+      const Vec3<U>& row = boxes.turn.rows[i];
+      along[i] = b.pick(row.x, row.y, row.z);
+    }
+    const U cosine = a.pick(along[0], along[1], along[2]);
+    const Mask differ = (below_a & ~below_b) | (~below_a & below_b);
+    return less_equal(U::broadcast(Unit<S>(detail::kNearFace)), select(differ, -cosine, cosine));
+  }
+
   /// False when every pair is apart.
   static ISO_INLINE bool find(const Batch& batch, const Bodies& p, S margin, Boxes& boxes, Best& best) {
     boxes.half_a = gather_half(batch.a);
@@ -99,19 +124,21 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     }
     boxes.offset = {offset[0], offset[1], offset[2]};
     if ((~to_bits(best.apart) & batch.real) == 0) return false;
+    L offset_b[3];
     ISO_UNROLL for (int j = 0; j < 3; ++j) {
-      b[j] = abs(dot(boxes.offset, boxes.turn.column(j))) - boxes.half_b[j] - dot(size.column(j), boxes.half_a);
+      offset_b[j] = dot(boxes.offset, boxes.turn.column(j));
+      b[j] = abs(offset_b[j]) - boxes.half_b[j] - dot(size.column(j), boxes.half_a);
       best.apart = best.apart | less(reach, b[j]);
     }
     if ((~to_bits(best.apart) & batch.real) == 0) return false;
 
     const L of_a = max(a[0], max(a[1], a[2])), of_b = max(b[0], max(b[1], b[2]));
     boxes.tolerance = tolerance_of(boxes.half_a, boxes.half_b);
-    best.of_b = less(of_a + boxes.tolerance, of_b);
+    const Largest face_a = largest_of(a), face_b = largest_of(b);
+    best.of_b = less(of_a + boxes.tolerance, of_b) & ~are_beside(boxes, offset, face_a, offset_b, face_b);
     best.separation = select(best.of_b, of_b, of_a);
-    const L c[3] = {select(best.of_b, b[0], a[0]), select(best.of_b, b[1], a[1]), select(best.of_b, b[2], a[2])};
-    best.axis0 = less_equal(c[1], c[0]) & less_equal(c[2], c[0]);
-    best.axis1 = less_equal(c[2], c[1]) & ~best.axis0;
+    best.axis0 = (best.of_b & face_b.is0) | (~best.of_b & face_a.is0);
+    best.axis1 = (best.of_b & face_b.is1) | (~best.of_b & face_a.is1);
     best.examine = 0;
     best.limit = max(of_a, of_b) + boxes.tolerance;
     const L worth = min(best.limit, L::zero());
@@ -162,7 +189,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
       Manifold<S>& out = run.manifolds[batch.pair[lane]];
       if (axis.axis < 0) continue;
       out.clear();
-      detail::touch_edges(pair, axis, a.radius, b.radius, a.origin, out);
+      detail::touch_crossing(pair, axis, a.radius, a.origin, b.radius, origin_beside(a, b), run.margin, out);
       run.counts[batch.pair[lane]] = static_cast<std::uint8_t>(out.count);
     }
     return done;

@@ -19,7 +19,7 @@ void collide_box_box(const Primitive<S>& a, const Transform<S>& ta, const Primit
   const detail::BestAxis<S> best = detail::best_axis(pair, ta, tb, margin + a.radius + b.radius);
   if (best.axis < 0) return;
   if (best.axis >= 6) {
-    detail::touch_edges(pair, best, a.radius, b.radius, ta, out);
+    detail::touch_crossing(pair, best, a.radius, ta, b.radius, tb, margin, out);
     return;
   }
   detail::touch_best_faces(pair, best.axis, a.radius, ta, b.radius, tb, margin, out);

@@ -134,7 +134,7 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
   }
 
   /// reduce_to_four() of an outline.
-  static void reduce(const Faces& faces, const L& tolerance, int lane, Outline& outline) {
+  static void reduce(const Faces& faces, const L& tolerance, S slack, int lane, Outline& outline) {
     alignas(kLaneAlignment<S, W>) S x[3][W];
     detail::ClipPolygon<S> polygon;
     polygon.count = outline.count;
@@ -143,7 +143,7 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
       polygon.points[i] = {x[0][lane], x[1][lane], x[2][lane], outline.before[i], outline.edges[i]};
     }
     tolerance.store(x[0]);
-    detail::reduce_to_four(polygon, x[0][lane] * S(0.125));
+    detail::reduce_to_four(polygon, detail::depth_tie(x[0][lane], slack));
     outline.count = polygon.count;
     for (int i = 0; i < polygon.count; ++i) {
       outline.before[i] = polygon.points[i].before;
@@ -194,7 +194,10 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
       }
       Manifold<S>& out = run.manifolds[batch.pair[lane]];
       Outline outline = outline_of(faces, points, lane);
-      if (outline.count > kMaxContactPoints) reduce(faces, boxes.tolerance, lane, outline);
+      if (outline.count > kMaxContactPoints) {
+        const S slack = detail::face_slack(batch.a[lane]->half, batch.b[lane]->half);
+        reduce(faces, boxes.tolerance, slack, lane, outline);
+      }
       const std::uint32_t axis = 2 - 2 * bit(axis0) - bit(axis1), incident = 2 - 2 * bit(incident0) - bit(incident1);
       const std::uint32_t face = incident * 2 + bit(negative);
       const std::uint32_t name = 1u << 31 | bit(of_b) << 12 | axis << 10 | bit(below) << 9 | face << 6;

@@ -31,4 +31,20 @@ template <class S> ISO_INLINE constexpr S axis_tolerance(Vec3<S> half_a, Vec3<S>
   return axis_tolerance(min(low.x, min(low.y, low.z)), max_abs(half_a) + max_abs(half_b));
 }
 
+/// Where the best axis is a cross of edges, and a face looks along it within this cosine, of 3.6 degrees, their faces may
+/// touch instead; b's where it looks along it better by kFaceLead.
+inline constexpr double kNearFace = 0.998, kFaceLead = 0.001;
+/// [m] By which the gap that those faces tell of may differ from that of the edges: about what contacts sag, and an
+/// eighth of the smallest thickness at most.
+template <class S> ISO_INLINE constexpr S face_slack(S smallest) { return min(smallest * S(0.25), S(1.0 / 1024)); }
+template <class S> ISO_INLINE constexpr S face_slack(Vec3<S> half_a, Vec3<S> half_b) {
+  const Vec3<S> low = min(half_a, half_b);
+  return face_slack(min(low.x, min(low.y, low.z)));
+}
+/// [m] Depths that differ by less are equal where a polygon is reduced to four of its corners: trembling may not change
+/// which they are. slack: face_slack().
+template <class S> ISO_INLINE constexpr S depth_tie(S tolerance, S slack) {
+  return max(tolerance * S(0.125), slack + slack);
+}
+
 }  // namespace isostep::detail

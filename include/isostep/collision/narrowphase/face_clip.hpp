@@ -172,10 +172,10 @@ template <class S> ISO_INLINE unsigned incident_face(const FacePair<S>& pair, bo
   return unsigned(m) * 2 + (negative ? 1u : 0u);
 }
 
+/// below: the face is the negative one of its axis.
 template <class S>
-ISO_INLINE void touch_faces(const FacePair<S>& pair, S radius, S incident_radius, const Transform<S>& frame, S margin,
-                            bool of_a, Manifold<S>& out) {
-  const bool below = pair.offset[2] < S(0);
+ISO_INLINE void touch_faces(const FacePair<S>& pair, bool below, S radius, S incident_radius, const Transform<S>& frame,
+                            S margin, bool of_a, Manifold<S>& out) {
   ClipPolygon<S> polygons[2];
   const unsigned face = incident_face(pair, below, polygons[0]);
   unsigned now = 0;
@@ -197,7 +197,7 @@ ISO_INLINE void touch_faces(const FacePair<S>& pair, S radius, S incident_radius
   if (kept > kMaxContactPoints) {
     const Vec3<S> half = {pair.half[0], pair.half[1], pair.half[2]};
     const Vec3<S> incident = {pair.incident_half[0], pair.incident_half[1], pair.incident_half[2]};
-    reduce_to_four(polygon, axis_tolerance(half, incident) * S(0.125));
+    reduce_to_four(polygon, depth_tie(axis_tolerance(half, incident), face_slack(half, incident)));
   }
 
   const Vec3<Unit<S>> outward = negate_if(below, frame.rotation.column(pair.axes[2]));
@@ -215,18 +215,62 @@ ISO_INLINE void touch_faces(const FacePair<S>& pair, S radius, S incident_radius
   }
 }
 
+/// A face of a.
+template <class S>
+ISO_INLINE void touch_face_of_a(const BoxPair<S>& pair, int axis, bool below, S radius_a, const Transform<S>& ta,
+                                S radius_b, S margin, Manifold<S>& out) {
+  const FacePair<S> faces = face_pair(axis, pair.half_a, pair.half_b, pair.offset, pair.turn);
+  touch_faces(faces, below, radius_a, radius_b, ta, margin, true, out);
+}
+template <class S> ISO_INLINE Vec3<S> offset_from_b(const Transform<S>& ta, const Transform<S>& tb) {
+  return -transposed_times(tb.rotation, tb.position - ta.position);
+}
+/// A face of b; offset [m] of a's centre in its frame.
+template <class S>
+ISO_INLINE void touch_face_of_b(const BoxPair<S>& pair, int axis, bool below, Vec3<S> offset, S radius_a, S radius_b,
+                                const Transform<S>& tb, S margin, Manifold<S>& out) {
+  const FacePair<S> faces = face_pair(axis, pair.half_b, pair.half_a, offset, transpose(pair.turn));
+  touch_faces(faces, below, radius_b, radius_a, tb, margin, false, out);
+}
+
 /// axis: BestAxis::axis of a face.
 template <class S>
 ISO_INLINE void touch_best_faces(const BoxPair<S>& pair, int axis, S radius_a, const Transform<S>& ta, S radius_b,
                                  const Transform<S>& tb, S margin, Manifold<S>& out) {
-  if (axis < 3) {
-    const FacePair<S> faces = face_pair(axis, pair.half_a, pair.half_b, pair.offset, pair.turn);
-    touch_faces(faces, radius_a, radius_b, ta, margin, true, out);
-  } else {
-    const Vec3<S> offset = -transposed_times(tb.rotation, tb.position - ta.position);
-    const FacePair<S> faces = face_pair(axis - 3, pair.half_b, pair.half_a, offset, transpose(pair.turn));
-    touch_faces(faces, radius_b, radius_a, tb, margin, false, out);
+  if (axis < 3) return touch_face_of_a(pair, axis, pair.offset[axis] < S(0), radius_a, ta, radius_b, margin, out);
+  const Vec3<S> offset = offset_from_b(ta, tb);
+  touch_face_of_b(pair, axis - 3, offset[axis - 3] < S(0), offset, radius_a, radius_b, tb, margin, out);
+}
+
+/// Whether the points of a manifold tell of a gap, but for `slack` [m].
+template <class S> ISO_INLINE bool tells_of(const Manifold<S>& m, S separation, S slack) {
+  if (m.count == 0) return false;
+  S least = m.points[0].separation;
+  for (int i = 1; i < m.count; ++i) least = min(least, m.points[i].separation);
+  return abs(least - separation) <= slack;
+}
+template <class T> ISO_INLINE int largest_axis(Vec3<T> v) { return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2; }
+
+/// Two boxes whose best axis is a cross of edges. Where a face looks almost along it and tells of the same gap, the
+/// faces touch: what lies a little askew on something long and thin rests on the patch where they cross. Of that the
+/// edges are one corner, and in the next step another.
+template <class S>
+ISO_INLINE void touch_crossing(const BoxPair<S>& pair, const BestAxis<S>& best, S radius_a, const Transform<S>& ta,
+                               S radius_b, const Transform<S>& tb, S margin, Manifold<S>& out) {
+  using U = Unit<S>;
+  const Vec3<U> n = best.normal, m = transposed_times(pair.turn, n);
+  const int i = largest_axis(abs(n)), j = largest_axis(abs(m));
+  const U along_a = abs(n[i]), along_b = abs(m[j]);
+  if (max(along_a, along_b) >= U(kNearFace)) {
+    if (along_b <= along_a + U(kFaceLead)) {
+      touch_face_of_a(pair, i, n[i] < U(0), radius_a, ta, radius_b, margin, out);
+    } else {
+      touch_face_of_b(pair, j, m[j] > U(0), offset_from_b(ta, tb), radius_a, radius_b, tb, margin, out);
+    }
+    if (tells_of(out, best.separation - radius_a - radius_b, face_slack(pair.half_a, pair.half_b))) return;
+    out.clear();
   }
+  touch_edges(pair, best, radius_a, radius_b, ta, out);
 }
 
 }  // namespace isostep::detail

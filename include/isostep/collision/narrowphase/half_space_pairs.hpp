@@ -12,7 +12,7 @@ namespace isostep {
 template <class S>
 void collide_sphere_half_space(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
                                const Transform<S>& tb, S margin, Manifold<S>& out);
-/// The four deepest vertices; of the two that may be fourth, the one that completes a face when they tie.
+/// The vertices of the face that looks most at the plane: those above it are no support, however thin the box is.
 /// Feature: bit k set where the vertex lies on the positive side of the box's axis k.
 template <class S>
 void collide_box_half_space(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,

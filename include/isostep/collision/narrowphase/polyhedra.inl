@@ -20,7 +20,6 @@ template <class S> struct FaceContact {
   const Polyhedron<S>& reference;
   const Polyhedron<S>& incident;
   const Columns<S, ConvexHull::kMaxVertices>& vertices;  // [m] of the incident solid
-  Mat3<Unit<S>> turn;  // from its frame
   FaceAxis<S> axis;
   Tangents<Unit<S>> across;  // of the face's normal
 };
@@ -55,13 +54,43 @@ ISO_INLINE void project_face(const Polyhedron<S>& solid, std::uint32_t face, con
   } while (edge != solid.faces[face]);
 }
 
+/// visit(f) of a face and of those that look along it but for kFlat. What a solid lies on need not be one plane, and of
+/// two that differ by less than contacts sag each would tip it onto the other.
+template <class S, class Visit>
+ISO_INLINE void visit_flat_faces(const Polyhedron<S>& solid, std::uint32_t face, const Visit& visit) {
+  constexpr double kFlat = 1 - 1.0 / 1024;  // cosine, of 2.5 degrees
+  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
+    if (f == face || dot(solid.normals[f], solid.normals[face]) >= Unit<S>(kFlat)) visit(f);
+  }
+}
+/// Adds a point that is not there: corners that are named alike are one.
+template <class S> ISO_INLINE void add_point(const ClipPoint<S>& p, FacePolygon<S>& points) {
+  for (int i = 0; i < points.count; ++i) {
+    if (points.points[i].before == p.before && points.points[i].after == p.after) return;
+  }
+  if (points.count < kFacePoints) points.points[points.count++] = p;
+}
+/// The end that two edges share.
+template <class S>
+ISO_INLINE std::uint32_t vertex_between(const Polyhedron<S>& a, std::uint32_t before, std::uint32_t after) {
+  const std::uint32_t first = a.origin(2 * before);
+  return first == a.origin(2 * after) || first == a.origin(2 * after + 1) ? first : a.origin(2 * before + 1);
+}
+/// A corner that is a vertex of the solid is named by it, twice: the same on every face around it.
+template <class S>
+ISO_INLINE ClipPoint<S> named_by_vertex(const Polyhedron<S>& solid, std::uint32_t cut, ClipPoint<S> p) {
+  if (p.before < cut && p.after < cut) p.before = p.after = vertex_between(solid, p.before, p.after);
+  return p;
+}
+
 /// What clip() does with lines at any angle.
 inline constexpr auto kCutAcross = [](const auto& p, const auto& q, auto t, auto& at) ISO_INLINE_LAMBDA {
   at.u = p.u + (q.u - p.u) * t;
   at.v = p.v + (q.v - p.v) * t;
 };
 
-/// Cuts off what lies beyond an edge of the reference face, whose name is 128 + its number.
+/// Cuts off what lies beyond an edge of the reference face, whose name is kReferenceEdge + its number.
+inline constexpr std::uint32_t kReferenceEdge = 128;
 template <class S>
 ISO_INLINE bool clip_beyond(const Polyhedron<S>& solid, const Tangents<Unit<S>>& across, std::uint32_t half_edge,
                             const FacePolygon<S>& from, FacePolygon<S>& to) {
@@ -72,11 +101,10 @@ ISO_INLINE bool clip_beyond(const Polyhedron<S>& solid, const Tangents<Unit<S>>&
   S beyond[kFacePoints];
   for (int i = 0; i < from.count; ++i)
     beyond[i] = round_to<S>(product(from.points[i].u - u, dv) - product(from.points[i].v - v, du));
-  return clip(from, beyond, 128 + half_edge / 2, kCutAcross, to);
+  return clip(from, beyond, kReferenceEdge + half_edge / 2, kCutAcross, to);
 }
 
-/// Where rounding leaves nothing above the best face of solids that overlap. Named by the vertex, twice, as no corner
-/// is.
+/// Where rounding leaves nothing above the best face of solids that overlap.
 template <class S> ISO_INLINE void take_deepest(const FaceContact<S>& contact, FacePolygon<S>& polygon) {
   const Vec3<S> p = contact.vertices.at(contact.axis.vertex);
   polygon.points[0] = {dot(contact.across.t, p), dot(contact.across.u, p), contact.axis.separation, contact.axis.vertex,
@@ -84,37 +112,38 @@ template <class S> ISO_INLINE void take_deepest(const FaceContact<S>& contact, F
   polygon.count = 1;
 }
 
+/// face: of the incident solid.
 template <class S>
-ISO_INLINE void touch_faces(const FaceContact<S>& contact, const Transform<S>& frame, S margin, S tie, bool of_a,
-                            bool deepest, Manifold<S>& out) {
+ISO_INLINE void touch_faces(const FaceContact<S>& contact, std::uint32_t face, const Transform<S>& frame, S margin,
+                            S tie, bool of_a, bool deepest, Manifold<S>& out) {
   const Polyhedron<S>& reference = contact.reference;
   const Vec3<Unit<S>> normal = reference.normals[contact.axis.face];
   const S offset = reference.offsets[contact.axis.face];
-  const std::uint32_t face =
-      face_against(contact.incident, contact.axis.vertex, transposed_times(contact.turn, normal));
-  FacePolygon<S> polygons[2];
+  FacePolygon<S> polygon;
+  polygon.count = 0;
   const auto vertex = [&](std::uint32_t i) ISO_INLINE_LAMBDA { return contact.vertices.at(i); };
   const auto height = [&](Vec3<S> p) ISO_INLINE_LAMBDA { return dot(normal, p) - offset; };
-  project_face(contact.incident, face, contact.across, vertex, height, polygons[0]);
-  unsigned now = 0;
-  std::uint32_t edge = reference.faces[contact.axis.face];
-  do {
-    now ^= clip_beyond(reference, contact.across, edge, polygons[now], polygons[now ^ 1u]) ? 1u : 0u;
-    edge = reference.half_edges[edge].next;
-  } while (edge != reference.faces[contact.axis.face]);
-  FacePolygon<S>& polygon = polygons[now];
-  int kept = 0;
-  for (int i = 0; i < polygon.count; ++i) {
-    if (polygon.points[i].height <= margin) polygon.points[kept++] = polygon.points[i];
-  }
-  polygon.count = kept;
-  if (kept == 0 && deepest) take_deepest(contact, polygon);
+  visit_flat_faces(contact.incident, face, [&](std::uint32_t flat) ISO_INLINE_LAMBDA {
+    FacePolygon<S> polygons[2];
+    project_face(contact.incident, flat, contact.across, vertex, height, polygons[0]);
+    unsigned now = 0;
+    std::uint32_t edge = reference.faces[contact.axis.face];
+    do {
+      now ^= clip_beyond(reference, contact.across, edge, polygons[now], polygons[now ^ 1u]) ? 1u : 0u;
+      edge = reference.half_edges[edge].next;
+    } while (edge != reference.faces[contact.axis.face]);
+    for (int i = 0; i < polygons[now].count; ++i) {
+      const ClipPoint<S>& p = polygons[now].points[i];
+      if (p.height <= margin) add_point(named_by_vertex(contact.incident, kReferenceEdge, p), polygon);
+    }
+  });
+  if (polygon.count == 0 && deepest) take_deepest(contact, polygon);
   if (polygon.count == 0) return;
-  if (kept > kMaxContactPoints) reduce_to_four(polygon, tie);
+  if (polygon.count > kMaxContactPoints) reduce_to_four(polygon, tie);
 
   const Vec3<Unit<S>> outward = frame.rotation * normal;
   out.normal = of_a ? outward : -outward;
-  const std::uint32_t name = 1u << 31 | (of_a ? 0u : 1u) << 30 | contact.axis.face << 23 | face << 16;
+  const std::uint32_t name = 1u << 31 | (of_a ? 0u : 1u) << 30 | contact.axis.face << 23;
   for (int i = 0; i < polygon.count; ++i) {
     const ClipPoint<S>& p = polygon.points[i];
     const Vec3<S> local = contact.across.t * p.u + contact.across.u * p.v + normal * (offset + p.height * S(0.5));
@@ -178,6 +207,30 @@ ISO_INLINE bool shares_a_point(const PolyhedronPair<S, W, Isa>& pair, const Tran
   return false;
 }
 
+/// Of the faces beside two edges that cross, those that look most along the crossing's normal.
+template <class S> struct FacesAlong {
+  std::uint32_t face_a, face_b;
+  Unit<S> along_a, along_b;  // [1] cosines
+
+  /// out_of_b: the normal reversed, b's frame.
+  ISO_INLINE FacesAlong(const Polyhedron<S>& a, const Polyhedron<S>& b, const EdgeAxis<S>& axis,
+                        Vec3<Unit<S>> out_of_b) {
+    choose(a, axis.edge_a, axis.normal, face_a, along_a);
+    choose(b, axis.edge_b, out_of_b, face_b, along_b);
+  }
+  ISO_INLINE bool are_near() const { return max(along_a, along_b) >= Unit<S>(kNearFace); }
+  ISO_INLINE bool prefers_b() const { return along_b > along_a + Unit<S>(kFaceLead); }
+
+ private:
+  static ISO_INLINE void choose(const Polyhedron<S>& solid, std::uint32_t edge, Vec3<Unit<S>> out, std::uint32_t& face,
+                                Unit<S>& along) {
+    const std::uint32_t left = solid.half_edges[2 * edge].face, right = solid.half_edges[2 * edge + 1].face;
+    const Unit<S> of_left = dot(solid.normals[left], out), of_right = dot(solid.normals[right], out);
+    face = of_right > of_left ? right : left;
+    along = max(of_left, of_right);
+  }
+};
+
 /// collide_polyhedra() with W lanes of Isa.
 template <class S, int W, class Isa>
 ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
@@ -187,12 +240,19 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
   if (pair.are_apart(margin)) return;
   const FaceAxis<S> face_a = best_face<S, W, Isa>(a, pair.vertices_b, b.vertices.size(), margin);
   if (face_a.separation > margin) return;
-  const auto touch = [&](const FaceAxis<S>& face, bool of_b, bool deepest) ISO_INLINE_LAMBDA {
+  const S slack = face_slack(min(a.inner_radius, b.inner_radius));
+  const auto touch_pair = [&](const FaceAxis<S>& face, std::uint32_t incident, bool of_b,
+                              bool deepest) ISO_INLINE_LAMBDA {
     const Polyhedron<S>& reference = of_b ? b : a;
     const auto& vertices = of_b ? pair.vertices_a : pair.vertices_b;
-    const Mat3<Unit<S>> turn = of_b ? transpose(pair.b_in_a.rotation) : pair.b_in_a.rotation;
-    touch_faces({reference, of_b ? a : b, vertices, turn, face, tangents_of(reference.normals[face.face])},
-                of_b ? tb : ta, margin, pair.tolerance * S(0.125), !of_b, deepest, out);
+    touch_faces({reference, of_b ? a : b, vertices, face, tangents_of(reference.normals[face.face])}, incident,
+                of_b ? tb : ta, margin, depth_tie(pair.tolerance, slack), !of_b, deepest, out);
+  };
+  const auto touch = [&](const FaceAxis<S>& face, bool of_b, bool deepest) ISO_INLINE_LAMBDA {
+    const Vec3<Unit<S>> normal = (of_b ? b : a).normals[face.face];
+    const Mat3<Unit<S>>& turn = pair.b_in_a.rotation;
+    const Vec3<Unit<S>> up = of_b ? turn * normal : transposed_times(turn, normal);
+    touch_pair(face, face_against(of_b ? a : b, face.vertex, up), of_b, deepest);
   };
   // Where the vertex below the best face lies nearer to none of the others, no axis is better by the tolerance.
   const S beyond_a = face_a.separation + pair.tolerance;
@@ -204,7 +264,10 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
   pair.turn_a();
   const FaceAxis<S> face_b = best_face<S, W, Isa>(b, pair.vertices_a, a.vertices.size(), margin);
   if (face_b.separation > margin) return;
-  const bool prefers_b = face_b.separation > beyond_a, b_is_better = face_b.separation > face_a.separation;
+  const bool b_is_better = face_b.separation > face_a.separation;
+  const Vec3<Unit<S>> up_b = pair.b_in_a.rotation * b.normals[face_b.face];
+  const bool prefers_b =
+      face_b.separation > beyond_a && -dot(a.normals[face_a.face], up_b) < Unit<S>(kNearFace);  // as box_axes.hpp
   const auto touch_preferred = [&]() ISO_INLINE_LAMBDA { touch(prefers_b ? face_b : face_a, prefers_b, false); };
   bool is_known = false;
   EdgeContact<S> edges = near_edges(pair, face_a, over_a, face_b, margin, is_known);
@@ -217,6 +280,14 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
   if (edges.axis.found) {
     out.clear();
     if (edges.axis.separation > margin) return;
+    const FacesAlong<S> along(a, b, edges.axis, transposed_times(pair.b_in_a.rotation, -edges.axis.normal));
+    if (along.are_near()) {
+      const bool of_b = along.prefers_b();
+      touch_pair({of_b ? along.face_b : along.face_a, 0, edges.axis.separation}, of_b ? along.face_a : along.face_b,
+                 of_b, false);
+      if (tells_of(out, edges.axis.separation, slack)) return;
+      out.clear();
+    }
     out.normal = ta.rotation * edges.axis.normal;
     return out.add(to_world(ta, (edges.on_a + edges.on_b) * S(0.5)), edges.axis.separation,
                    edges.axis.edge_a << 7 | edges.axis.edge_b);
@@ -242,16 +313,22 @@ void collide_polyhedron_half_space(const Polyhedron<S>& a, const Transform<S>& t
   out.clear();
   const Vec3<Unit<S>> up = tb.rotation * normal, up_in_a = transposed_times(ta.rotation, up);
   const S origin = round_to<S>(dot_sum(ta.position - tb.position, up) - widen<SumOf<S, Unit<S>>>(offset));
+  const Lowest<S> lowest = lowest_of(a.vertices, up_in_a);
+  if (origin + lowest.height > margin) return;
   const Tangents<Unit<S>> across = tangents_of(up_in_a);
   FacePolygon<S> near;  // no polygon, but what is reduced to four alike
   near.count = 0;
-  for (std::uint32_t i = 0; i < a.vertices.size(); ++i) {
-    const Vec3<S> p = a.vertices[i];
-    const S height = origin + dot(up_in_a, p);
-    if (height <= margin) near.points[near.count++] = {dot(across.t, p), dot(across.u, p), height, i, i};
-  }
-  if (near.count == 0) return;
-  if (near.count > kMaxContactPoints) reduce_to_four(near, a.inner_radius * S(0.0009765625));
+  visit_flat_faces(a, face_against(a, lowest.vertex, up_in_a), [&](std::uint32_t face) ISO_INLINE_LAMBDA {
+    std::uint32_t edge = a.faces[face];
+    do {
+      const std::uint32_t i = a.origin(edge);
+      const Vec3<S> p = a.vertices[i];
+      const S height = origin + dot(up_in_a, p);
+      if (height <= margin) add_point({dot(across.t, p), dot(across.u, p), height, i, i}, near);
+      edge = a.half_edges[edge].next;
+    } while (edge != a.faces[face]);
+  });
+  if (near.count > kMaxContactPoints) reduce_to_four(near, depth_tie(S(0), face_slack(a.inner_radius)));
   out.normal = -up;
   for (int i = 0; i < near.count; ++i) {
     const ClipPoint<S>& p = near.points[i];

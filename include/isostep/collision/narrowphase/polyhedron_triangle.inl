@@ -141,13 +141,6 @@ template <class S> ISO_INLINE bool is_cut_flat(const SurfaceTriangle<S>& triangl
   return (!before || triangle.edges[p.before - kTriangleEdge].flat) &&
          (!after || triangle.edges[p.after - kTriangleEdge].flat);
 }
-/// The end that two edges share.
-template <class S>
-ISO_INLINE std::uint32_t vertex_between(const Polyhedron<S>& a, std::uint32_t before, std::uint32_t after) {
-  const std::uint32_t first = a.origin(2 * before);
-  return first == a.origin(2 * after) || first == a.origin(2 * after + 1) ? first : a.origin(2 * before + 1);
-}
-
 /// Which corners of a face would be kept if the triangle went on in its plane, by the edge that begins there: its
 /// neighbours choose the same ones. All, of a face that is not level with it to `margin`.
 template <class S> struct KeptCorners {
@@ -166,44 +159,43 @@ template <class S> struct KeptCorners {
   }
 };
 
-/// The polyhedron's lowest face over the triangle.
+/// The polyhedron's lowest face over the triangle, and those that lie as flat.
 template <class S>
 ISO_INLINE void touch_plane(const Polyhedron<S>& a, const Transform<S>& ta, const SurfaceTriangle<S>& triangle,
                             std::uint32_t lowest, S margin, S tie, Manifold<S>& out) {
   const Tangents<Unit<S>> across = tangents_of(triangle.normal);
   const std::uint32_t face = face_against(a, lowest, triangle.normal);
-  FacePolygon<S> polygons[2];
+  FacePolygon<S> polygon;
+  polygon.count = 0;
   const auto vertex = [&](std::uint32_t i) ISO_INLINE_LAMBDA { return a.vertices[i]; };
   const auto height = [&](Vec3<S> p) ISO_INLINE_LAMBDA { return triangle.height_of(p); };
-  project_face(a, face, across, vertex, height, polygons[0]);
-  const KeptCorners<S> corners(polygons[0], margin, tie);
-  unsigned now = 0;
-  bool ends = false;  // the surface, or its plane, under the face
   const S slack = triangle.slack();
-  for (int k = 0; k < 3; ++k) {
-    const bool cuts = clip_to_edge(triangle, across, k, slack, polygons[now], polygons[now ^ 1u]);
-    now ^= cuts ? 1u : 0u;
-    ends = ends || (cuts && !triangle.edges[k].flat);
-  }
-  FacePolygon<S>& polygon = polygons[now];
-  int kept = 0;
-  for (int i = 0; i < polygon.count; ++i) {
-    const ClipPoint<S>& p = polygon.points[i];
-    const bool own = p.before < kTriangleEdge && p.after < kTriangleEdge;
-    const bool counts = own ? ends || corners.kept[p.after] : !is_cut_flat(triangle, p);
-    if (p.height <= margin && counts) polygon.points[kept++] = p;
-  }
-  polygon.count = kept;
-  if (kept == 0) return;
-  if (kept > kMaxContactPoints) reduce_to_four(polygon, tie);
+  visit_flat_faces(a, face, [&](std::uint32_t flat) ISO_INLINE_LAMBDA {
+    FacePolygon<S> polygons[2];
+    project_face(a, flat, across, vertex, height, polygons[0]);
+    const KeptCorners<S> corners(polygons[0], margin, tie);
+    unsigned now = 0;
+    bool ends = false;  // the surface, or its plane, under the face
+    for (int k = 0; k < 3; ++k) {
+      const bool cuts = clip_to_edge(triangle, across, k, slack, polygons[now], polygons[now ^ 1u]);
+      now ^= cuts ? 1u : 0u;
+      ends = ends || (cuts && !triangle.edges[k].flat);
+    }
+    for (int i = 0; i < polygons[now].count; ++i) {
+      const ClipPoint<S>& p = polygons[now].points[i];
+      const bool own = p.before < kTriangleEdge && p.after < kTriangleEdge;
+      const bool counts = own ? ends || corners.kept[p.after] : !is_cut_flat(triangle, p);
+      if (p.height <= margin && counts) add_point(named_by_vertex(a, kTriangleEdge, p), polygon);
+    }
+  });
+  if (polygon.count == 0) return;
+  if (polygon.count > kMaxContactPoints) reduce_to_four(polygon, tie);
   out.normal = -(ta.rotation * triangle.normal);
   for (int i = 0; i < polygon.count; ++i) {
     const ClipPoint<S>& p = polygon.points[i];
     const bool own = p.before < kTriangleEdge && p.after < kTriangleEdge;
-    const std::uint32_t name = own ? triangle_feature::kOfConvexAlone | vertex_between(a, p.before, p.after)
-                                   : 1u << 31 | face << 16 | p.before << 8 | p.after;
-    const Vec3<S> local =
-        across.t * p.u + across.u * p.v + triangle.normal * (triangle.offset + p.height * S(0.5));
+    const std::uint32_t name = own ? triangle_feature::kOfConvexAlone | p.before : 1u << 31 | p.before << 8 | p.after;
+    const Vec3<S> local = across.t * p.u + across.u * p.v + triangle.normal * (triangle.offset + p.height * S(0.5));
     out.add(to_world(ta, local), p.height, name);
   }
 }
@@ -233,7 +225,7 @@ ISO_INLINE void touch_face(const Polyhedron<S>& a, const Transform<S>& ta, const
   }
   polygon.count = kept;
   if (kept == 0) return;
-  if (kept > kMaxContactPoints) reduce_to_four(polygon, a.inner_radius * S(0.0009765625));
+  if (kept > kMaxContactPoints) reduce_to_four(polygon, depth_tie(S(0), face_slack(a.inner_radius)));
   out.normal = ta.rotation * normal;
   for (int i = 0; i < polygon.count; ++i) {
     const ClipPoint<S>& p = polygon.points[i];
@@ -281,7 +273,8 @@ void collide_polyhedron_triangle(const Polyhedron<S>& a, const Transform<S>& ta,
   axes.look_at_edges(tolerance, best);
   if (best.separation > margin) return;
   switch (best.kind) {
-    case Axis::plane: return touch_plane(a, ta, triangle, lowest.vertex, margin, tolerance * S(0.125), out);
+    case Axis::plane:
+      return touch_plane(a, ta, triangle, lowest.vertex, margin, depth_tie(tolerance, face_slack(a.inner_radius)), out);
     case Axis::face: return touch_face(a, ta, triangle, best.feature, margin, out);
     case Axis::edges: return touch_edge(a, ta, triangle, best, tolerance * S(4), out);
     case Axis::neighbour: return;

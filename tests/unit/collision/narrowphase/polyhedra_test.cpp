@@ -160,7 +160,7 @@ TYPED_TEST(Polyhedra, a_box_is_the_hull_of_its_corners) {
   EXPECT_NEAR(to_double(a.inner_radius), to_double(b.inner_radius), 1e-4);
 }
 
-TYPED_TEST(Polyhedra, lie_on_a_half_space_with_their_lowest_vertices) {
+TYPED_TEST(Polyhedra, lie_on_a_half_space_with_the_face_that_looks_down_most) {
   using S = TypeParam;
   scenes::Draws draws(23);
   int apart = 0, four = 0;
@@ -177,11 +177,25 @@ TYPED_TEST(Polyhedra, lie_on_a_half_space_with_their_lowest_vertices) {
     const D3 up = b.rotation * oracle::real(normal);
     const double error = this->rounding(60);
     double lowest = 1e300;
-    int near = 0;
+    std::uint32_t deepest = 0;
+    const auto height_of = [&](std::uint32_t i) {
+      return dot(up, to_world(a, solid.vertex(i)) - b.position) - to_double(offset);
+    };
     for (std::uint32_t i = 0; i < solid.hull.vertices.size(); ++i) {
-      const double height = dot(up, to_world(a, solid.vertex(i)) - b.position) - to_double(offset);
-      lowest = std::min(lowest, height);
-      near += height < this->kMargin - error ? 1 : 0;
+      if (height_of(i) < lowest) lowest = height_of(i), deepest = i;
+    }
+    const Polyhedron<S> p = solid.solid.polyhedron();
+    const D3 up_in_a = transposed_times(a.rotation, up);
+    double facing = 1;
+    std::uint32_t face = 0;
+    p.visit_spokes(deepest, [&](std::uint32_t edge) {
+      const double along = dot(oracle::real(p.normals[p.half_edges[edge].face]), up_in_a);
+      if (along < facing) facing = along, face = p.half_edges[edge].face;
+    });
+    int near = 0;
+    for (std::uint32_t edge = p.faces[face], first = edge, begun = 0; begun == 0 || edge != first; begun = 1) {
+      near += height_of(p.origin(edge)) < this->kMargin - error ? 1 : 0;
+      edge = p.half_edges[edge].next;
     }
     ASSERT_GE(m.count, std::min(near, 4)) << n;
     if (m.count == 0) {
