@@ -105,6 +105,7 @@ BodyDefinition<S> definition_of(const SceneBody& body, ShapeId shape, std::uint6
   d.material.friction = read<S>(body.friction, place + "/friction");
   d.material.restitution = read<S>(body.restitution, place + "/restitution");
   d.material.rolling_resistance = read<S>(body.rolling_resistance, place + "/rolling_resistance");
+  d.material.spin_resistance = read<S>(body.spin_resistance, place + "/spin_resistance");
   d.material.surface_velocity = read<S>(body.surface_velocity, place + "/surface_velocity");
   d.material.static_friction = read<S>(body.static_friction, place + "/static_friction");
   d.material.anisotropy = read<S>(body.anisotropy, place + "/anisotropy");

@@ -81,6 +81,7 @@ struct SceneBody {
   Number friction = 0.5;                    // [1]
   Number restitution = 0;                   // [1]
   Number rolling_resistance = 0;            // [m] lever arm of the normal force that resists rolling
+  Number spin_resistance = 1.0 / 128;       // [m] radius at which friction resists spinning about the normal
   Vector surface_velocity = zero_vector();  // [m/s] world, a conveyor belt's
   Number static_friction = 0;               // [1] below friction: the same
   Vector anisotropy = {1, 1, 1};            // [1] what is left of friction along the body's axes

@@ -94,6 +94,7 @@ SceneBody read_body(const JsonNode& node, const std::string& place, BlobFiles& f
   reader.number("friction", body.friction);
   reader.number("restitution", body.restitution);
   reader.number("rolling_resistance", body.rolling_resistance);
+  reader.number("spin_resistance", body.spin_resistance);
   reader.vector("surface_velocity", body.surface_velocity);
   reader.number("static_friction", body.static_friction);
   reader.vector("anisotropy", body.anisotropy);

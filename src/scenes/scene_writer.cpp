@@ -92,6 +92,7 @@ std::string text_of(const SceneBody& body) {
   out.member("friction", body.friction);
   out.member("restitution", body.restitution, plain.restitution);
   out.member("rolling_resistance", body.rolling_resistance, plain.rolling_resistance);
+  out.member("spin_resistance", body.spin_resistance, plain.spin_resistance);
   out.member("surface_velocity", body.surface_velocity, plain.surface_velocity);
   out.member("static_friction", body.static_friction, plain.static_friction);
   out.member("anisotropy", body.anisotropy, plain.anisotropy);

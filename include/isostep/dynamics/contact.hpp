@@ -48,7 +48,7 @@ template <class S> struct Contact {
   std::uint32_t features[kMaxContactPoints];
   Velocity<S> normal_impulse[kMaxContactPoints];  // [m/s]
   Vec3<Velocity<S>> friction_impulse;             // [m/s] world, on b
-  Velocity<S> twist_impulse;                      // [m/s] on b about the normal, times the patch radius
+  Velocity<S> twist_impulse;                      // [m/s] on b about the normal, times AngularRow's radius
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("key", self.key);
@@ -67,12 +67,14 @@ template <class S> struct MixedMaterial {
   S friction;                // [1]
   S restitution;             // [1]
   S rolling_resistance;      // [m]
+  S spin_resistance;         // [m]
   Vec3<S> surface_velocity;  // [m/s] of b's surface against a's, world
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("friction", self.friction);
     visit("restitution", self.restitution);
     visit("rolling_resistance", self.rolling_resistance);
+    visit("spin_resistance", self.spin_resistance);
     visit("surface_velocity", self.surface_velocity);
   }
 };
@@ -80,10 +82,11 @@ template <class S> struct MixedMaterial {
 /// The root of the product.
 template <class S> ISO_INLINE S mixed_friction(S a, S b) { return a == b ? a : sqrt(a * b); }
 
-/// Friction by the root of the product, of what slides; the rest by the larger.
+/// Friction by the root of the product, of what slides, and its least radius so; the rest by the larger.
 template <class S> ISO_INLINE MixedMaterial<S> mix(const Material<S>& a, const Material<S>& b) {
   return {mixed_friction(a.friction, b.friction), max(a.restitution, b.restitution),
-          max(a.rolling_resistance, b.rolling_resistance), b.surface_velocity - a.surface_velocity};
+          max(a.rolling_resistance, b.rolling_resistance), mixed_friction(a.spin_resistance, b.spin_resistance),
+          b.surface_velocity - a.surface_velocity};
 }
 
 /// One step's view of a contact: where it is, what it is made of, which rows of SolverBodies it joins. Parallel to the

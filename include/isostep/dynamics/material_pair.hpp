@@ -20,6 +20,7 @@ template <class S> struct MaterialPair {
   S static_friction = S(0);              // [1] of what does not; below friction: the same
   S restitution = S(0);                  // [1] 0..1
   S rolling_resistance = S(0);           // [m]
+  S spin_resistance = S(1.0 / 128);      // [m]
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("kind_a", self.kind_a);
@@ -28,6 +29,7 @@ template <class S> struct MaterialPair {
     visit("static_friction", self.static_friction);
     visit("restitution", self.restitution);
     visit("rolling_resistance", self.rolling_resistance);
+    visit("spin_resistance", self.spin_resistance);
   }
 };
 

@@ -303,6 +303,7 @@ void NarrowPhase<S>::settle_friction(const PartPair& parts, const Contact<S>& co
     surface.static_friction = max(pair->friction, pair->static_friction);
     g.material.restitution = pair->restitution;
     g.material.rolling_resistance = pair->rolling_resistance;
+    g.material.spin_resistance = pair->spin_resistance;
   }
   surface.a = {of_a.anisotropy, a.origin.rotation};
   surface.b = {of_b.anisotropy, b.origin.rotation};

@@ -20,15 +20,18 @@ template <class S> FaultReport fault_of(const MaterialPair<S>& p) {
       .finite(p.static_friction, "static_friction")
       .finite(p.restitution, "restitution")
       .finite(p.rolling_resistance, "rolling_resistance")
+      .finite(p.spin_resistance, "spin_resistance")
       .in_range(p.friction <= kMaxFriction<S>, "friction", "0 to 16")
       .in_range(p.static_friction <= kMaxFriction<S>, "static_friction", "0 to 16")
       .in_range(p.rolling_resistance <= Limits<S>::extent(), "rolling_resistance", "0 to Limits::extent()")
+      .in_range(p.spin_resistance <= Limits<S>::extent(), "spin_resistance", "0 to Limits::extent()")
       .proper(p.kind_a != 0, "kind_a", "1 or more")
       .proper(p.kind_b != 0, "kind_b", "1 or more")
       .proper(S(0) <= p.friction, "friction", "0 to 16")
       .proper(S(0) <= p.static_friction, "static_friction", "0 to 16")
       .proper(S(0) <= p.restitution && p.restitution <= S(1), "restitution", "0 to 1")
       .proper(S(0) <= p.rolling_resistance, "rolling_resistance", "0 to Limits::extent()")
+      .proper(S(0) <= p.spin_resistance, "spin_resistance", "0 to Limits::extent()")
       .report();
 }
 template <class S> NamedBodies<S> bodies_of(const MaterialPair<S>&) { return {{}, 0}; }

@@ -39,6 +39,7 @@ template <class S> class LaneOfBlock {
     visit("friction", block.friction);
     visit("tangents", block.tangents);
     visit("twist", block.twist);
+    visit("twist_friction", block.twist_friction);
     visit("normals", normals);
     if (rolling_) visit("rolling", rolling);
   }

@@ -66,13 +66,6 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       b.angular[i] = b.angular[i] + times(L::load(row.response_b[i]), impulse);
     }
   }
-  /// turn() of a row that has no lever and bears nothing.
-  static ISO_INLINE void turn_by_nothing(const AngularRow<S, W>& row, Motion& a, Motion& b) {
-    for (int i = 0; i < 3; ++i) {
-      a.angular[i] = subtract_zero(a.angular[i], L::load(row.response_a[i]));
-      b.angular[i] = add_zero(b.angular[i], L::load(row.response_b[i]));
-    }
-  }
   static ISO_INLINE void push(const S (&direction)[3][W], const AngularRow<S, W>& row, const Shares& share, V impulse,
                               Motion& a, Motion& b) {
     const V to_a = times(share.a, impulse);
@@ -119,15 +112,12 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
 
   static ISO_INLINE void solve_tangents(ContactBlock<S, W, P>& c, const Shares& share, const PassLanes& pass, Motion& a,
                                         Motion& b) {
-    const V limit = times(L::load(c.friction), min(total_normal_impulse(c), pass.max_load));
-    if constexpr (P == 1) {  // one point resists no twisting
-      turn_by_nothing(c.twist, a, b);
-    } else {
-      AngularRow<S, W>& row = c.twist;
-      const V speed = round_to<V>(angular_sum(row, a, b)) + V::load(c.spin);
-      const V wanted = V::load(row.impulse) - times(L::load(row.effective_mass), speed);
-      turn(row, accumulate(row, wanted, limit), a, b);
-    }
+    const V load = min(total_normal_impulse(c), pass.max_load);
+    AngularRow<S, W>& twist = c.twist;
+    const V spin = round_to<V>(angular_sum(twist, a, b)) + V::load(c.spin);
+    const V stopping = V::load(twist.impulse) - times(L::load(twist.effective_mass), spin);
+    turn(twist, accumulate(twist, stopping, times(L::load(c.twist_friction), load)), a, b);
+    const V limit = times(L::load(c.friction), load);
     // The cone as an octagon inside it: |x| + (sqrt 2 - 1) |y| <= limit where |x| is the larger. Exact along either
     // axis, and the basis lies along the friction; limits of their own would let it grow by up to a half between.
     const L slope = L::broadcast(S(2.41421356237309504880));  // sqrt 2 + 1
@@ -187,8 +177,7 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       const BlockBodies& bodies = run.bodies[i];
       Motion a = gather(run.velocity, bodies.a), b = gather(run.velocity, bodies.b);
       const Shares share = {L::load(c.share_a), L::load(c.share_b)};
-      if constexpr (P == 1) turn_by_nothing(c.twist, a, b);
-      if constexpr (P != 1) turn(c.twist, V::load(c.twist.impulse), a, b);
+      turn(c.twist, V::load(c.twist.impulse), a, b);
       for (const FrictionRow<S, W>& t : c.tangents) push(t.direction, t.row, share, V::load(t.row.impulse), a, b);
       if constexpr (Rolling) {
         for (const AngularRow<S, W>& row : block.rolling.rows) turn(row, V::load(row.impulse), a, b);

@@ -37,7 +37,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     V twist;
   };
   struct Materials {
-    L friction, rolling;
+    L friction, rolling, spin;
     Vec3<L> surface;
   };
   struct Arms {
@@ -52,7 +52,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
   static_assert(offsetof(Contact<S>, twist_impulse) == offsetof(Contact<S>, normal_impulse) + 7 * sizeof(S));
   static_assert(sizeof(Point) == 7 * sizeof(S) && sizeof(SolverMass<S>) == 10 * sizeof(S));
   static_assert(offsetof(Geometry, material) == offsetof(Geometry, points) + kMaxContactPoints * sizeof(Point));
-  static_assert(sizeof(MixedMaterial<S>) == 6 * sizeof(S));
+  static_assert(sizeof(MixedMaterial<S>) == 7 * sizeof(S));
 
   template <int Words, class T, class Record, class Field>
   static ISO_INLINE void gather(const Record* const* records, Field&& field, Lanes<T, W, Isa>* out) {
@@ -79,12 +79,12 @@ template <class S, int W, class Isa> struct ContactPreparer {
     separation = w[6];
     return {{w[0], w[1], w[2]}, {w[3], w[4], w[5]}};
   }
-  /// Two words earlier, so that eight end with the record.
+  /// A word earlier, so that eight end with the record.
   static ISO_INLINE Materials gather_material(const Geometry* const* geometry) {
     L w[8];
     gather<8>(
-        geometry, [](const Geometry& g) ISO_INLINE_LAMBDA { return &g.points[kMaxContactPoints - 1].arm_b.z; }, w);
-    return {w[2], w[4], {w[5], w[6], w[7]}};
+        geometry, [](const Geometry& g) ISO_INLINE_LAMBDA { return &g.points[kMaxContactPoints - 1].separation; }, w);
+    return {w[1], w[3], w[4], {w[5], w[6], w[7]}};
   }
   static ISO_INLINE Body gather_body(const PrepareRun<S>& run, const std::uint32_t* rows) {
     const Velocity<S>* motion[W];
@@ -287,14 +287,27 @@ template <class S, int W, class Isa> struct ContactPreparer {
       round_to<V>(dot_sum(surface, d)).store(tangent.surface);
     }
 
-    const bool patch = run.points > 1;
-    const L radius = patch ? patch_radius(arms_b, arms.b, run.points, share) : L::zero();
-    const Vec3<L> twist = n * radius;
-    make.angular(twist, twist, L::zero(), patch ? impulses.twist : V::zero(), block.twist);
+    const L patch = run.points > 1 ? patch_radius(arms_b, arms.b, run.points, share) : L::zero();
+    prepare_twist(n, patch, material, impulses.twist, make, block);
     V::broadcast(-Velocity<S>(0)).store(block.spin);
     if (run.rolling) {
       prepare_rolling(a, b, first, normal, material.rolling, make, *reinterpret_cast<RollingRows<S, W>*>(memory));
     }
+  }
+
+  /// The row's radius is that of gyration or more, which keeps the coefficients near one however small the patch is.
+  static ISO_INLINE void prepare_twist(Vec3<L> n, L patch, const Materials& material, V impulse, const RowMaker& make,
+                                       Block& block) {
+    const L zero = L::zero(), one = L::broadcast(S(1));
+    const L k = round_to<L>(dot_sum(n, make.kappa_a * n * make.share_a) + dot_sum(n, make.kappa_b * n * make.share_b));
+    const Mask turns = less(zero, k);
+    const L gyration = min(quotient_where<L>(turns, one, root(max(k, zero))), L::broadcast(Limits<S>::extent()));
+    // At four times that radius what is in contact spins no more as it is; the larger is no different and fits.
+    const L reach = max(patch, min(material.spin, gyration * L::broadcast(S(4))));
+    const L radius = max(reach, gyration);
+    const Vec3<L> twist = n * radius;
+    make.angular(twist, twist, zero, impulse, block.twist);
+    (material.friction * quotient_where<L>(less(zero, radius), reach, radius)).store(block.twist_friction);
   }
 
   static ISO_INLINE void prepare_rolling(const Body& a, const Body& b, const Arms& arms, Vec3<U> n, L resistance,

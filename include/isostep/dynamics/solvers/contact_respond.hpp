@@ -32,6 +32,7 @@ template <class S> class RespondingContact : public ContactLane<S> {
     const V kept = divide_to<V>(most, load);
     const std::size_t block = this->block();
     const V limit = saturate_to<V>(product(this->template get<S>(block + offsetof(Block, friction)), most));
+    const V twist = saturate_to<V>(product(this->template get<S>(block + offsetof(Block, twist_friction)), most));
     const V rolling =
         block == 0 ? V(0) : saturate_to<V>(product(this->template get<S>(offsetof(Rolling, lever)), most));
     V left = limit;  // as solve_tangents() of the kernel
@@ -39,7 +40,7 @@ template <class S> class RespondingContact : public ContactLane<S> {
       const V old = impulse_at(at);
       V next = round_to<V>(product(kept, old));
       if (at < block) next = clamp(old, -rolling, rolling);
-      else if (direction == Lane::kTurns) next = clamp(old, -limit, limit);
+      else if (direction == Lane::kTurns) next = clamp(old, -twist, twist);
       else if (at < this->normal(0)) {
         next = clamp(old, -left, left);
         left = min(limit, saturate_to<V>(product(S(2.41421356237309504880), limit - abs(next))));

@@ -91,7 +91,7 @@ void DirectSolver<S>::take_back_turns(const StepContext<S>& context, Island& isl
   };
   const Block& block = block_of(context, c);
   for (std::uint32_t t = 0; t < 2; ++t) take(patch.first + t, block.tangents[t].row);
-  if (patch.points > 1) take(patch.first + 2, block.twist);
+  take(patch.first + 2, block.twist);
   for (std::uint32_t p = 0; p < patch.points; ++p) take(patch.normal + p, block.normals[p].row);
   if (patch.rolling == DirectPatch<N>::kNoRolling) return;
   const auto& rolling = *reinterpret_cast<const RollingRows<S, 1>*>(memory_[c].bytes);

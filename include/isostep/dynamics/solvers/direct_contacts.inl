@@ -21,12 +21,12 @@ template <class S> void DirectSolver<S>::place_contact(const StepContext<S>& con
     island.shapes[r] = {linear, vector(row.jacobian_a), vector(row.jacobian_b)};
     island.system.row(r).bound = row.effective_mass[0] > S(0) ? bound : DirectBound::absent;
   };
-  const std::uint32_t count = patch.points == 1 ? 3 : 3 * (1 + (patch.points + 2) / 3);
+  const std::uint32_t count = 3 * (1 + (patch.points + 2) / 3);
   for (std::uint32_t r = patch.first; r < patch.first + count; ++r) island.system.row(r).bound = DirectBound::absent;
   for (std::uint32_t t = 0; t < 2; ++t) {
     put(patch.first + t, &block.tangents[t].direction, block.tangents[t].row, DirectBound::boxed);
   }
-  if (patch.points > 1) put(patch.first + 2, nullptr, block.twist, DirectBound::boxed);
+  put(patch.first + 2, nullptr, block.twist, DirectBound::boxed);
   for (std::uint32_t p = 0; p < patch.points; ++p) {
     put(patch.normal + p, &block.normal, block.normals[p].row, DirectBound::above);
   }
@@ -37,6 +37,7 @@ template <class S> void DirectSolver<S>::place_contact(const StepContext<S>& con
     return System::number(value, exponent);
   };
   patch.friction = factor(block.friction[0], patch.friction_exponent);
+  patch.twist_friction = factor(block.twist_friction[0], patch.twist_exponent);
   if (patch.rolling == DirectPatch<N>::kNoRolling) return;
   const auto& rolling = *reinterpret_cast<const RollingRows<S, 1>*>(memory_[c].bytes);
   for (std::uint32_t r = 0; r < 2; ++r) put(patch.rolling + r, nullptr, rolling.rows[r], DirectBound::boxed);
@@ -54,7 +55,7 @@ void DirectSolver<S>::ask_contact(const StepContext<S>& context, Island& island,
   const V farthest = divide_to<V>(S(64), rate);  // what lies farther away is not met within the sub-step
   const auto ask = [&](std::uint32_t r, V wanted) { island.asked[r] = wanted - speed_of(island, r, free_velocity_); };
   for (std::uint32_t t = 0; t < 2; ++t) ask(patch.first + t, -block.tangents[t].surface[0]);
-  if (patch.points > 1) ask(patch.first + 2, -block.spin[0]);
+  ask(patch.first + 2, -block.spin[0]);
   if (patch.rolling != DirectPatch<N>::kNoRolling) {
     for (std::uint32_t r = 0; r < 2; ++r) ask(patch.rolling + r, V(0));
   }
@@ -94,7 +95,7 @@ template <class S> void DirectSolver<S>::guess_contact(const StepContext<S>& con
     system.row(r).state = pushes ? DirectState::free : DirectState::at_low;
   }
   for (std::uint32_t t = 0; t < 2; ++t) load(patch.first + t, block.tangents[t].row.impulse[0]);
-  if (patch.points > 1) load(patch.first + 2, block.twist.impulse[0]);
+  load(patch.first + 2, block.twist.impulse[0]);
   system.guess_friction(k, fresh);
 }
 
@@ -108,7 +109,7 @@ template <class S> void DirectSolver<S>::keep_contact(const StepContext<S>& cont
     row.row.impulse[0] = impulse;
   }
   for (std::uint32_t t = 0; t < 2; ++t) block.tangents[t].row.impulse[0] = impulse_of(island, patch.first + t);
-  block.twist.impulse[0] = patch.points > 1 ? impulse_of(island, patch.first + 2) : V(0);
+  block.twist.impulse[0] = impulse_of(island, patch.first + 2);
 }
 
 }  // namespace isostep

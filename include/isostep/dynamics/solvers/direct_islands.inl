@@ -58,18 +58,18 @@ template <class S> void DirectSolver<S>::add_joint(const JointConstraint<S>& joi
   island.joint_blocks.push_back(add_blocks(island, joint.row_a, joint.row_b, joint.block_count + joint.drive_count));
 }
 
-/// Tangents and twist, or tangents and the only point; points by threes; two rows of rolling resistance.
+/// Tangents and twist; points by threes; two rows of rolling resistance.
 template <class S> void DirectSolver<S>::add_contact(const StepContext<S>& context, std::uint32_t c) {
   const ContactGeometry<S>& g = context.geometry[c];
   if (!bodies_.rows().moves(g.row_a) && !bodies_.rows().moves(g.row_b)) return;
-  const std::uint32_t points = context.contacts[c].count, own = points == 1 ? 1 : 1 + (points + 2) / 3;
+  const std::uint32_t points = context.contacts[c].count, own = 1 + (points + 2) / 3;
   Island& island = island_of(g.row_a, g.row_b);
   const std::uint32_t first = add_blocks(island, g.row_a, g.row_b, own + (rolls(context, c) ? 1 : 0));
   island.contacts.push_back(c);
   island.contact_blocks.push_back(first);
   DirectPatch<N> patch = {};
   patch.first = 3 * first;
-  patch.normal = 3 * first + (points == 1 ? 2 : 3);
+  patch.normal = 3 * first + 3;
   patch.points = points;
   patch.rolling = rolls(context, c) ? 3 * (first + own) : DirectPatch<N>::kNoRolling;
   island.system.patches().push_back(patch);

@@ -44,12 +44,12 @@ template <class N> struct DirectBlock {
 
 /// Rows whose limits follow from the load on a contact. Row r is row r % 3 of block r / 3.
 template <class N> struct DirectPatch {
-  std::uint32_t first;   // tangent, tangent, and twist if there are more points than one
+  std::uint32_t first;   // tangent, tangent, twist
   std::uint32_t normal;  // the first of the normal rows
   std::uint32_t points;
   std::uint32_t rolling;  // the first of two rows, or kNoRolling
-  N friction, lever;      // [1] limits over the load, times 2^exponent
-  int friction_exponent, lever_exponent;
+  N friction, twist_friction, lever;  // [1] limits over the load, times 2^exponent
+  int friction_exponent, twist_exponent, lever_exponent;
   static constexpr std::uint32_t kNoRolling = ~0u;
 };
 

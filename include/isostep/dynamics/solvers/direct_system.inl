@@ -122,7 +122,7 @@ template <class N> bool DirectSystem<N>::limit_patch(const DirectPatch<N>& patch
   const auto share = [load](N factor, int exponent)
                          ISO_INLINE_LAMBDA { return D::bounded(D::shifted(load * factor, exponent)); };
   const N limit = share(patch.friction, patch.friction_exponent);
-  bool moved = patch.points > 1 && set_limit(patch.first + 2, limit);
+  bool moved = set_limit(patch.first + 2, share(patch.twist_friction, patch.twist_exponent));
   moved = set_limit(patch.first, limit) || moved;
   const N x = row(patch.first).answer;
   const N rest = limit - (x < N(0) ? -x : x);
@@ -146,7 +146,7 @@ template <class N> void DirectSystem<N>::guess_friction(std::uint32_t patch, boo
                      : most < friction.answer ? DirectState::at_high
                                               : DirectState::free;
   };
-  for (std::uint32_t r = 0; r < (of.points > 1 ? 3u : 2u); ++r) guess(of.first + r);
+  for (std::uint32_t r = 0; r < 3; ++r) guess(of.first + r);
   if (of.rolling != DirectPatch<N>::kNoRolling) {
     for (std::uint32_t r = 0; r < 2; ++r) guess(of.rolling + r);
   }

@@ -85,6 +85,7 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
   void load_impulses(const Contact<S>& contact, std::uint32_t point, Point& row);
   void add_rolling(const ContactGeometry<S>& geometry, std::uint32_t point, const SolverMass<S>& a,
                    const SolverMass<S>& b, Point& row);
+  void add_spinning(const ContactGeometry<S>& geometry, const SolverMass<S>& a, const SolverMass<S>& b, Point& row);
   Masses masses_of(const StepContext<S>& context, const Point& row) const;
   void list_neighbours();
   void follow(const StepContext<S>& context);

@@ -51,7 +51,7 @@ void WorstFirstResolver<S, Queue>::add_point(const StepContext<S>& context, std:
   row.contact = contact;
   row.a = g.row_a;
   row.b = g.row_b;
-  row.rolling = kNoPair;
+  row.rolling = row.spinning = kNoPair;
   const ContactResponse<S>* const response = response_of(context.responses, contact);
   row.response = response == nullptr ? kNoPair : static_cast<std::uint32_t>(response - context.responses.data());
   const Masses masses = masses_of(context, row);
@@ -81,6 +81,7 @@ void WorstFirstResolver<S, Queue>::add_point(const StepContext<S>& context, std:
   row.separation = convert<V>(at.separation);
   load_impulses(context.contacts[contact], point, row);
   if (g.material.rolling_resistance > S(0)) add_rolling(g, point, a, b, row);
+  if (context.contacts[contact].count == 1) add_spinning(g, a, b, row);  // more points resist it by their friction
   points_.push_back(row);
 }
 
@@ -134,6 +135,27 @@ void WorstFirstResolver<S, Queue>::add_rolling(const ContactGeometry<S>& g, std:
   rolling_.push_back(pair);
 }
 
+/// As soft step has it: friction at the radius of the least patch, in a row of the radius of gyration.
+template <class S, class Queue>
+void WorstFirstResolver<S, Queue>::add_spinning(const ContactGeometry<S>& g, const SolverMass<S>& a,
+                                                const SolverMass<S>& b, Point& row) {
+  const S slope = saturate_to<S>(product(g.material.friction, g.material.spin_resistance));
+  const auto spinning = [&](S radius) {
+    const Vec3<S> jacobian = convert<S>(g.normal) * radius;
+    return detail::weighed_row(Vec3<S>::zero(), jacobian, jacobian, a, b, row.share);
+  };
+  const JointRow<S> unit = spinning(S(1));
+  const S k = detail::coupling_of(unit, unit, S(0));
+  if (!(S(0) < slope) || !(S(0) < k)) return;
+  const S radius = min(divide_to<S>(S(1), sqrt(k)), Limits<S>::extent());
+  TangentPair<S> pair = {};
+  pair.rows[0] = spinning(radius);
+  detail::invert_pair(pair, S(0));
+  row.spin_lever = min(divide_to<S>(slope, radius), S(4));
+  row.spinning = static_cast<std::uint32_t>(rolling_.size());
+  rolling_.push_back(pair);
+}
+
 /// As contact_follow.hpp has it.
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::follow(const StepContext<S>& context) {
   for (Point& row : points_) {
@@ -154,6 +176,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::follow(const 
     row.mass = detail::mass_of(detail::coupling_of(row.normal, row.normal, linear));
     renew_pair(row.friction, linear);
     if (row.rolling != kNoPair) renew_pair(rolling_[row.rolling], S(0));
+    if (row.spinning != kNoPair) renew_pair(rolling_[row.spinning], S(0));
   }
 }
 

@@ -1,4 +1,5 @@
-// Rows of the worst-first resolver: a contact point's normal, its friction and rolling resistance, and their impulses.
+// Rows of the worst-first resolver: a contact point's normal, its friction, what resists rolling and spinning, and their
+// impulses.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,7 +12,7 @@
 
 namespace isostep {
 
-/// Two rows across the normal, solved at once: friction, or resistance to rolling. Rows' turns hold the mass shares.
+/// Two rows, solved at once: friction or resistance to rolling, across the normal, or one to spinning about it. Rows' turns hold the mass shares.
 template <class S> struct TangentPair {
   JointRow<S> rows[2];
   S xx, xy, yy;            // [1] inverse of their coupling: what brings both to rest
@@ -36,6 +37,7 @@ template <class S> struct PointRow {
   std::uint32_t contact;   // of the context's
   std::uint32_t a, b;      // of SolverBodies
   std::uint32_t rolling;   // of the resolver's pairs; kNoPair for none
+  std::uint32_t spinning;  // of those too: its second row is nothing
   std::uint32_t response;  // of the context's; kNoPair for none
   MassShare<S> share;
   JointRow<S> normal;  // turns hold the mass shares
@@ -43,6 +45,7 @@ template <class S> struct PointRow {
   S mass;           // [1] effective, along the normal
   S mu;             // [1] coefficient of friction
   S lever;          // [1] resisting torque per normal impulse, over the pair's radius
+  S spin_lever;     // [1] that of spinning
   V separation;     // [m] when the step began
   V least_speed;    // [m/s] the gap may close in the sub-step, no more
   V least_gap;      // [m] what this sub-step's projection aims at
@@ -55,6 +58,7 @@ template <class S> struct PointRow {
     visit("a", self.a);
     visit("b", self.b);
     visit("rolling", self.rolling);
+    visit("spinning", self.spinning);
     visit("response", self.response);
     visit("share", self.share);
     visit("normal", self.normal);
@@ -62,6 +66,7 @@ template <class S> struct PointRow {
     visit("mass", self.mass);
     visit("mu", self.mu);
     visit("lever", self.lever);
+    visit("spin_lever", self.spin_lever);
     visit("separation", self.separation);
     visit("least_speed", self.least_speed);
     visit("least_gap", self.least_gap);

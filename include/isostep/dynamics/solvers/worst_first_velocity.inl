@@ -75,6 +75,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::warm_start(co
   };
   push_across(row.friction);
   if (row.rolling != kNoPair) push_across(rolling_[row.rolling]);
+  if (row.spinning != kNoPair) push_across(rolling_[row.spinning]);
   if (bodies.moves(row.a)) bodies.velocity[row.a] = a;
   if (bodies.moves(row.b)) bodies.velocity[row.b] = b;
 }
@@ -100,9 +101,9 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::hold(JointCon
 /// Those of before met other axes.
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::forget_impulses(Point& row) {
   row.impulse = row.friction.impulse[0] = row.friction.impulse[1] = V(0);
-  if (row.rolling == kNoPair) return;
-  TangentPair<S>& pair = rolling_[row.rolling];
-  pair.impulse[0] = pair.impulse[1] = V(0);
+  for (const std::uint32_t i : {row.rolling, row.spinning}) {
+    if (i != kNoPair) rolling_[i].impulse[0] = rolling_[i].impulse[1] = V(0);
+  }
 }
 
 /// [m/s] What a point at a place of points_ may bear: of what all of its contact may, as much as the others leave.
@@ -132,6 +133,7 @@ template <class S, class Queue> Velocity<S> WorstFirstResolver<S, Queue>::motion
   };
   if (S(0) < row.mu) look_across(row.friction, row.mu);
   if (row.rolling != kNoPair) look_across(rolling_[row.rolling], row.lever);
+  if (row.spinning != kNoPair) look_across(rolling_[row.spinning], row.spin_lever);
   return detail::motion_tolerance<S>(a, b) < most ? most : V(0);
 }
 
@@ -156,7 +158,7 @@ Velocity<S> WorstFirstResolver<S, Queue>::motion_urgency(const JointConstraint<S
   return detail::motion_tolerance<S>(m.a, m.b) < most ? most : V(0);
 }
 
-/// The normal, then friction and rolling within the cone that this opens (pp. 359-361).
+/// The normal, then friction, rolling and spinning within the cone that this opens (pp. 359-361).
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::resolve_motion(Point& row) {
   SolverBodies<S>& bodies = bodies_.rows();
   Motion a = bodies.velocity[row.a], b = bodies.velocity[row.b];
@@ -171,6 +173,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::resolve_motio
   };
   if (S(0) < row.mu) stop(row.friction, row.mu);
   if (row.rolling != kNoPair) stop(rolling_[row.rolling], row.lever);
+  if (row.spinning != kNoPair) stop(rolling_[row.spinning], row.spin_lever);
   if (bodies.moves(row.a)) bodies.velocity[row.a] = a;
   if (bodies.moves(row.b)) bodies.velocity[row.b] = b;
 }
