@@ -7,8 +7,21 @@
 
 namespace isostep {
 
+namespace detail {
+/// Whether what a record does holds bodies up or back, and ends where they come to rest.
+template <class Record> inline constexpr bool kBears = false;
+template <class S> inline constexpr bool kBears<BodySpring<S>> = true;
+template <class S> inline constexpr bool kBears<BuoyancyPoint<S>> = true;
+template <class S> inline constexpr bool kBears<Water<S>> = true;
+
+template <class S> ISO_INLINE Acceleration<S> difference(const Acceleration<S>& a, const Acceleration<S>& b) {
+  return {saturating_subtract(a.linear, b.linear), saturating_subtract(a.angular, b.angular)};
+}
+}  // namespace detail
+
 template <class S> void BodyForces<S>::begin_step() {
   accelerations_.clear();
+  pulls_.clear();
   cut_.clear();
   substep_ = 0;
   cut_count_ = 0;
@@ -46,20 +59,37 @@ template <class S> void BodyForces<S>::renew(const SolverBodies<S>& bodies, std:
   substeps_ = static_cast<std::uint32_t>(rate / state_.settings.hz);
   if (substep_ == 0) rank_zones();
   accelerations_ = asked_;
+  pulls_.assign(accelerations_.size(), {Vec3<S>::zero(), Vec3<S>::zero()});
   wet_.clear();
   wet_.reserve((state_.force_records->waters.all().size() + water_ranks_.size()) * accelerations_.size());
-  ForceRecords<S>::forces(
-      [&](const char*, const auto& registry) { for_each_taken(registry, [&](const auto& record) { act(record); }); },
-      *state_.force_records);
+  ForceRecords<S>::forces([&](const char*, const auto& registry) { act_all(registry); }, *state_.force_records);
   act_by_rank();
   resist_all();
-  if (wheels_.any()) {
-    for (const VelocityChange<S>& change : wheels_.solve(bodies, accelerations_, rate)) push(change);
-  }
-  if (couplings_.any()) {
-    for (const VelocityChange<S>& change : couplings_.solve(bodies, accelerations_, rate)) push(change);
-  }
+  const auto push_all = [&](std::span<const VelocityChange<S>> changes) {
+    for (const VelocityChange<S>& change : changes) push(change);
+  };
+  if (wheels_.any()) bear([&] { push_all(wheels_.solve(bodies, accelerations_, rate)); });
+  if (couplings_.any()) bear([&] { push_all(couplings_.solve(bodies, accelerations_, rate)); });
+  for (std::size_t i = 0; i < pulls_.size(); ++i) pulls_[i] = detail::difference(accelerations_[i], pulls_[i]);
   ++substep_;
+}
+
+/// Each record of a kind.
+template <class S> template <class Registry> void BodyForces<S>::act_all(const Registry& registry) {
+  using Record = std::remove_cvref_t<decltype(registry.all()[0])>;
+  const auto all = [&] { for_each_taken(registry, [&](const auto& record) { act(record); }); };
+  if (registry.all().empty()) return;
+  if constexpr (detail::kBears<Record>) bear(all);
+  else all();
+}
+/// Until the sub-step's end `pulls_` are what bears.
+template <class S> template <class Act> void BodyForces<S>::bear(const Act& act) {
+  before_ = accelerations_;
+  act();
+  for (std::size_t i = 0; i < pulls_.size(); ++i) {
+    const Acceleration<S> borne = detail::difference(accelerations_[i], before_[i]);
+    pulls_[i] = {saturating_add(pulls_[i].linear, borne.linear), saturating_add(pulls_[i].angular, borne.angular)};
+  }
 }
 
 // ---- what all of them use

@@ -53,7 +53,7 @@ namespace isostep {
 ///   StepSolver      -> BodyMap
 ///   BodyFinisher    -> BodyMap, Proxies
 ///   ContinuousCollision -> BodyMap, Proxies
-///   SensorOverlaps  -> BodyMap
+///   SensorOverlaps  -> BodyMap, Proxies
 ///   ContactEvents   -> no other
 ///   BreakEvents     -> BodyMap
 ///   JointLoads      -> BodyMap, Destruction
@@ -111,7 +111,7 @@ template <class S> class WorldEngine {
   StepSolver<S> solver_{state_, map_, proxies_};
   BodyFinisher<S> finisher_{state_, map_, proxies_};
   ContinuousCollision<S> continuous_{state_, map_, proxies_};
-  SensorOverlaps<S> sensors_{state_, map_};
+  SensorOverlaps<S> sensors_{state_, map_, proxies_};
   ContactEvents<S> contact_events_{state_};
   BreakEvents<S> break_events_{state_, map_};
   HitEvents<S> hit_events_{state_, map_};

@@ -53,7 +53,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   hit_events_.emit(solved, events_);
   contact_points_.emit(solved, events_);
   after(Stage::emit_events);
-  sleep_.update(events_.fell_asleep, &belts_);
+  sleep_.update(events_.fell_asleep, &belts_, solver_.pulls());
   after(Stage::update_sleep);
   characters_.update();
   targets_.end_step();

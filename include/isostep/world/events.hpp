@@ -142,6 +142,7 @@ struct UntoldEvents {
   std::vector<ContactEnd> contact_end;  // ascending by slots
   std::vector<SensorEvent> sensor_end;  // ascending by slots
   std::vector<BodyId> woke;             // as they woke, or commands put them to sleep
+  std::vector<BodyId> sensors;          // as commands changed them: sensors that lie still, for who sleeps in them
 };
 
 /// What a step had to mend. Identical on every peer.

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "isostep/core/disjoint_sets.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/belt.hpp"
+#include "isostep/dynamics/solver_body.hpp"
 #include "isostep/world/body_map.hpp"
 #include "isostep/world/proxies.hpp"
 
@@ -24,8 +26,10 @@ template <class S> class IslandSleep {
   ISO_INLINE IslandSleep(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies)
       : state_(state), map_(map), proxies_(proxies) {}
 
-  /// Appends to `fell_asleep`. What touches one of the belts stays awake; null: there are none.
-  void update(std::vector<BodyId>& fell_asleep, const Belts<S>* belts = nullptr);
+  /// Appends to `fell_asleep`. What touches one of the belts stays awake; null: there are none. `pulls`: what pulls at
+  /// each awake body beside gravity, or empty.
+  void update(std::vector<BodyId>& fell_asleep, const Belts<S>* belts = nullptr,
+              std::span<const Acceleration<S>> pulls = {});
 
   /// Puts the island of an awake dynamic body to sleep at once, whatever its bodies were about to do; the next step
   /// tells. False, and no change: one of them may not sleep.
@@ -33,7 +37,7 @@ template <class S> class IslandSleep {
 
  private:
   std::uint32_t delay() const;
-  void update_clocks();
+  void update_clocks(std::span<const Acceleration<S>> pulls);
   void stop_clocks_of_carried(const Belts<S>* belts);
   void stop_clocks_of_motors();
   void stop_clocks_by_forces();

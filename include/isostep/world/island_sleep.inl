@@ -13,12 +13,20 @@ namespace detail {
 template <class S> inline constexpr S kSleepSpeed = S(0.05);  // [m/s] and [rad/s]
 /// [s] of fall: what is thrown up is that slow for twice as long, and the delay is longer.
 template <class S> inline constexpr S kSleepFall = S(0.1875);
+/// [m/s^2] and [rad/s^2]: what pulls less is what rounding leaves of forces in balance.
+template <class S> inline constexpr S kLeastPull = S(1.0 / 16384);
+/// [m/s] or [rad/s] What rests under a pull of more than `least` is slower.
+template <class S> ISO_INLINE S rest_speed_under(Vec3<S> pull, S least) {
+  const S size = max_abs(pull);
+  return size <= least ? kSleepSpeed<S> : min(kSleepSpeed<S>, size * kSleepFall<S>);
+}
 inline constexpr std::uint32_t kStepsPerSleepDelay = 2;  // a second over this: half a second of rest
 }  // namespace detail
 
-template <class S> void IslandSleep<S>::update(std::vector<BodyId>& fell_asleep, const Belts<S>* belts) {
+template <class S> void IslandSleep<S>::update(std::vector<BodyId>& fell_asleep, const Belts<S>* belts,
+                                                   std::span<const Acceleration<S>> pulls) {
   if (!state_.settings.allow_sleep) return;
-  update_clocks();
+  update_clocks(pulls);
   stop_clocks_of_carried(belts);
   stop_clocks_of_motors();
   stop_clocks_by_forces();
@@ -57,8 +65,7 @@ template <class S> std::uint32_t IslandSleep<S>::delay() const {
   return static_cast<std::uint32_t>(state_.settings.hz) / detail::kStepsPerSleepDelay;
 }
 
-template <class S> void IslandSleep<S>::update_clocks() {
-  const S pull = max_abs(state_.settings.gravity) * detail::kSleepFall<S>;
+template <class S> void IslandSleep<S>::update_clocks(std::span<const Acceleration<S>> pulls) {
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
     BodyState<S>& state = state_.awake.states[i];
     const BodyProperties<S>& body = state_.awake.properties[i];
@@ -66,8 +73,12 @@ template <class S> void IslandSleep<S>::update_clocks() {
     // A kinematic body rests when told to: however slow, it carries what lies on it.
     const bool still =
         state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
-    const S fallen = pull * abs(body.gravity_scale);
-    const S least = fallen == S(0) ? detail::kSleepSpeed<S> : min(detail::kSleepSpeed<S>, fallen);
+    const Vec3<S> weight = state_.settings.gravity * body.gravity_scale;
+    S least = detail::rest_speed_under(weight, S(0));
+    if (!pulls.empty()) {
+      least = min(detail::rest_speed_under(saturating_add(weight, pulls[i].linear), detail::kLeastPull<S>),
+                  detail::rest_speed_under(pulls[i].angular, detail::kLeastPull<S>));
+    }
     const Velocity<S> limit = convert<Velocity<S>>(least);
     const bool slow = max_abs(state.velocity) < limit && max_abs(state.angular_velocity) < limit;
     const bool rests = body.type == BodyType::kinematic ? still : slow;

@@ -34,7 +34,7 @@ template <class S> class IslandWake {
   bool wake_touched();
   /// Every island and every body that the body's fat box meets: what is moved, changed or taken away may have held them
   /// up.
-  void wake_touching(std::uint32_t slot);
+  void wake_touching(std::uint32_t slot);  // a sensor wakes nobody: it notes that the next step looks who sleeps in it
   /// The same of a box [m] that is about to change, or has; but of `slot`, which is what changes.
   void wake_touching(const Aabb<S>& box, std::uint32_t slot);
   /// Every island with a joint or spring to, or a contact or wheel on, a body that no island holds. Its box need not
@@ -60,6 +60,7 @@ template <class S> class IslandWake {
     ISO_INLINE std::uint64_t operator()(const Record& record) const { return record.key; }
   };
 
+  bool is_sensor(std::uint32_t slot) const;
   void find_run_over(std::size_t index);
   bool is_touched(std::uint64_t pair) const;
   bool are_ghosts(std::uint32_t a, std::uint32_t b) const;

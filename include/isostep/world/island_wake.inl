@@ -111,11 +111,20 @@ template <class S> bool IslandWake<S>::are_ghosts(std::uint32_t a, std::uint32_t
   return static_cast<bool>(records.kind_ghosts.id_where(is_of_kinds));
 }
 
+/// What it sees it does not touch.
+template <class S> bool IslandWake<S>::is_sensor(std::uint32_t slot) const {
+  return (map_.properties_at(map_.location(slot)).flags & body_flag::kSensor) != 0;
+}
 template <class S> void IslandWake<S>::wake_touching(std::uint32_t slot) {
   if (proxies_.present(slot)) wake_touching(proxies_.boxes().box(slot), slot);
 }
 template <class S> void IslandWake<S>::wake_touching(const Aabb<S>& box, std::uint32_t slot) {
-  if (!state_.settings.allow_sleep) return;                               // nobody sleeps, nor counts the time
+  if (!state_.settings.allow_sleep) return;  // nobody sleeps, nor counts the time
+  if (is_sensor(slot)) {
+    if (map_.location(slot).set == Location::kStatic)
+      state_.untold.sensors.push_back(state_.body_slots.template id_of<BodyId>(slot));
+    return;
+  }
   if (state_.awake.states.empty() && state_.sleeping.empty()) return;  // a level before anything is in it
   std::vector<std::uint32_t> met;
   proxies_.boxes().query(box, [&](std::uint32_t other) {

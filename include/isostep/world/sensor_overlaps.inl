@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+
+#include "isostep/core/lower_bound.hpp"
 #include "isostep/core/stable_sort.hpp"
+#include "isostep/world/body_frames.hpp"
 #include "isostep/world/event_order.hpp"
 #include "isostep/world/sensor_overlaps.hpp"
 
@@ -14,15 +18,49 @@ struct ByOverlap {
 };
 }  // namespace detail
 
-/// Overlaps of bodies neither of which is awake stay: the narrow phase does not look at them, because nothing moved.
+/// Sensors that commands placed or changed, and that are still there.
+template <class S> void SensorOverlaps<S>::list_changed() {
+  changed_.clear();
+  for (const BodyId sensor : state_.untold.sensors) {
+    if (!state_.body_slots.holds(sensor) || map_.location(sensor.slot).set != Location::kStatic) continue;
+    if (changed_.empty() || changed_.back() != sensor.slot) changed_.push_back(sensor.slot);
+  }
+  state_.untold.sensors.clear();
+  slot_scratch_.resize(changed_.size());
+  stable_sort(changed_.data(), slot_scratch_.data(), static_cast<std::uint32_t>(changed_.size()), OwnKey{});
+  changed_.resize(static_cast<std::size_t>(std::unique(changed_.begin(), changed_.end()) - changed_.begin()));
+}
+
+/// Overlaps of bodies neither of which is awake stay: the narrow phase does not look at them, because nothing moved but
+/// by a command.
 template <class S> void SensorOverlaps<S>::keep_unwatched(std::vector<SensorOverlap>& found) {
+  list_changed();
+  const auto is_changed = [&](std::uint32_t sensor) {
+    const std::size_t at = lower_bound(changed_.size(), [&](std::size_t i) { return changed_[i] < sensor; });
+    return at < changed_.size() && changed_[at] == sensor;
+  };
   for (const SensorOverlap& old : state_.overlaps) {
     const bool watched =
         map_.location(old.sensor).set == Location::kAwake || map_.location(old.other).set == Location::kAwake;
-    if (!watched) found.push_back(old);
+    if (!watched && !is_changed(old.sensor)) found.push_back(old);
   }
+  for (const std::uint32_t sensor : changed_) find_sleepers(sensor, found);
   sort_scratch_.resize(found.size());
   stable_sort(found.data(), sort_scratch_.data(), static_cast<std::uint32_t>(found.size()), detail::ByOverlap{});
+}
+
+template <class S>
+void SensorOverlaps<S>::find_sleepers(std::uint32_t sensor, std::vector<SensorOverlap>& found) const {
+  if (!proxies_.present(sensor)) return;
+  const auto traits_of = [&](std::uint32_t slot, bool awake) {
+    return ProxyTraits::of(map_.properties_at(map_.location(slot)), awake);
+  };
+  const ProxyTraits traits = traits_of(sensor, true);
+  proxies_.boxes().query(proxies_.boxes().box(sensor), [&](std::uint32_t other) {
+    const bool sees = map_.location(other).is_asleep() && traits.pairs_with(traits_of(other, false));
+    if (sees && bodies_touch(map_, min(sensor, other), max(sensor, other), S(0))) found.push_back({sensor, other});
+    return true;
+  });
 }
 
 template <class S> void SensorOverlaps<S>::update(std::vector<SensorOverlap>& found, Events<S>& events) {

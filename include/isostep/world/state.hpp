@@ -135,6 +135,7 @@ template <class S> struct WorldState {
     visit("untold_contact_end", self.untold.contact_end);
     visit("untold_sensor_end", self.untold.sensor_end);
     visit("untold_woke", self.untold.woke);
+    visit("untold_sensors", self.untold.sensors);
     visit.islands("sleeping", self.sleeping);
     visit.records(self.force_records);
     visit.store("blobs", self.geometry);

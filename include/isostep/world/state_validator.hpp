@@ -148,7 +148,7 @@ template <class S> class StateValidator {
     if (dynamic_body ? detail::fault_of_mass(p.mass, p.kappa) != Fault::none || spins == even : !weightless || spins) {
       return "a body's mass does not fit its type";
     }
-    if (detail::fault_of(p.material) != Fault::none ||
+    if (detail::fault_of(p.material) != Fault::none || p.reserved != S(0) ||
         detail::fault_of_motion(p.gravity_scale, p.linear_damping, p.angular_damping, p.flags & body_flag::kAllLocks) !=
             Fault::none) {
       return "a body's material or damping is out of range";
@@ -267,6 +267,9 @@ template <class S> class StateValidator {
     }
     for (const BodyId body : state_.untold.woke) {
       if (!was_body(body)) return "who woke is no body";
+    }
+    for (const BodyId body : state_.untold.sensors) {
+      if (!was_body(body)) return "a sensor that was changed is no body";
     }
     return nullptr;
   }

@@ -34,6 +34,8 @@ template <class S> class StepSolver {
   template <class Visit> void with_solver(Visit&& visit) {
     isostep::with_solver(solvers_, state_.settings.solver, static_cast<Visit&&>(visit));
   }
+  /// By awake body, or empty: BodyForces.
+  ISO_INLINE std::span<const Acceleration<S>> pulls() const { return forces_.pulls(); }
   /// [m/s] Parallel to the contacts, of the whole step.
   ISO_INLINE std::span<const Velocity<S>> impulses() const { return impulses_; }
   /// Parallel to the awake bodies: 1 for what turned faster than a step of integration bears.

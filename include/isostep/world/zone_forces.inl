@@ -65,10 +65,13 @@ template <class S> void BodyForces<S>::act(const ForceZone<S>& zone, std::int32_
 
 /// Ranked waters and zones, and the world's gravity where a zone replaces it: below all of them.
 template <class S> void BodyForces<S>::act_by_rank() {
-  for (const std::uint64_t rank : water_ranks_) {
-    const RankedWater<S>& water = state_.force_records->ranked_waters.all()[rank & 0xffffffffu];
-    act(water, water.priority, true);
-  }
+  const auto float_all = [&] {
+    for (const std::uint64_t rank : water_ranks_) {
+      const RankedWater<S>& water = state_.force_records->ranked_waters.all()[rank & 0xffffffffu];
+      act(water, water.priority, true);
+    }
+  };
+  if (!water_ranks_.empty()) bear(float_all);
   if (ranks_.empty()) return;
   const auto& zones = state_.force_records->ranked_zones;
   for (const std::uint64_t rank : ranks_) {

@@ -81,7 +81,8 @@ class Owners {
     const std::string& name = item.array;
     if (name == "islands") return of_island(path);
     if (name == "sleeping") return of_sleeping(path);
-    if (is_any(name, std::array{"bodies", "static_bodies", "frames", "forces", "fell_asleep", "woke", "untold_woke"}))
+    if (is_any(name, std::array{"bodies", "static_bodies", "frames", "forces", "fell_asleep", "woke", "untold_woke",
+                                "untold_sensors"}))
       return by_field("body", item, ".slot");
     if (is_any(name, std::array{"properties", "accelerations", "start_poses", "start_slots", "solver_start",
                                 "solver_inertia"}))

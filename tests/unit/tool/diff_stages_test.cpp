@@ -90,6 +90,7 @@ const std::map<std::string, std::string> kRigidOwners = {
     {"untold_contact_end", "body slots "},
     {"untold_sensor_end", "body slots "},
     {"untold_woke", "body slot "},
+    {"untold_sensors", "body slot "},
     {"points", "body slots "},
     {"ends", "body slot"},
     {"held_joints", "joint slot "},

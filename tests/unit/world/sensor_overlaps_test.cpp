@@ -31,7 +31,7 @@ template <class S> class Overlaps : public ::testing::Test {
   World<S> world{settings<S>(0)};
   BodyId bodies[4];
   Systems<S> systems;
-  SensorOverlaps<S> sensors{systems.state, systems.map};
+  SensorOverlaps<S> sensors{systems.state, systems.map, systems.proxies};
   Events<S> events;
 };
 TYPED_TEST_SUITE(Overlaps, SystemScalars);
