@@ -35,7 +35,8 @@ template <class S> class Polyhedra : public SolidTest<S> {
     const double inner = to_double(min(a.solid.polyhedron().inner_radius, b.solid.polyhedron().inner_radius));
     const double reach = std::max(oracle::length(oracle::real(ta.position)), a.radius() + b.radius());
     const double error = this->rounding(reach),
-                 tolerance = 2 * inner / 128 + 2 * error;  // faces go before edges, a before b
+                 tolerance = 2 * inner / 128 + 2 * error,  // faces go before edges, a before b
+        slack = std::min(inner / 4, 1.0 / 1024);           // and those that look along a crossing before it
     if (m.count == 0) {
       ASSERT_GT(best, -error);
       ++(best < kMargin - error ? tally.beside : tally.apart);
@@ -45,8 +46,8 @@ template <class S> class Polyhedra : public SolidTest<S> {
     const D3 normal = oracle::real(m.normal);
     EXPECT_NEAR(oracle::length(normal), 1, 8 * to_double(resolution<Unit<S>>()) + 1e-15);
     // Where they are apart, crosses of edges that have nothing to do with each other may by chance be better.
-    const double least = std::min(best, 0.0) - tolerance;
-    EXPECT_GT(placed.separation(normal), least) << "no other axis is much better";
+    const auto least = [&](D3 chosen) { return std::min(placed.best_beside(chosen), 0.0) - tolerance; };
+    EXPECT_GT(placed.separation(normal), least(normal)) << "no other axis is much better";
     double deepest = 1e300;
     std::set<std::uint32_t> features;
     for (int i = 0; i < m.count; ++i) {
@@ -60,9 +61,10 @@ template <class S> class Polyhedra : public SolidTest<S> {
     }
     EXPECT_EQ(features.size(), static_cast<std::size_t>(m.count));
     ASSERT_GT(swapped.count, 0);
-    EXPECT_GT(placed.separation(-oracle::real(swapped.normal)), least) << "the other way round";
+    const D3 other = -oracle::real(swapped.normal);
+    EXPECT_GT(placed.separation(other), least(other)) << "the other way round";
     if (best < 0) {
-      EXPECT_NEAR(deepest, best, tolerance) << "the deepest point is there";
+      EXPECT_NEAR(deepest, best, tolerance + slack) << "the deepest point is there";
     }
     if ((m.points[0].feature >> 31) == 0) ++tally.edges;
     else ++((m.points[0].feature >> 30 & 1) == 0 ? tally.faces_a : tally.faces_b);
@@ -114,7 +116,12 @@ TYPED_TEST(Polyhedra, leave_out_no_edges_that_decide) {
       Manifold<S> m;
       collide_polyhedra(of_a, ta, of_b, tb, margin, m);
       const bool by_edges = m.count == 1 && m.points[0].feature >> 31 == 0;
-      ASSERT_EQ(by_edges, all.found && all.separation <= margin) << n;
+      const bool by_faces =
+          all.found &&
+          detail::FacesAlong<S>(of_a, of_b, all, transposed_times(pair.b_in_a.rotation, -all.normal)).are_near();
+      if (!by_faces) {
+        ASSERT_EQ(by_edges, all.found && all.separation <= margin) << n;
+      }
     }
     bool is_known = false;
     const auto found = detail::near_edges(pair, face_a, over_a, face_b, margin, is_known).axis;
