@@ -110,7 +110,7 @@ template <class S> Scene<S> random_scene(Random& random, std::uint32_t count, st
     c.friction_impulse = random_vector<V>(random, kBorne[random.below(6)]);
     c.twist_impulse = from_double<V>(random.within(0.1));
     g.material = {from_double<S>(0.5 + random.within(0.5)), from_double<S>(0.5 + random.within(0.5)),
-                  from_double<S>(random.within(0.1) + 0.1),
+                  from_double<S>(random.within(0.1) + 0.1), from_double<S>(random.within(0.05) + 0.05),
                   random.below(3) == 0 ? random_vector<S>(random, 2) : Vec3<S>::zero()};
     scene.contacts.push_back(c);
     scene.geometry.push_back(g);
@@ -270,7 +270,7 @@ template <class S> Scene<S> ball_scene(bool beside) {
   g.row_b = 2;
   g.normal = vector<Unit<S>>(0, 1, 0);
   g.points[0] = {vector<S>(0, 1, 0), vector<S>(0, -1, 0), from_double<S>(0.25)};
-  g.material = {from_double<S>(0.5), S(0), from_double<S>(0.125), Vec3<S>::zero()};
+  g.material = {from_double<S>(0.5), S(0), from_double<S>(0.125), from_double<S>(0.0625), Vec3<S>::zero()};
   scene.contacts = {c};
   scene.geometry = {g};
   scene.order = {0};
@@ -291,7 +291,8 @@ TYPED_TEST(ContactPrepare, ABallsMassesAgreeWithClosedForms) {
     expect(c.normals[0].row.effective_mass[0], 1);  // arms along the normal turn nothing
     expect(c.normals[0].approach[0], -3);
     expect(c.normals[0].separation[0], 0.25);
-    expect(c.twist.effective_mass[0], 0);                                       // one point has no lever
+    expect(c.twist.effective_mass[0], 1);  // at the radius of gyration
+    expect(c.twist_friction[0], 0.5 * 0.0625 * std::sqrt(2.5));
     for (const auto& t : c.tangents) expect(t.row.effective_mass[0], 1 / 3.5);  // 1 + r^2 m / I
     for (const auto& r : block.rolling.rows) expect(r.effective_mass[0], 1 / 2.5);
     expect(block.rolling.lever[0], 0.125);

@@ -71,11 +71,12 @@ template <class S> class Placed {
   }
   /// Along the best axis there is: their depth where they overlap, at most their distance where they do not.
   double best() const { return best_beside({0, 0, 0}); }
-  /// The same of those that do not look along `chosen`, which are as good as that.
+  /// The same of those that do not look along `chosen`, which are as good as that: a face within kNearFace of it may
+  /// have been better, and a crossing of edges within as much of that.
   double best_beside(oracle::D3 chosen) const {
     double best = -1e300;
     const auto see = [&](oracle::D3 n) {
-      if (dot(n, chosen) < detail::kNearFace) best = std::max(best, separation(n));
+      if (dot(n, chosen) < 4 * detail::kNearFace - 3) best = std::max(best, separation(n));
     };
     for (const oracle::D3 n : normals_a) see(n);
     for (const oracle::D3 n : normals_b) see(-n);
