@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/math/aabb.hpp"
 #include "isostep/math/transform.hpp"
 #include "isostep/scalar/finer.hpp"
 
@@ -27,6 +28,23 @@ template <class U> ISO_INLINE Quat<U> on_near_side(Quat<U> start, Quat<U> end) {
 template <class U> ISO_INLINE Quat<U> between(Quat<U> start, Quat<U> end, U t) {
   return {start.x + (end.x - start.x) * t, start.y + (end.y - start.y) * t, start.z + (end.z - start.z) * t,
           start.w + (end.w - start.w) * t};
+}
+
+/// [m] No point within `reach` of what goes straight is ever further from where it would be by then on the straight line
+/// between its two ends: an eighth of the largest acceleration, which SweptCore has.
+template <class S> ISO_INLINE S bow_of(const CoreMotion<S>& motion, S reach) {
+  using U = Unit<S>;
+  const Quat<U> turn =
+      on_near_side(motion.start.orientation, motion.end.orientation) * conjugate(motion.start.orientation);
+  const U half_sine = length(Vec3<U>{turn.x, turn.y, turn.z}) * U(0.5);
+  const U c = divide_to<U>(half_sine, U(0.5) + turn.w * U(0.5));  // [1] the tangent of a quarter of the turn
+  const S squared = reach * (c * c);
+  return (squared + squared * c) * S(16.25 / 8);
+}
+/// [m] What rounding makes of a box's sides, as SweepTest has it, and `margin`.
+template <class S> ISO_INLINE Aabb<S> grown_with_slack(const Aabb<S>& box, S margin) {
+  const S step = resolution<S>() * S(16), farthest = max(max_abs(box.low), max_abs(box.high));
+  return grow(box, margin + farthest * step + step);
 }
 
 }  // namespace detail

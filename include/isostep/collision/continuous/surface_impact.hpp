@@ -8,28 +8,52 @@
 
 namespace isostep::detail {
 
+template <class S> Aabb<S> box_of(const ConvexCore<S>& core, const Transform<S>& at) {
+  const Vec3<S> first = to_world(at, core.vertices[0]);
+  Aabb<S> box = {first, first};
+  for (const Vec3<S>& v : core.vertices) {
+    const Vec3<S> p = to_world(at, v);
+    box = {min(box.low, p), max(box.high, p)};
+  }
+  return grow(box, core.radius);
+}
+/// Around all that a core passes, in the frame that leads to the world by `t`, and `margin` more: its boxes at both ends
+/// and the bow between them, and no more than the ball in which it turns. A box as large as the core is far from its
+/// body's middle would hold a thousand times the triangles.
+template <class S>
+Aabb<S> swept_box(const Transform<S>& t, const ConvexCore<S>& core, const CoreMotion<S>& motion, S margin) {
+  const Transform<S> from = relative(t, Transform<S>::of(motion.start)), to = relative(t, Transform<S>::of(motion.end));
+  S reach = S(0);
+  for (const Vec3<S>& v : core.vertices) reach = max(reach, length(v - motion.centre));
+  const Aabb<S> ends = grow(merge(box_of(core, from), box_of(core, to)), bow_of(motion, reach));
+  const S radius = reach + core.radius;
+  const Vec3<S> ball = {radius, radius, radius};
+  const Aabb<S> turned =
+      merge(Aabb<S>::around(to_world(from, motion.centre), ball), Aabb<S>::around(to_world(to, motion.centre), ball));
+  return grown_with_slack<S>({max(ends.low, turned.low), min(ends.high, turned.high)}, margin);
+}
+template <class S> ISO_INLINE MeshBox steps_of(const Aabb<S>& box, int exponent) {
+  MeshBox steps;
+  for (int axis = 0; axis < 3; ++axis) {
+    steps.low[axis] = floor_scaled(box.low[axis], exponent);
+    steps.high[axis] = floor_scaled(box.high[axis], exponent) + 1;
+  }
+  return steps;
+}
+template <class S> Vec3<S> middle_of(const ConvexCore<S>& core) {
+  const Unit<S> share = divide_to<Unit<S>>(S(1), S(static_cast<std::int32_t>(core.vertices.size())));
+  Vec3<S> middle = Vec3<S>::zero();
+  for (const Vec3<S>& v : core.vertices) middle += v * share;
+  return middle;
+}
+
 /// As time_of_impact, against the triangles of a surface at rest whose outward side the core's middle is on at the
 /// start. Starting in touch with one of them counts as that of all.
 template <class S, class G>
 TimeOfImpact<S> surface_impact(const G& surface, const Transform<S>& t, const ConvexCore<S>& core,
                                const CoreMotion<S>& motion, S target) {
-  S reach = S(0);
-  const Unit<S> share = divide_to<Unit<S>>(S(1), S(static_cast<std::int32_t>(core.vertices.size())));
-  Vec3<S> middle = Vec3<S>::zero();
-  for (const Vec3<S>& v : core.vertices) {
-    reach = max(reach, length(v) + core.radius);
-    middle += v * share;
-  }
-  reach += target;
-  const Vec3<S> all = {reach, reach, reach};
-  const Vec3<S> from = to_local(t, motion.start.position), to = to_local(t, motion.end.position);
-  const Aabb<S> box = merge(Aabb<S>::around(from, all), Aabb<S>::around(to, all));
-  const Vec3<S> start = from + transposed_times(t.rotation, rotate(motion.start.orientation, middle));
-  MeshBox steps;
-  for (int axis = 0; axis < 3; ++axis) {
-    steps.low[axis] = floor_scaled(box.low[axis], surface.exponent());
-    steps.high[axis] = floor_scaled(box.high[axis], surface.exponent()) + 1;
-  }
+  const MeshBox steps = steps_of(swept_box(t, core, motion, target), surface.exponent());
+  const Vec3<S> start = to_local(t, to_world(Transform<S>::of(motion.start), middle_of(core)));
   TimeOfImpact<S> first = {Impact::none, Unit<S>(1), Vec3<Unit<S>>::zero(), Vec3<S>::zero(), Vec3<S>::zero(), S(0), 0};
   const Pose<S> rest = {t.position, Quat<Unit<S>>::identity()};
   surface.query(steps, [&](std::uint32_t id) {
