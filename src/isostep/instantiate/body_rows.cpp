@@ -6,8 +6,9 @@
 
 namespace isostep {
 
-#define ISO_INSTANTIATE(S)    \
-  template class BodyRows<S>; \
+#define ISO_INSTANTIATE(S)       \
+  template class EnergyBound<S>; \
+  template class BodyRows<S>;    \
   template class Impacts<S>;
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE

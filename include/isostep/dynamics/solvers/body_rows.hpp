@@ -9,6 +9,7 @@
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/body_inertia.hpp"
 #include "isostep/dynamics/solver_body.hpp"
+#include "isostep/dynamics/solvers/energy_bound.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 
 namespace isostep {
@@ -71,6 +72,7 @@ template <class S> class BodyRows {
   static bool is_uneven(const BodyProperties<S>& body, std::int32_t hz, Velocity<S> angular_speed);
   BodyRun<S> run_of(const StepContext<S>& context, std::size_t first, std::size_t end);
   void gather_turn(const BodyState<S>& state, const BodyProperties<S>& body, const Mat3<Unit<S>>& axes, std::size_t i);
+  Mat3<Unit<S>> axes_in_the_middle(const StepContext<S>& context, std::size_t i) const;
   void finish_velocity(const StepContext<S>& context, std::size_t body, bool turned);
   void move(const StepContext<S>& context, std::size_t body);
   bool limit_turn(const StepContext<S>& context, std::size_t body);
@@ -82,6 +84,7 @@ template <class S> class BodyRows {
   std::vector<BodyFactors<S>> factors_;
   std::vector<BodyFlight<S>> flights_;
   std::vector<BodyTurn<S>> turns_;   // of those that turn freely
+  EnergyBound<S> bound_;
   std::vector<std::uint32_t> left_;  // to be finished one by one
   std::int32_t rate_ = 1;            // [1/s] sub-steps
   bool began_with_followed_ = false;

@@ -5,6 +5,7 @@
 #include "isostep/dynamics/body_inertia.hpp"
 #include "isostep/dynamics/gyroscopic.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
+#include "isostep/dynamics/solvers/energy_bound.inl"
 #include "isostep/math/shortened.hpp"
 
 namespace isostep {
@@ -52,6 +53,7 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::
   flights_.resize(count);
   turns_.resize(count);
   left_.resize(count);
+  bound_.find(context, count);
   const Velocity<S> fast = angular_speed_to_renew<S>(context.hz, true);
   began_with_followed_ = false;
   rows_.velocity[0] = MotionRow<Velocity<S>>::zero();
@@ -70,6 +72,7 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::
     SolverMass<S>& mass = rows_.mass[i + 1];
     if (body.type != BodyType::dynamic) {
       mass = rows_.mass[0];
+      bound_.release(i);
       continue;
     }
     mass.mass = body.mass;
@@ -80,9 +83,24 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::
     }
     const bool spins = (body.flags & body_flag::kSpins) != 0;
     const Mat3<Unit<S>> axes = spins ? detail::world_axes(state.orientation, body) : Mat3<Unit<S>>{};
-    mass.kappa = detail::world_kappa(body, axes);
+    const bool rapid = spins && rapid_angular_speed<S>(context.hz) < max_abs(state.angular_velocity);
+    mass.kappa = detail::world_kappa(body, rapid ? axes_in_the_middle(context, i) : axes);
     if (detail::turns_freely(body)) gather_turn(state, body, axes, i);
+    if (bound_.binds(i)) bound_.begin(i, state, body, axes);
   }
+}
+
+/// Of the step, as the body turns now: contacts answer with one inertia for the whole of it. With that of its begin
+/// they answer late, and a barrel that rolls on its rim gains energy. What contacts follow has that of the first
+/// sub-step: it is renewed before the second.
+template <class S> Mat3<Unit<S>> BodyRows<S>::axes_in_the_middle(const StepContext<S>& context, std::size_t i) const {
+  const BodyState<S>& state = context.states[i];
+  const bool followed = is_followed(context, static_cast<std::uint32_t>(i + 1));
+  const Step<S> half = divide_to<Step<S>>(S(0.5), S(followed ? rate_ : context.hz));
+  const auto turn = [half](Velocity<S> w) { return round_within<Unit<S>>(product(w, half), Unit<S>(1)); };
+  const Vec3<Velocity<S>> w = state.angular_velocity;
+  return detail::world_axes(integrate(state.orientation, Vec3<Unit<S>>{turn(w.x), turn(w.y), turn(w.z)}),
+                            context.properties[i]);
 }
 
 template <class S>
@@ -213,14 +231,17 @@ template <class S> void BodyRows<S>::store(const StepContext<S>& context, std::s
   for (std::size_t i = first; i < end; ++i) {
     BodyState<S>& state = context.states[i];
     MotionRow<V> row = rows_.velocity[i + 1];
-    if ((kinds_[i] & body_kind::kTurns) != 0 && rapid < max_abs(row.angular)) {
-      const BodyProperties<S>& body = context.properties[i];
-      const Mat3<Unit<S>> axes = detail::world_axes(state.orientation, body);
+    const BodyProperties<S>& body = context.properties[i];
+    const bool turns = (kinds_[i] & body_kind::kTurns) != 0 && rapid < max_abs(row.angular), binds = bound_.binds(i);
+    const bool spins = (turns || binds) && (body.flags & body_flag::kSpins) != 0;
+    const Mat3<Unit<S>> axes = spins ? detail::world_axes(state.orientation, body) : Mat3<Unit<S>>{};
+    if (turns) {
       const BodyTurn<S>& turn = turns_[i];
       const Pace pace = detail::pace_of<S>(max_abs(row.angular), context.hz, rate_);
       row.angular = FreeTurn<S>{axes, turn.inertia, turn.euler, h}.settle(row.angular, turn.known, pace);
       detail::hold_locks(body.flags, row);
     }
+    if (binds) bound_.hold(context, i, rows_.displacement[i + 1].linear, axes, row);
     state.velocity = row.linear;
     state.angular_velocity = row.angular;
   }
