@@ -9,8 +9,8 @@
   X(pose, false, O(position), O(orientation)) \
   X(mat3, false, O(rows)) \
   X(aabb, false, O(low), O(high)) \
-  X(material, false, O(friction), O(restitution), O(rolling_resistance), O(surface_velocity), O(static_friction), \
-    O(anisotropy), O(kind), O(reserved)) \
+  X(material, false, O(friction), O(restitution), O(rolling_resistance), O(spin_resistance), O(surface_velocity), \
+    O(static_friction), O(anisotropy), O(kind), O(reserved)) \
   X(primitive, false, O(type), O(blob), O(half), O(radius), O(normal), O(offset)) \
   X(child, false, O(primitive), O(pose)) \
   X(joint_range, false, O(lower), O(upper)) \
@@ -87,7 +87,8 @@
   X(drag, true, O(body), O(linear), O(quadratic), O(angular)) \
   X(aero_surface, true, O(body), O(point), O(orientation), O(tensor), O(low), O(high), O(control), O(is_quadratic), \
     O(is_under_water)) \
-  X(material_pair, true, O(kind_a), O(kind_b), O(friction), O(static_friction), O(restitution), O(rolling_resistance)) \
+  X(material_pair, true, O(kind_a), O(kind_b), O(friction), O(static_friction), O(restitution), O(rolling_resistance), \
+    O(spin_resistance)) \
   X(breakable, true, O(body), O(impulse), O(pattern), O(most_pieces), O(depth), O(grain), O(seed), O(small_mass), \
     O(lifetime), O(expires), O(owns_shape), O(broken_by), O(hit_point), O(hit_direction)) \
   X(character, true, O(body), O(step_height), O(least_up), O(skin), O(mass), O(push_force), O(air_acceleration), \

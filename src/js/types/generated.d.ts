@@ -495,6 +495,8 @@ export interface Material<N = number> {
   restitution: N;
   /** [m] lever arm of the normal force that resists rolling */
   rollingResistance: N;
+  /** [m] Radius of the least patch: friction resists spinning about a contact's normal as if it acted so far from the middle of its points, or as far as these lie. It slows balls of 1 m and 10 cm in radius by 0.1 and 12 rad/s^2. */
+  spinResistance: N;
   /** [m/s] world, a conveyor belt's */
   surfaceVelocity: Vec3<N>;
   /** [1] of what does not slide; below friction: the same as friction */
@@ -1265,6 +1267,8 @@ export interface MaterialPair<N = number> {
   restitution: N;
   /** [m] */
   rollingResistance: N;
+  /** [m] */
+  spinResistance: N;
 }
 
 export interface Breakable<N = number> {

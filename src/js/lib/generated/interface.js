@@ -337,14 +337,15 @@ export const interfaceSchema = {
       ["low", "vec3", 0],
       ["high", "vec3", [12, 24]]
     ]},
-    material: {size: [48, 88], sized: false, init: "P_material_init", fields: [
+    material: {size: [52, 96], sized: false, init: "P_material_init", fields: [
       ["friction", "number", 0],
       ["restitution", "number", [4, 8]],
       ["rollingResistance", "number", [8, 16]],
-      ["surfaceVelocity", "vec3", [12, 24]],
-      ["staticFriction", "number", [24, 48]],
-      ["anisotropy", "vec3", [28, 56]],
-      ["kind", "u32", [40, 80]]
+      ["spinResistance", "number", [12, 24]],
+      ["surfaceVelocity", "vec3", [16, 32]],
+      ["staticFriction", "number", [28, 56]],
+      ["anisotropy", "vec3", [32, 64]],
+      ["kind", "u32", [44, 88]]
     ]},
     primitive: {size: [40, 72], sized: false, fields: [
       ["type", "shape_type", 0],
@@ -480,7 +481,7 @@ export const interfaceSchema = {
       ["projection", "projection", [44, 56]],
       ["restitutionThreshold", "number", [48, 64]]
     ]},
-    body_definition: {size: [192, 312], sized: true, init: "P_body_definition_init_sized", fields: [
+    body_definition: {size: [192, 320], sized: true, init: "P_body_definition_init_sized", fields: [
       ["type", "body_type", 8],
       ["shape", "id", 16],
       ["position", "vec3", 24],
@@ -491,16 +492,16 @@ export const interfaceSchema = {
       ["mass", "number", [80, 136]],
       ["inertia", "vec3", [84, 144]],
       ["material", "material", [96, 168]],
-      ["filter", "filter", [144, 256]],
-      ["userData", "u64", [160, 272]],
-      ["gravityScale", "number", [168, 280]],
-      ["linearDamping", "number", [172, 288]],
-      ["angularDamping", "number", [176, 296]],
-      ["locks", "u32", [180, 304]],
-      ["sensor", "bool", [184, 308]],
-      ["allowSleep", "bool", [185, 309]],
-      ["collide", "bool", [186, 310]],
-      ["bullet", "bool", [187, 311]]
+      ["filter", "filter", [148, 264]],
+      ["userData", "u64", [160, 280]],
+      ["gravityScale", "number", [168, 288]],
+      ["linearDamping", "number", [172, 296]],
+      ["angularDamping", "number", [176, 304]],
+      ["locks", "u32", [180, 312]],
+      ["sensor", "bool", [184, 316]],
+      ["allowSleep", "bool", [185, 317]],
+      ["collide", "bool", [186, 318]],
+      ["bullet", "bool", [187, 319]]
     ]},
     body_mass: {size: [32, 48], sized: true, init: "P_body_mass_init_sized", fields: [
       ["density", "number", 8],
@@ -517,7 +518,7 @@ export const interfaceSchema = {
       ["awake", "bool", [84, 148]],
       ["enabled", "bool", [85, 149]]
     ]},
-    body_properties: {size: [120, 184], sized: true, init: "P_body_properties_init_sized", fields: [
+    body_properties: {size: [120, 192], sized: true, init: "P_body_properties_init_sized", fields: [
       ["type", "body_type", 8],
       ["flags", "u32", 12],
       ["filter", "filter", 16],
@@ -525,9 +526,9 @@ export const interfaceSchema = {
       ["mass", "number", 40],
       ["localCentre", "vec3", [44, 48]],
       ["material", "material", [56, 72]],
-      ["gravityScale", "number", [104, 160]],
-      ["linearDamping", "number", [108, 168]],
-      ["angularDamping", "number", [112, 176]]
+      ["gravityScale", "number", [108, 168]],
+      ["linearDamping", "number", [112, 176]],
+      ["angularDamping", "number", [116, 184]]
     ]},
     sphere: {size: 16, sized: true, init: "P_sphere_init_sized", fields: [
       ["radius", "number", 8]
@@ -689,7 +690,7 @@ export const interfaceSchema = {
       ["driveCount", "u32", [392, 664]],
       ["collide", "bool", [396, 668]]
     ]},
-    ragdoll_settings: {size: [104, 176], sized: true, init: "P_ragdoll_settings_init_sized", fields: [
+    ragdoll_settings: {size: [104, 184], sized: true, init: "P_ragdoll_settings_init_sized", fields: [
       ["friction", "number", 8],
       ["pose", "joint_servo", [12, 16]],
       ["limitFrequency", "number", [32, 56]],
@@ -814,13 +815,14 @@ export const interfaceSchema = {
       ["isQuadratic", "bool", [156, 296]],
       ["isUnderWater", "bool", [157, 297]]
     ]},
-    material_pair: {size: [32, 48], sized: true, init: "P_material_pair_init_sized", fields: [
+    material_pair: {size: [40, 56], sized: true, init: "P_material_pair_init_sized", fields: [
       ["kindA", "u32", 8],
       ["kindB", "u32", 12],
       ["friction", "number", 16],
       ["staticFriction", "number", [20, 24]],
       ["restitution", "number", [24, 32]],
-      ["rollingResistance", "number", [28, 40]]
+      ["rollingResistance", "number", [28, 40]],
+      ["spinResistance", "number", [32, 48]]
     ]},
     breakable: {size: [104, 160], sized: true, init: "P_breakable_init_sized", fields: [
       ["body", "id", 8],

@@ -8,7 +8,6 @@
 #include <memory>
 #include <vector>
 
-#include "isostep/collision/narrowphase/box_tolerance.hpp"
 #include "isostep/geometry/baked/polyhedron.hpp"
 #include "unit/geometry/hull_recipes.hpp"
 #include "unit/geometry/oracle.hpp"
@@ -70,22 +69,15 @@ template <class S> class Placed {
     return low - high;
   }
   /// Along the best axis there is: their depth where they overlap, at most their distance where they do not.
-  double best() const { return best_beside({0, 0, 0}); }
-  /// The same of those that do not look along `chosen`, which are as good as that: a face within kNearFace of it may
-  /// have been better, and a crossing of edges within as much of that.
-  double best_beside(oracle::D3 chosen) const {
+  double best() const {
     double best = -1e300;
-    const auto see = [&](oracle::D3 n) {
-      if (dot(n, chosen) < 4 * detail::kNearFace - 3) best = std::max(best, separation(n));
-    };
-    for (const oracle::D3 n : normals_a) see(n);
-    for (const oracle::D3 n : normals_b) see(-n);
+    for (const oracle::D3 n : normals_a) best = std::max(best, separation(n));
+    for (const oracle::D3 n : normals_b) best = std::max(best, separation(-n));
     for (const oracle::D3 e : edges_a) {
       for (const oracle::D3 f : edges_b) {
         const oracle::D3 n = cross(e, f);
         if (oracle::length(n) < kLeastSine) continue;  // a face's axis is as good, but for that sine of a length
-        see(oracle::unit(n));
-        see(-oracle::unit(n));
+        best = std::max({best, separation(oracle::unit(n)), separation(-oracle::unit(n))});
       }
     }
     return best;
