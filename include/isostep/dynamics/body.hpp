@@ -62,7 +62,7 @@ template <class S> struct Material {
   S restitution = S(0);                           // [1] 0..1, of what meets at Settings::restitution_threshold or more
   S rolling_resistance = S(0);                    // [m] lever arm of the normal force that resists rolling
   /// [m] Radius of the least patch: friction resists spinning about a contact's normal as if it acted so far from the
-  /// middle of its points, or as far as these lie. Of a sphere of 1 m it takes 0.03 rad/s^2, of a ball of 10 cm 12.
+  /// middle of its points, or as far as these lie. It slows balls of 1 m and 10 cm in radius by 0.1 and 12 rad/s^2.
   S spin_resistance = S(1.0 / 128);
   Vec3<S> surface_velocity = {S(0), S(0), S(0)};  // [m/s] world, a conveyor belt's
   S static_friction = S(0);                       // [1] of what does not slide; below friction: the same as friction
