@@ -61,7 +61,14 @@ template <class S> class CommandExecutor {
   bool find_blobs(const AddShape<S>& command, std::vector<BlobRef>& blobs);
   bool accept_patch(const Result<BakedHeightField>& changed);
   void replace_blob(std::uint32_t shape, std::uint32_t child, const BlobRef& blob);
-  void renew_ground(std::uint32_t body, const Pose<S>& field, const Aabb<S>& changed);
+  /// Of a height field, in its frame.
+  struct FieldChange {
+    Aabb<S> about;  // [m] old and new heights
+    ShapeView<S> before, after;
+  };
+  void renew_ground(std::uint32_t body, const Pose<S>& field, const FieldChange& change);
+  void lift_buried(std::uint32_t ground, const Transform<S>& placed, const Aabb<S>& there, const FieldChange& change);
+  S rise_below(Vec3<S> centre, const Transform<S>& placed, const FieldChange& change) const;
   bool check(const BodyDefinition<S>& definition);
   bool check_drives(JointId joint, const JointProperties<S>& next);
   bool check(const BodyMass<S>& mass);

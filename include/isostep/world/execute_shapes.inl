@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/collision/query/ray_cast.hpp"
+#include "isostep/core/stable_sort.hpp"
 #include "isostep/geometry/validate.hpp"
 #include "isostep/world/command_executor.hpp"
 #include "isostep/world/fat_box.hpp"
@@ -81,13 +83,14 @@ template <class S> bool CommandExecutor<S>::execute(const SetHeights& command) {
   const BakedHeightField& field = shape_as<HeightField>(map_.contents().view(child.primitive)).surface();
   const Result<BakedHeightField> changed = field.with_heights(patch);
   if (!accept_patch(changed)) return false;
+  const BakedHeightField before = field;  // the field itself may be gone when its shape has another
   const int exponent = field.exponent();
   const Aabb<S> about = merge(detail::box_of_steps<S>(field.bounds_about(patch), exponent),
                               detail::box_of_steps<S>(changed.value().bounds_about(patch), exponent));
-  replace_blob(shape, command.child, height_field_blob(changed.value()));  // the field itself may be gone now
+  replace_blob(shape, command.child, height_field_blob(changed.value()));
   for (std::uint32_t body = 0; body < map_.slots(); ++body) {
     if (map_.location(body).set != Location::kNone && map_.properties_at(map_.location(body)).shape == shape)
-      renew_ground(body, child.pose, about);
+      renew_ground(body, child.pose, {about, {child.primitive, &before}, {child.primitive, &changed.value()}});
   }
   return true;
 }
@@ -117,9 +120,9 @@ void CommandExecutor<S>::replace_blob(std::uint32_t shape, std::uint32_t child, 
   map_.renew_content(place);
   map_.put_shape(shape, std::move(children));
 }
-/// A body whose field, at a pose in its frame, has changed inside a box of the field's frame.
+/// A body whose field, at a pose in its frame, has changed.
 template <class S>
-void CommandExecutor<S>::renew_ground(std::uint32_t body, const Pose<S>& field, const Aabb<S>& changed) {
+void CommandExecutor<S>::renew_ground(std::uint32_t body, const Pose<S>& field, const FieldChange& change) {
   const Location at = map_.location(body);
   if (at.is_asleep()) wake_.wake_for_change(body);
   const Location now = map_.location(body);
@@ -133,9 +136,51 @@ void CommandExecutor<S>::renew_ground(std::uint32_t body, const Pose<S>& field, 
     map_.change_state(body).fat = state.fat;
     proxies_.place(state, map_.properties_at(now), now.set == Location::kAwake);
   }
-  const Aabb<S> there = grow(detail::turned_box(changed, placed), detail::kFatMargin<S>);
+  const Aabb<S> there = grow(detail::turned_box(change.about, placed), detail::kFatMargin<S>);
   wake_.wake_touching(there, body);
   wake_.wake_wheels_on(body, there);
+  lift_buried(body, placed, there, change);
+}
+/// A field holds nothing from behind: what was above its old heights and has its centre below the new ones goes up by as
+/// much as the ground below that centre.
+template <class S>
+void CommandExecutor<S>::lift_buried(std::uint32_t ground, const Transform<S>& placed, const Aabb<S>& there,
+                                     const FieldChange& change) {
+  const Filter filter = map_.properties_at(map_.location(ground)).filter;
+  std::vector<std::uint32_t> met;
+  proxies_.boxes().query(there, [&](std::uint32_t slot) {
+    const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
+    const bool collides = (body.flags & body_flag::kCollide) != 0 && should_collide(filter, body.filter);
+    if (body.type == BodyType::dynamic && collides) met.push_back(slot);
+    return true;
+  });
+  std::vector<std::uint32_t> scratch(met.size());
+  stable_sort(met.data(), scratch.data(), static_cast<std::uint32_t>(met.size()), OwnKey{});
+  for (const std::uint32_t slot : met) {
+    const Vec3<S> centre = map_.state_at(map_.location(slot)).centre;
+    const Vec3<S> rise = placed.rotation.column(1) * rise_below(centre, placed, change);
+    if (rise == Vec3<S>::zero() || !detail::within(centre + rise, Limits<S>::position())) continue;
+    Pose<S> pose = map_.origin_pose_at(slot);
+    pose.position += rise;
+    if (detail::within(pose.position, Limits<S>::position()))
+      execute(SetPose<S>{state_.body_slots.template id_of<BodyId>(slot), pose});
+  }
+}
+/// [m] Of the field below a centre that was above it and is not any more; else 0.
+template <class S>
+S CommandExecutor<S>::rise_below(Vec3<S> centre, const Transform<S>& placed, const FieldChange& change) const {
+  const Vec3<Unit<S>> up = placed.rotation.column(1);
+  const S height = to_local(placed, centre).y, clear = S(1);  // [m]
+  const S above = max(change.about.high.y - height, S(0)) + clear;
+  const S below = max(height - change.about.low.y, S(0)) + clear;
+  const Vec3<S> start = centre + up * above, way = up * -(above + below);
+  RayHit<S> was, is;
+  if (!detail::within(start, Limits<S>::position()) || !ray_cast(change.before, placed, start, way, S(1), was) ||
+      !ray_cast(change.after, placed, start, way, S(1), is))
+    return S(0);
+  const S centre_at = divide_to<S>(above, above + below);  // [1] of the way
+  if (was.fraction < centre_at || !(is.fraction < centre_at)) return S(0);
+  return saturate_to<S>(product(was.fraction - is.fraction, above + below));
 }
 
 }  // namespace isostep

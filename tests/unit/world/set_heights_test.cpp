@@ -97,6 +97,16 @@ TYPED_TEST(SetHeightsOf, a_hill_lifts_what_lay_on_its_place) {
   EXPECT_NEAR(this->height_of(this->over), 0.45, 0.01);
 }
 
+TYPED_TEST(SetHeightsOf, a_hill_that_would_bury_what_lay_on_its_place_takes_it_up) {
+  ASSERT_TRUE(settle(this->world));
+  const std::vector<std::int16_t> high(49, 2253);  // 2.2 m
+  ASSERT_TRUE(this->world.set_heights(this->ground, 0, {13, 13, 7, 7, high}));
+  EXPECT_NEAR(this->height_of(this->over), 2.45, 0.01);
+  EXPECT_NEAR(this->height_of(this->beside), 0.25, 0.01);
+  ASSERT_TRUE(settle(this->world));
+  EXPECT_NEAR(this->height_of(this->over), 2.45, 0.01);
+}
+
 TYPED_TEST(SetHeightsOf, cells_become_holes_and_ground_again) {
   ASSERT_TRUE(settle(this->world));
   const std::vector<std::int16_t> heights(25, 0);
