@@ -50,6 +50,10 @@ namespace Isostep.F32
         public float Restitution;
         /// <summary>[m] lever arm of the normal force that resists rolling</summary>
         public float RollingResistance;
+        /// <summary>[m] Radius of the least patch: friction resists spinning about a contact's normal as if it acted
+        /// so far from the middle of its points, or as far as these lie. It slows balls of 1 m and 10 cm in radius by
+        /// 0.1 and 12 rad/s^2.</summary>
+        public float SpinResistance;
         /// <summary>[m/s] world, a conveyor belt's</summary>
         public Vec3 SurfaceVelocity;
         /// <summary>[1] of what does not slide; below friction: the same as friction</summary>
@@ -381,7 +385,6 @@ namespace Isostep.F32
         public Vec3 Inertia;
         public Material Material;
         public Filter Filter;
-        private fixed byte reserved2[4];
         public ulong UserData;
         /// <summary>[1] of the world's gravity</summary>
         public float GravityScale;
@@ -402,7 +405,7 @@ namespace Isostep.F32
         private byte bullet;
         /// <summary>Moving bodies stop it too, at any speed; two bullets may pass through each other</summary>
         public bool Bullet { get { return bullet != 0; } set { bullet = (byte)(value ? 1 : 0); } }
-        private fixed byte reserved3[4];
+        private fixed byte reserved2[4];
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static BodyDefinition Sized()
@@ -487,7 +490,6 @@ namespace Isostep.F32
         public float LinearDamping;
         /// <summary>[1/s]</summary>
         public float AngularDamping;
-        private fixed byte reserved2[4];
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static BodyProperties Sized()
@@ -1128,7 +1130,6 @@ namespace Isostep.F32
         /// rest none until they are apart</summary>
         public Filter Filter;
         public Material Material;
-        private fixed byte reserved1[4];
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static RagdollSettings Sized()
@@ -1543,6 +1544,9 @@ namespace Isostep.F32
         public float Restitution;
         /// <summary>[m]</summary>
         public float RollingResistance;
+        /// <summary>[m]</summary>
+        public float SpinResistance;
+        private fixed byte reserved1[4];
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static MaterialPair Sized()
