@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "isostep/collision/narrowphase/box_tolerance.hpp"
 #include "isostep/geometry/baked/polyhedron.hpp"
 #include "unit/geometry/hull_recipes.hpp"
 #include "unit/geometry/oracle.hpp"
@@ -70,14 +71,26 @@ template <class S> class Placed {
   }
   /// Along the best axis there is: their depth where they overlap, at most their distance where they do not.
   double best() const {
+    return best_where([](oracle::D3) { return true; });
+  }
+  /// The same of the axes that look along one: a face within kNearFace of the best may stand for it, and one as near to
+  /// that face.
+  double best_along(oracle::D3 chosen) const {
+    return best_where([&](oracle::D3 n) { return dot(n, chosen) > 4 * detail::kNearFace - 3; });
+  }
+  template <class Where> double best_where(const Where& where) const {
     double best = -1e300;
-    for (const oracle::D3 n : normals_a) best = std::max(best, separation(n));
-    for (const oracle::D3 n : normals_b) best = std::max(best, separation(-n));
+    const auto see = [&](oracle::D3 n) {
+      if (where(n)) best = std::max(best, separation(n));
+    };
+    for (const oracle::D3 n : normals_a) see(n);
+    for (const oracle::D3 n : normals_b) see(-n);
     for (const oracle::D3 e : edges_a) {
       for (const oracle::D3 f : edges_b) {
         const oracle::D3 n = cross(e, f);
         if (oracle::length(n) < kLeastSine) continue;  // a face's axis is as good, but for that sine of a length
-        best = std::max({best, separation(oracle::unit(n)), separation(-oracle::unit(n))});
+        see(oracle::unit(n));
+        see(-oracle::unit(n));
       }
     }
     return best;
