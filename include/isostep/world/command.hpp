@@ -170,7 +170,7 @@ template <class S> struct SetJoint {
 };
 
 /// Other heights and materials for a rectangle of a height field: HeightPatch as a record. The shape's field becomes
-/// another one, with a name of its own, for all bodies of the shape; what is above or below it wakes, and what it buries rises.
+/// another one, with a name of its own, for all bodies of the shape; what is near wakes, and what it buries rises.
 struct SetHeights {
   static constexpr std::uint32_t kMost = 1u << 26;  // heights in a file; fields have fewer places
 

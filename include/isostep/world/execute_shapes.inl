@@ -141,8 +141,8 @@ void CommandExecutor<S>::renew_ground(std::uint32_t body, const Pose<S>& field, 
   wake_.wake_wheels_on(body, there);
   lift_buried(body, placed, there, change);
 }
-/// A field holds nothing from behind: what was above its old heights and has its centre below the new ones goes up by as
-/// much as the ground below that centre.
+/// A field holds nothing from behind: what was above its old heights and has its centre below the new ones goes up by
+/// as much as the ground below that centre.
 template <class S>
 void CommandExecutor<S>::lift_buried(std::uint32_t ground, const Transform<S>& placed, const Aabb<S>& there,
                                      const FieldChange& change) {

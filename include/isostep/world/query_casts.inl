@@ -105,7 +105,9 @@ template <class S> FaultReport Queries<S>::fault_of_cast(const ShapeCast<S>& cas
       .report();
 }
 /// visit(probe) of an accepted cast. Bodies that rest on each other overlap by up to kDeepOverlap: that is touch.
-template <class S> template <class Visit> void Queries<S>::visit_cast(const ShapeCast<S>& cast, const Visit& visit) const {
+template <class S>
+template <class Visit>
+void Queries<S>::visit_cast(const ShapeCast<S>& cast, const Visit& visit) const {
   const Asked asked = asked_of(cast.shape, cast.pose);
   const Transform<S> start = Transform<S>::of(asked.pose);
   const QueryFilter& filter = cast.filter;
