@@ -89,7 +89,7 @@ TYPED_TEST(Polyhedra, agree_with_every_axis) {
   EXPECT_LT(tally.beside, 200) << "within the margin along every axis, but not one above the other";
   EXPECT_GT(tally.faces_a, 1000);
   EXPECT_GT(tally.faces_b, 1000);
-  EXPECT_GT(tally.edges, 1500);
+  EXPECT_GT(tally.edges, 1300);  // of a tenth of the crossings the faces touch
   EXPECT_GT(tally.points, 10000);
 }
 
