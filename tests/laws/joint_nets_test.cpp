@@ -48,14 +48,14 @@ TYPED_TEST(JointNets, gain_nothing_while_they_swing) {
   using S = TypeParam;
   this->hang(5, 4);
   for (const BodyId id : this->net) this->w.set_velocity(id, vec<S>(0.4, 0, 0.4), vec<S>(0, 0, 0));
-  this->w.step();
+  run(this->w, 10);  // until the kick, which no joint allows, has spread
   const double start = EnergyBook<S>::energy_of(this->w);
   double most = start;
   for (int i = 0; i < 300; ++i) {
     this->w.step();
     most = std::max(most, EnergyBook<S>::energy_of(this->w));
   }
-  EXPECT_LT(most - start, 0.1);  // [J] of 3 J of motion
+  EXPECT_LT(most - start, 0.02);  // [J] of 1.2 J of motion
 }
 
 }  // namespace

@@ -98,7 +98,8 @@ TYPED_TEST(TautRods, leave_a_light_link_at_rest) {
   const double ratio = std::min(500.0, this->kMostRatio);
   for (const SolverName solver : {SolverName::soft_step, SolverName::direct}) {
     const LineFindings found = this->watch({ratio, 0.05, 0.3, 1, false, 0}, solver, 300);
-    EXPECT_LT(found.fastest, 0.05) << kSolverNames[static_cast<int>(solver)];
+    // A step of Q16.16's places is 7 mm/s.
+    EXPECT_LT(found.fastest, pick<TypeParam>(0.05, 0.05, 0.1, 0.05)) << kSolverNames[static_cast<int>(solver)];
     EXPECT_LT(found.stretch, 0.002);
   }
 }
