@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/collision/broadphase/tree.hpp"
 #include "isostep/collision/continuous/core_motion.hpp"
 #include "isostep/collision/continuous/shape_impact.hpp"
 #include "isostep/core/instantiate.hpp"
@@ -33,9 +34,11 @@ template <class S> struct ImpactRules {
 /// Keeps:   nothing but memory.
 /// Method:  1. Dynamic bodies that move by more than half of the inner radii of their part and of the other one (which
 ///             counts as 1 m at most) are swept against static and kinematic bodies, turns included; so is what
-///             a fast kinematic body meets. Less is left to the narrow phase: it pushes solids out the way they came.
-///          2. Bullets that move by more than half their inner radius are swept against the poses that all this left of
-///             other dynamic bodies but bullets. Nobody reads what another writes, so the order is free.
+///             a fast kinematic body meets. Who moves less is pushed out the way that it came, so it is swept only if
+///             it ends deep inside of what is fixed: by more than kTooDeep.
+///          2. Bullets are swept against the motions that all this left of other dynamic bodies but bullets, if they
+///             move against each other by more than half the bullet's inner radius. What one stops goes on with it to
+///             the end of the step, up to what is fixed. Nobody reads what another writes, so the order is free.
 ///          Of all impacts of a body the earliest counts; ties go to the lowest slot, then part. What hits a kinematic
 ///          body is swept in that one's frame and goes on with it to the end of the step.
 ///          3. Mechanisms of which a body was stopped stop as a whole (continuous_joined.inl): each joint goes from how
@@ -54,22 +57,31 @@ template <class S> class ContinuousCollision {
   void update(std::span<const Pose<S>> start, std::span<const std::uint64_t> joined, const ImpactRules<S>& rules = {});
 
  private:
-  /// A fast body. Its way is that of its centre at constant speed, its turns in pieces of less than half a turn each.
-  struct Mover {
+  /// A body's way: that of its centre at constant speed, its turns in pieces of less than half a turn each.
+  struct Path {
     static constexpr std::uint32_t kMostPieces = 4;
-    std::uint32_t index;  // among the awake ones
     std::uint32_t pieces;
     Pose<S> poses[kMostPieces + 1];
-    S inner;           // [m] least inner radius of its parts
-    S reach;           // [m] no point of it is further from its centre of mass
-    S motion;          // [m] no point of it has moved further
-    Unit<S> fraction;  // [1] what it was cut to
-    Vec3<S> centre;    // [m] in its frame: what goes straight in the first piece, where it touches at the start
-    bool closely;      // swept at what is thin however little it moves
-    Pose<S> stopped;   // where it is at that fraction, if something stopped it, with what stopped it
+  };
+  /// A fast body.
+  struct Mover : Path {
+    std::uint32_t index;  // among the awake ones
+    S inner;              // [m] least inner radius of its parts
+    S reach;              // [m] no point of it is further from its centre of mass
+    S motion;             // [m] no point of it has moved further
+    Aabb<S> around;       // [m] from its centre, all of it wherever it is on its way
+    Unit<S> fraction;     // [1] what it was cut to
+    Vec3<S> centre;       // [m] in its frame: what goes straight in the first piece, where it touches at the start
+    bool closely;         // swept at what is thin however little it moves
+    Pose<S> stopped;      // where it is at that fraction, if something stopped it, with what stopped it
 
     ISO_INLINE CoreMotion<S> motion_of(std::uint32_t piece) const {
-      return {poses[piece], poses[piece + 1], piece == 0 ? centre : Vec3<S>::zero()};
+      return {this->poses[piece], this->poses[piece + 1], piece == 0 ? centre : Vec3<S>::zero()};
+    }
+    ISO_INLINE const Pose<S>& from() const { return this->poses[0]; }
+    ISO_INLINE const Pose<S>& to() const { return this->poses[this->pieces]; }
+    ISO_INLINE Aabb<S> swept() const {
+      return {min(from().position, to().position) + around.low, max(from().position, to().position) + around.high};
     }
   };
   /// Where a motion ends.
@@ -84,11 +96,20 @@ template <class S> class ContinuousCollision {
     ISO_INLINE bool is_before(Unit<S> other) const { return fraction < other || fraction_of_middle < other; }
     void add(const FreeWay<S>& way, Unit<S> all, const Pose<S>& there, bool at_rest);
   };
-  /// Where an obstacle is while a body is swept. `carrier`: where the frame is at the end, if it is a kinematic body's.
-  struct Rest {
-    Pose<S> pose;
-    const Pose<S>* carrier;
+  /// What a body is swept against, in a frame that is the world's or a kinematic body's.
+  struct Obstacle {
     std::uint32_t slot;
+    CoreMotion<S> motion;  // of the piece; its start is its end: at rest
+    S moved;               // [m] no point of it moves further, in the frame
+    S far;                 // [m] no two points of the body and of it move further against each other
+    const Pose<S>* end;    // at the end of the step, in the world: what it stops goes on with it; null: it stays
+
+    /// In the world, at the end of the step: what was at `there`, in the frame, after the fraction.
+    ISO_INLINE Pose<S> carried(const Pose<S>& there, Unit<S> fraction) const;
+  };
+  /// A part of the step as pieces count it.
+  struct Piece {
+    std::uint32_t index, count;
   };
   /// A fast kinematic body.
   struct Carrier {
@@ -104,38 +125,53 @@ template <class S> class ContinuousCollision {
   ISO_INLINE Pose<S> now(std::size_t index) const {
     return {state_.awake.states[index].centre, state_.awake.states[index].orientation};
   }
+  ISO_INLINE bool is_bullet(std::size_t index) const {
+    return (state_.awake.properties[index].flags & body_flag::kBullet) != 0;
+  }
+  static constexpr std::uint32_t kAsked = 1, kDeepInside = 2;  // of mover_of_, before there are movers
   // continuous_movers.inl
-  void find_way(Mover& mover) const;
+  Path path_of(std::size_t index) const;
   Survey survey() const;
   S thinnest_static() const;
   std::uint64_t thinnest_of_page(std::size_t page) const;
   void find_movers(const Survey& survey);
+  void mark_deep(std::span<const std::uint32_t> asked);
+  bool is_deep_in(std::uint32_t index, std::uint32_t slot, const Aabb<S>& box) const;
   bool may_move(std::size_t index) const;
   void add_if_fast(std::size_t index, S thinnest);
-  Mover measure(std::size_t index) const;
+  Mover measure(std::size_t index) const { return measure(index, path_of(index)); }
+  Mover measure(std::size_t index, const Path& path) const;
   void find_met_by_kinematic(S least);
+  void find_bullets();
+  void find_comers();
   // continuous_collision.inl
   bool may_stop(const Mover& mover, std::uint32_t slot, bool moving) const;
   bool is_let_out(const Mover& mover, std::uint32_t slot) const;
   bool is_pushed_back(const Mover& mover, std::uint32_t slot) const;
   bool are_ghosts(const Mover& mover, std::uint32_t slot) const;
   bool is_passed(const Mover& mover, const PlacedShape<S>& part, const Pose<S>& there, const PlacedShape<S>& obstacle,
-                 const Rest& rest) const;
+                 const Obstacle& body, Unit<S> fraction) const;
+  bool ends_deep(const PlacedShape<S>& part, const CoreMotion<S>& motion, const PlacedShape<S>& obstacle,
+                 const Obstacle& body) const;
   void cut(Mover& mover, bool moving);
+  void cut_bullet(Mover& mover);
+  void stop_at_what_is_fixed(std::uint32_t index, const Pose<S>& from);
   Cut first_impact(Mover& mover, bool moving);
   Pose<S> way_of(const Mover& mover, Unit<S> fraction) const;
-  Cut sweep(const Mover& mover, bool moving) const;
+  CoreMotion<S> motion_in(const Path& path, Piece piece, Vec3<S> centre) const;
+  Cut sweep(const Mover& mover) const;
   bool find_touch(Mover& mover) const;
   template <class Visit>
-  void visit_parts(const BodyProperties<S>& body, const Aabb<S>& swept, const BodyProperties<S>& other,
-                   const Pose<S>& place, const Visit& visit) const;
+  void visit_parts(const Mover& mover, const CoreMotion<S>& motion, const Obstacle& obstacle, const Visit& visit) const;
   void put_at(std::uint32_t index, const Pose<S>& pose);
   void place(std::uint32_t index);
   void stop_middle(BodyState<S>& state, const Cut& cut, bool moving) const;
   void find_obstacles(const Mover& mover, bool moving);
-  void sweep_against(const Mover& mover, std::uint32_t slot, bool moving, Cut& cut) const;
-  void sweep_piece(const Mover& mover, std::uint32_t piece, const CoreMotion<S>& motion, const BodyProperties<S>& other,
-                   const Rest& rest, Cut& cut) const;
+  void sweep_against(const Mover& mover, std::uint32_t slot, Cut& cut) const;
+  void sweep_against_moving(const Mover& mover, std::uint32_t slot, std::size_t index, Cut& cut) const;
+  void sweep_against_kinematic(const Mover& mover, std::uint32_t slot, std::size_t index, Cut& cut) const;
+  void sweep_piece(const Mover& mover, Piece piece, const CoreMotion<S>& motion, const Obstacle& obstacle,
+                   Cut& cut) const;
   // continuous_joined.inl
   using Link = typename JoinedBodies<S>::Link;
   /// The body of a mechanism that says how far all of it goes.
@@ -173,7 +209,8 @@ template <class S> class ContinuousCollision {
   ImpactRules<S> rules_;  // null: none
   std::vector<Mover> movers_;
   std::vector<Carrier> carriers_;
-  std::vector<std::uint32_t> met_;                       // by fast kinematic bodies: indices among the awake ones
+  AabbTree<S> comers_;              // who may meet a bullet where its fat box is not: boxes around their ways, by slot
+  std::vector<std::uint32_t> met_;  // by fast kinematic bodies: indices among the awake ones
   std::vector<std::uint32_t> obstacles_, sort_scratch_;  // slots, ascending
   JoinedBodies<S> joined_bodies_;
   // By index among the awake ones.

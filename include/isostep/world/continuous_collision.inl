@@ -18,6 +18,15 @@
 namespace isostep {
 
 namespace detail {
+/// [m] Who moves less is not deep inside of what was too far away for a contact as the step began.
+template <class S> inline constexpr S kDeepMotion = kSpeculativeDistance<S> + kTooDeep<S>;
+
+/// Whether a body stays where it is in the step that began with all awake ones at `start`.
+template <class S> bool is_at_rest(const WorldState<S>& state, std::span<const Pose<S>> start, Location at) {
+  if (at.set != Location::kAwake) return true;
+  const BodyState<S>& body = state.awake.states[at.index];
+  return start[at.index].position == body.centre && start[at.index].orientation == body.orientation;
+}
 /// A part of a body in the frame of its centre of mass, axes as the body's.
 template <class S>
 PlacedShape<S> placed_part(const BodyMap<S>& map, const BodyProperties<S>& body, const Child<S>& child) {
@@ -34,6 +43,14 @@ template <class S> S most_motion(const CoreMotion<S>& motion, S reach) {
   const Quat<Unit<S>> turn = motion.end.orientation * conjugate(motion.start.orientation);
   const S chord = reach * length(Vec3<Unit<S>>{turn.x, turn.y, turn.z});
   return length(motion.end.position - motion.start.position) + chord + chord;
+}
+/// Around a part wherever it is on its way, with room for what nearly touches it.
+template <class S> Aabb<S> swept_bounds(const PlacedShape<S>& part, const CoreMotion<S>& motion) {
+  const auto at = [&](const Pose<S>& pose) { return bounds(part.shape, compose(Transform<S>::of(pose), part.at)); };
+  const Aabb<S> own = bounds(part.shape, part.at);
+  const S reach = length(max(abs(own.low - motion.centre), abs(own.high - motion.centre)));
+  const S bow = min(bow_of(motion, reach), reach + reach);
+  return grown_with_slack<S>(merge(at(motion.start), at(motion.end)), bow + kSpeculativeDistance<S>);
 }
 template <class S> Aabb<S> swept_box(const CoreMotion<S>& motion, S reach) {
   const Vec3<S> all = {reach, reach, reach};
@@ -79,12 +96,21 @@ void ContinuousCollision<S>::update(std::span<const Pose<S>> start, std::span<co
   start_ = start;
   joined_ = joined;
   rules_ = {if_any(rules.ways), rules.giving_way, if_any(rules.responses), if_any(rules.ghosts)};
-  find_movers(survey());
+  const Survey found = survey();
+  find_movers(found);
   for (Mover& mover : movers_) cut(mover, false);
-  for (Mover& mover : movers_) {
-    if ((state_.awake.properties[mover.index].flags & body_flag::kBullet) != 0) cut(mover, true);
+  if (found.bullets) {
+    find_bullets();
+    for (Mover& mover : movers_) {
+      if (is_bullet(mover.index)) cut_bullet(mover);
+    }
   }
   stop_joined();
+}
+
+template <class S>
+ISO_INLINE Pose<S> ContinuousCollision<S>::Obstacle::carried(const Pose<S>& there, Unit<S> fraction) const {
+  return end == nullptr ? there : compose(*end, detail::pose_from(pose_at(motion, fraction), there));
 }
 
 /// `all`: of the whole motion, `there` in the world; `at_rest`: no kinematic body stops it.
@@ -133,17 +159,19 @@ template <class S> bool ContinuousCollision<S>::is_let_out(const Mover& mover, s
 /// that has contacts. Surfaces are solid here: what passes one leaves it.
 template <class S>
 bool ContinuousCollision<S>::is_passed(const Mover& mover, const PlacedShape<S>& part, const Pose<S>& there,
-                                       const PlacedShape<S>& obstacle, const Rest& rest) const {
+                                       const PlacedShape<S>& obstacle, const Obstacle& body, Unit<S> fraction) const {
   const std::uint32_t own = state_.awake.states[mover.index].slot;
-  const Way<S>*of_other = rules_.ways->find(rest.slot), *of_own = rules_.ways->find(own);
+  const Way<S>*of_other = rules_.ways->find(body.slot), *of_own = rules_.ways->find(own);
   if ((of_other == nullptr && of_own == nullptr) || is_surface(obstacle.shape.primitive.type)) return false;
-  if (!detail::contacts_of<S>(state_.contacts, min(own, rest.slot), max(own, rest.slot)).empty()) return false;
+  if (!detail::contacts_of<S>(state_.contacts, min(own, body.slot), max(own, body.slot)).empty()) return false;
+  const Pose<S> met = pose_at(body.motion, fraction);
   Manifold<S> manifold;
   collide<S>(part.shape, compose(Transform<S>::of(there), part.at), obstacle.shape,
-             compose(Transform<S>::of(rest.pose), obstacle.at), detail::kSpeculativeDistance<S>, manifold);
+             compose(Transform<S>::of(met), obstacle.at), detail::kSpeculativeDistance<S>, manifold);
   if (manifold.count == 0) return false;
   const Vec3<Unit<S>> normal =
-      rest.carrier == nullptr ? manifold.normal : to_matrix(rest.carrier->orientation) * manifold.normal;
+      body.end == nullptr ? manifold.normal
+                          : to_matrix(normalise(body.end->orientation * conjugate(met.orientation))) * manifold.normal;
   const auto passes = [](const Way<S>* way, Vec3<Unit<S>> outward) {
     return way != nullptr && dot(outward, way->axis) < way->least_cosine;
   };
@@ -168,16 +196,22 @@ template <class S> bool ContinuousCollision<S>::is_pushed_back(const Mover& move
 
 /// The tree shows no less; what it shows beyond depends on its past, so the box alone decides.
 template <class S> void ContinuousCollision<S>::find_obstacles(const Mover& mover, bool moving) {
-  const Pose<S> from = start_[mover.index];
-  const Vec3<S> reach = {mover.reach, mover.reach, mover.reach};
-  const Sweep<S> sweep = {from.position, now(mover.index).position - from.position, reach, Unit<S>(1)};
+  const Vec3<S> from = mover.from().position, way = mover.to().position - from;
+  const Vec3<S> middle = (mover.around.low + mover.around.high) * S(0.5), half = mover.around.high - middle;
+  const Sweep<S> sweep = {from + middle, way, half, Unit<S>(1)};
   obstacles_.clear();
   proxies_.boxes().sweep(sweep, [&](std::uint32_t slot, Unit<S> max_fraction) {
     const Aabb<S>& fat = map_.state_at(map_.location(slot)).fat;
     if (may_stop(mover, slot, moving) && detail::SweepTest<S>(sweep, fat).touches(fat)) obstacles_.push_back(slot);
     return max_fraction;
   });
-  const Aabb<S> swept = detail::swept_box<S>({from, now(mover.index), Vec3<S>::zero()}, mover.reach);
+  const Aabb<S> swept = mover.swept();
+  if (moving) {
+    comers_.query(swept, [&](std::uint32_t slot) {
+      if (may_stop(mover, slot, moving)) obstacles_.push_back(slot);
+      return true;
+    });
+  }
   for (const Carrier& carrier : carriers_) {  // wherever they are by now
     if (overlap(carrier.swept, swept) && may_stop(mover, carrier.slot, moving)) obstacles_.push_back(carrier.slot);
   }
@@ -185,75 +219,119 @@ template <class S> void ContinuousCollision<S>::find_obstacles(const Mover& move
   stable_sort(obstacles_.data(), sort_scratch_.data(), static_cast<std::uint32_t>(obstacles_.size()), OwnKey{});
 }
 
-/// What hits a kinematic body is seen from it, in its frame; `place` is that frame at the end.
-template <class S>
-void ContinuousCollision<S>::sweep_against(const Mover& mover, std::uint32_t slot, bool moving, Cut& cut) const {
+template <class S> void ContinuousCollision<S>::sweep_against(const Mover& mover, std::uint32_t slot, Cut& cut) const {
   const Location at = map_.location(slot);
-  const BodyProperties<S>& other = map_.properties_at(at);
-  const Pose<S> place = map_.centre_pose_at(slot);
-  if (moving || at.set != Location::kAwake) {
-    for (std::uint32_t i = 0; i < mover.pieces; ++i)
-      sweep_piece(mover, i, mover.motion_of(i), other, {place, nullptr, slot}, cut);
+  if (!detail::is_at_rest(state_, start_, at)) {
+    if (state_.awake.properties[at.index].type == BodyType::dynamic) sweep_against_moving(mover, slot, at.index, cut);
+    else sweep_against_kinematic(mover, slot, at.index, cut);
     return;
   }
-  const CoreMotion<S> of_other = {start_[at.index], place, Vec3<S>::zero()};
+  const Pose<S> place = map_.centre_pose_at(slot);
+  const Obstacle at_rest = {slot, {place, place, Vec3<S>::zero()}, S(0), mover.motion, nullptr};
+  for (std::uint32_t i = 0; i < mover.pieces; ++i)
+    sweep_piece(mover, {i, mover.pieces}, mover.motion_of(i), at_rest, cut);
+}
+/// What goes on a path that had to be divided is told where it is between the ends; both get as many pieces.
+template <class S>
+void ContinuousCollision<S>::sweep_against_moving(const Mover& mover, std::uint32_t slot, std::size_t index,
+                                                  Cut& cut) const {
+  const Path path = path_of(index);
+  const Pose<S> end = now(index);
+  const Vec3<S> sides = state_.awake.states[index].fat.high - state_.awake.states[index].fat.low;
+  Obstacle obstacle = {slot, {}, S(0), S(0), &end};
+  for (std::uint32_t i = 0; i < path.pieces; ++i)
+    obstacle.moved += detail::most_motion<S>({path.poses[i], path.poses[i + 1], Vec3<S>::zero()}, length(sides));
+  obstacle.far = mover.motion + obstacle.moved;
+  const std::uint32_t pieces = max(mover.pieces, path.pieces);
+  for (std::uint32_t i = 0; i < pieces; ++i) {
+    obstacle.motion = motion_in(path, {i, pieces}, Vec3<S>::zero());
+    sweep_piece(mover, {i, pieces}, motion_in(mover, {i, pieces}, mover.centre), obstacle, cut);
+  }
+}
+/// What hits a kinematic body is seen from it, in its frame.
+template <class S>
+void ContinuousCollision<S>::sweep_against_kinematic(const Mover& mover, std::uint32_t slot, std::size_t index,
+                                                     Cut& cut) const {
+  const Pose<S> place = now(index), here = Pose<S>::identity();
+  const CoreMotion<S> of_other = {start_[index], place, Vec3<S>::zero()};
+  Obstacle obstacle = {slot, {here, here, Vec3<S>::zero()}, S(0), S(0), &place};
   Pose<S> from = detail::pose_from(of_other.start, mover.poses[0]);
   for (std::uint32_t i = 0; i < mover.pieces; ++i) {
     const Unit<S> fraction = detail::share_of<S>(i + 1, mover.pieces);
     const Pose<S> to = detail::pose_from(pose_at(of_other, fraction), mover.poses[i + 1]);
-    sweep_piece(mover, i, {from, to, mover.motion_of(i).centre}, other, {Pose<S>::identity(), &place, slot}, cut);
+    const CoreMotion<S> motion = {from, to, mover.motion_of(i).centre};
+    obstacle.far = detail::most_motion(motion, mover.reach);
+    sweep_piece(mover, {i, mover.pieces}, motion, obstacle, cut);
     from = to;
   }
 }
-/// visit(part, obstacle) for the parts of both bodies whose boxes meet: of the one all that is within `swept`.
+/// visit(part, part of the obstacle) where the boxes around their ways meet.
 template <class S>
 template <class Visit>
-void ContinuousCollision<S>::visit_parts(const BodyProperties<S>& body, const Aabb<S>& swept,
-                                         const BodyProperties<S>& other, const Pose<S>& place,
+void ContinuousCollision<S>::visit_parts(const Mover& mover, const CoreMotion<S>& motion, const Obstacle& obstacle,
                                          const Visit& visit) const {
-  const std::span<const Child<S>> children = map_.children_of(body.shape), obstacles = map_.children_of(other.shape);
-  const Transform<S> frame = Transform<S>::of(place);
-  const auto visit_one = [&](const Child<S>& child_of_other) {
-    const PlacedShape<S> obstacle = detail::placed_part(map_, other, child_of_other);
-    if (!overlap(swept, bounds(obstacle.shape, compose(frame, obstacle.at)))) return true;
-    for (const Child<S>& child : children) visit(detail::placed_part(map_, body, child), obstacle);
-    return true;
-  };
-  const ChildTree<S>* const tree = map_.tree_of(other.shape);
-  if (tree == nullptr) {
-    for (const Child<S>& obstacle : obstacles) visit_one(obstacle);
-    return;
-  }
-  const Transform<S> origin = {frame.position - frame.rotation * other.local_centre, frame.rotation};
-  tree->query(origin, swept, [&](std::uint32_t i) { return visit_one(obstacles[i]); });
-}
-
-template <class S>
-void ContinuousCollision<S>::sweep_piece(const Mover& mover, std::uint32_t piece, const CoreMotion<S>& motion,
-                                         const BodyProperties<S>& other, const Rest& rest, Cut& cut) const {
-  using U = Unit<S>;
   const BodyProperties<S>& body = state_.awake.properties[mover.index];
-  const bool moving = other.type == BodyType::dynamic;
-  const S far = rest.carrier == nullptr ? mover.motion : detail::most_motion(motion, mover.reach);
-  const auto sweep_parts = [&](const PlacedShape<S>& part, const PlacedShape<S>& obstacle) {
-    const S inner = thickness<S>(part.shape), thick = moving ? S(0) : thickness<S>(obstacle.shape);
-    const bool closely = mover.closely && thick * S(0.5) < inner;
-    if (!closely && far < (inner + thick) * S(0.5)) return;
-    const FreeWay<S> way = free_way(part, motion, obstacle, rest.pose);
-    if (way.fraction == U(1)) return;
-    const U all = detail::share_of<S>(piece, mover.pieces) + way.fraction * detail::share_of<S>(1, mover.pieces);
-    const Pose<S> there = pose_at(motion, way.fraction);
-    if (rules_.ways != nullptr && is_passed(mover, part, there, obstacle, rest)) return;
-    cut.add(way, all, rest.carrier == nullptr ? there : compose(*rest.carrier, there), rest.carrier == nullptr);
-  };
-  visit_parts(body, detail::swept_box(motion, mover.reach), other, rest.pose, sweep_parts);
+  const BodyProperties<S>& other = map_.properties_at(map_.location(obstacle.slot));
+  const std::span<const Child<S>> parts_of_other = map_.children_of(other.shape);
+  const ChildTree<S>* const tree = map_.tree_of(other.shape);
+  const Transform<S> frame = Transform<S>::of(obstacle.motion.start);
+  for (const Child<S>& child : map_.children_of(body.shape)) {
+    const PlacedShape<S> part = detail::placed_part(map_, body, child);
+    const Aabb<S> swept = detail::swept_bounds(part, motion);
+    const auto visit_one = [&](const Child<S>& child_of_other) {
+      const PlacedShape<S> met = detail::placed_part(map_, other, child_of_other);
+      const bool moves = S(0) < obstacle.moved;
+      if (overlap(swept,
+                  moves ? detail::swept_bounds(met, obstacle.motion) : bounds(met.shape, compose(frame, met.at))))
+        visit(part, met);
+    };
+    if (tree == nullptr) {
+      for (const Child<S>& child_of_other : parts_of_other) visit_one(child_of_other);
+      continue;
+    }
+    const Transform<S> origin = {frame.position - frame.rotation * other.local_centre, frame.rotation};
+    tree->query(origin, grow(swept, obstacle.moved), [&](std::uint32_t i) {
+      visit_one(parts_of_other[i]);
+      return true;
+    });
+  }
+}
+
+/// Who is deep somewhere is so by a box that is as much smaller.
+template <class S>
+bool ContinuousCollision<S>::ends_deep(const PlacedShape<S>& part, const CoreMotion<S>& motion,
+                                       const PlacedShape<S>& obstacle, const Obstacle& body) const {
+  const S deep = min(thickness<S>(part.shape) * S(0.5), detail::kTooDeep<S>);
+  const Aabb<S> box = bounds(part.shape, compose(Transform<S>::of(motion.end), part.at));
+  const Aabb<S> other = bounds(obstacle.shape, compose(Transform<S>::of(body.motion.end), obstacle.at));
+  return overlap(grow(box, -deep), other) && is_deep(part, motion.end, obstacle, body.motion.end);
 }
 
 template <class S>
-typename ContinuousCollision<S>::Cut ContinuousCollision<S>::sweep(const Mover& mover, bool moving) const {
+void ContinuousCollision<S>::sweep_piece(const Mover& mover, Piece piece, const CoreMotion<S>& motion,
+                                         const Obstacle& obstacle, Cut& cut) const {
+  using U = Unit<S>;
+  const bool moving = map_.properties_at(map_.location(obstacle.slot)).type == BodyType::dynamic;
+  const auto sweep_parts = [&](const PlacedShape<S>& part, const PlacedShape<S>& met) {
+    const S inner = thickness<S>(part.shape), thick = moving ? S(0) : thickness<S>(met.shape);
+    const bool closely = mover.closely && thick * S(0.5) < inner;
+    if (!closely && obstacle.far < (inner + thick) * S(0.5)) {  // it would be pushed out the way that it came
+      if (moving || obstacle.far < detail::kDeepMotion<S> || !ends_deep(part, motion, met, obstacle)) return;
+    }
+    const FreeWay<S> way = free_way(part, motion, met, obstacle.motion);
+    if (way.fraction == U(1)) return;
+    const U all = detail::share_of<S>(piece.index, piece.count) + way.fraction * detail::share_of<S>(1, piece.count);
+    const Pose<S> there = pose_at(motion, way.fraction);
+    if (rules_.ways != nullptr && is_passed(mover, part, there, met, obstacle, way.fraction)) return;
+    cut.add(way, all, obstacle.carried(there, way.fraction), obstacle.end == nullptr);
+  };
+  visit_parts(mover, motion, obstacle, sweep_parts);
+}
+
+template <class S> typename ContinuousCollision<S>::Cut ContinuousCollision<S>::sweep(const Mover& mover) const {
   Cut cut = {mover.fraction, now(mover.index), mover.fraction, {}, {}, {}};
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    if (i == 0 || obstacles_[i] != obstacles_[i - 1]) sweep_against(mover, obstacles_[i], moving, cut);
+    if (i == 0 || obstacles_[i] != obstacles_[i - 1]) sweep_against(mover, obstacles_[i], cut);
   }
   return cut;
 }
@@ -261,11 +339,11 @@ typename ContinuousCollision<S>::Cut ContinuousCollision<S>::sweep(const Mover& 
 /// The first obstacle at rest that the body touches at the start says where: by slots, children and triangles.
 template <class S> bool ContinuousCollision<S>::find_touch(Mover& mover) const {
   const CoreMotion<S> motion = mover.motion_of(0);
-  const Vec3<S> reach = {mover.reach, mover.reach, mover.reach};
+  const CoreMotion<S> still = {motion.start, motion.start, Vec3<S>::zero()};
   bool found = false;
   for (std::size_t i = 0; i < obstacles_.size() && !found; ++i) {
     const Location at = map_.location(obstacles_[i]);
-    if (at.set == Location::kAwake) continue;
+    if (!detail::is_at_rest(state_, start_, at)) continue;
     const Pose<S> place = map_.centre_pose_at(obstacles_[i]);
     const auto look = [&](const PlacedShape<S>& part, const PlacedShape<S>& obstacle) {
       Vec3<S> on_body;
@@ -273,8 +351,7 @@ template <class S> bool ContinuousCollision<S>::find_touch(Mover& mover) const {
       mover.centre = transposed_times(to_matrix(motion.start.orientation), on_body - motion.start.position);
       found = true;
     };
-    visit_parts(state_.awake.properties[mover.index], Aabb<S>::around(motion.start.position, reach),
-                map_.properties_at(at), place, look);
+    visit_parts(mover, still, {obstacles_[i], {place, place, Vec3<S>::zero()}, S(0), S(0), nullptr}, look);
   }
   return found;
 }
@@ -285,9 +362,9 @@ template <class S> bool ContinuousCollision<S>::find_touch(Mover& mover) const {
 template <class S>
 typename ContinuousCollision<S>::Cut ContinuousCollision<S>::first_impact(Mover& mover, bool moving) {
   find_obstacles(mover, moving);
-  const Cut cut = sweep(mover, moving);
+  const Cut cut = sweep(mover);
   if (!cut.is_before(mover.fraction) || moving || !find_touch(mover)) return cut;
-  return sweep(mover, moving);
+  return sweep(mover);
 }
 /// The pose after a fraction of the step.
 template <class S> Pose<S> ContinuousCollision<S>::way_of(const Mover& mover, Unit<S> fraction) const {
@@ -297,6 +374,31 @@ template <class S> Pose<S> ContinuousCollision<S>::way_of(const Mover& mover, Un
   for (std::uint32_t parts = 1; parts < mover.pieces; parts += parts) of_piece = of_piece + of_piece;
   return pose_at(mover.motion_of(piece), of_piece);
 }
+/// A piece of a path, which has one piece or as many.
+template <class S>
+CoreMotion<S> ContinuousCollision<S>::motion_in(const Path& path, Piece piece, Vec3<S> centre) const {
+  const Vec3<S> turning = piece.index == 0 || path.pieces == 1 ? centre : Vec3<S>::zero();
+  if (path.pieces == piece.count) return {path.poses[piece.index], path.poses[piece.index + 1], turning};
+  const CoreMotion<S> whole = {path.poses[0], path.poses[1], turning};
+  return {pose_at(whole, detail::share_of<S>(piece.index, piece.count)),
+          pose_at(whole, detail::share_of<S>(piece.index + 1, piece.count)), turning};
+}
+
+/// A bullet that what is fixed has stopped goes on from there to where it was stopped; what comes still meets it.
+template <class S> void ContinuousCollision<S>::cut_bullet(Mover& mover) {
+  Mover bullet = mover.fraction == Unit<S>(1) ? mover : measure(mover.index);
+  cut(bullet, true);
+  if (bullet.fraction == Unit<S>(1)) return;
+  stop_at_what_is_fixed(mover.index, way_of(bullet, bullet.fraction));
+  mover.fraction = mover.fraction * bullet.fraction;
+  mover.stopped = now(mover.index);
+}
+/// On the way on which what stopped a body carries it to the end of the step.
+template <class S> void ContinuousCollision<S>::stop_at_what_is_fixed(std::uint32_t index, const Pose<S>& from) {
+  Mover carried = measure(index, {1, {from, now(index)}});
+  if (detail::kDeepMotion<S> < carried.motion) cut(carried, false);
+}
+
 template <class S> void ContinuousCollision<S>::cut(Mover& mover, bool moving) {
   const Cut cut = first_impact(mover, moving);
   if (!cut.is_before(mover.fraction)) return;

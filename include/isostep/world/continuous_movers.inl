@@ -7,6 +7,31 @@
 namespace isostep {
 
 namespace detail {
+/// Around a body, exactly if it has few parts; else its fat box, which needs no look at them.
+template <class S> Aabb<S> box_of_few(const BodyMap<S>& map, const BodyState<S>& state, const BodyProperties<S>& body) {
+  if (map.tree_of(body.shape) != nullptr) return state.fat;
+  const Transform<S> origin = Transform<S>::of(BodyMap<S>::origin_pose(state, body));
+  return bounds(map.children_of(body.shape), origin, map.contents());
+}
+
+/// Bodies no point of which moves by `motion` [m]. Most are, and a few comparisons tell: neither has the centre moved by
+/// three quarters of it nor do its ends turn by a quarter.
+template <class S> class SlowBodies {
+ public:
+  ISO_INLINE SlowBodies(S motion, std::int32_t hz)
+      : squared_(product(motion * S(0.75), motion * S(0.75))), turning_(product(motion * S(hz), S(0.25))) {}
+  ISO_INLINE bool contain(const BodyState<S>& state, const Pose<S>& start) const {
+    const Vec3<S> moved = state.centre - start.position;
+    const Vec3<S> sides = state.fat.high - state.fat.low;  // together longer than from the centre to any point
+    const auto w = abs(state.angular_velocity);
+    const auto turned = product(convert<S>(w.x + w.y + w.z), sides.x + sides.y + sides.z);
+    return dot_sum(moved, moved) < squared_ && turned < turning_;
+  }
+
+ private:
+  Sum<S> squared_, turning_;
+};
+
 /// A number that is not negative, as what Remembered keeps.
 template <class S> ISO_INLINE std::uint64_t number_to_keep(S a) { return std::uint64_t{to_bits(a)} + 1; }
 template <class S> ISO_INLINE S number_kept(std::uint64_t kept) {
@@ -45,34 +70,115 @@ template <class S> typename ContinuousCollision<S>::Survey ContinuousCollision<S
   return found;
 }
 
-/// Most bodies are slow, and a few comparisons tell: neither has the centre moved by three quarters of the least motion
-/// that counts nor do its ends turn by a quarter of it.
 template <class S> void ContinuousCollision<S>::find_movers(const Survey& survey) {
   movers_.clear();
   carriers_.clear();
   const S thinnest = survey.bullets ? S(0) : survey.thinnest;
   if (detail::kThick<S> < thinnest) return;  // nothing stops anybody
-  const S least = (map_.least_thickness() + thinnest) * S(0.5);
-  const S way = least * S(0.75);
-  const auto squared = product(way, way), turning = product(least * S(state_.settings.hz), S(0.25));
+  const S fast = (map_.least_thickness() + thinnest) * S(0.5);
+  const bool is_fixed = !(detail::kThick<S> < survey.thinnest);  // something is
+  const S deep = is_fixed ? min(fast, detail::kDeepMotion<S>) : fast;
+  const detail::SlowBodies<S> are_slow(fast, state_.settings.hz), are_shallow(deep, state_.settings.hz);
   const std::span<const BodyState<S>> states = state_.awake.states;
   const std::span<const Pose<S>> start = start_;
+  met_.clear();
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const BodyState<S>& state = states[i];
-    const Vec3<S> moved = state.centre - start[i].position;
-    const Vec3<S> sides = state.fat.high - state.fat.low;  // together longer than from the centre to any point
-    const auto w = abs(state.angular_velocity);
-    const auto turned = product(convert<S>(w.x + w.y + w.z), sides.x + sides.y + sides.z);
-    if (dot_sum(moved, moved) < squared && turned < turning) continue;
-    if (may_move(i)) add_if_fast(i, survey.thinnest);
+    if (!are_shallow.contain(states[i], start[i]) && may_move(i)) met_.push_back(static_cast<std::uint32_t>(i));
   }
-  if (survey.kinematic) find_met_by_kinematic(least);
+  if (is_fixed) mark_deep(met_);
+  for (const std::uint32_t i : met_) {
+    if (is_fixed && mover_of_[i] == kDeepInside) movers_.push_back(measure(i));
+    else if (!are_slow.contain(states[i], start[i])) add_if_fast(i, survey.thinnest);
+  }
+  if (survey.kinematic) find_met_by_kinematic(fast);
+}
+
+/// Marks, in mover_of_, those of the awake bodies `asked` that end deep inside of something fixed. Whichever are fewer
+/// look for the others: a floor for a thousand that fall, one that falls for the walls of a town.
+template <class S> void ContinuousCollision<S>::mark_deep(std::span<const std::uint32_t> asked) {
+  if (asked.empty()) return;
+  mover_of_.assign(state_.awake.states.size(), 0);
+  for (const std::uint32_t i : asked) mover_of_[i] = kAsked;
+  const auto is_fixed = [](const BodyProperties<S>& body) { return body.type != BodyType::dynamic; };
+  const auto look_around = [&](const BodySet<S>& bodies) {
+    for (std::size_t k = 0; k < bodies.states.size(); ++k) {
+      if (!is_fixed(bodies.properties[k])) continue;
+      const std::uint32_t slot = bodies.states[k].slot;
+      const Aabb<S> box = detail::box_of_few(map_, bodies.states[k], bodies.properties[k]);
+      proxies_.boxes().query(box, [&](std::uint32_t other) {
+        const Location at = map_.location(other);
+        if (at.set == Location::kAwake && mover_of_[at.index] == kAsked && is_deep_in(at.index, slot, box))
+          mover_of_[at.index] = kDeepInside;
+        return true;
+      });
+    }
+  };
+  std::size_t others = state_.static_bodies->states.size();
+  for (const auto& island : state_.sleeping) others += island->bodies.states.size();
+  if (others * 4 < asked.size()) {
+    look_around(*state_.static_bodies);
+    look_around(state_.awake);
+    for (const auto& island : state_.sleeping) look_around(island->bodies);
+    return;
+  }
+  for (const std::uint32_t i : asked) {
+    proxies_.boxes().query(state_.awake.states[i].fat, [&](std::uint32_t slot) {
+      const Location at = map_.location(slot);
+      if (is_fixed(map_.properties_at(at)) && is_deep_in(i, slot, map_.state_at(at).fat)) mover_of_[i] = kDeepInside;
+      return mover_of_[i] == kAsked;
+    });
+  }
+}
+/// Whether an awake body overlaps one that is fixed, with all of it inside of `box`, by more than kTooDeep.
+template <class S>
+bool ContinuousCollision<S>::is_deep_in(std::uint32_t index, std::uint32_t slot, const Aabb<S>& box) const {
+  const BodyProperties<S>& body = state_.awake.properties[index];
+  const Transform<S> origin = Transform<S>::of(BodyMap<S>::origin_pose(state_.awake.states[index], body));
+  const S deep = min(thinnest_of(body.shape) * S(0.5), detail::kTooDeep<S>);
+  if (!overlap(grow(bounds(map_.children_of(body.shape), origin, map_.contents()), -deep), box)) return false;
+  Mover mover = {};
+  mover.index = index;
+  if (!may_stop(mover, slot, false)) return false;
+  const Pose<S> end = now(index), place = map_.centre_pose_at(slot);
+  const CoreMotion<S> still = {end, end, Vec3<S>::zero()};
+  const Obstacle obstacle = {slot, {place, place, Vec3<S>::zero()}, S(0), S(0), nullptr};
+  bool found = false;
+  visit_parts(mover, still, obstacle, [&](const PlacedShape<S>& part, const PlacedShape<S>& met) {
+    found = found || ends_deep(part, still, met, obstacle);
+  });
+  return found;
 }
 
 template <class S> void ContinuousCollision<S>::add_if_fast(std::size_t index, S thinnest) {
   const Mover mover = measure(index);
-  const bool bullet = (state_.awake.properties[index].flags & body_flag::kBullet) != 0;
-  if ((mover.inner + (bullet ? S(0) : thinnest)) * S(0.5) < mover.motion) movers_.push_back(mover);
+  if ((mover.inner + (is_bullet(index) ? S(0) : thinnest)) * S(0.5) < mover.motion) movers_.push_back(mover);
+}
+
+/// Slow bullets are swept too, against what comes towards them.
+template <class S> void ContinuousCollision<S>::find_bullets() {
+  mover_of_.assign(state_.awake.states.size(), 0);
+  for (std::size_t i = 0; i < movers_.size(); ++i) mover_of_[movers_[i].index] = static_cast<std::uint32_t>(i + 1);
+  find_comers();
+  if (comers_.size() == 0) return;
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    if (!is_bullet(i) || mover_of_[i] != 0 || !may_move(i)) continue;
+    const Mover bullet = measure(i);
+    bool met = false;
+    comers_.query(bullet.swept(), [&](std::uint32_t) { return !(met = true); });
+    if (met) movers_.push_back(bullet);
+  }
+}
+/// Dynamic bodies that were, in this step, where their fat box is not: it is left behind by what moves further than its
+/// margin, and is that of another pose where a body was put back.
+template <class S> void ContinuousCollision<S>::find_comers() {
+  comers_.clear();
+  const detail::SlowBodies<S> are_slow(detail::kFatMargin<S>, state_.settings.hz);
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    const bool is_put_back = mover_of_[i] != 0 && movers_[mover_of_[i] - 1].fraction < Unit<S>(1);
+    if (!is_put_back && are_slow.contain(state_.awake.states[i], start_[i])) continue;
+    if (may_move(i) && !is_bullet(i)) comers_.stage(state_.awake.states[i].slot, measure(i).swept());
+  }
+  comers_.rebuild();
 }
 
 /// Those in the way of a kinematic body move as it sees them.
@@ -80,12 +186,11 @@ template <class S> void ContinuousCollision<S>::find_met_by_kinematic(S least) {
   met_.clear();
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
     const BodyProperties<S>& body = state_.awake.properties[i];
-    const bool rests = start_[i].position == now(i).position && start_[i].orientation == now(i).orientation;
-    if (body.type != BodyType::kinematic || rests) continue;
+    const Location at = {Location::kAwake, static_cast<std::uint32_t>(i)};
+    if (body.type != BodyType::kinematic || detail::is_at_rest(state_, start_, at)) continue;
     const Mover carrier = measure(i);
     if (carrier.motion < least) continue;
-    const CoreMotion<S> motion = {start_[i], now(i), Vec3<S>::zero()};
-    carriers_.push_back({state_.awake.states[i].slot, detail::swept_box(motion, carrier.reach)});
+    carriers_.push_back({state_.awake.states[i].slot, carrier.swept()});
     proxies_.boxes().query(carriers_.back().swept, [&](std::uint32_t slot) {
       const Location at = map_.location(slot);
       if (at.set == Location::kAwake && may_move(at.index)) met_.push_back(at.index);
@@ -107,36 +212,42 @@ template <class S> bool ContinuousCollision<S>::may_move(std::size_t index) cons
   const BodyProperties<S>& body = state_.awake.properties[index];
   return body.type == BodyType::dynamic && (body.flags & kFlags) == body_flag::kCollide;
 }
-template <class S> typename ContinuousCollision<S>::Mover ContinuousCollision<S>::measure(std::size_t index) const {
+template <class S>
+typename ContinuousCollision<S>::Mover ContinuousCollision<S>::measure(std::size_t index, const Path& path) const {
   const BodyProperties<S>& body = state_.awake.properties[index];
   Mover mover = {};
+  static_cast<Path&>(mover) = path;
   mover.index = static_cast<std::uint32_t>(index);
   mover.fraction = Unit<S>(1);
+  mover.stopped = mover.to();
   mover.inner = detail::kThick<S>;
+  const Transform<S> turned[] = {{Vec3<S>::zero(), to_matrix(mover.from().orientation)},
+                                 {Vec3<S>::zero(), to_matrix(mover.to().orientation)}};
   for (const Child<S>& child : map_.children_of(body.shape)) {
     const PlacedShape<S> part = detail::placed_part(map_, body, child);
     const Aabb<S> box = bounds(part.shape, part.at);
     mover.inner = min(mover.inner, thickness<S>(part.shape));
     mover.reach = max(mover.reach, length(max(abs(box.low), abs(box.high))));
+    for (const Transform<S>& t : turned) mover.around = merge(mover.around, bounds(part.shape, compose(t, part.at)));
   }
-  find_way(mover);
-  for (std::uint32_t i = 0; i < mover.pieces; ++i)
-    mover.motion += detail::most_motion<S>({mover.poses[i], mover.poses[i + 1], Vec3<S>::zero()}, mover.reach);
+  const Vec3<S> all = {mover.reach, mover.reach, mover.reach};
+  if (mover.pieces > 1) mover.around = Aabb<S>::around(Vec3<S>::zero(), all);
+  const S bow = min(detail::bow_of(mover.motion_of(0), mover.reach), mover.reach);
+  mover.around = grow(mover.around, bow + bow + detail::kFatMargin<S>);
+  for (std::uint32_t i = 0; i < mover.pieces; ++i) mover.motion += detail::most_motion(mover.motion_of(i), mover.reach);
   return mover;
 }
 
 /// Two orientations do not tell a turn of more than half of one: the angular velocity does, where it leads from the
 /// first to the second.
-template <class S> void ContinuousCollision<S>::find_way(Mover& mover) const {
+template <class S> typename ContinuousCollision<S>::Path ContinuousCollision<S>::path_of(std::size_t index) const {
   using U = Unit<S>;
-  constexpr std::uint32_t kPieces = Mover::kMostPieces;
-  const Pose<S> from = start_[mover.index], to = now(mover.index);
-  const auto spin = heading_of(convert<S>(state_.awake.states[mover.index].angular_velocity));
+  constexpr std::uint32_t kPieces = Path::kMostPieces;
+  const Pose<S> from = start_[index], to = now(index);
+  const auto spin = heading_of(convert<S>(state_.awake.states[index].angular_velocity));
   const S turn = spin.length / S(state_.settings.hz);
-  mover.pieces = 1;
-  mover.poses[0] = from;
-  mover.poses[1] = mover.stopped = to;
-  if (turn < S(2)) return;
+  Path path = {1, {from, to}};
+  if (turn < S(2)) return path;
   Quat<U> turned[kPieces + 1];
   for (std::uint32_t i = 1; i <= kPieces; ++i) {
     const SinCos<U> half = sin_cos_to<U>(turn * detail::share_of<S>(i, kPieces) * U(0.5));
@@ -144,12 +255,13 @@ template <class S> void ContinuousCollision<S>::find_way(Mover& mover) const {
     turned[i] = normalise(Quat<U>{axis.x, axis.y, axis.z, half.cos} * from.orientation);
   }
   const Quat<U> error = turned[kPieces] * conjugate(to.orientation);
-  if (abs(error.w) < U(0.875)) return;
-  mover.pieces = kPieces;
+  if (abs(error.w) < U(0.875)) return path;
+  path.pieces = kPieces;
   const Vec3<S> way = to.position - from.position;
   for (std::uint32_t i = 1; i < kPieces; ++i)
-    mover.poses[i] = {from.position + way * detail::share_of<S>(i, kPieces), turned[i]};
-  mover.poses[kPieces] = to;
+    path.poses[i] = {from.position + way * detail::share_of<S>(i, kPieces), turned[i]};
+  path.poses[kPieces] = to;
+  return path;
 }
 
 }  // namespace isostep

@@ -71,16 +71,28 @@ TYPED_TEST(ContinuousCollisions, of_two_walls_the_first_one_counts) {
 
 TYPED_TEST(ContinuousCollisions, slow_bodies_are_left_alone) {
   const BodyId ball = (this->add_wall(), this->add_ball_at({-0.1875, 0, 0}));
-  this->move(ball, {-0.1875 + 0.0625, 0, 0});  // less than half of 0.125 + 0.03125
+  this->move(ball, {-0.1875 + 0.02, 0, 0});  // a contact would have seen it coming
   this->update();
-  EXPECT_EQ(this->place(ball).x, -0.125);
+  EXPECT_NEAR(this->place(ball).x, -0.1675, 1e-4);
 }
 
-TYPED_TEST(ContinuousCollisions, what_ends_inside_of_something_thick_is_left_to_the_narrow_phase) {
+TYPED_TEST(ContinuousCollisions, what_ends_deep_inside_of_something_thick_is_put_back_to_its_surface) {
+  for (const double end : {-1.0625, -0.96875}) {
+    const BodyId ball = (this->add_wall(1), this->add_ball_at({-1.25, 0, 0}));
+    this->systems.reset();
+    this->start.clear();
+    this->move(ball, {end, 0, 0});
+    this->update();
+    EXPECT_NEAR(this->place(ball).x, -1.125, this->kNear);
+  }
+}
+
+TYPED_TEST(ContinuousCollisions, what_touches_something_thick_is_left_to_contacts) {
   const BodyId ball = (this->add_wall(1), this->add_ball_at({-1.25, 0, 0}));
-  this->move(ball, {-0.96875, 0, 0});
+  this->move(ball, {-1.12, 1, 0});
   this->update();
-  EXPECT_EQ(this->place(ball).x, -0.96875);
+  EXPECT_NEAR(this->place(ball).x, -1.12, 1e-4);
+  EXPECT_EQ(this->place(ball).y, 1);
 }
 
 TYPED_TEST(ContinuousCollisions, half_spaces_are_not_passed) {
@@ -181,6 +193,33 @@ TYPED_TEST(ContinuousCollisions, bullets_do_not_pass_what_moves_and_others_do) {
   this->update();
   EXPECT_EQ(this->place(ball).x, 2);
   EXPECT_NEAR(this->place(bullet).x, 0.0625 - 0.03125 - 0.125, this->kNear) << "the plate is where the step left it";
+}
+
+TYPED_TEST(ContinuousCollisions, a_bullet_that_rests_goes_along_with_what_would_pass_over_it) {
+  using S = TypeParam;
+  const BodyId plate = this->world.create(moving<S>(add_box(this->world, 0.03125, 2, 2), {1, 0, 0}));
+  BodyDefinition<S> d = moving<S>(add_ball(this->world, 0.125), {0, 0, 0});
+  d.bullet = true;
+  const BodyId bullet = this->world.create(d);
+  d.bullet = false;
+  d.position = vec<S>(0, 0, 1);
+  const BodyId ball = this->world.create(d);
+  this->move(plate, {-1, 0, 0});
+  this->update();
+  EXPECT_NEAR(this->place(bullet).x, -1 - 0.03125 - 0.125, this->kNear);
+  EXPECT_EQ(this->place(ball).x, 0);
+}
+
+TYPED_TEST(ContinuousCollisions, two_that_would_change_places_meet) {
+  using S = TypeParam;
+  const BodyId cube = this->world.create(moving<S>(add_box(this->world, 0.5, 0.5, 0.5), {1, 0, 0}));
+  BodyDefinition<S> d = moving<S>(add_ball(this->world, 0.125), {-1, 0, 0});
+  d.bullet = true;
+  const BodyId bullet = this->world.create(d);
+  this->move(cube, {-1.5, 0, 0});
+  this->move(bullet, {1.5, 0, 0});
+  this->update();
+  EXPECT_NEAR(this->place(bullet).x, -1.5 - 0.5 - 0.125, this->kNear);
 }
 
 TYPED_TEST(ContinuousCollisions, every_pair_of_solids_stops) {

@@ -1,4 +1,4 @@
-// How far a solid that moves gets before it would pass a shape at rest.
+// How far a solid that moves gets before it would pass a shape, at rest or moving too.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -26,19 +26,25 @@ template <class S> struct FreeWay {
   Vec3<Unit<S>> normal;  // [1] where the middle may not go on, if it is held
 };
 
-/// Up to where, on its motion, `a`, a solid, does not pass `b`, which is at rest at `pose_of_b`. Both are placed in the
-/// frames of the poses.
+/// Up to where, on its motion, `a`, a solid, does not pass `b`, which moves as well, if it is a solid; half-spaces and
+/// surfaces stay at the start of `of_b`. Both are placed in the frames of the poses.
 /// Method:  `a` is swept as a solid that is kGraze deep in it (a quarter of its inner radius, if that is less), up to
 ///          where the two overlap by half to three quarters of that: what does not touch the solid grazes. To stop
 ///          where all of `a` touches would hold what slides or tips over: contacts close gaps of that size.
 ///          What overlaps by as much from the start is swept as a solid twice as deep in `a`, and so on up to half of
-///          the inner radius. If even that does, what is swept is a ball in its middle, of three quarters of that
-///          radius down to a sixteenth; the smallest goes nowhere but away from what it touches.
+///          the inner radius: where one end touches the other is stopped at the surface as well.
+///          If even that does, what is swept is a ball in its middle, of three quarters of that radius down to a
+///          sixteenth; the smallest goes nowhere but away from what it touches.
 ///          Where an earlier step stopped it, a motion that dips in at once, a turn with a contact at one end, would
 ///          stop for ever: it goes as far as the solid another kGraze deep, unless that does not get on either.
 template <class S>
 FreeWay<S> free_way(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
-                    const Pose<S>& pose_of_b);
+                    const CoreMotion<S>& of_b);
+
+/// Whether `a`, a solid, overlaps `b` by more than kTooDeep, or half of its inner radius, if that is less. What touches
+/// less deep is left to contacts.
+template <class S>
+bool is_deep(const PlacedShape<S>& a, const Pose<S>& pose_of_a, const PlacedShape<S>& b, const Pose<S>& pose_of_b);
 
 /// Whether they touch at the start, apart or overlapping by half of kGraze or less; then `on_a` is where, at most
 /// kGraze deep in `a`.
@@ -47,16 +53,18 @@ bool touches_at_start(const PlacedShape<S>& a, const CoreMotion<S>& motion, cons
                       const Pose<S>& pose_of_b, Vec3<S>& on_a);
 
 namespace detail {
-template <class S> inline constexpr S kThick = S(1);           // [m]
-template <class S> inline constexpr S kGraze = S(0.00390625);  // [m]
+template <class S> inline constexpr S kThick = S(1);            // [m]
+template <class S> inline constexpr S kGraze = S(0.00390625);   // [m]
+template <class S> inline constexpr S kTooDeep = S(0.0078125);  // [m] twice as much: what is stopped is not deep
 }  // namespace detail
 
-#define ISO_SHAPE_IMPACT_OF(extern, S)                                                  \
-  extern template S thickness<S>(const ShapeView<S>&);                                  \
-  extern template FreeWay<S> free_way<S>(const PlacedShape<S>&, const CoreMotion<S>&,   \
-                                         const PlacedShape<S>&, const Pose<S>&);        \
-  extern template bool touches_at_start<S>(const PlacedShape<S>&, const CoreMotion<S>&, \
-                                           const PlacedShape<S>&, const Pose<S>&, Vec3<S>&);
+#define ISO_SHAPE_IMPACT_OF(extern, S)                                                                           \
+  extern template S thickness<S>(const ShapeView<S>&);                                                           \
+  extern template FreeWay<S> free_way<S>(const PlacedShape<S>&, const CoreMotion<S>&, const PlacedShape<S>&,     \
+                                         const CoreMotion<S>&);                                                  \
+  extern template bool is_deep<S>(const PlacedShape<S>&, const Pose<S>&, const PlacedShape<S>&, const Pose<S>&); \
+  extern template bool touches_at_start<S>(const PlacedShape<S>&, const CoreMotion<S>&, const PlacedShape<S>&,   \
+                                           const Pose<S>&, Vec3<S>&);
 #define ISO_EXTERN(S) ISO_SHAPE_IMPACT_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN
