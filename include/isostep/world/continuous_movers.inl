@@ -113,10 +113,11 @@ template <class S> void ContinuousCollision<S>::mark_deep(std::span<const std::u
       });
     }
   };
-  std::size_t others = state_.static_bodies->states.size();
+  std::size_t others = state_.static_bodies.size();
   for (const auto& island : state_.sleeping) others += island->bodies.states.size();
   if (others * 4 < asked.size()) {
-    look_around(*state_.static_bodies);
+    const StaticBodies<S>& still = state_.static_bodies;
+    for (std::size_t p = 0; p < still.pages(); ++p) look_around(still.page(p));
     look_around(state_.awake);
     for (const auto& island : state_.sleeping) look_around(island->bodies);
     return;
@@ -134,7 +135,7 @@ template <class S>
 bool ContinuousCollision<S>::is_deep_in(std::uint32_t index, std::uint32_t slot, const Aabb<S>& box) const {
   const BodyProperties<S>& body = state_.awake.properties[index];
   const Transform<S> origin = Transform<S>::of(BodyMap<S>::origin_pose(state_.awake.states[index], body));
-  const S deep = min(thinnest_of(body.shape) * S(0.5), detail::kTooDeep<S>);
+  const S deep = min(map_.thinnest_of(body.shape) * S(0.5), detail::kTooDeep<S>);
   if (!overlap(grow(bounds(map_.children_of(body.shape), origin, map_.contents()), -deep), box)) return false;
   Mover mover = {};
   mover.index = index;
