@@ -31,7 +31,7 @@ export const interfaceSchema = {
     fault: {none: 0, stale_id: 1, not_finite: 2, out_of_range: 3, bad_shape: 4, bad_mass: 5, bad_argument: 6, shape_in_use: 7, not_dynamic: 8, null_id: 9, foreign_id: 10, bad_snapshot: 11, called_in_step: 12},
     verify_outcome: {verified: 0, diverged: 1, incompatible: 2, truncated: 3, corrupt: 4, stopped: 5},
     verify_where: {start: 0, frame: 1, keyframe: 2},
-    stage: {find_pairs: 0, apply_forces: 1, update_manifolds: 2, colour_constraints: 3, prepare: 4, solve_substeps: 5, restitution: 6, store_impulses: 7, finalise_bodies: 8, continuous: 9, update_sensors: 10, emit_events: 11, update_sleep: 12, move_characters: 13},
+    stage: {find_pairs: 0, apply_forces: 1, update_manifolds: 2, colour_constraints: 3, prepare: 4, solve_substeps: 5, store_impulses: 6, finalise_bodies: 7, continuous: 8, update_sensors: 9, emit_events: 10, update_sleep: 11, move_characters: 12},
     session_mode: {lockstep: 0, rollback: 1, spectator: 2, sync_test: 3, replay: 4},
     predictor: {repeat_last: 0, predict_neutral: 1},
     genre: {fighting: 0, brawler: 1, racing: 2, strategy: 3, sandbox: 4},
