@@ -96,7 +96,7 @@ constexpr NamedScene kScenes[] = {
     {"trees", "50 trees of 22 hulls fall on a mesh of 30 000 quads", trees, false},
     {"joint_grid", "a curtain of 10 000 balls and 19 700 joints", joint_grid},
     {"washer", "8000 cubes in a drum that turns and has no ends", washer},
-    {"large_world", "10 000 tiles, 10 km wide, and 100 balls", large_world},
+    {"large_world", "10 000 tiles, 10 km wide, and 100 balls", large_world, false},
     {"town", "a mesh of streets, houses, stairs, ramps, a hill; who falls, rolls, tumbles, is shot", town, false},
     {"yard", "the same on static hulls, placed by a seed", yard, false},
     {"mixed", "bodies, joints, sensors and sleep, made and destroyed", mixed},

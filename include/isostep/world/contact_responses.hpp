@@ -13,8 +13,7 @@
 namespace isostep {
 
 /// Input:   the step's contacts, the materials of their bodies, the records.
-/// Output:  what the records say of the contacts of their kinds, ascending by contact; the pairs of bodies that have a
-///          contact which gives way, ascending.
+/// Output:  what the records say of the contacts of their kinds, ascending by contact.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class ContactResponses {
  public:
@@ -22,7 +21,6 @@ template <class S> class ContactResponses {
 
   void update();
   ISO_INLINE std::span<const ContactResponse<S>> all() const { return all_; }
-  ISO_INLINE std::span<const std::uint64_t> giving_way() const { return giving_way_; }
   ISO_INLINE const ResponseTable<S>& table() const { return table_; }
   template <class Visit> void visit_scratch(const Visit& visit) {
     if (!all_.empty()) visit("responses", all_);
@@ -33,7 +31,6 @@ template <class S> class ContactResponses {
   const BodyMap<S>& map_;
   ResponseTable<S> table_;
   std::vector<ContactResponse<S>> all_;
-  std::vector<std::uint64_t> giving_way_;
 };
 
 #define ISO_EXTERN(S) extern template class ContactResponses<S>;

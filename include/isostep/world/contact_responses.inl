@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/collision/broadphase/pairs.hpp"
 #include "isostep/world/contact_responses.hpp"
 
 namespace isostep {
 
 template <class S> void ContactResponses<S>::update() {
   all_.clear();
-  giving_way_.clear();
   table_.update(state_.force_records->kind_responses);
   if (table_.empty()) return;
   const auto kind = [&](std::uint32_t slot) { return map_.properties_at(map_.location(slot)).material.kind; };
@@ -32,8 +30,6 @@ template <class S> void ContactResponses<S>::update() {
                                         r.inverse_inertia_scale_a,
                                         r.max_force};
     all_.push_back(r.kind_a == a ? as_named : swapped);
-    const std::uint64_t pair = pair_key(key.body_a, key.body_b);
-    if (all_.back().is_limited() && (giving_way_.empty() || giving_way_.back() != pair)) giving_way_.push_back(pair);
   }
 }
 

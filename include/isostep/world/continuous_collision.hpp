@@ -21,10 +21,9 @@ namespace isostep {
 
 /// What of a step's rules a fast body heeds. Null tables are empty ones.
 template <class S> struct ImpactRules {
-  const Ways<S>* ways = nullptr;                   // what they let pass they do not stop
-  std::span<const std::uint64_t> giving_way = {};  // pairs, ascending, whose contacts press no harder than they may
-  const ResponseTable<S>* responses = nullptr;     // what does not push a bullet back does not stop it
-  const GhostTable<S>* ghosts = nullptr;           // kinds that pass each other
+  const Ways<S>* ways = nullptr;                // what they let pass they do not stop
+  const ResponseTable<S>* responses = nullptr;  // what does not push back, or no harder than it may, does not stop
+  const GhostTable<S>* ghosts = nullptr;        // kinds that pass each other
 };
 
 /// Input:   the state after the solver, with fat boxes; the centres' poses as the step began; the pairs of bodies that
@@ -147,7 +146,7 @@ template <class S> class ContinuousCollision {
   // continuous_collision.inl
   bool may_stop(const Mover& mover, std::uint32_t slot, bool moving) const;
   bool is_let_out(const Mover& mover, std::uint32_t slot) const;
-  bool is_pushed_back(const Mover& mover, std::uint32_t slot) const;
+  bool is_pushed_back(const Mover& mover, std::uint32_t slot, bool moving) const;
   bool are_ghosts(const Mover& mover, std::uint32_t slot) const;
   bool is_passed(const Mover& mover, const PlacedShape<S>& part, const Pose<S>& there, const PlacedShape<S>& obstacle,
                  const Obstacle& body, Unit<S> fraction) const;

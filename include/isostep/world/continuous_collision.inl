@@ -95,7 +95,7 @@ void ContinuousCollision<S>::update(std::span<const Pose<S>> start, std::span<co
   const auto if_any = [](const auto* table) { return table == nullptr || table->empty() ? nullptr : table; };
   start_ = start;
   joined_ = joined;
-  rules_ = {if_any(rules.ways), rules.giving_way, if_any(rules.responses), if_any(rules.ghosts)};
+  rules_ = {if_any(rules.ways), if_any(rules.responses), if_any(rules.ghosts)};
   const Survey found = survey();
   find_movers(found);
   for (Mover& mover : movers_) cut(mover, false);
@@ -136,13 +136,10 @@ template <class S> bool ContinuousCollision<S>::may_stop(const Mover& mover, std
   if (!should_collide(state_.awake.properties[mover.index].filter, other.filter)) return false;
   if (rules_.ways != nullptr && is_let_out(mover, slot)) return false;
   if (rules_.ghosts != nullptr && are_ghosts(mover, slot)) return false;
-  if (moving && rules_.responses != nullptr && !is_pushed_back(mover, slot)) return false;
+  if (rules_.responses != nullptr && !is_pushed_back(mover, slot, moving)) return false;
   const std::uint64_t key = pair_key(state_.awake.states[mover.index].slot, slot);
-  const auto is_in = [key](std::span<const std::uint64_t> pairs) {
-    const std::size_t at = lower_bound(pairs.size(), [&](std::size_t i) { return pairs[i] < key; });
-    return at < pairs.size() && pairs[at] == key;
-  };
-  return !is_in(joined_) && !is_in(rules_.giving_way);
+  const std::size_t at = lower_bound(joined_.size(), [&](std::size_t i) { return joined_[i] < key; });
+  return at == joined_.size() || joined_[at] != key;
 }
 
 /// By their velocities as the step leaves them.
@@ -184,12 +181,15 @@ template <class S> bool ContinuousCollision<S>::are_ghosts(const Mover& mover, s
   return rules_.ghosts->find(own, map_.properties_at(map_.location(slot)).material.kind) != nullptr;
 }
 
-/// Of contacts with what is at rest the scales of masses are of no account.
-template <class S> bool ContinuousCollision<S>::is_pushed_back(const Mover& mover, std::uint32_t slot) const {
+/// By a contact that presses as hard as it has to. The scales of masses count where both move.
+template <class S>
+bool ContinuousCollision<S>::is_pushed_back(const Mover& mover, std::uint32_t slot, bool moving) const {
   const std::uint32_t own = state_.awake.properties[mover.index].material.kind;
   const std::uint32_t other = map_.properties_at(map_.location(slot)).material.kind;
   const KindResponse<S>* const found = rules_.responses->find(own, other);
   if (found == nullptr) return true;
+  if (S(0) < found->max_force) return false;
+  if (!moving) return true;
   const bool is_a = own == other ? state_.awake.states[mover.index].slot < slot : own == found->kind_a;
   return S(0) < (is_a ? found->inverse_mass_scale_a : found->inverse_mass_scale_b);
 }

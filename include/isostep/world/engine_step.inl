@@ -41,7 +41,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   finisher_.finish(render_poses_.start(), solver_.cut(), report_);
   after(Stage::finalise_bodies);
   continuous_.update(render_poses_.start(), narrow_phase_.joined_pairs(),
-                     {&pair_rules_.ways(), responses_.giving_way(), &responses_.table(), &pair_rules_.kinds()});
+                     {&pair_rules_.ways(), &responses_.table(), &pair_rules_.kinds()});
   after(Stage::continuous);
   sensors_.update(narrow_phase_.overlaps(), events_);
   after(Stage::update_sensors);

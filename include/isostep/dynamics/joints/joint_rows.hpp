@@ -145,9 +145,9 @@ template <class S> inline constexpr Velocity<S> kJointPushSpeed = Velocity<S>(4)
 template <class S> inline constexpr S kBlockCompliance = S(0x1p-20) + S(16) * resolution<S>();
 /// [1] what a format resolves to ten bits: 2^-6 for Q16.16, 2^-22 for Q32.32, 2^-13 for float.
 template <class S> inline constexpr S kLeastCompliance = S(1024) * resolution<S>();
-/// [1] the softest that a tree may hold: 2^-9 for Q16.16, 2^-25 for Q32.32, 2^-16 for float. What rounding makes of it
-/// is a sixteenth: residuals are measured anew in every pass, which take as much of what is left.
-template <class S> inline constexpr S kTreeCompliance = S(128) * resolution<S>();
+/// [1] the softest that a tree may hold: 2^-7 for Q16.16, 2^-23 for Q32.32, 2^-14 for float. What rounding makes of it
+/// is a sixty-fourth: residuals are measured anew in every pass. Random trees of Q16.16 that hold 2^-9 fly apart.
+template <class S> inline constexpr S kTreeCompliance = S(512) * resolution<S>();
 /// [1] compliance of the end that closes a loop through the world: a bridge of hinges holds its width twice.
 template <class S> inline constexpr S kClosingCompliance = S(1.0 / 64);
 /// [1] (angular frequency h)^2 above which tension is taken implicitly: half of what an explicit step can follow.
