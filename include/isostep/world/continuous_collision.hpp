@@ -134,6 +134,7 @@ template <class S> class ContinuousCollision {
   S thinnest_static() const;
   std::uint64_t thinnest_of_page(std::size_t page) const;
   void find_movers(const Survey& survey);
+  void leave_out_joined();
   void mark_deep(std::span<const std::uint32_t> asked);
   bool is_deep_in(std::uint32_t index, std::uint32_t slot, const Aabb<S>& box) const;
   bool may_move(std::size_t index) const;

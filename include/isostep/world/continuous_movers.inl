@@ -93,12 +93,13 @@ template <class S> void ContinuousCollision<S>::find_movers(const Survey& survey
   if (survey.kinematic) find_met_by_kinematic(fast);
 }
 
-/// Marks, in mover_of_, those of the awake bodies `asked` that end deep inside of something fixed. Whichever are fewer
+/// Marks, in mover_of_, those of the awake bodies `asked` without joints that end deep inside of something fixed. Whichever are fewer
 /// look for the others: a floor for a thousand that fall, one that falls for the walls of a town.
 template <class S> void ContinuousCollision<S>::mark_deep(std::span<const std::uint32_t> asked) {
   if (asked.empty()) return;
   mover_of_.assign(state_.awake.states.size(), 0);
   for (const std::uint32_t i : asked) mover_of_[i] = kAsked;
+  leave_out_joined();
   const auto is_fixed = [](const BodyProperties<S>& body) { return body.type != BodyType::dynamic; };
   const auto look_around = [&](const BodySet<S>& bodies) {
     for (std::size_t k = 0; k < bodies.states.size(); ++k) {
@@ -123,11 +124,23 @@ template <class S> void ContinuousCollision<S>::mark_deep(std::span<const std::u
     return;
   }
   for (const std::uint32_t i : asked) {
+    if (mover_of_[i] != kAsked) continue;
     proxies_.boxes().query(state_.awake.states[i].fat, [&](std::uint32_t slot) {
       const Location at = map_.location(slot);
       if (is_fixed(map_.properties_at(at)) && is_deep_in(i, slot, map_.state_at(at).fat)) mover_of_[i] = kDeepInside;
       return mover_of_[i] == kAsked;
     });
+  }
+}
+/// Contacts bring out what joints tie: a part that is put back lifts its mechanism or tears it.
+template <class S> void ContinuousCollision<S>::leave_out_joined() {
+  for (const JointProperties<S>& joint : state_.joints.properties) {
+    if (!map_.is_enabled(joint)) continue;
+    for (const std::uint32_t slot : {joint.body_a, joint.body_b}) {
+      if (slot == kNoBody) continue;
+      const Location at = map_.location(slot);
+      if (at.set == Location::kAwake) mover_of_[at.index] = 0;
+    }
   }
 }
 /// Whether an awake body overlaps one that is fixed, with all of it inside of `box`, by more than kTooDeep.
