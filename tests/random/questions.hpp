@@ -54,7 +54,7 @@ template <class S> class QuestionsOf {
         continue;
       }
       const Vec3<S> from = vec<S>(place());
-      const Vec3<S> way = draw_way(from);
+      const Vec3<S> drawn = draw_way(from), way = drawn == Vec3<S>::zero() ? vec<S>(0, -1, 0) : drawn;
       q.rays.push_back({from, way, filter()});
     }
     for (int i = 0; i < kOfEach; ++i) {
