@@ -74,9 +74,12 @@ template <class S> class Impacts {
     S heaviest;  // [kg]
     S stopping, work, curve, scale;
     std::uint32_t touches;
+    V change;         // [m/s] largest of an impulse in the last pass
+    bool is_stopped;  // or has no touches
   };
 
   void find(const StepContext<S>& context, const BodyRows<S>& bodies, bool first);
+  bool end_pass();
   void look_at(const StepContext<S>& context, const BodyRows<S>& bodies, std::uint32_t index);
   static bool meets(V gap, V speed, V forced, std::int32_t rate, S before, TouchRow<S>& touch);
   SolverMass<S> seen(const StepContext<S>& context, const SolverBodies<S>& bodies, const Bouncing& of, bool is_a) const;

@@ -158,7 +158,7 @@ template <class S> void Impacts<S>::group(const StepContext<S>& context, const S
     const ContactGeometry<S>& g = geometry_of(context, touch);
     if (bodies.moves(g.row_a) && bodies.moves(g.row_b)) sets_.join(local_[g.row_a], local_[g.row_b]);
   }
-  groups_.assign(locals, {V(0), S(0), S(0), S(0), S(0), S(1), 0});
+  groups_.assign(locals, {V(0), S(0), S(0), S(0), S(0), S(1), 0, V(0), false});
   for (TouchRow<S>& touch : touches_) {
     touch.group = sets_.find(touch.group);
     Group& group = groups_[touch.group];
@@ -174,28 +174,37 @@ Velocity<S> Impacts<S>::speed_of(const TouchRow<S>& touch, const ContactGeometry
   return saturating_add(detail::along(touch.normal, bodies.velocity[g.row_a], bodies.velocity[g.row_b]), touch.forced);
 }
 
-/// Impulses that leave no touch closing, and push none that opens.
+/// Impulses that leave no touch closing, and push none that opens. A group has as many passes as it needs itself: what
+/// other islands do changes nothing of it.
 template <class S> void Impacts<S>::stop(const StepContext<S>& context, SolverBodies<S>& bodies) {
-  V fastest = V(0);
-  for (const TouchRow<S>& touch : touches_) fastest = max(fastest, -touch.met);
-  const V tolerance = detail::part_of(S(0x1p-16), fastest);
-  V most = highest<V>();
-  for (int pass = 0; pass < kMostPasses && tolerance < most && work_ < kMostWork; ++pass) {
-    most = V(0);
-    const auto count = static_cast<std::uint32_t>(touches_.size());
-    work_ += count;
+  const auto count = static_cast<std::uint32_t>(touches_.size());
+  for (int pass = 0; pass < kMostPasses && work_ < kMostWork; ++pass) {
     for (std::uint32_t k = 0; k < count; ++k) {
       TouchRow<S>& touch = touches_[pass % 2 == 0 ? k : count - 1 - k];
+      Group& group = groups_[touch.group];
+      if (group.is_stopped) continue;
+      ++work_;
       const ContactGeometry<S>& g = geometry_of(context, touch);
       const V next =
           max(saturating_subtract(touch.impulse, detail::part_of(touch.mass, speed_of(touch, g, bodies))), V(0));
       const V change = next - touch.impulse;
       touch.impulse = next;
       detail::push(touch.normal, touch.share, change, g.row_a, g.row_b, bodies);
-      most = max(most, abs(change));
+      group.change = max(group.change, abs(change));
     }
-    if (count == 1) return;
+    if (end_pass()) return;
   }
+}
+/// Whether all groups are stopped: one touch is after a pass, others when impulses hardly change any more.
+template <class S> bool Impacts<S>::end_pass() {
+  bool all = true;
+  for (Group& group : groups_) {
+    const V tolerance = detail::part_of(S(0x1p-16), group.fastest);
+    group.is_stopped = group.is_stopped || group.touches < 2 || !(tolerance < group.change);
+    group.change = V(0);
+    all = all && group.is_stopped;
+  }
+  return all;
 }
 
 /// What stopped them and e times it again; sums what that does to the energy of each group.
