@@ -126,15 +126,15 @@ TYPED_TEST(Projections, velocity_based_takes_a_ball_back_along_its_way_to_the_to
   const auto thrown = [](Projection p, int steps) {
     World<S> w = Projections<S>::world(p, 0, 1);
     add_ground(w, 0);
-    const BodyId id = w.create(Projections<S>::body(add_ball(w, 0.5), {0, 0.53125, 0}, {3, -4, 0}));
+    const BodyId id = w.create(Projections<S>::body(add_ball(w, 0.5), {0, 0.5625, 0}, {3, -4, 0}));
     run(w, steps);
     return std::pair(real(w.center_of_mass(id)), real(w.velocity(id)));
   };
-  const D3 touch = {3 * (0.03125 + kRest) / 4, 0.5 - kRest, 0};
+  const D3 touch = {3 * (0.0625 + kRest) / 4, 0.5 - kRest, 0};
   const auto [at, speed] = thrown(Projection::velocity_based, 2);
   expect_near(at, touch + D3{0.05, 0, 0}, kTolerance + 32 * grain<S>(), "from the touch along the wall");
   expect_near(speed, {3, 0, 0}, 4 * speed_grain<S>(), "impact");
-  const double deep = 4.0 / 60 - 0.03125 - kRest;
+  const double deep = 4.0 / 60 - 0.0625 - kRest;  // [m] less than continuous collision puts back
   for (const Projection p : {Projection::nonlinear, Projection::linear, Projection::relaxed}) {
     const auto [shoved, stopped] = thrown(p, 2);
     expect_near(shoved, {0.1, 0.5 - kRest - 0.75 * deep, 0}, kTolerance + 32 * grain<S>(), "along the normal alone");
