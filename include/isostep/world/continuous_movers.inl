@@ -77,18 +77,19 @@ template <class S> void ContinuousCollision<S>::find_movers(const Survey& survey
   if (detail::kThick<S> < thinnest) return;  // nothing stops anybody
   const S fast = (map_.least_thickness() + thinnest) * S(0.5);
   const bool is_fixed = !(detail::kThick<S> < survey.thinnest);  // something is
-  const S deep = is_fixed ? min(fast, detail::kDeepMotion<S>) : fast;
-  const detail::SlowBodies<S> are_slow(fast, state_.settings.hz), are_shallow(deep, state_.settings.hz);
+  const detail::SlowBodies<S> are_slow(fast, state_.settings.hz);
+  // Whom the ground is asked about follows from the body alone: shapes elsewhere change nothing of it.
+  const detail::SlowBodies<S> are_shallow(detail::kDeepMotion<S>, state_.settings.hz);
   const std::span<const BodyState<S>> states = state_.awake.states;
   const std::span<const Pose<S>> start = start_;
   met_.clear();
-  for (std::size_t i = 0; i < states.size(); ++i) {
+  for (std::size_t i = 0; is_fixed && i < states.size(); ++i) {
     if (!are_shallow.contain(states[i], start[i]) && may_move(i)) met_.push_back(static_cast<std::uint32_t>(i));
   }
-  if (is_fixed) mark_deep(met_);
-  for (const std::uint32_t i : met_) {
-    if (is_fixed && mover_of_[i] == kDeepInside) movers_.push_back(measure(i));
-    else if (!are_slow.contain(states[i], start[i])) add_if_fast(i, survey.thinnest);
+  mark_deep(met_);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (mover_of_[i] == kDeepInside) movers_.push_back(measure(i));
+    else if (!are_slow.contain(states[i], start[i]) && may_move(i)) add_if_fast(i, survey.thinnest);
   }
   if (survey.kinematic) find_met_by_kinematic(fast);
 }
@@ -96,8 +97,8 @@ template <class S> void ContinuousCollision<S>::find_movers(const Survey& survey
 /// Marks, in mover_of_, those of the awake bodies `asked` without joints that end deep inside of something fixed. Whichever are fewer
 /// look for the others: a floor for a thousand that fall, one that falls for the walls of a town.
 template <class S> void ContinuousCollision<S>::mark_deep(std::span<const std::uint32_t> asked) {
-  if (asked.empty()) return;
   mover_of_.assign(state_.awake.states.size(), 0);
+  if (asked.empty()) return;
   for (const std::uint32_t i : asked) mover_of_[i] = kAsked;
   leave_out_joined();
   const auto is_fixed = [](const BodyProperties<S>& body) { return body.type != BodyType::dynamic; };
