@@ -72,6 +72,7 @@ template <class S> class ContinuousCollision {
     Unit<S> fraction;     // [1] what it was cut to
     Vec3<S> centre;       // [m] in its frame: what goes straight in the first piece, where it touches at the start
     bool closely;         // swept at what is thin however little it moves
+    bool deep;            // ends deep in something fixed: swept at that, however thick both are
     Pose<S> stopped;      // where it is at that fraction, if something stopped it, with what stopped it
 
     ISO_INLINE CoreMotion<S> motion_of(std::uint32_t piece) const {

@@ -316,7 +316,8 @@ void ContinuousCollision<S>::sweep_piece(const Mover& mover, Piece piece, const 
     const S inner = thickness<S>(part.shape), thick = moving ? S(0) : thickness<S>(met.shape);
     const bool closely = mover.closely && thick * S(0.5) < inner;
     if (!closely && obstacle.far < (inner + thick) * S(0.5)) {  // it would be pushed out the way that it came
-      if (moving || obstacle.far < detail::kDeepMotion<S> || !ends_deep(part, motion, met, obstacle)) return;
+      if (moving || !mover.deep || obstacle.far < detail::kDeepMotion<S> || !ends_deep(part, motion, met, obstacle))
+        return;
     }
     const FreeWay<S> way = free_way(part, motion, met, obstacle.motion);
     if (way.fraction == U(1)) return;
@@ -396,6 +397,7 @@ template <class S> void ContinuousCollision<S>::cut_bullet(Mover& mover) {
 /// On the way on which what stopped a body carries it to the end of the step.
 template <class S> void ContinuousCollision<S>::stop_at_what_is_fixed(std::uint32_t index, const Pose<S>& from) {
   Mover carried = measure(index, {1, {from, now(index)}});
+  carried.deep = true;
   if (detail::kDeepMotion<S> < carried.motion) cut(carried, false);
 }
 

@@ -88,8 +88,10 @@ template <class S> void ContinuousCollision<S>::find_movers(const Survey& survey
   }
   mark_deep(met_);
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (mover_of_[i] == kDeepInside) movers_.push_back(measure(i));
-    else if (!are_slow.contain(states[i], start[i]) && may_move(i)) add_if_fast(i, survey.thinnest);
+    if (mover_of_[i] == kDeepInside) {
+      movers_.push_back(measure(i));
+      movers_.back().deep = true;
+    } else if (!are_slow.contain(states[i], start[i]) && may_move(i)) add_if_fast(i, survey.thinnest);
   }
   if (survey.kinematic) find_met_by_kinematic(fast);
 }
