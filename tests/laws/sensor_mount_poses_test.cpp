@@ -131,7 +131,9 @@ TYPED_TEST(SensorMountPoses, and_their_events_are_rolled_back) {
   this->begin(-10);
   add_ground(this->w);
   const BodyId body = this->tumbler(this->w);
-  for (int i = 0; i < 6; ++i) this->w.create(moving<TypeParam>(add_ball(this->w, 0.25), {0.75 * i - 1, 0.25, 0.5 * i}));
+  for (int i = 0; i < 6; ++i) {  // below where it falls
+    this->w.create(moving<TypeParam>(add_ball(this->w, 0.25), {0.5 * (i % 3) + 0.375, 0.25, 0.5 * (i / 3) - 0.25}));
+  }
   this->feel(body, {0.5, 0.25, 0});
   std::vector<std::size_t> told[3];
   std::size_t turn = 0;
