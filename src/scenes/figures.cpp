@@ -1,4 +1,4 @@
-// A heap of figures of 23 parts on the hills: many small bodies between joints with cones and limits, as games drop them.
+// A heap of figures of 23 parts on the hills: many small bodies between joints with cones and limits.
 // SPDX-License-Identifier: MIT
 #include <vector>
 

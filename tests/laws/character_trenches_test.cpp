@@ -110,7 +110,9 @@ TYPED_TEST(CharacterTrenches, one_steep_slope_alone_or_beside_a_wall_above_holds
   for (int i = 0; i < 40; ++i) {
     this->ask(id, {-2, 0, 0});
     this->w.step();
-    if (i > 2) EXPECT_NE(this->footing(id), Footing::floor) << i;
+    if (i > 2) {
+      EXPECT_NE(this->footing(id), Footing::floor) << i;
+    }
   }
   EXPECT_LT(this->height(id), 2.5);
 }

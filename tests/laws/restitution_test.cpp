@@ -133,13 +133,12 @@ TYPED_TEST(Restitution, of_no_solver_gains_energy_for_a_ball) {
 
 TYPED_TEST(Restitution, of_flat_falls_is_that_of_a_ball_and_turns_nothing) {
   using S = TypeParam;
-  using Ground = typename TestFixture::Ground;
   Dice dice(42);
   for (int n = 0; n < 24; ++n) {
     World<S> w = this->world(60);
     const double fall = dice.in(0.3, 3), e = dice.in(0.5, 1), turned = dice.in(0, 3), cell = dice.in(0.15, 0.6);
     const double x = dice.in(-0.2, 0.2), z = dice.in(-0.2, 0.2), half = dice.in(0.05, 0.4);
-    this->lay(w, static_cast<Ground>(n % 4), cell);
+    this->lay(w, static_cast<typename TestFixture::Ground>(n % 4), cell);
     const ShapeId shape =
         n / 4 % 2 == 0 ? add_box(w, 0.5, half, 0.3) : w.add_shape(Cylinder<S>{num<S>(0.4), num<S>(half)});
     BodyDefinition<S> d = this->elastic(moving<S>(shape, {x, fall + half, z}), e, 0.6);

@@ -13,7 +13,7 @@ inline constexpr int kVersionMinor = 1;
 inline constexpr int kVersionPatch = 0;
 inline constexpr char kVersionText[] = "0.1.0";
 
-/// The version of the results: a digest of the golden hashes in replays/goldens.txt. Two builds of one behaviour version
+/// The version of the results: a digest of replays/goldens.txt, the golden hashes. Two builds of one behaviour version
 /// promise each other's frame hashes, whatever else differs.
 std::uint64_t behaviour_version();
 

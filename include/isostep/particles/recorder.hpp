@@ -15,11 +15,6 @@ namespace isostep {
 /// What particle worlds are called in a replay's header.
 inline constexpr char kParticleWorldName[] = "particles";
 
-/// Of all settings: those that a replay's header names by itself as well, so that none is forgotten.
-template <class S> ISO_INLINE std::uint64_t settings_digest(const ParticleSettings<S>& settings) {
-  return hash_records_by_fields(&settings, 1);
-}
-
 /// What must be equal where a recording of such a world is replayed. `scene` is kept by reference.
 template <class S>
 ISO_INLINE ReplayIdentity identity_of_world(const ParticleSettings<S>& settings, std::string_view scene) {

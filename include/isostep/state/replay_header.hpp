@@ -69,6 +69,11 @@ struct ReplayIdentity {
   std::string_view engine = kVersionText;  // informative: two releases of one behaviour replay each other's files
 };
 
+/// Hashes all settings of a kind of world: those that the header names by itself as well, so that none is forgotten.
+template <class Settings> ISO_INLINE std::uint64_t settings_digest(const Settings& settings) {
+  return hash_records_by_fields(&settings, 1);
+}
+
 /// Compiler and architecture are added as informative fields.
 Result<ReplayHeader> make_replay_header(const ReplayIdentity& identity);
 Result<ReplayIdentity> identity_of(const ReplayHeader& header);

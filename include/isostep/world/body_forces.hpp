@@ -37,7 +37,7 @@ template <class S> class BodyForces {
   /// By awake body, or empty.
   ISO_INLINE std::span<const Acceleration<S>> accelerations() const { return accelerations_; }
   SubstepForces<S> substeps();
-  /// What pulls at each awake body beside gravity, as the step ends, whether something holds it or not: all but what
+  /// The pull at each awake body beside gravity, as the step ends, whether something holds it or not: all but what
   /// springs, water, wheels and couplings bear. Empty: nothing.
   ISO_INLINE std::span<const Acceleration<S>> pulls() const { return pulls_; }
 
@@ -79,6 +79,7 @@ template <class S> class BodyForces {
            records.damping_zones.all().empty() && !wheels_.any() && !couplings_.any();
   }
   void renew(const SolverBodies<S>& bodies, std::int32_t rate);
+  ISO_INLINE bool is_last() const { return substep_ + 1 == substeps_; }
   template <class Registry> void act_all(const Registry& registry);
   template <class Act> void bear(const Act& act);
   void act(const ForceZone<S>& zone);
@@ -142,7 +143,7 @@ template <class S> class BodyForces {
   // Of RankedZones, DampingZones and RankedWaters, ascending by (priority, slot).
   std::vector<std::uint64_t> ranks_, damping_ranks_, water_ranks_, rank_scratch_;
   std::vector<Acceleration<S>> asked_, steady_, accelerations_;  // by commands; of what pushes, too; of all
-  std::vector<Acceleration<S>> before_, pulls_;                  // of all, before what bears acts; without what bears
+  std::vector<Acceleration<S>> before_, pulls_;                  // of all, before one that bears acts; without those
   std::vector<Wet> wet_;
   std::vector<Damping> damping_;          // by awake body; empty without DampingZones
   std::vector<std::uint32_t> resisting_;  // by awake body: how many forces resist its motion

@@ -8,7 +8,7 @@
 namespace isostep {
 
 namespace detail {
-/// Whether what a record does holds bodies up or back, and ends where they come to rest.
+/// A record bears if it holds bodies up or back, and ends where they come to rest.
 template <class Record> inline constexpr bool kBears = false;
 template <class S> inline constexpr bool kBears<BodySpring<S>> = true;
 template <class S> inline constexpr bool kBears<BuoyancyPoint<S>> = true;
@@ -59,7 +59,7 @@ template <class S> void BodyForces<S>::renew(const SolverBodies<S>& bodies, std:
   substeps_ = static_cast<std::uint32_t>(rate / state_.settings.hz);
   if (substep_ == 0) rank_zones();
   accelerations_ = asked_;
-  pulls_.assign(accelerations_.size(), {Vec3<S>::zero(), Vec3<S>::zero()});
+  pulls_.assign(is_last() ? accelerations_.size() : 0, {Vec3<S>::zero(), Vec3<S>::zero()});
   wet_.clear();
   wet_.reserve((state_.force_records->waters.all().size() + water_ranks_.size()) * accelerations_.size());
   ForceRecords<S>::forces([&](const char*, const auto& registry) { act_all(registry); }, *state_.force_records);
@@ -82,8 +82,9 @@ template <class S> template <class Registry> void BodyForces<S>::act_all(const R
   if constexpr (detail::kBears<Record>) bear(all);
   else all();
 }
-/// Until the sub-step's end `pulls_` are what bears.
+/// In the last sub-step `pulls_` are, until it ends, what bears.
 template <class S> template <class Act> void BodyForces<S>::bear(const Act& act) {
+  if (!is_last()) return act();
   before_ = accelerations_;
   act();
   for (std::size_t i = 0; i < pulls_.size(); ++i) {

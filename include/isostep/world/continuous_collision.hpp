@@ -96,7 +96,7 @@ template <class S> class ContinuousCollision {
     ISO_INLINE bool is_before(Unit<S> other) const { return fraction < other || fraction_of_middle < other; }
     void add(const FreeWay<S>& way, Unit<S> all, const Pose<S>& there, bool at_rest);
   };
-  /// What a body is swept against, in a frame that is the world's or a kinematic body's.
+  /// The body that another is swept against, in a frame that is the world's or a kinematic body's.
   struct Obstacle {
     std::uint32_t slot;
     CoreMotion<S> motion;  // of the piece; its start is its end: at rest
@@ -145,13 +145,14 @@ template <class S> class ContinuousCollision {
   void find_met_by_kinematic(S least);
   void find_bullets();
   void find_comers();
-  // continuous_collision.inl
+  // continuous_rules.inl
   bool may_stop(const Mover& mover, std::uint32_t slot, bool moving) const;
   bool is_let_out(const Mover& mover, std::uint32_t slot) const;
   bool is_pushed_back(const Mover& mover, std::uint32_t slot, bool moving) const;
   bool are_ghosts(const Mover& mover, std::uint32_t slot) const;
   bool is_passed(const Mover& mover, const PlacedShape<S>& part, const Pose<S>& there, const PlacedShape<S>& obstacle,
                  const Obstacle& body, Unit<S> fraction) const;
+  // continuous_collision.inl
   bool ends_deep(const PlacedShape<S>& part, const CoreMotion<S>& motion, const PlacedShape<S>& obstacle,
                  const Obstacle& body) const;
   void cut(Mover& mover, bool moving);

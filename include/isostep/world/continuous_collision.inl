@@ -21,7 +21,7 @@ namespace detail {
 /// [m] Who moves less is not deep inside of what was too far away for a contact as the step began.
 template <class S> inline constexpr S kDeepMotion = kSpeculativeDistance<S> + kTooDeep<S>;
 
-/// Whether a body stays where it is in the step that began with all awake ones at `start`.
+/// True if a body stays where it is in the step that began with all awake ones at `start`.
 template <class S> bool is_at_rest(const WorldState<S>& state, std::span<const Pose<S>> start, Location at) {
   if (at.set != Location::kAwake) return true;
   const BodyState<S>& body = state.awake.states[at.index];
@@ -128,72 +128,6 @@ void ContinuousCollision<S>::Cut::add(const FreeWay<S>& way, Unit<S> all, const 
 }
 
 /// `moving`: dynamic bodies that are no bullets; else static and kinematic ones.
-template <class S> bool ContinuousCollision<S>::may_stop(const Mover& mover, std::uint32_t slot, bool moving) const {
-  constexpr std::uint32_t kNone = body_flag::kSensor | body_flag::kCollide;
-  const BodyProperties<S>& other = map_.properties_at(map_.location(slot));
-  if ((other.type == BodyType::dynamic) != moving || (other.flags & kNone) != body_flag::kCollide) return false;
-  if (moving && (other.flags & body_flag::kBullet) != 0) return false;
-  if (!should_collide(state_.awake.properties[mover.index].filter, other.filter)) return false;
-  if (rules_.ways != nullptr && is_let_out(mover, slot)) return false;
-  if (rules_.ghosts != nullptr && are_ghosts(mover, slot)) return false;
-  if (rules_.responses != nullptr && !is_pushed_back(mover, slot, moving)) return false;
-  const std::uint64_t key = pair_key(state_.awake.states[mover.index].slot, slot);
-  const std::size_t at = lower_bound(joined_.size(), [&](std::size_t i) { return joined_[i] < key; });
-  return at == joined_.size() || joined_[at] != key;
-}
-
-/// By their velocities as the step leaves them.
-template <class S> bool ContinuousCollision<S>::is_let_out(const Mover& mover, std::uint32_t slot) const {
-  const BodyState<S>& own = state_.awake.states[mover.index];
-  const Location at = map_.location(slot);
-  Vec3<Velocity<S>> velocity = own.velocity;
-  if (at.set == Location::kAwake) velocity -= state_.awake.states[at.index].velocity;
-  const Way<S>*of_other = rules_.ways->find(slot), *of_own = rules_.ways->find(own.slot);
-  return (of_other != nullptr && of_other->lets_out(velocity)) || (of_own != nullptr && of_own->lets_out(-velocity));
-}
-
-/// Whether a one-way body lets pass what meets it there, as PairRules judges a pair: by the contact's normal, and none
-/// that has contacts. Surfaces are solid here: what passes one leaves it.
-template <class S>
-bool ContinuousCollision<S>::is_passed(const Mover& mover, const PlacedShape<S>& part, const Pose<S>& there,
-                                       const PlacedShape<S>& obstacle, const Obstacle& body, Unit<S> fraction) const {
-  const std::uint32_t own = state_.awake.states[mover.index].slot;
-  const Way<S>*of_other = rules_.ways->find(body.slot), *of_own = rules_.ways->find(own);
-  if ((of_other == nullptr && of_own == nullptr) || is_surface(obstacle.shape.primitive.type)) return false;
-  if (!detail::contacts_of<S>(state_.contacts, min(own, body.slot), max(own, body.slot)).empty()) return false;
-  const Pose<S> met = pose_at(body.motion, fraction);
-  Manifold<S> manifold;
-  collide<S>(part.shape, compose(Transform<S>::of(there), part.at), obstacle.shape,
-             compose(Transform<S>::of(met), obstacle.at), detail::kSpeculativeDistance<S>, manifold);
-  if (manifold.count == 0) return false;
-  const Vec3<Unit<S>> normal =
-      body.end == nullptr ? manifold.normal
-                          : to_matrix(normalise(body.end->orientation * conjugate(met.orientation))) * manifold.normal;
-  const auto passes = [](const Way<S>* way, Vec3<Unit<S>> outward) {
-    return way != nullptr && dot(outward, way->axis) < way->least_cosine;
-  };
-  return passes(of_other, -normal) || passes(of_own, normal);
-}
-
-/// Where their boxes met as the step began, they are among the pairs that do not touch.
-template <class S> bool ContinuousCollision<S>::are_ghosts(const Mover& mover, std::uint32_t slot) const {
-  const std::uint32_t own = state_.awake.properties[mover.index].material.kind;
-  return rules_.ghosts->find(own, map_.properties_at(map_.location(slot)).material.kind) != nullptr;
-}
-
-/// By a contact that presses as hard as it has to. The scales of masses count where both move.
-template <class S>
-bool ContinuousCollision<S>::is_pushed_back(const Mover& mover, std::uint32_t slot, bool moving) const {
-  const std::uint32_t own = state_.awake.properties[mover.index].material.kind;
-  const std::uint32_t other = map_.properties_at(map_.location(slot)).material.kind;
-  const KindResponse<S>* const found = rules_.responses->find(own, other);
-  if (found == nullptr) return true;
-  if (S(0) < found->max_force) return false;
-  if (!moving) return true;
-  const bool is_a = own == other ? state_.awake.states[mover.index].slot < slot : own == found->kind_a;
-  return S(0) < (is_a ? found->inverse_mass_scale_a : found->inverse_mass_scale_b);
-}
-
 /// The tree shows no less; what it shows beyond depends on its past, so the box alone decides.
 template <class S> void ContinuousCollision<S>::find_obstacles(const Mover& mover, bool moving) {
   const Vec3<S> from = mover.from().position, way = mover.to().position - from;
@@ -231,7 +165,7 @@ template <class S> void ContinuousCollision<S>::sweep_against(const Mover& mover
   for (std::uint32_t i = 0; i < mover.pieces; ++i)
     sweep_piece(mover, {i, mover.pieces}, mover.motion_of(i), at_rest, cut);
 }
-/// What goes on a path that had to be divided is told where it is between the ends; both get as many pieces.
+/// Sweeps against a body that moves. Both paths get as many pieces as the one that had to be divided more.
 template <class S>
 void ContinuousCollision<S>::sweep_against_moving(const Mover& mover, std::uint32_t slot, std::size_t index,
                                                   Cut& cut) const {
@@ -248,7 +182,7 @@ void ContinuousCollision<S>::sweep_against_moving(const Mover& mover, std::uint3
     sweep_piece(mover, {i, pieces}, motion_in(mover, {i, pieces}, mover.centre), obstacle, cut);
   }
 }
-/// What hits a kinematic body is seen from it, in its frame.
+/// Sweeps in the frame of a kinematic body.
 template <class S>
 void ContinuousCollision<S>::sweep_against_kinematic(const Mover& mover, std::uint32_t slot, std::size_t index,
                                                      Cut& cut) const {
@@ -297,7 +231,7 @@ void ContinuousCollision<S>::visit_parts(const Mover& mover, const CoreMotion<S>
   }
 }
 
-/// Who is deep somewhere is so by a box that is as much smaller.
+/// A box that is smaller by the depth spares most of the tests.
 template <class S>
 bool ContinuousCollision<S>::ends_deep(const PlacedShape<S>& part, const CoreMotion<S>& motion,
                                        const PlacedShape<S>& obstacle, const Obstacle& body) const {

@@ -14,8 +14,8 @@ template <class S> Aabb<S> box_of_few(const BodyMap<S>& map, const BodyState<S>&
   return bounds(map.children_of(body.shape), origin, map.contents());
 }
 
-/// Bodies no point of which moves by `motion` [m]. Most are, and a few comparisons tell: neither has the centre moved by
-/// three quarters of it nor do its ends turn by a quarter.
+/// Bodies no point of which moves by `motion` [m]. Most are, and a few comparisons tell: the centre has not moved by
+/// three quarters of it, nor do its ends turn by a quarter.
 template <class S> class SlowBodies {
  public:
   ISO_INLINE SlowBodies(S motion, std::int32_t hz)
@@ -96,8 +96,8 @@ template <class S> void ContinuousCollision<S>::find_movers(const Survey& survey
   if (survey.kinematic) find_met_by_kinematic(fast);
 }
 
-/// Marks, in mover_of_, those of the awake bodies `asked` without joints that end deep inside of something fixed. Whichever are fewer
-/// look for the others: a floor for a thousand that fall, one that falls for the walls of a town.
+/// Marks, in mover_of_, those of the awake bodies `asked` without joints that end deep inside of something fixed.
+/// Whichever are fewer look for the others: a floor for a thousand that fall, one that falls for the walls of a town.
 template <class S> void ContinuousCollision<S>::mark_deep(std::span<const std::uint32_t> asked) {
   mover_of_.assign(state_.awake.states.size(), 0);
   if (asked.empty()) return;
@@ -146,7 +146,7 @@ template <class S> void ContinuousCollision<S>::leave_out_joined() {
     }
   }
 }
-/// Whether an awake body overlaps one that is fixed, with all of it inside of `box`, by more than kTooDeep.
+/// True if an awake body overlaps one that is fixed, all of it inside of `box`, by more than kTooDeep.
 template <class S>
 bool ContinuousCollision<S>::is_deep_in(std::uint32_t index, std::uint32_t slot, const Aabb<S>& box) const {
   const BodyProperties<S>& body = state_.awake.properties[index];
@@ -209,8 +209,8 @@ template <class S> void ContinuousCollision<S>::find_met_by_kinematic(S least) {
     if (carrier.motion < least) continue;
     carriers_.push_back({state_.awake.states[i].slot, carrier.swept()});
     proxies_.boxes().query(carriers_.back().swept, [&](std::uint32_t slot) {
-      const Location at = map_.location(slot);
-      if (at.set == Location::kAwake && may_move(at.index)) met_.push_back(at.index);
+      const Location met = map_.location(slot);
+      if (met.set == Location::kAwake && may_move(met.index)) met_.push_back(met.index);
       return true;
     });
   }

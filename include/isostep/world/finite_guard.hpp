@@ -1,4 +1,4 @@
-// What a step writes beside bodies has only finite numbers, as BodyFinisher keeps it of bodies.
+// keep_finite: records that a step writes have only finite numbers, as BodyFinisher keeps it of bodies.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -71,7 +71,7 @@ template <class S> auto FlushContacts<S>::part_of(const Seen& seen) const -> Par
           detail::leaves_of_part(ground, leaf.child)};
 }
 
-/// Whether it reaches no further along a normal than a plane does.
+/// True if it reaches no further along a normal than a plane does.
 template <class S> bool FlushContacts<S>::is_behind(const Part& part, Vec3<U> normal, S plane) {
   S reach = -highest<S>();
   if (part.is_of_surface()) {

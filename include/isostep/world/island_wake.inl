@@ -111,7 +111,7 @@ template <class S> bool IslandWake<S>::are_ghosts(std::uint32_t a, std::uint32_t
   return static_cast<bool>(records.kind_ghosts.id_where(is_of_kinds));
 }
 
-/// What it sees it does not touch.
+/// A sensor sees others and touches none.
 template <class S> bool IslandWake<S>::is_sensor(std::uint32_t slot) const {
   return (map_.properties_at(map_.location(slot)).flags & body_flag::kSensor) != 0;
 }

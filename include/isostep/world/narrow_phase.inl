@@ -196,8 +196,8 @@ template <class S> void NarrowPhase<S>::collide_others(const PairRun<S>& run) co
   }
 }
 
-/// Of a convex part on the triangles of one body the manifolds of one flat piece and one material: the first of them
-/// becomes that of all, and the others have none.
+/// Joins the manifolds of a convex part on one flat piece of one material: the first of them becomes that of all, and
+/// the others have none.
 template <class S> void NarrowPhase<S>::join_flat(const PairRun<S>& run) const {
   std::uint32_t i = run.begin;
   while (i < run.end) {
@@ -206,7 +206,7 @@ template <class S> void NarrowPhase<S>::join_flat(const PairRun<S>& run) const {
     i = (a.surfaces || b.surfaces) && !(a.sensor || b.sensor) ? join_flat(run, i) : i + 1;
   }
 }
-/// Of two bodies; returns where those of the next two begin.
+/// Joins those of two bodies; returns where those of the next two begin.
 template <class S> std::uint32_t NarrowPhase<S>::join_flat(const PairRun<S>& run, std::uint32_t begin) const {
   constexpr S kTie = S(0x1p-12);  // [m] what lies level differs by less
   const PartPair& bodies = run.pairs[run.order[begin]];
@@ -234,7 +234,7 @@ template <class S> std::uint32_t NarrowPhase<S>::join_flat(const PairRun<S>& run
   }
   return end;
 }
-/// Whether pairs of the same two bodies are of one convex part, and of triangles of one material and belt.
+/// True if pairs of the same two bodies are of one convex part, and of triangles of one material and belt.
 template <class S> bool NarrowPhase<S>::lie_alike(const PartPair& x, const PartPair& y) const {
   const std::vector<BodyFrame<S>>& frames = part_pairs_.frames();
   const bool of_a = frames[x.frame_a].surfaces;

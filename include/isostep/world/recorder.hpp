@@ -12,11 +12,6 @@
 
 namespace isostep {
 
-/// Of all settings: those that a replay's header names by itself as well, so that none is forgotten.
-template <class S> ISO_INLINE std::uint64_t settings_digest(const Settings<S>& settings) {
-  return hash_records_by_fields(&settings, 1);
-}
-
 ISO_INLINE const char* solver_name(SolverName solver) {
   const auto index = static_cast<std::uint32_t>(solver);
   return index < kSolvers ? kSolverNames[index] : "unknown";

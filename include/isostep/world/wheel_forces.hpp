@@ -53,7 +53,7 @@ template <class S> class WheelForces {
   static constexpr S kAround = S(0.125);          // [m] what sub-steps make of a way that velocities do not tell
   static constexpr U kLeastFacing = U(0.25);  // [1] cosine of the plane's tilt, seen from the suspension
 
-  /// Where a wheel's suspension is.
+  /// The place of a wheel's suspension.
   struct Stance {
     Vec3<S> hard_point;  // [m] world
     Vec3<U> down;        // [1] world
@@ -64,7 +64,7 @@ template <class S> class WheelForces {
     Vec3<S> start, way;  // [m] world
     Aabb<S> box;         // [m] world, around it
   };
-  /// What a wheel stands on.
+  /// The ground that a wheel stands on.
   struct Ground {
     BodyId body = {};    // null: no ground
     Vec3<S> point = {};  // [m] world

@@ -197,7 +197,7 @@ template <class S> void WheelForces<S>::look_around(Group& group, const Aabb<S>&
   near_.resize(kept);
   group.end_near = static_cast<std::uint32_t>(kept);
 }
-/// What a sphere meets, or where that is not level enough a ray.
+/// A sphere looks for it, and a ray where what the sphere meets is not level enough.
 template <class S> auto WheelForces<S>::ground_below(const Run& run, const Stance& at) -> Ground {
   const Search search = search_of(run, at);
   Group& group = groups_[run.group];
@@ -245,7 +245,7 @@ template <class S> Vec3<S> WheelForces<S>::way_of(const Run& run, const Stance& 
   const Vec3<S> way = convert<S>(speed) / S(state_.settings.hz);
   return way - at.down * dot(way, at.down);
 }
-/// Whether the plane found where the step begins is not that of the ground further on. A bump that is higher than a
+/// True if the plane found where the step begins is not that of the ground further on. A bump that is higher than a
 /// 32nd of the radius is met by one of the looks at least, for a wheel is wider than it is long.
 template <class S> bool WheelForces<S>::is_uneven(const Run& run, const Stance& at, const Ground& ground) {
   const S radius = wheel(run).radius;

@@ -77,7 +77,8 @@ template <class Visit> void with_every_scalar(const SceneRow& row, Visit&& visit
   });
 }
 
-/// As with_named_game, for a named scene or the rigid one in a file. Throws ToolError 64 or 66, SceneError's text included.
+/// Does what with_named_game does, for a named scene or the rigid one in a file. Throws ToolError 64 or 66, with the
+/// text of a SceneError.
 template <class Visit> void with_game(const std::string& name_or_file, const std::string& scalar, Visit&& visit) {
   std::string_view missing = with_named_game(name_or_file, scalar, visit);
   if (missing == "scene") {

@@ -30,7 +30,7 @@ std::vector<Checkable> checkables_in(const std::string& path);
 
 /// Plays the scene of the line again, as many frames as it says.
 CheckedFile check_golden(std::string_view line, Simd simd = Simd::best, const VerifySpan& span = {});
-/// Of the span `go_on` counts.
+/// Looks at `go_on` of the span alone.
 CheckedFile check(const Checkable& what, const VerifySpan& span = {});
 
 }  // namespace isostep::tool

@@ -20,8 +20,8 @@ template <class Game> std::string regenerated_line(const char* scalar, const typ
   const std::string line = text_of(golden_of(scene.name, scalar, hashes_of(game, golden_frames(scene.name))));
   const CheckedFile checked = check_golden(line, Simd::scalar);
   if (status_of(checked) != exit_status::kOk) {
-    throw ToolError(exit_status::kSoftware,
-                    std::string(scene.name) + " in " + scalar + ": the widest lanes and one lane disagree: " + text_of(checked));
+    throw ToolError(exit_status::kSoftware, std::string(scene.name) + " in " + scalar +
+                                                ": the widest lanes and one lane disagree: " + text_of(checked));
   }
   return line;
 }
@@ -63,10 +63,11 @@ class Directory {
 std::string regenerate_all(const std::string& before) {
   std::string file;
   std::size_t lines = 0, changed = 0;
+  const std::string known = "\n" + before;
   for (const SceneRow& row : scene_rows()) {
     with_every_scalar(row, [&](const char* scalar, auto tag, const auto& scene) {
       const std::string line = regenerated_line<typename decltype(tag)::Type>(scalar, scene) + "\n";
-      const bool is_new = ("\n" + before).find("\n" + line) == std::string::npos;
+      const bool is_new = known.find("\n" + line) == std::string::npos;
       changed += is_new ? 1 : 0;
       ++lines;
       std::printf("%s %s%s\n", row.name.c_str(), scalar, is_new ? ": changed" : "");

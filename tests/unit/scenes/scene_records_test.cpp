@@ -45,7 +45,7 @@ constexpr const char* kRecords[] = {
     R"("tensor": [[-1, 0, 0], [0, -2, 0], [0, 0, -3]], "low": [[0, 1, 0], [0, 0, 0], [0, 0, 0]], )"
     R"("high": [[0, 2, 0], [0, 0, 0], [0, 0, 0]], "control": 0.5, "is_quadratic": true, "is_under_water": true})",
     R"({"type": "material_pair", "kind_a": 1, "kind_b": 4294967295, "friction": 0.5, "static_friction": 1, )"
-    R"("restitution": 0.25, "rolling_resistance": 0.125})",
+    R"("restitution": 0.25, "rolling_resistance": 0.125, "spin_resistance": 0.25})",
     R"({"type": "breakable", "body": 0, "impulse": 4, "pattern": "radial", "most_pieces": 12, "depth": 2, )"
     R"("grain": [1, 0, 0], "seed": 7, "small_mass": 0.25, "lifetime": 60, "expires": 600, "owns_shape": true, )"
     R"("broken_by": 0.5, "hit_point": [0, 0.25, 0], "hit_direction": [0, -1, 0]})",

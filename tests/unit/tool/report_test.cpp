@@ -64,18 +64,9 @@ TEST_F(TrialReports, AreAnObjectForPrograms) {
   EXPECT_FALSE(nlohmann::ordered_json::parse(json_of(RunReport{})).contains("trial"));
 }
 
-TEST(HashLines, ReadBackAsTheyWereWritten) {
+TEST(HashLines, AreANumberAndAHashEach) {
   const std::vector<std::uint64_t> hashes = {0, 0xffffffffffffffffu, 0x0123456789abcdefu};
   EXPECT_EQ(hash_lines(hashes), "0 0000000000000000\n1 ffffffffffffffff\n2 0123456789abcdef\n");
-  EXPECT_EQ(parse_hash_lines(hash_lines(hashes)), hashes);
-  EXPECT_EQ(parse_hash_lines("0 0000000000000001\r\n"), std::vector<std::uint64_t>{1});
-}
-
-TEST(HashLines, AreRefusedInAnyOtherForm) {
-  for (const char* text : {"0 0000000000000000", "1 0000000000000000\n", "0 000000000000000\n", "0  0000000000000000\n",
-                           "0 000000000000000g\n", "0 0000000000000000 \n", "\n", "0 0x00000000000000\n"}) {
-    EXPECT_FALSE(parse_hash_lines(text)) << text;
-  }
 }
 
 /// 130 frames, whose hashes are their numbers.

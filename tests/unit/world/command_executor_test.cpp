@@ -81,7 +81,7 @@ TYPED_TEST(Executors, what_is_refused_names_its_field_and_changes_nothing) {
   rough.friction = S(-1);
   JointProperties<S> other = tie;
   other.type = JointType::distance;
-  expect_refused(AddShape<S>{}, Fault::bad_shape, "a shape has no children");
+  expect_refused(AddShape<S>{}, Fault::bad_shape, "children");
   expect_refused(CreateBody<S>{d}, Fault::bad_mass, "mass");
   expect_refused(RemoveShape{ShapeId{}}, Fault::null_id, "shape");
   expect_refused(RemoveShape{this->shape}, Fault::shape_in_use, "shape");

@@ -88,11 +88,11 @@ TYPED_TEST(ContinuousCollisions, what_ends_deep_inside_of_something_thick_is_put
 }
 
 TYPED_TEST(ContinuousCollisions, what_touches_something_thick_is_left_to_contacts) {
-  const BodyId ball = (this->add_wall(1), this->add_ball_at({-1.25, 0, 0}));
-  this->move(ball, {-1.12, 1, 0});
+  const BodyId ball = (this->add_wall(1), this->add_ball_at({-1.13, 0, 0}));
+  this->move(ball, {-1.12, 0.0625, 0});
   this->update();
   EXPECT_NEAR(this->place(ball).x, -1.12, 1e-4);
-  EXPECT_EQ(this->place(ball).y, 1);
+  EXPECT_EQ(this->place(ball).y, 0.0625);
 }
 
 TYPED_TEST(ContinuousCollisions, half_spaces_are_not_passed) {

@@ -87,7 +87,7 @@ TYPED_TEST(Hulls, queries_see_it) {
   found.clear();
   world.overlap_shape(Hull<S>{1}.primitive(), Pose<S>::identity(), found);
   EXPECT_EQ(world.fault(), Fault::bad_shape);
-  EXPECT_STREQ(world.fault().field, "a shape names no blob of its type");
+  EXPECT_STREQ(world.fault().field, "primitive.blob");
   EXPECT_TRUE(found.empty());
 }
 

@@ -11,7 +11,7 @@ namespace {
 /// Slot 0 is a static sensor, the others are awake balls.
 template <class S> class Overlaps : public ::testing::Test {
  protected:
-  Overlaps() : systems(made()) {}
+  Overlaps() : systems(made()) { systems.state.untold.sensors.clear(); }  // none was placed since the last step
   World<S>& made() {
     const ShapeId ball = add_ball(world, 0.5);
     for (int i = 0; i < 4; ++i) {

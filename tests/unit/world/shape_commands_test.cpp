@@ -39,7 +39,8 @@ TYPED_TEST(ShapeCommands, bad_shapes_are_refused) {
   if constexpr (!kIsFixed<S>) {
     this->expect_refused(Fault::not_finite, [&] { return w.add_shape(Sphere<S>{not_a_number<S>()}); });
     this->expect_refused(Fault::not_finite, [&] { return w.add_shape(Box<S>{{S(1), endless<S>(), S(1)}}); });
-    EXPECT_EQ(describe(w.fault()), "add_shape: shape: a number is not finite");
+    EXPECT_EQ(describe(w.fault()),
+              "add_shape: child 0: primitive.half: a number is not finite; expected a finite number");
   }
 }
 

@@ -10,9 +10,9 @@ template <class S> class StaticPages : public ::testing::Test {
  protected:
   /// `count` boxes in rows.
   void fill(int count) {
-    box_ = add_box(w, 0.5, 0.5, 0.5);
-    for (int i = 0; i < count; ++i) ids.push_back(w.create(still<S>(box_, {1.0 * (i % 20), 0, 1.0 * (i / 20)})));
-    w.step();
+    box_ = add_box(world, 0.5, 0.5, 0.5);
+    for (int i = 0; i < count; ++i) ids.push_back(world.create(still<S>(box_, {1.0 * (i % 20), 0, 1.0 * (i / 20)})));
+    world.step();
   }
   static int pages_that_differ(const WorldState<S>& a, const WorldState<S>& b) {
     int differ = 0;
@@ -27,7 +27,7 @@ template <class S> class StaticPages : public ::testing::Test {
     return differ;
   }
 
-  World<S> w{settings<S>()};
+  World<S> world{settings<S>()};
   ShapeId box_ = {};
   std::vector<BodyId> ids;
 };
@@ -36,7 +36,7 @@ TYPED_TEST_SUITE(StaticPages, AllScalars);
 TYPED_TEST(StaticPages, a_body_that_comes_goes_or_is_put_elsewhere_copies_its_page_alone) {
   using S = TypeParam;
   this->fill(1000);
-  World<S>& w = this->w;
+  World<S>& w = this->world;
   const auto copies = [&](const auto& change) {
     const WorldState<S> before = w.state();
     change();
@@ -54,7 +54,7 @@ TYPED_TEST(StaticPages, a_body_that_comes_goes_or_is_put_elsewhere_copies_its_pa
 
 TYPED_TEST(StaticPages, a_shape_that_comes_or_goes_copies_its_page_alone) {
   using S = TypeParam;
-  World<S>& w = this->w;
+  World<S>& w = this->world;
   std::vector<ShapeId> shapes;
   for (int i = 0; i < 1000; ++i) shapes.push_back(add_ball(w, 0.25 + 0.001 * i));
   for (const int i : {0, 400, 999}) {
@@ -69,7 +69,7 @@ TYPED_TEST(StaticPages, a_shape_that_comes_or_goes_copies_its_page_alone) {
 
 TYPED_TEST(StaticPages, a_shape_goes_once_no_body_has_it_whatever_the_bodies_went_through) {
   using S = TypeParam;
-  World<S>& w = this->w;
+  World<S>& w = this->world;
   const ShapeId ball = add_ball(w, 0.5), other = add_ball(w, 0.25);
   const auto in_use = [&](ShapeId shape) {
     const bool refused = !w.remove_shape(shape);
@@ -103,7 +103,7 @@ TYPED_TEST(StaticPages, a_shape_goes_once_no_body_has_it_whatever_the_bodies_wen
 TYPED_TEST(StaticPages, a_world_that_is_read_or_loaded_has_the_hash_of_the_one_that_grew) {
   using S = TypeParam;
   this->fill(300);
-  World<S>& w = this->w;
+  World<S>& w = this->world;
   Pcg32 random = Pcg32::seeded(3);
   World<S> loaded(settings<S>());
   typename World<S>::Snapshot snapshot;

@@ -55,7 +55,7 @@ TYPED_TEST(StillSensors, see_sleepers_where_they_are_put_and_wake_none) {
   this->expect_step(false, true);
 }
 TYPED_TEST(StillSensors, that_are_moved_to_a_pose_wake_none) {
-  const BodyId sensor = this->add_sensor(BodyType::kinematic, {0, 5, 0});
+  const BodyId sensor = this->add_sensor(BodyType::kinematic, {0, 2.5, 0});
   this->expect_step(false, false);
   this->w.move_to(sensor, this->at({0, 1, 0}));
   this->w.step();

@@ -50,7 +50,7 @@ template <class S> bool AabbTree<S>::refit(std::uint32_t at) {
   node.height = height;
   return true;
 }
-/// The same from a node to the root, as far as anything changes.
+/// Does so from a node to the root, as far as anything changes.
 template <class S> void AabbTree<S>::refit_from(std::uint32_t at) {
   while (at != kNone && refit(at)) at = nodes_[at].parent;
 }

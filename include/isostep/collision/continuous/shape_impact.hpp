@@ -1,4 +1,4 @@
-// How far a solid that moves gets before it would pass a shape, at rest or moving too.
+// free_way: a solid moves until it would pass a shape, at rest or moving too.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -41,7 +41,7 @@ template <class S>
 FreeWay<S> free_way(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                     const CoreMotion<S>& of_b);
 
-/// Whether `a`, a solid, overlaps `b` by more than kTooDeep, or half of its inner radius, if that is less. What touches
+/// True if `a`, a solid, overlaps `b` by more than kTooDeep, or half of its inner radius, if that is less. What touches
 /// less deep is left to contacts.
 template <class S>
 bool is_deep(const PlacedShape<S>& a, const Pose<S>& pose_of_a, const PlacedShape<S>& b, const Pose<S>& pose_of_b);

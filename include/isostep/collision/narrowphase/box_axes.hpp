@@ -101,7 +101,7 @@ ISO_INLINE BestAxis<S> best_axis(BoxPair<S>& p, const Transform<S>& ta, const Tr
   const S of_a = max(a0, max(a1, a2)), of_b = max(b0, max(b1, b2));
   const S tolerance = axis_tolerance(p.half_a, p.half_b);
   const int face_a = a0 >= a1 && a0 >= a2 ? 0 : a1 >= a2 ? 1 : 2, face_b = b0 >= b1 && b0 >= b2 ? 0 : b1 >= b2 ? 1 : 2;
-  const bool prefers_b = of_b > of_a + tolerance && !(of_b > -kMostBeside<S> && are_beside(p, face_a, face_b));
+  const bool prefers_b = of_b > of_a + tolerance && !(of_a > -kMostBeside<S> && are_beside(p, face_a, face_b));
   best.axis = prefers_b ? 3 + face_b : face_a;
   best.separation = prefers_b ? of_b : of_a;
 

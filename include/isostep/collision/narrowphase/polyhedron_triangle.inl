@@ -141,7 +141,7 @@ template <class S> ISO_INLINE bool is_cut_flat(const SurfaceTriangle<S>& triangl
   return (!before || triangle.edges[p.before - kTriangleEdge].flat) &&
          (!after || triangle.edges[p.after - kTriangleEdge].flat);
 }
-/// Which corners of a face would be kept if the triangle went on in its plane, by the edge that begins there: its
+/// The corners of a face that would be kept if the triangle went on in its plane, by the edge that begins there: its
 /// neighbours choose the same ones. All, of a face that is not level with it to `margin`.
 template <class S> struct KeptCorners {
   bool kept[kTriangleEdge];

@@ -71,7 +71,7 @@ ISO_INLINE void weigh_sway(const JointConstraint<S>& joint, const JointStep<S>& 
   drive.sway_left = kSwayLimit<S> / self_coupling(drive.row, drive.row, joint.share);
   set_sway(drive, excess_sway(drive, tension_of(joint)));
 }
-/// Whether the rod came to pull so much harder in this pass that its ends would be driven: the pass begins again.
+/// True if the rod came to pull so much harder in this pass that its ends would be driven: the pass begins again.
 template <class S> ISO_INLINE bool judge_sway(const JointConstraint<S>& joint, JointDrive<S>& drive, bool may_hold) {
   drive.next = drive.piece;
   const S excess = excess_sway(drive, tension_of(joint));

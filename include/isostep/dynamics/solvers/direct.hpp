@@ -28,8 +28,8 @@ namespace isostep {
 ///          and joints are solved for the rest: an island's step ends after some 25 ms of double a sub-step. unsolved()
 ///          returns how many islands.
 ///          Friction is an octagon inside the cone, along the slip or the friction borne. Of a drive's two limits the
-///          nearer counts. Impulses that are stored are held within the speed limit. While tension is taken implicitly (joint_tension.hpp) bodies conserve momentum, not
-///          angular momentum.
+///          nearer counts. Impulses that are stored are held within the speed limit. While tension is taken implicitly
+///          (joint_tension.hpp) bodies conserve momentum, not angular momentum.
 /// Order:   blocks stand in the order of joints, then contacts, of an island; islands touch nothing in common. One
 ///          thread.
 /// Memory:  warm, what SparseCholesky allocates; islands whose contacts or joints are others are analysed anew.

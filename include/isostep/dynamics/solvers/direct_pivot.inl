@@ -228,7 +228,7 @@ template <class N> void DirectSystem<N>::settle_answers() {
 
 /// Whether rows that hold are off by more than twice what was asked of any. Where a joint presses a body against what
 /// does not give way, loads grow to thousands of times what is asked, friction with them, and its limits never hold
-/// still: cut to the last, it no longer balances them.
+/// still: cut to the last, it no longer balances them. The way that is left to a contact asks for nothing.
 template <class N> bool DirectSystem<N>::is_violated() const {
   N asked = N(0), worst = N(0);
   for (const DirectBlock<N>& block : blocks_) {
@@ -236,9 +236,8 @@ template <class N> bool DirectSystem<N>::is_violated() const {
       const DirectRow<N>& row = block.rows[r];
       if (row.bound == DirectBound::absent || row.bound == DirectBound::boxed) continue;
       const N off = residual(block, r);
-      asked = max(asked, row.right < N(0) ? -row.right : row.right);
-      if (row.bound != DirectBound::above) worst = max(worst, off);
-      if (row.bound != DirectBound::below) worst = max(worst, -off);
+      if (row.bound != DirectBound::above) asked = max(asked, -row.right), worst = max(worst, off);
+      if (row.bound != DirectBound::below) asked = max(asked, row.right), worst = max(worst, -off);
     }
   }
   return asked < worst * N(0.5);

@@ -32,10 +32,10 @@ template <class S> class EnergyBound {
   ISO_INLINE void release(std::size_t body) { kinds_[body + 1] = kFree; }
   ISO_INLINE bool binds(std::size_t body) const { return kinds_[body + 1] == kTouches; }
 
-  /// As the step begins. `axes`: principal axes in the world, of bodies that are kSpins.
+  /// Call it as the step begins. `axes`: principal axes in the world, of bodies that are kSpins.
   void begin(std::size_t body, const BodyState<S>& state, const BodyProperties<S>& properties,
              const Mat3<Unit<S>>& axes);
-  /// As it ends. `displacement` [m] of the centre since.
+  /// Call it as the step ends. `displacement` [m] of the centre since.
   void hold(const StepContext<S>& context, std::size_t body, Vec3<V> displacement, const Mat3<Unit<S>>& axes,
             MotionRow<V>& row) const;
 

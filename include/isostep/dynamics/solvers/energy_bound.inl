@@ -42,7 +42,7 @@ void EnergyBound<S>::hold(const StepContext<S>& context, std::size_t body, Vec3<
   const auto pull = [&](S g) ISO_INLINE_LAMBDA { return saturate_to<V>(product(g, properties.gravity_scale)); };
   const Vec3<V> gravity = {pull(context.gravity.x), pull(context.gravity.y), pull(context.gravity.z)};
   const Energy is = energy_of(motion), gain = is - begin_[body] - dot_sum(gravity, displacement + displacement);
-  // What rounds in a fall of eight sub-steps: without it what begins to tip would be held by the format.
+  // A fall of eight sub-steps is rounded by so much: without it the format would hold what begins to tip.
   const Energy rounding = product(max_abs(gravity), V(16) * convert<V>(resolution<S>()));
   if (!(rounding < gain)) return;
   const V speed = length(Vec3<V>{length(motion.v), length(motion.u), V(0)});

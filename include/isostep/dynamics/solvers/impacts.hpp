@@ -49,7 +49,7 @@ template <class S> class Impacts {
  public:
   /// Once a step, after bodies were gathered.
   void begin(const StepContext<S>& context, const SolverBodies<S>& bodies);
-  /// Whether any contact of the step may bounce.
+  /// True if any contact of the step may bounce.
   ISO_INLINE bool any() const { return !bouncing_.empty(); }
   /// Before the velocities of a sub-step are integrated, after its forces are known.
   void bounce(const StepContext<S>& context, BodyRows<S>& bodies);
@@ -70,12 +70,12 @@ template <class S> class Impacts {
   };
   /// Sums over touches, speeds over the fastest: of what stopped them (stopping) and of what they got (work, curve).
   struct Group {
-    V fastest;   // [m/s]
-    S heaviest;  // [kg]
-    S stopping, work, curve, scale;
-    std::uint32_t touches;
-    V change;         // [m/s] largest of an impulse in the last pass
-    bool is_stopped;  // or has no touches
+    V fastest = V(0);   // [m/s]
+    S heaviest = S(0);  // [kg]
+    S stopping = S(0), work = S(0), curve = S(0), scale = S(1);
+    std::uint32_t touches = 0;
+    V change = V(0);          // [m/s] largest of an impulse in the last pass
+    bool is_stopped = false;  // or has no touches
   };
 
   void find(const StepContext<S>& context, const BodyRows<S>& bodies, bool first);

@@ -79,7 +79,7 @@ void Impacts<S>::look_at(const StepContext<S>& context, const BodyRows<S>& bodie
   const SolverBodies<S>& rows = bodies.rows();
   const Vec3<S> n = convert<S>(g.normal);
   const V forced = saturate_to<V>(dot_sum(n, bodies.gain_of(context, g.row_b) - bodies.gain_of(context, g.row_a)));
-  // What nothing presses together does not tremble: only what is next to nothing does not bounce.
+  // Bodies that nothing presses together do not tremble: only a speed next to nothing does not bounce.
   const bool pressed = !of.fresh || forced < V(0);
   const V least = pressed ? context.restitution_threshold : detail::part_of(S(1.0 / 16), context.restitution_threshold);
   for (std::uint32_t p = 0; p < context.contacts[of.contact].count; ++p) {
@@ -103,7 +103,7 @@ void Impacts<S>::look_at(const StepContext<S>& context, const BodyRows<S>& bodie
   }
 }
 
-/// Whether and when the gap [m] closes within the sub-step, or closed up to `before` sub-steps ago: by its mean speed
+/// Finds if and when the gap [m] closes within the sub-step, or closed up to `before` sub-steps ago: by its mean speed
 /// until then, which forces change at a constant rate. What the solver's rows would stop must bounce, or it loses all
 /// of its speed: they take the speed at the sub-step's end for all of it, and round.
 template <class S> bool Impacts<S>::meets(V gap, V speed, V forced, std::int32_t rate, S before, TouchRow<S>& touch) {
@@ -158,7 +158,7 @@ template <class S> void Impacts<S>::group(const StepContext<S>& context, const S
     const ContactGeometry<S>& g = geometry_of(context, touch);
     if (bodies.moves(g.row_a) && bodies.moves(g.row_b)) sets_.join(local_[g.row_a], local_[g.row_b]);
   }
-  groups_.assign(locals, {V(0), S(0), S(0), S(0), S(0), S(1), 0, V(0), false});
+  groups_.assign(locals, Group{});
   for (TouchRow<S>& touch : touches_) {
     touch.group = sets_.find(touch.group);
     Group& group = groups_[touch.group];
@@ -195,7 +195,7 @@ template <class S> void Impacts<S>::stop(const StepContext<S>& context, SolverBo
     if (end_pass()) return;
   }
 }
-/// Whether all groups are stopped: one touch is after a pass, others when impulses hardly change any more.
+/// True if all groups are stopped: one touch is after a pass, several are when impulses hardly change any more.
 template <class S> bool Impacts<S>::end_pass() {
   bool all = true;
   for (Group& group : groups_) {
@@ -207,7 +207,7 @@ template <class S> bool Impacts<S>::end_pass() {
   return all;
 }
 
-/// What stopped them and e times it again; sums what that does to the energy of each group.
+/// Gives the impulses that stopped them e times again; sums what that does to the energy of each group.
 template <class S> void Impacts<S>::give_back(const StepContext<S>& context, SolverBodies<S>& bodies) {
   for (TouchRow<S>& touch : touches_) {
     const ContactGeometry<S>& g = geometry_of(context, touch);
@@ -255,7 +255,7 @@ void Impacts<S>::apply_scales(const StepContext<S>& context, SolverBodies<S>& bo
     }
     V& given = bouncing_[touch.bouncing].given;
     given = saturating_add(given, touch.impulse);
-    // As the sub-step begins the bodies are where they come from by their new velocities: back along what changed.
+    // Bodies begin the sub-step where they come from by their new velocities: back along the change.
     const V shift = round_to<V>(product(detail::part_of(-touch.time, touch.impulse), h));
     const auto move = [&](std::uint32_t row, S share, V by) {
       if (!bodies.moves(row)) return;

@@ -33,7 +33,6 @@ struct Known {
   unsigned a, b;  // of the types
   Law law;
   int most;
-  bool rounded = false;  // only where one of the two is a rounded hull
 };
 inline constexpr Known kKnown[] = {
     // The direction of a gap of few digits, to an edge beside the centre: along it, a triangle's far end is nearer.
@@ -68,17 +67,15 @@ inline constexpr Known kKnown[] = {
     {kRevolved, kRevolved, as_deep_as_its_normal, 60},
     {kRevolved, kRevolved, no_axis_is_better, 30},
     {kRevolved, kRevolved, points_between, 50},
+    // Faces within 3.6 degrees of each other or of the best edges, see kNearFace: a's tells what lies over it.
+    {kPolyhedra, kPolyhedra, as_deep_as_its_normal, 12},
+    {kPolyhedra, kPolyhedra, no_axis_is_better, 6},
     {bit(ShapeType::hull), bit(ShapeType::hull), points_between, 4},
-    // A millimetre between a small rounded hull and one of metres, in float: the direction of a gap of few digits.
-    {bit(ShapeType::hull), bit(ShapeType::hull), as_deep_as_its_normal, 4, true},
-    {bit(ShapeType::hull), bit(ShapeType::hull), no_axis_is_better, 4, true},
-    // A rounded core deep in a box in Q16.16: a preferred face over which there is only what is less deep.
-    {bit(ShapeType::box), bit(ShapeType::hull), as_deep_as_its_normal, 1, true},
 };
-inline int known(Law law, ShapeType a, ShapeType b, bool rounded) {
+inline int known(Law law, ShapeType a, ShapeType b) {
   for (const Known& k : kKnown) {
     const bool here = ((k.a & bit(a)) != 0 && (k.b & bit(b)) != 0) || ((k.a & bit(b)) != 0 && (k.b & bit(a)) != 0);
-    if (k.law == law && here && (rounded || !k.rounded)) return k.most;
+    if (k.law == law && here) return k.most;
   }
   return 0;
 }
@@ -86,17 +83,15 @@ inline int known(Law law, ShapeType a, ShapeType b, bool rounded) {
 struct Tally {
   struct Broken {
     int times = 0, first = -1;
-    int sharp = 0;  // of the times those of no rounded hull
     double worst = 0;  // [m]
   };
   Broken laws[kLaws];
   int touching = 0, apart = 0;
 
-  void hold(Law law, double excess, int n, bool rounded) {
+  void hold(Law law, double excess, int n) {
     if (excess <= 0) return;
     Broken& broken = laws[law];
     if (++broken.times == 1) broken.first = n;
-    broken.sharp += rounded ? 0 : 1;
     if (!(excess <= broken.worst)) broken.worst = excess, broken.first = n;
   }
 };
