@@ -1,4 +1,4 @@
-// Six-axis joints with every mix of free, limited and locked swings and twist: limits and locks hold however b is thrown.
+// Six-axis joints with every mix of free, limited and locked swings and twist hold however b is thrown.
 // ISOSTEP_SIX_AXIS_MIXES=200 throws each mix so many times; without it twice.
 // SPDX-License-Identifier: MIT
 #include <algorithm>

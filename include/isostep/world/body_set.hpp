@@ -26,8 +26,8 @@ template <class S> struct BodySet {
   ISO_INLINE BodySet& operator=(BodySet&&) = default;
 };
 
-/// Ascending by slot too. A page holds the bodies of kPageSlots slots in a row, so which body lies on which page follows
-/// from its slot alone, and a body that comes, goes or changes copies one page at most. Copies share all other pages.
+/// Ascending by slot too. A page holds the bodies of kPageSlots slots in a row, so a body's page follows from its slot
+/// alone, and a body that comes, goes or changes copies one page at most. Copies share all other pages.
 /// A place names a body until its page changes: the page, then the row on it.
 template <class S> class StaticBodies {
  public:

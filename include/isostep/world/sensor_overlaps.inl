@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/world/body_frames.hpp"
@@ -28,7 +26,11 @@ template <class S> void SensorOverlaps<S>::list_changed() {
   state_.untold.sensors.clear();
   slot_scratch_.resize(changed_.size());
   stable_sort(changed_.data(), slot_scratch_.data(), static_cast<std::uint32_t>(changed_.size()), OwnKey{});
-  changed_.resize(static_cast<std::size_t>(std::unique(changed_.begin(), changed_.end()) - changed_.begin()));
+  std::size_t kept = 0;
+  for (const std::uint32_t sensor : changed_) {
+    if (kept == 0 || changed_[kept - 1] != sensor) changed_[kept++] = sensor;
+  }
+  changed_.resize(kept);
 }
 
 /// Overlaps of bodies neither of which is awake stay: the narrow phase does not look at them, because nothing moved but

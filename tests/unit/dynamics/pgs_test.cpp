@@ -52,7 +52,7 @@ TYPED_TEST(Pgs, the_more_passes_the_less_is_left_of_a_stacks_fall) {
   EXPECT_LT(last, 5e-3) << "of 0.17 m/s";
 }
 
-// The count of passes is no count of sub-steps: h stays 1 / hz, by which a damped fall is known: v' = (v - g h) / (1 + c h).
+// The count of passes is no count of sub-steps: h stays 1 / hz, as a damped fall shows: v' = (v - g h) / (1 + c h).
 TYPED_TEST(Pgs, passes_do_not_divide_the_step) {
   using S = TypeParam;
   for (const std::int32_t passes : {1, 16}) {

@@ -104,7 +104,9 @@ TYPED_TEST(Refusals, rays_without_length_are_refused_wherever_they_begin) {
     Vec3<S> way = Vec3<S>::zero();
     way[axis] = resolution<S>();
     const auto hit = this->w.cast_ray(vec<S>(0.25, 0.25, 0.25), way);
-    if (hit) EXPECT_GT(length(real(hit->normal)), 0.9);
+    if (hit) {
+      EXPECT_GT(length(real(hit->normal)), 0.9);
+    }
   }
 }
 

@@ -30,8 +30,8 @@ template <class U> ISO_INLINE Quat<U> between(Quat<U> start, Quat<U> end, U t) {
           start.w + (end.w - start.w) * t};
 }
 
-/// [m] No point within `reach` of what goes straight is ever further from where it would be by then on the straight line
-/// between its two ends: an eighth of the largest acceleration, which SweptCore has.
+/// [m] No point within `reach` of what goes straight is ever further from where it would be by then on the line between
+/// its two ends: an eighth of the largest acceleration, which SweptCore has.
 template <class S> ISO_INLINE S bow_of(const CoreMotion<S>& motion, S reach) {
   using U = Unit<S>;
   const Quat<U> turn =

@@ -17,9 +17,9 @@ template <class S> Aabb<S> box_of(const ConvexCore<S>& core, const Transform<S>&
   }
   return grow(box, core.radius);
 }
-/// Around all that a core passes, in the frame that leads to the world by `t`, and `margin` more: its boxes at both ends
-/// and the bow between them, and no more than the ball in which it turns. A box as large as the core is far from its
-/// body's middle would hold a thousand times the triangles.
+/// Around all that a core passes, in the frame that leads to the world by `t`, and `margin` more: its boxes at both
+/// ends and the bow between them, and no more than the ball in which it turns. A box as large as the core is far from
+/// its body's middle would hold a thousand times the triangles.
 template <class S>
 Aabb<S> swept_box(const Transform<S>& t, const ConvexCore<S>& core, const CoreMotion<S>& motion, S margin) {
   const Transform<S> from = relative(t, Transform<S>::of(motion.start)), to = relative(t, Transform<S>::of(motion.end));

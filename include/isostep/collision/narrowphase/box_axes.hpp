@@ -72,8 +72,8 @@ ISO_INLINE S separation_of_a(BoxPair<S>& p, const Mat3<Unit<S>>& turn_a, const M
   return abs(p.offset[I]) - p.half_a[I] - dot(p.turn_size.rows[I], p.half_b);
 }
 
-/// Whether two faces look at each other, but for kNearFace: then either tells of the same points, and a's does, whatever
-/// trembling makes of how far they are apart.
+/// True of two faces that look at each other, but for kNearFace: then either tells of the same points, and a's does,
+/// whatever trembling makes of how far they are apart.
 template <class S> ISO_INLINE bool are_beside(const BoxPair<S>& p, int face_a, int face_b) {
   const bool below_a = p.offset[face_a] < S(0), below_b = dot(p.offset, p.turn.column(face_b)) < S(0);
   return negate_if(below_a != below_b, p.turn.rows[face_a][face_b]) >= Unit<S>(kNearFace);
@@ -101,7 +101,7 @@ ISO_INLINE BestAxis<S> best_axis(BoxPair<S>& p, const Transform<S>& ta, const Tr
   const S of_a = max(a0, max(a1, a2)), of_b = max(b0, max(b1, b2));
   const S tolerance = axis_tolerance(p.half_a, p.half_b);
   const int face_a = a0 >= a1 && a0 >= a2 ? 0 : a1 >= a2 ? 1 : 2, face_b = b0 >= b1 && b0 >= b2 ? 0 : b1 >= b2 ? 1 : 2;
-  const bool prefers_b = of_b > of_a + tolerance && !(of_a > -kMostBeside<S> && are_beside(p, face_a, face_b));
+  const bool prefers_b = of_b > of_a + tolerance && !(of_b > -kMostBeside<S> && are_beside(p, face_a, face_b));
   best.axis = prefers_b ? 3 + face_b : face_a;
   best.separation = prefers_b ? of_b : of_a;
 

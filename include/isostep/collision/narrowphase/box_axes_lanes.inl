@@ -135,7 +135,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     const L of_a = max(a[0], max(a[1], a[2])), of_b = max(b[0], max(b[1], b[2]));
     boxes.tolerance = tolerance_of(boxes.half_a, boxes.half_b);
     const Largest face_a = largest_of(a), face_b = largest_of(b);
-    const Mask shallow = less(L::broadcast(-detail::kMostBeside<S>), of_a);
+    const Mask shallow = less(L::broadcast(-detail::kMostBeside<S>), of_b);
     best.of_b = less(of_a + boxes.tolerance, of_b) & ~(shallow & are_beside(boxes, offset, face_a, offset_b, face_b));
     best.separation = select(best.of_b, of_b, of_a);
     best.axis0 = (best.of_b & face_b.is0) | (~best.of_b & face_a.is0);

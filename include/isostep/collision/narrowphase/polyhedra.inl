@@ -267,7 +267,7 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
   const bool b_is_better = face_b.separation > face_a.separation;
   const Vec3<Unit<S>> up_b = pair.b_in_a.rotation * b.normals[face_b.face];
   const bool beside = -dot(a.normals[face_a.face], up_b) >= Unit<S>(kNearFace);  // as box_axes.hpp has it
-  const bool prefers_b = face_b.separation > beyond_a && !(face_a.separation > -kMostBeside<S> && beside);
+  const bool prefers_b = face_b.separation > beyond_a && !(face_b.separation > -kMostBeside<S> && beside);
   const auto touch_preferred = [&]() ISO_INLINE_LAMBDA { touch(prefers_b ? face_b : face_a, prefers_b, false); };
   bool is_known = false;
   EdgeContact<S> edges = near_edges(pair, face_a, over_a, face_b, margin, is_known);

@@ -271,9 +271,9 @@ ISO_INLINE void end_swing(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, Jo
 }
 
 /// [rad] and the row of the swing about x or y where it is near a limit beyond 120 degrees: its angle there.
-/// Symbols: the limit L of SwingTwist's angle is a plane that cuts the sphere of d: d . n = sin(L / 2), with n = (cos(L /
-///          2), -sin(L / 2)) along e and z. So it holds as asin(d . n) does, whose rate is w . (d x n) / |d x n|: however
-///          near the z axes come to opposite directions, a row is as long as elsewhere.
+/// Symbols: the limit L of SwingTwist's angle is a plane that cuts the sphere of d: d . n = sin(L / 2), with n =
+///          (cos(L / 2), -sin(L / 2)) along e and z. So it holds as asin(d . n), whose rate is w . (d x n) / |d x n|:
+///          however near the z axes come to opposite directions, a row is as long as elsewhere.
 template <class S> struct SwingLimit {
   Vec3<S> rate;  // [1] in a
   S left;        // [rad] until the limit, negative beyond

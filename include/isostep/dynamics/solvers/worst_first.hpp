@@ -26,9 +26,9 @@ namespace isostep {
 ///          nothing, as in the book, its iterations carry a weight through few bodies: at 4 sub-steps a stack of twenty
 ///          boxes falls within two seconds and S6, a chain of fifty links, comes 1.4 m apart, where now the stack is
 ///          0.7 mm deep in itself and the chain comes 0.08 m apart. Friction is a vector within the cone of all that
-///          its point bears, and as urgent as any speed. A gap that would close within the sub-step is hit at once, so nothing gets through. Geometry is the
-///          step's: each gap follows the displacements, nothing is re-measured. A row that cannot be bettered waits
-///          until a neighbour moves.
+///          its point bears, and as urgent as any speed. A gap that would close within the sub-step is hit at once:
+///          nothing gets through. Geometry is the step's: each gap follows the displacements, nothing is measured anew.
+///          A row that cannot be bettered waits until a neighbour moves.
 /// Projection: of projection.hpp. All aim at the same, a quarter of an overlap a sub-step, at 3 m/s at most. Joints'
 ///          errors are projected as nonlinear has it, whatever the setting.
 ///          relaxed: a resolution takes half of what its row lacks, and a pass may have eight times as many: contacts

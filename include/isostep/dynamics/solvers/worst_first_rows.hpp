@@ -1,5 +1,5 @@
-// Rows of the worst-first resolver: a contact point's normal, its friction, what resists rolling and spinning, and their
-// impulses.
+// Rows of the worst-first resolver: a contact point's normal, its friction, what resists rolling and spinning, and
+// their impulses.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// Two rows, solved at once: friction or resistance to rolling, across the normal, or one to spinning about it. Rows' turns hold the mass shares.
+/// Two rows, solved at once: friction, or what resists rolling, or one row about the normal. Turns hold mass shares.
 template <class S> struct TangentPair {
   JointRow<S> rows[2];
   S xx, xy, yy;            // [1] inverse of their coupling: what brings both to rest

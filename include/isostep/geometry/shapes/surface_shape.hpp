@@ -66,8 +66,8 @@ template <class S, class G, class Line> ISO_INLINE void visit_lines_of_surface(c
 
 }  // namespace detail
 
-/// G: TriangleMesh or BakedHeightField, which its blob holds. Of static and kinematic bodies. It is touched from its outward side
-/// alone: what has its centre behind a triangle passes it.
+/// G: TriangleMesh or BakedHeightField, which its blob holds. Of static and kinematic bodies. It is touched from its
+/// outward side alone: what has its centre behind a triangle passes it.
 template <class S, ShapeType Type, class G> struct SurfaceShape {
   static constexpr ShapeType kType = Type;
   static constexpr bool kBounded = false;

@@ -200,8 +200,8 @@ template <class S> class PairLaws {
     }
     hold(law, length3(point_of(m.normal) - point_of(w.normal)) - slack);
   }
-  /// A face that looks along the best axis of boxes and hulls, but for 3.6 degrees, tells of that axis's depth: what lies
-  /// deeper along its own normal lies beside the face.
+  /// A face that looks along the best axis of boxes and hulls, but for 3.6 degrees, tells of that axis's depth: what
+  /// lies deeper along its own normal lies beside the face.
   bool stands_for_best(Point n) const {
     const auto is_polyhedron = [](const DrawnShape& s) {
       return s.type() == ShapeType::box || s.type() == ShapeType::hull;
