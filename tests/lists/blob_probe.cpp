@@ -7,6 +7,7 @@
 
 #include "isostep/collision/broadphase/pairs.inl"
 #include "isostep/collision/broadphase/tree.inl"
+#include "isostep/collision/continuous/shape_impact.inl"
 #include "isostep/dynamics/forces/force_list.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/validate.inl"

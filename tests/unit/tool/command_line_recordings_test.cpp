@@ -129,7 +129,7 @@ TEST_F(CommandLine, VerifiesEveryLineOfAFileOfGoldens) {
   write("goldens.txt", good + "\n" + digest_differs + "\n" + mark_differs + "\nnonsense\n");
   const Answer answer = run({"verify", folder_.string()});
   EXPECT_EQ(answer.status, 4);
-  for (const char* said : {"goldens.txt:S1x5 +q32\\.32 VERIFIED 120 frames\n", "DIVERGED at frame 119: .*digests",
+  for (const char* said : {"goldens.txt:S1x5 +q32\\.32 +VERIFIED 120 frames\n", "DIVERGED at frame 119: .*digests",
                            "DIVERGED at frame 59: ", "goldens.txt:nonsense +CORRUPT at byte 0", "\n1 of 4 verified"}) {
     EXPECT_TRUE(std::regex_search(answer.out, std::regex(said))) << said << "\n" << answer.out;
   }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -120,7 +121,11 @@ inline std::string difference_of(const NamedField& field, std::uint32_t bit) {
 
 inline std::string said(const tool::Input& input, const tool::StageSide& a, const tool::StageSide& b, int expected) {
   testing::internal::CaptureStdout();
-  EXPECT_EQ(tool::print_first_difference(input, a, input, b), expected);
+  try {
+    EXPECT_EQ(tool::print_first_difference(input, a, input, b), expected);
+  } catch (const std::exception& refused) {
+    ADD_FAILURE() << refused.what();
+  }
   std::fflush(stdout);
   return testing::internal::GetCapturedStdout();
 }
