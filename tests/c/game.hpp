@@ -36,7 +36,7 @@ struct Q32Game {
     hinge.b = lid;
     hinge.frame.position.y = whole(3);
     hinge.has_limit = 1;
-    hinge.limit = {iso_q32_from_double(-0.0625), iso_q32_from_double(0.0625)};  // it does not tip over
+    hinge.limit = {-lean(), lean()};
     EXPECT_EQ(iso_q32_create_hinge(world, &hinge, &joint), ISO_OK) << iso_last_error();
   }
   ~Q32Game() { iso_world_destroy(world); }
@@ -56,6 +56,7 @@ struct Q32Game {
   void step(int frames) {
     for (int i = 0; i < frames; ++i) EXPECT_EQ(iso_world_step(world, nullptr), ISO_OK) << iso_last_error();
   }
+  static std::int64_t lean() { return iso_q32_from_double(0.0625); }  // [rad] the tower does not tip over
   static std::int64_t half() { return iso_q32_from_double(0.5); }
   static std::int64_t whole(int n) { return iso_q32_from_double(n); }
 };

@@ -251,7 +251,7 @@ TEST(CJoints, AreAskedAndSet) {
   ASSERT_EQ(iso_q32_joint_get(game.world, game.joint, &properties), ISO_OK);
   EXPECT_EQ(properties.type, std::uint32_t{ISO_JOINT_TYPE_HINGE});
   EXPECT_EQ(properties.flags, std::uint32_t{ISO_JOINT_FLAG_LIMIT});
-  EXPECT_EQ(properties.upper, iso_q32_from_double(0.0625));
+  EXPECT_EQ(properties.upper, Q32Game::lean());
   properties.flags |= ISO_JOINT_FLAG_MOTOR;
   properties.motor_torque = Q32Game::whole(3);
   EXPECT_EQ(iso_q32_joint_set(game.world, game.joint, &properties), ISO_OK) << iso_last_error();

@@ -3,8 +3,8 @@
 // Source:  Hwangbo, Lee, Hutter 2018, SimBenchmark.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cstdlib>
 
+#include "random/asked.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -44,7 +44,7 @@ template <class S> class Kapla : public ::testing::Test {
       for (const double x : {0.3, 0.7, 1.1, 0.1, 1.3}) blocks.push_back(w.create(block(along, {x, height, -0.1}, up)));
     }
     ASSERT_EQ(blocks.size(), 102u);
-    run(w, std::getenv("ISOSTEP_KAPLA") != nullptr ? 600 * hz : 600);
+    run(w, asked("ISOSTEP_KAPLA", 0) > 0 ? 600 * hz : 600);
     double fastest = 0;
     for (const BodyId id : blocks) fastest = std::max(fastest, length(real(w.velocity(id))));
     const D3 top = stood(real(w.center_of_mass(blocks.back())), up);

@@ -47,8 +47,8 @@ template <class S> class LightParts : public ::testing::Test {
 using WideScalars = ::testing::Types<float, double, Q32_32>;
 TYPED_TEST_SUITE(LightParts, WideScalars);
 
-/// Where solvers left the joint open, all of the mechanism went to the part that the wall had stopped: the heavy body
-/// by up to 2.9 m. What is left is of the joint alone, which pulls the heavy body back to where it is held.
+/// The mechanism went to the part that the wall had stopped where solvers left the joint open: the heavy body by up to
+/// 2.9 m. What is left is of the joint alone, which pulls the heavy body back to where it is held.
 TYPED_TEST(LightParts, do_not_carry_heavy_bodies_away) {
   constexpr double kMost = 0.06;  // [m]
   for (const SolverName solver : {SolverName::soft_step, SolverName::worst_first}) {

@@ -95,7 +95,7 @@ TYPED_TEST(PressedJoints, what_a_turning_frame_drags_through_the_ground_is_not_s
                                         << static_cast<int>(type) << ", " << turning.y << ' ' << turning.z << " rad/s");
         const auto seen = this->turned(solver, type, 4.7, turning);
         EXPECT_LT(seen.speed, 30) << "its joint goes round at " << 4.7 * length(turning);
-        EXPECT_LT(seen.error, solver == SolverName::direct ? 0.75 : 1);
+        EXPECT_LT(seen.error, solver == SolverName::direct ? pick<TypeParam>(0.3, 0.3, 0.3, 0.6) : 1.0);
         if (solver == SolverName::direct) unsolved += seen.unsolved;
       }
     }
@@ -103,7 +103,7 @@ TYPED_TEST(PressedJoints, what_a_turning_frame_drags_through_the_ground_is_not_s
   EXPECT_GT(unsolved, 0u) << "what cannot be solved is told";
 }
 
-/// Of 24 of these two had 71 and 35 m/s: the way that is left to a contact's other points counted as what was asked.
+/// Two of 24 such crates had 71 and 35 m/s: direct took the way left to a contact's other points for what was asked.
 TYPED_TEST(PressedJoints, what_is_solved_anew_goes_as_its_joint_does) {
   for (const double arm : {4.5, 5.0}) {
     for (const D3 turning : {D3{0, 1, 1}, D3{0.3, 1, 1}, D3{0, 0.8, 1.1}, D3{0, 1.2, 1}}) {

@@ -20,7 +20,7 @@ template <class S> bool ContinuousCollision<S>::may_stop(const Mover& mover, std
   return at == joined_.size() || joined_[at] != key;
 }
 
-/// By their velocities as the step leaves them.
+/// A one-way body lets out what leaves it by their velocities at the step's end.
 template <class S> bool ContinuousCollision<S>::is_let_out(const Mover& mover, std::uint32_t slot) const {
   const BodyState<S>& own = state_.awake.states[mover.index];
   const Location at = map_.location(slot);
@@ -30,8 +30,8 @@ template <class S> bool ContinuousCollision<S>::is_let_out(const Mover& mover, s
   return (of_other != nullptr && of_other->lets_out(velocity)) || (of_own != nullptr && of_own->lets_out(-velocity));
 }
 
-/// Whether a one-way body lets pass what meets it there, as PairRules judges a pair: by the contact's normal, and none
-/// that has contacts. Surfaces are solid here: what passes one leaves it.
+/// A one-way body lets the mover pass there if PairRules would: by the contact's normal, and never a pair that has
+/// contacts. Surfaces are solid here: what passes one leaves it.
 template <class S>
 bool ContinuousCollision<S>::is_passed(const Mover& mover, const PlacedShape<S>& part, const Pose<S>& there,
                                        const PlacedShape<S>& obstacle, const Obstacle& body, Unit<S> fraction) const {
@@ -53,13 +53,13 @@ bool ContinuousCollision<S>::is_passed(const Mover& mover, const PlacedShape<S>&
   return passes(of_other, -normal) || passes(of_own, normal);
 }
 
-/// Where their boxes met as the step began, they are among the pairs that do not touch.
+/// The step's pairs name ghosts only where their boxes met as it began; their kinds tell of them everywhere.
 template <class S> bool ContinuousCollision<S>::are_ghosts(const Mover& mover, std::uint32_t slot) const {
   const std::uint32_t own = state_.awake.properties[mover.index].material.kind;
   return rules_.ghosts->find(own, map_.properties_at(map_.location(slot)).material.kind) != nullptr;
 }
 
-/// By a contact that presses as hard as it has to. The scales of masses count where both move.
+/// A contact pushes the mover back if it presses as hard as it has to. Scales of masses count where both move.
 template <class S>
 bool ContinuousCollision<S>::is_pushed_back(const Mover& mover, std::uint32_t slot, bool moving) const {
   const std::uint32_t own = state_.awake.properties[mover.index].material.kind;

@@ -11,8 +11,8 @@
 
 namespace isostep {
 
-/// Input:   WorldState::overlaps of the last step; those that the narrow phase found in this one; sensors that commands
-///          changed. Output: WorldState::overlaps; events of their begin and end, in order.
+/// Input:   WorldState::overlaps of the last step; those that the narrow phase found in this one; changed sensors.
+/// Output:  WorldState::overlaps; events of their begin and end, in order.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class SensorOverlaps {
  public:

@@ -21,16 +21,11 @@ template <class S> void SensorOverlaps<S>::list_changed() {
   changed_.clear();
   for (const BodyId sensor : state_.untold.sensors) {
     if (!state_.body_slots.holds(sensor) || map_.location(sensor.slot).set != Location::kStatic) continue;
-    if (changed_.empty() || changed_.back() != sensor.slot) changed_.push_back(sensor.slot);
+    changed_.push_back(sensor.slot);
   }
   state_.untold.sensors.clear();
   slot_scratch_.resize(changed_.size());
   stable_sort(changed_.data(), slot_scratch_.data(), static_cast<std::uint32_t>(changed_.size()), OwnKey{});
-  std::size_t kept = 0;
-  for (const std::uint32_t sensor : changed_) {
-    if (kept == 0 || changed_[kept - 1] != sensor) changed_[kept++] = sensor;
-  }
-  changed_.resize(kept);
 }
 
 /// Overlaps of bodies neither of which is awake stay: the narrow phase does not look at them, because nothing moved but
@@ -46,7 +41,9 @@ template <class S> void SensorOverlaps<S>::keep_unwatched(std::vector<SensorOver
         map_.location(old.sensor).set == Location::kAwake || map_.location(old.other).set == Location::kAwake;
     if (!watched && !is_changed(old.sensor)) found.push_back(old);
   }
-  for (const std::uint32_t sensor : changed_) find_sleepers(sensor, found);
+  for (std::size_t i = 0; i < changed_.size(); ++i) {
+    if (i == 0 || changed_[i] != changed_[i - 1]) find_sleepers(changed_[i], found);
+  }
   sort_scratch_.resize(found.size());
   stable_sort(found.data(), sort_scratch_.data(), static_cast<std::uint32_t>(found.size()), detail::ByOverlap{});
 }

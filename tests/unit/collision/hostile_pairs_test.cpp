@@ -63,7 +63,9 @@ constexpr KnownFlaw kKnownFlaws[] = {
     {bit(ShapeType::hull), kPolyhedra, out_of_reach, 3},
     // A face's normal stands for that of two edges within 3.6 degrees, whose depth its points tell of: what lies deeper
     // along it lies beside the face. And of four corners kept those may be others that are as deep but for depth_tie().
-    {kPolyhedra, kPolyhedra, not_as_deep, 26},
+    {bit(ShapeType::box), bit(ShapeType::box), not_as_deep, 14},
+    {bit(ShapeType::box), bit(ShapeType::hull), not_as_deep, 22},
+    {bit(ShapeType::hull), bit(ShapeType::hull), not_as_deep, 26},
     {bit(ShapeType::hull), bit(ShapeType::half_space), not_as_deep, 2},
     // All of these, of their parts.
     {kCompound, kAny, out_of_reach, 12},

@@ -172,9 +172,10 @@ TYPED_TEST(Tiles, with_ghosts_or_flush_ones_are_crossed_without_a_bump_and_other
       const auto foot = this->vertical_speeds(ramp, kind, Seam::none, true);
       const auto tiles = this->vertical_speeds(ramp, kind, Seam::ghosts, one_body);
       EXPECT_LT(this->difference(tiles, foot, 2), kSmooth) << "spheres and capsules";
-      EXPECT_LT(this->difference(tiles, foot), 0.5);
+      EXPECT_LT(this->difference(tiles, foot), pick<TypeParam>(0.4, 0.15, 0.15, 0.15));
       const auto hollow = this->vertical_speeds(bowl, kind, Seam::none, true);
-      EXPECT_LT(this->difference(this->vertical_speeds(bowl, kind, Seam::ghosts, one_body), hollow), 0.9);
+      EXPECT_LT(this->difference(this->vertical_speeds(bowl, kind, Seam::ghosts, one_body), hollow),
+                pick<TypeParam>(0.6, 0.6, 0.6, 0.8));
       EXPECT_GT(this->difference(this->vertical_speeds(bowl, kind, Seam::open, one_body), hollow), 1);
     }
   }

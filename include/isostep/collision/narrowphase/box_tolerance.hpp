@@ -31,8 +31,8 @@ template <class S> ISO_INLINE constexpr S axis_tolerance(Vec3<S> half_a, Vec3<S>
   return axis_tolerance(min(low.x, min(low.y, low.z)), max_abs(half_a) + max_abs(half_b));
 }
 
-/// Where the best axis is a cross of edges, and a face looks along it within this cosine, of 3.6 degrees, their faces
-/// may touch instead; b's where it looks along it better by kFaceLead.
+/// Faces may touch instead of edges whose cross is the best axis, if one looks along it within this cosine, of 3.6
+/// degrees; b's is the reference if it looks along it better by kFaceLead.
 inline constexpr double kNearFace = 0.998, kFaceLead = 0.001;
 /// [m] Of two faces that look at each other a's is the reference, unless both overlap by more: then the better axis is
 /// shorter to leave by.
