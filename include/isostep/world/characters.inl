@@ -106,13 +106,13 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
   const Direction<S> against = detail::heading<S>(-settings.gravity);
   const Vec3<Unit<S>> up =
       against.length > S(0) ? detail::unit_of<S>(against) : Vec3<Unit<S>>{Unit<S>(0), Unit<S>(1), Unit<S>(0)};
-  const S below = queries_.reach_of(asking.shape, asking.pose.orientation, -up);
   find_passed(character, asking);
   QueryFilter filter = seen_by(character);
   filter.ignore_all = passed_;
   filter.ignore_kinds = passed_kinds_;
   around_.begin(asking.shape, asking.pose, filter, map_.properties_of(character.body)->filter);
-  const Place place = {asking.pose.position, below, up, settings.gravity, settings.hz};
+  const Place place = {asking.pose.position, queries_.reach_of(asking.shape, asking.pose.orientation, -up), up,
+                       settings.gravity, settings.hz};
   CharacterWalk<S> walk(around_, place, walks_, memory_, character);
   walk.run(detail::carried_by_ground(state_, map_, character));
   character.foot_at = walk.foot();
