@@ -266,6 +266,9 @@ ISO_INLINE void NarrowPhase<S>::fill_contact(const PartPair& parts, const Manifo
                : b.surfaces ? mix(of_a, material_of_leaf(b, parts.child_b, of_b))
                             : mix(of_a, of_b);
   const Vec3<S> from_a_to_b = b.centre - a.centre;
+  if (part_pairs_.any_throng() && a.kind == PartKind::sphere && b.kind == PartKind::sphere &&
+      from_a_to_b == Vec3<S>::zero())
+    g.normal = Throng<S>::way_apart(a.slot, b.slot);
   for (int p = 0; p < kMaxContactPoints; ++p) {
     if (p == manifold.count) break;
     const ManifoldPoint<S>& point = manifold.points[p];

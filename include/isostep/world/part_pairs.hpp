@@ -9,6 +9,7 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/world/body_frames.hpp"
+#include "isostep/world/throng.hpp"
 
 namespace isostep {
 
@@ -25,7 +26,7 @@ struct PartGroup {
 
 /// Input:   the state, the pairs of the broad phase in ascending order.
 /// Output:  frames and materials of the bodies; the pairs of parts, ascending by their contacts' keys. Pairs that a
-///          joint or a rule keeps from colliding are left out.
+///          joint or a rule keeps from colliding are left out, and some of a throng.
 /// Keeps:   nothing from step to step but memory.
 /// Budget:  compounds may compare 64 pairs of parts and collide 2 for each pair of bodies that Settings::most_pairs
 ///          allows: comparing takes a hundredth of what a contact takes. Beyond it every pair of bodies gets the same
@@ -44,6 +45,8 @@ template <class S> class PartPairs {
 
   /// Pairs of bodies that joints and rules keep from colliding, ascending.
   ISO_INLINE std::span<const std::uint64_t> joined_pairs() const { return joined_pairs_; }
+  /// Whether bodies begin in one place, so that some pairs are left out.
+  ISO_INLINE bool any_throng() const { return throng_.any(); }
   /// Of awake bodies in their order, then of those that they might touch.
   ISO_INLINE const std::vector<BodyFrame<S>>& frames() const { return frames_; }
   ISO_INLINE const std::vector<Material<S>>& materials() const { return materials_; }
@@ -87,8 +90,11 @@ template <class S> class PartPairs {
   bool ends_group(const PartPair& part) const;
   ListEnds list_ends() const;
 
+  void find_throng(std::span<const std::uint64_t> pairs);
+
   const WorldState<S>& state_;
   const BodyMap<S>& map_;
+  Throng<S> throng_;
   std::vector<std::uint64_t> joined_pairs_, sort_scratch_;
   std::vector<BodyFrame<S>> frames_;
   std::vector<Material<S>> materials_;       // by frame

@@ -6,6 +6,7 @@
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/world/body_frames.inl"
 #include "isostep/world/part_pairs.hpp"
+#include "isostep/world/throng.inl"
 
 namespace isostep {
 
@@ -57,10 +58,17 @@ template <class S> std::uint32_t PartPairs<S>::gather(std::span<const std::uint6
   const auto budget = static_cast<std::uint64_t>(state_.settings.most_pairs);
   const Budget all = {budget * kLooksPerPair, budget * kPartsPerPair};
   cut_compounds_ = 0;
+  find_throng(pairs);
   if (gather(pairs, all, all)) return 0;
   const std::uint64_t count = pairs.size();
   gather(pairs, {all.looks / count, all.parts / count}, {~std::uint64_t{0}, ~std::uint64_t{0}});
   return cut_compounds_;
+}
+template <class S> void PartPairs<S>::find_throng(std::span<const std::uint64_t> pairs) {
+  const std::span<const BodyFrame<S>> awake = std::span(frames_).first(state_.awake.states.size());
+  throng_.begin(awake, state_.awake.properties, pairs.size());
+  if (!throng_.any()) return;
+  for (const std::uint64_t key : pairs) throng_.count(framed_[pair_a(key)].index, framed_[pair_b(key)].index);
 }
 /// False: all together do not fit.
 template <class S> bool PartPairs<S>::gather(std::span<const std::uint64_t> pairs, Budget each, Budget all) {
@@ -76,6 +84,7 @@ template <class S> bool PartPairs<S>::gather(std::span<const std::uint64_t> pair
     if (framed_[pair_a(key)].index == Framed::kNone) frame_body(pair_a(key));
     if (framed_[pair_b(key)].index == Framed::kNone) frame_body(pair_b(key));
     const Framed a = framed_[pair_a(key)], b = framed_[pair_b(key)];
+    if (throng_.any() && throng_.leaves_out(a.index, b.index)) continue;
     if (a.traits == b.traits && a.traits < static_cast<std::uint32_t>(PartKind::other)) {  // awake and no sensors
       const bool spheres = a.traits == static_cast<std::uint32_t>(PartKind::sphere);
       add_part(spheres ? spheres_ : boxes_, {a.index, b.index, 0, 0});

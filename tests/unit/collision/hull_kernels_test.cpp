@@ -60,7 +60,7 @@ TYPED_TEST(HullKernels, hulls_whose_corners_edges_and_faces_fill_blocks_of_lanes
     largest = std::max(largest, static_cast<int>(a.hull.half_edges.size() / 2));
   }
   EXPECT_GT(touching, 2000);
-  EXPECT_GT(edges, 500);
+  EXPECT_GT(edges, 300);
   EXPECT_EQ(largest, 126);
 }
 

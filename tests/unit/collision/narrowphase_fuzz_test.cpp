@@ -102,8 +102,8 @@ TYPED_TEST(NarrowPhaseFuzz, DepthIsTheIndependentOneForAlignedTouchingHugeAndTin
     const auto smallest = [](const Solid& s) { return std::min({s.half[0], s.half[1], s.half[2]}); };
     const bool boxes = a.type == ShapeType::box && b.type == ShapeType::box;
     const double small = boxes ? std::min(smallest(a), smallest(b)) : std::max(smallest(a), smallest(b));
-    // 1e-7: what true_separation takes for touching cores. Of boxes a face beside the best edges may tell the depth.
-    const double face = boxes ? std::min(small / 4, 1.0 / 1024) : 0;  // face_slack()
+    // 1e-7: what true_separation takes for touching cores. Of boxes faces may tell the depth of the best edges.
+    const double face = boxes ? detail::edge_slack(small) : 0;
     const double slack =
         1e-7 + face + small / 64 + (a.radius + b.radius + 0.02) / 512 + 16 * rounding<S>(length) + parallel * length;
     if (m.count == 0) {

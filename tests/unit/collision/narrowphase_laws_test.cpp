@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "isostep/collision/narrowphase/box_tolerance.hpp"
 #include "narrowphase/cases.hpp"
 
 namespace isostep::test {
@@ -49,7 +50,8 @@ bool is(const Solid& a, const Solid& b, ShapeType x, ShapeType y) {
 /// (1/512 of the radii).
 double preference(const Solid& a, const Solid& b) {
   const auto smallest = [](const Solid& s) { return std::min({s.half[0], s.half[1], s.half[2]}); };
-  if (is(a, b, ShapeType::box, ShapeType::box)) return std::min(smallest(a), smallest(b)) / 64;
+  const double small = std::min(smallest(a), smallest(b));
+  if (is(a, b, ShapeType::box, ShapeType::box)) return small / 64 + detail::edge_slack(small);
   if (is(a, b, ShapeType::box, ShapeType::capsule))
     return std::max(smallest(a), smallest(b)) / 128 + (a.radius + b.radius) / 512;
   if (is(a, b, ShapeType::capsule, ShapeType::capsule)) return (a.radius + b.radius) / 512;

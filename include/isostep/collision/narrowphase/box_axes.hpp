@@ -18,6 +18,7 @@ template <class S> struct BoxPair {
 /// The best axis: 0..2 a face of a, 3..5 a face of b, 6 + 3 i + j the cross of a's axis i and b's axis j.
 template <class S> struct BestAxis {
   int axis;              // -1: apart
+  int face;              // of the faces the one that is preferred: 0..5
   S separation;          // [m] of the cores
   Vec3<Unit<S>> normal;  // [1] crosses only: from a to b, a's frame
 };
@@ -46,7 +47,7 @@ ISO_INLINE bool examine_cross(const BoxPair<S>& p, int i, int j, S reach, S& lim
   if (separation > reach) return false;
   if (!(separation > limit)) return true;
   limit = separation;
-  best = {6 + 3 * i + j, separation, offset < S(0) ? -n : n};
+  best = {6 + 3 * i + j, best.face, separation, offset < S(0) ? -n : n};
   return true;
 }
 
@@ -82,7 +83,7 @@ template <class S> ISO_INLINE bool are_beside(const BoxPair<S>& p, int face_a, i
 /// Fills in the rest of the pair as it goes along: half of all pairs end at one of the first axes.
 template <class S>
 ISO_INLINE BestAxis<S> best_axis(BoxPair<S>& p, const Transform<S>& ta, const Transform<S>& tb, S reach) {
-  BestAxis<S> best = {-1, S(0), Vec3<Unit<S>>::zero()};
+  BestAxis<S> best = {-1, 0, S(0), Vec3<Unit<S>>::zero()};
   const auto& q = p.turn_size;
   const Vec3<S> gap = tb.position - ta.position;
   const S a0 = separation_of_a<0>(p, ta.rotation, tb.rotation, gap);
@@ -102,7 +103,7 @@ ISO_INLINE BestAxis<S> best_axis(BoxPair<S>& p, const Transform<S>& ta, const Tr
   const S tolerance = axis_tolerance(p.half_a, p.half_b);
   const int face_a = a0 >= a1 && a0 >= a2 ? 0 : a1 >= a2 ? 1 : 2, face_b = b0 >= b1 && b0 >= b2 ? 0 : b1 >= b2 ? 1 : 2;
   const bool prefers_b = of_b > of_a + tolerance && !(of_b > -kMostBeside<S> && are_beside(p, face_a, face_b));
-  best.axis = prefers_b ? 3 + face_b : face_a;
+  best.axis = best.face = prefers_b ? 3 + face_b : face_a;
   best.separation = prefers_b ? of_b : of_a;
 
   // A cross that is negative unnormalised only sinks when normalised; one that is positive rises.

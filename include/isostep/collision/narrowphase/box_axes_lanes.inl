@@ -34,6 +34,12 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     L separation, limit;       // [m] of the face, what a cross must exceed
     std::uint32_t crosses[9];  // a bit a lane: worth examining
     std::uint32_t examine;     // lanes with any
+
+    /// BestAxis::face.
+    ISO_INLINE int face(int lane) const {
+      const auto bit = [lane](Mask of) ISO_INLINE_LAMBDA { return static_cast<int>(to_bits(of) >> lane & 1u); };
+      return 3 * bit(of_b) + 2 - 2 * bit(axis0) - bit(axis1);
+    }
   };
 
   static ISO_INLINE Mat3<U> gather_turn(const typename Pairs::Frame* const* frames) {
@@ -183,7 +189,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
       const detail::BoxPair<S> pair = pair_of(batch, rest, lane);
       std::uint32_t candidates = 0;
       for (int k = 0; k < 9; ++k) candidates |= (best.crosses[k] >> lane & 1u) << k;
-      detail::BestAxis<S> axis = {0, rest.separation[lane], Vec3<Unit<S>>::zero()};
+      detail::BestAxis<S> axis = {0, best.face(lane), rest.separation[lane], Vec3<Unit<S>>::zero()};
       detail::examine_crosses(pair, candidates, run.margin + a.radius + b.radius, rest.limit[lane], axis);
       if (axis.axis == 0) continue;  // a face, as before
       done |= 1u << lane;

@@ -103,7 +103,7 @@ template <class S> ISO_INLINE Stretch<S> stretch_beside(const Segment<S>& core, 
 }
 
 /// The two ends of that stretch against their projections on the face or edge, both with the normal `outward`, box
-/// frame. Points beyond the margin are left out. None when the stretch is short or misses what is `deepest` by more
+/// frame. Points beyond the patch are left out. None when the stretch is short or misses what is `deepest` by more
 /// than 1/512 of the radii, which is what a tilt of 3.6 degrees costs.
 template <class S>
 ISO_INLINE void touch_stretch(const Primitive<S>& box, const Transform<S>& frame, const Segment<S>& core, S radius,
@@ -129,7 +129,7 @@ ISO_INLINE void touch_stretch(const Primitive<S>& box, const Transform<S>& frame
       return;
     }
     if (length - radii <= deepest + radii * S(0.001953125) + noise) reaches = true;
-    if (length - radii > margin) continue;
+    if (length - radii > margin + kPatchReach<S>) continue;
     const Vec3<S> local = (x + q + outward * (box.radius - radius)) * S(0.5);
     out.add(to_world(frame, local), length - radii, name + unsigned(end));
   }

@@ -62,14 +62,17 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
       turn.rows[i] = {select(of_b, y.x, x.x), select(of_b, y.y, x.y), select(of_b, y.z, x.z)};
     }
     const L radius = select(of_b, p.radius_b, p.radius_a), incident_radius = select(of_b, p.radius_a, p.radius_b);
-    const L radii = radius + incident_radius, reach = L::broadcast(margin);
+    const L radii = radius + incident_radius;
+    const L reach = L::broadcast(margin), patch = L::broadcast(margin + kPatchReach<S>);
+    std::uint32_t touching = 0;
     for (int i = 0; i < kEdges; ++i) {
       points.kept[i] = 0;
       const typename Clip::Edge& edge = faces.edges[i];
       if (!any(edge.there)) continue;
       const L u = edge.from.at[0], v = edge.from.at[1], height = edge.from.at[2];
       const L separation = height - radii;
-      points.kept[i] = to_bits(edge.there & less_equal(separation, reach));
+      points.kept[i] = to_bits(edge.there & less_equal(separation, patch));
+      touching |= to_bits(edge.there & less_equal(separation, reach));
       if (points.kept[i] == 0) continue;
       const L level = faces.half[2] + (height + radius - incident_radius) * L::broadcast(S(0.5));
       const L above = select(faces.below, -level, level);
@@ -80,6 +83,7 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
       ISO_UNROLL for (int lane = 0; lane < W; ++lane) rows[lane] = points.at[lane][i];
       store_transposed<4>(rows, words, 0xffffffffu >> (32 - W));
     }
+    for (std::uint32_t& kept : points.kept) kept &= touching;
   }
   static ISO_INLINE void store_normals(const PairRun<S>& run, const Batch& batch, const typename Axes::Boxes& boxes,
                                        const typename Axes::Best& best, const Faces& faces, std::uint32_t touching) {
@@ -161,15 +165,12 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
   /// The polygons one by one.
   static ISO_INLINE void touch_faces_alone(const PairRun<S>& run, const Batch& batch, const typename Axes::Best& best,
                                            const typename Axes::Rest& rest, std::uint32_t touching) {
-    const std::uint32_t of_b = to_bits(best.of_b), axis0 = to_bits(best.axis0), axis1 = to_bits(best.axis1);
     for (std::uint32_t lanes = touching; lanes != 0; lanes &= lanes - 1) {
       const int lane = first_bit(lanes);
-      const auto bit = [lane](std::uint32_t of) ISO_INLINE_LAMBDA { return static_cast<int>(of >> lane & 1u); };
       const BodyFrame<S>&a = *batch.a[lane], &b = *batch.b[lane];
-      const int axis = 3 * bit(of_b) + 2 - 2 * bit(axis0) - bit(axis1);
       Manifold<S>& out = run.manifolds[batch.pair[lane]];
       out.clear();
-      detail::touch_best_faces(Axes::pair_of(batch, rest, lane), axis, a.radius, a.origin, b.radius,
+      detail::touch_best_faces(Axes::pair_of(batch, rest, lane), best.face(lane), a.radius, a.origin, b.radius,
                                origin_beside(a, b), run.margin, out);
       run.counts[batch.pair[lane]] = static_cast<std::uint8_t>(out.count);
     }
@@ -195,7 +196,7 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
       Manifold<S>& out = run.manifolds[batch.pair[lane]];
       Outline outline = outline_of(faces, points, lane);
       if (outline.count > kMaxContactPoints) {
-        const S slack = detail::face_slack(batch.a[lane]->half, batch.b[lane]->half);
+        const S slack = detail::face_slack(detail::smallest_of(batch.a[lane]->half, batch.b[lane]->half));
         reduce(faces, boxes.tolerance, slack, lane, outline);
       }
       const std::uint32_t axis = 2 - 2 * bit(axis0) - bit(axis1), incident = 2 - 2 * bit(incident0) - bit(incident1);

@@ -42,7 +42,7 @@ ISO_INLINE void touch_alongside(const Segment<S>& a, S radius_a, const Segment<S
       out.count = 0;
       return;
     }
-    if (length - radii > margin) continue;
+    if (length - radii > margin + kPatchReach<S>) continue;
     const std::uint32_t feature = of_a ? 1u + unsigned(end) : b_end < S(0) ? 3u : 4u;
     out.add((p + q + out.normal * (radius_a - radius_b)) * S(0.5), length - radii, feature);
   }

@@ -145,6 +145,19 @@ template <class S, int kCapacity> ISO_INLINE void reduce_to_four(ClipPolygon<S, 
   polygon.count = kept;
 }
 
+/// Leaves the corners of the patch, or none where the lowest is higher than `reach` [m].
+template <class S, int kCapacity> ISO_INLINE void keep_patch(ClipPolygon<S, kCapacity>& polygon, S reach) {
+  bool touches = false;
+  int kept = 0;
+  for (int i = 0; i < polygon.count; ++i) {
+    touches = touches || polygon.points[i].height <= reach;
+    if (!(polygon.points[i].height <= reach + kPatchReach<S>)) continue;
+    if (kept != i) polygon.points[kept] = polygon.points[i];
+    ++kept;
+  }
+  polygon.count = touches ? kept : 0;
+}
+
 /// The face of the incident box that looks most against the reference normal; ties go to the lowest axis. Returns
 /// axis * 2, + 1 for its negative side.
 template <class S> ISO_INLINE unsigned incident_face(const FacePair<S>& pair, bool below, ClipPolygon<S>& polygon) {
@@ -186,18 +199,12 @@ ISO_INLINE void touch_faces(const FacePair<S>& pair, bool below, S radius, S inc
   ClipPolygon<S>& polygon = polygons[now];
 
   const S radii = radius + incident_radius;
-  int kept = 0;
-  for (int i = 0; i < polygon.count; ++i) {
-    if (!(polygon.points[i].height - radii <= margin)) continue;
-    if (kept != i) polygon.points[kept] = polygon.points[i];
-    ++kept;
-  }
-  polygon.count = kept;
-  if (kept == 0) return;
-  if (kept > kMaxContactPoints) {
+  keep_patch(polygon, margin + radii);
+  if (polygon.count == 0) return;
+  if (polygon.count > kMaxContactPoints) {
     const Vec3<S> half = {pair.half[0], pair.half[1], pair.half[2]};
     const Vec3<S> incident = {pair.incident_half[0], pair.incident_half[1], pair.incident_half[2]};
-    reduce_to_four(polygon, depth_tie(axis_tolerance(half, incident), face_slack(half, incident)));
+    reduce_to_four(polygon, depth_tie(axis_tolerance(half, incident), face_slack(smallest_of(half, incident))));
   }
 
   const Vec3<Unit<S>> outward = negate_if(below, frame.rotation.column(pair.axes[2]));
@@ -249,27 +256,16 @@ template <class S> ISO_INLINE bool tells_of(const Manifold<S>& m, S separation, 
   for (int i = 1; i < m.count; ++i) least = min(least, m.points[i].separation);
   return abs(least - separation) <= slack;
 }
-template <class T> ISO_INLINE int largest_axis(Vec3<T> v) { return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2; }
 
-/// Two boxes whose best axis is a cross of edges. Where a face looks almost along it and tells of the same gap, the
-/// faces touch: what lies a little askew on something long and thin rests on the patch where they cross. Of that the
-/// edges are one corner, and in the next step another.
+/// Two boxes whose best axis is a cross of edges. Where their best faces tell of almost the same gap, those touch: what
+/// lies a little askew on something long and thin rests on the patch where they cross. Of that the edges are one corner,
+/// and in the next step another.
 template <class S>
 ISO_INLINE void touch_crossing(const BoxPair<S>& pair, const BestAxis<S>& best, S radius_a, const Transform<S>& ta,
                                S radius_b, const Transform<S>& tb, S margin, Manifold<S>& out) {
-  using U = Unit<S>;
-  const Vec3<U> n = best.normal, m = transposed_times(pair.turn, n);
-  const int i = largest_axis(abs(n)), j = largest_axis(abs(m));
-  const U along_a = abs(n[i]), along_b = abs(m[j]);
-  if (max(along_a, along_b) >= U(kNearFace)) {
-    if (along_b <= along_a + U(kFaceLead)) {
-      touch_face_of_a(pair, i, n[i] < U(0), radius_a, ta, radius_b, margin, out);
-    } else {
-      touch_face_of_b(pair, j, m[j] > U(0), offset_from_b(ta, tb), radius_a, radius_b, tb, margin, out);
-    }
-    if (tells_of(out, best.separation - radius_a - radius_b, face_slack(pair.half_a, pair.half_b))) return;
-    out.clear();
-  }
+  touch_best_faces(pair, best.face, radius_a, ta, radius_b, tb, margin, out);
+  if (tells_of(out, best.separation - radius_a - radius_b, edge_slack(smallest_of(pair.half_a, pair.half_b)))) return;
+  out.clear();
   touch_edges(pair, best, radius_a, radius_b, ta, out);
 }
 

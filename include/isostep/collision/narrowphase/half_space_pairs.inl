@@ -18,10 +18,10 @@ ISO_INLINE Plane<S> plane_below(const Primitive<S>& half_space, const Transform<
   return {up, round_to<S>(dot_sum(centre - t.position, up) - widen<SumOf<S, Unit<S>>>(half_space.offset))};
 }
 
-/// Adds the core point p, `height` above the plane, unless it is out of reach. The normal points into the half-space.
+/// Adds the core point p, `height` above the plane, if it belongs to the patch. The normal points into the half-space.
 template <class S>
 ISO_INLINE void touch_plane(Vec3<S> p, S height, S radius, S margin, std::uint32_t feature, Manifold<S>& out) {
-  if (height - radius > margin) return;
+  if (height - radius > margin + kPatchReach<S>) return;
   out.add(p + out.normal * ((height + radius) * S(0.5)), height - radius, feature);
 }
 

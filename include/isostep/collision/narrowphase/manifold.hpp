@@ -10,6 +10,11 @@ namespace isostep {
 
 inline constexpr int kMaxContactPoints = 4;  // of two parts: a face on a face needs no more to rest
 
+/// [m] Where two shapes are as near as a margin, the points of their patch that are further apart than that by no more
+/// belong to the contact too. What falls almost flat touches with all of its edge or face in the same step, and with
+/// one corner alone it is spun about.
+template <class S> inline constexpr S kPatchReach = S(0.0625);
+
 template <class S> struct ManifoldPoint {
   Vec3<S> position;       // [m] midway between the two surfaces, in the frame that both transforms lead to
   S separation;           // [m] along the normal, negative = overlap

@@ -134,9 +134,10 @@ ISO_INLINE void touch_faces(const FaceContact<S>& contact, std::uint32_t face, c
     } while (edge != reference.faces[contact.axis.face]);
     for (int i = 0; i < polygons[now].count; ++i) {
       const ClipPoint<S>& p = polygons[now].points[i];
-      if (p.height <= margin) add_point(named_by_vertex(contact.incident, kReferenceEdge, p), polygon);
+      if (p.height <= margin + kPatchReach<S>) add_point(named_by_vertex(contact.incident, kReferenceEdge, p), polygon);
     }
   });
+  keep_patch(polygon, margin);
   if (polygon.count == 0 && deepest) take_deepest(contact, polygon);
   if (polygon.count == 0) return;
   if (polygon.count > kMaxContactPoints) reduce_to_four(polygon, tie);
@@ -207,30 +208,6 @@ ISO_INLINE bool shares_a_point(const PolyhedronPair<S, W, Isa>& pair, const Tran
   return false;
 }
 
-/// Of the faces beside two edges that cross, those that look most along the crossing's normal.
-template <class S> struct FacesAlong {
-  std::uint32_t face_a, face_b;
-  Unit<S> along_a, along_b;  // [1] cosines
-
-  /// out_of_b: the normal reversed, b's frame.
-  ISO_INLINE FacesAlong(const Polyhedron<S>& a, const Polyhedron<S>& b, const EdgeAxis<S>& axis,
-                        Vec3<Unit<S>> out_of_b) {
-    choose(a, axis.edge_a, axis.normal, face_a, along_a);
-    choose(b, axis.edge_b, out_of_b, face_b, along_b);
-  }
-  ISO_INLINE bool are_near() const { return max(along_a, along_b) >= Unit<S>(kNearFace); }
-  ISO_INLINE bool prefers_b() const { return along_b > along_a + Unit<S>(kFaceLead); }
-
- private:
-  static ISO_INLINE void choose(const Polyhedron<S>& solid, std::uint32_t edge, Vec3<Unit<S>> out, std::uint32_t& face,
-                                Unit<S>& along) {
-    const std::uint32_t left = solid.half_edges[2 * edge].face, right = solid.half_edges[2 * edge + 1].face;
-    const Unit<S> of_left = dot(solid.normals[left], out), of_right = dot(solid.normals[right], out);
-    face = of_right > of_left ? right : left;
-    along = max(of_left, of_right);
-  }
-};
-
 /// collide_polyhedra() with W lanes of Isa.
 template <class S, int W, class Isa>
 ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
@@ -240,19 +217,15 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
   if (pair.are_apart(margin)) return;
   const FaceAxis<S> face_a = best_face<S, W, Isa>(a, pair.vertices_b, b.vertices.size(), margin);
   if (face_a.separation > margin) return;
-  const S slack = face_slack(min(a.inner_radius, b.inner_radius));
-  const auto touch_pair = [&](const FaceAxis<S>& face, std::uint32_t incident, bool of_b,
-                              bool deepest) ISO_INLINE_LAMBDA {
-    const Polyhedron<S>& reference = of_b ? b : a;
-    const auto& vertices = of_b ? pair.vertices_a : pair.vertices_b;
-    touch_faces({reference, of_b ? a : b, vertices, face, tangents_of(reference.normals[face.face])}, incident,
-                of_b ? tb : ta, margin, depth_tie(pair.tolerance, slack), !of_b, deepest, out);
-  };
+  const S smallest = min(a.inner_radius, b.inner_radius);
   const auto touch = [&](const FaceAxis<S>& face, bool of_b, bool deepest) ISO_INLINE_LAMBDA {
-    const Vec3<Unit<S>> normal = (of_b ? b : a).normals[face.face];
+    const Polyhedron<S>&reference = of_b ? b : a, &incident = of_b ? a : b;
+    const auto& vertices = of_b ? pair.vertices_a : pair.vertices_b;
+    const Vec3<Unit<S>> normal = reference.normals[face.face];
     const Mat3<Unit<S>>& turn = pair.b_in_a.rotation;
     const Vec3<Unit<S>> up = of_b ? turn * normal : transposed_times(turn, normal);
-    touch_pair(face, face_against(of_b ? a : b, face.vertex, up), of_b, deepest);
+    touch_faces({reference, incident, vertices, face, tangents_of(normal)}, face_against(incident, face.vertex, up),
+                of_b ? tb : ta, margin, depth_tie(pair.tolerance, face_slack(smallest)), !of_b, deepest, out);
   };
   // Where the vertex below the best face lies nearer to none of the others, no axis is better by the tolerance.
   const S beyond_a = face_a.separation + pair.tolerance;
@@ -280,14 +253,9 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
   if (edges.axis.found) {
     out.clear();
     if (edges.axis.separation > margin) return;
-    const FacesAlong<S> along(a, b, edges.axis, transposed_times(pair.b_in_a.rotation, -edges.axis.normal));
-    if (along.are_near()) {
-      const bool of_b = along.prefers_b();
-      touch_pair({of_b ? along.face_b : along.face_a, 0, edges.axis.separation}, of_b ? along.face_a : along.face_b,
-                 of_b, false);
-      if (tells_of(out, edges.axis.separation, slack)) return;
-      out.clear();
-    }
+    touch_preferred();
+    if (tells_of(out, edges.axis.separation, edge_slack(smallest))) return;
+    out.clear();
     out.normal = ta.rotation * edges.axis.normal;
     return out.add(to_world(ta, (edges.on_a + edges.on_b) * S(0.5)), edges.axis.separation,
                    edges.axis.edge_a << 7 | edges.axis.edge_b);
@@ -324,7 +292,7 @@ void collide_polyhedron_half_space(const Polyhedron<S>& a, const Transform<S>& t
       const std::uint32_t i = a.origin(edge);
       const Vec3<S> p = a.vertices[i];
       const S height = origin + dot(up_in_a, p);
-      if (height <= margin) add_point({dot(across.t, p), dot(across.u, p), height, i, i}, near);
+      if (height <= margin + kPatchReach<S>) add_point({dot(across.t, p), dot(across.u, p), height, i, i}, near);
       edge = a.half_edges[edge].next;
     } while (edge != a.faces[face]);
   });

@@ -185,9 +185,10 @@ ISO_INLINE void touch_plane(const Polyhedron<S>& a, const Transform<S>& ta, cons
       const ClipPoint<S>& p = polygons[now].points[i];
       const bool own = p.before < kTriangleEdge && p.after < kTriangleEdge;
       const bool counts = own ? ends || corners.kept[p.after] : !is_cut_flat(triangle, p);
-      if (p.height <= margin && counts) add_point(named_by_vertex(a, kTriangleEdge, p), polygon);
+      if (p.height <= margin + kPatchReach<S> && counts) add_point(named_by_vertex(a, kTriangleEdge, p), polygon);
     }
   });
+  keep_patch(polygon, margin);
   if (polygon.count == 0) return;
   if (polygon.count > kMaxContactPoints) reduce_to_four(polygon, tie);
   out.normal = -(ta.rotation * triangle.normal);
@@ -219,13 +220,9 @@ ISO_INLINE void touch_face(const Polyhedron<S>& a, const Transform<S>& ta, const
     edge = a.half_edges[edge].next;
   } while (edge != a.faces[face]);
   FacePolygon<S>& polygon = polygons[now];
-  int kept = 0;
-  for (int i = 0; i < polygon.count; ++i) {
-    if (polygon.points[i].height <= margin) polygon.points[kept++] = polygon.points[i];
-  }
-  polygon.count = kept;
-  if (kept == 0) return;
-  if (kept > kMaxContactPoints) reduce_to_four(polygon, depth_tie(S(0), face_slack(a.inner_radius)));
+  keep_patch(polygon, margin);
+  if (polygon.count == 0) return;
+  if (polygon.count > kMaxContactPoints) reduce_to_four(polygon, depth_tie(S(0), face_slack(a.inner_radius)));
   out.normal = ta.rotation * normal;
   for (int i = 0; i < polygon.count; ++i) {
     const ClipPoint<S>& p = polygon.points[i];

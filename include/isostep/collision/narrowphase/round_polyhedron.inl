@@ -138,7 +138,8 @@ ISO_INLINE bool touch_beside(const Polyhedron<S>& solid, std::uint32_t k, const 
   for (std::uint32_t end = 0; end < 2; ++end) {
     const Vec3<S> p = core.at(end == 0 ? low : high);
     const S height = dot(normal, p - edge.at(edge.nearest(p)));
-    if (height - radius <= margin) touch_round(p, height, normal, radius, frame, 1u << 29 | k << 1 | end, out);
+    if (height - radius > margin + kPatchReach<S>) continue;
+    touch_round(p, height, normal, radius, frame, 1u << 29 | k << 1 | end, out);
   }
   return out.count > 0;
 }

@@ -103,7 +103,7 @@ ISO_INLINE bool touch_beside(const SurfaceTriangle<S>& triangle, const TriangleE
   for (std::uint32_t end = 0; end < 2; ++end) {
     const Vec3<S> p = core.at(end == 0 ? low : high);
     const S height = dot(touch.normal, p - triangle.points[touch.edge]);
-    if (height - radius <= margin)
+    if (height - radius <= margin + kPatchReach<S>)
       touch_round(p, height, touch.normal, radius, ta, name | end, out);
   }
   return out.count > 0;

@@ -12,14 +12,16 @@ namespace isostep::detail {
 template <class S> ISO_INLINE void grow_cores(Manifold<S>& m, S a, S b, S margin) {
   const S radii = a + b;
   const Vec3<S> shift = m.normal * ((a - b) * S(0.5));
+  bool touches = false;
   int kept = 0;
   for (int i = 0; i < m.count; ++i) {
     const ManifoldPoint<S> p = m.points[i];
-    if (p.separation - radii > margin) continue;
+    touches = touches || p.separation - radii <= margin;
+    if (p.separation - radii > margin + kPatchReach<S>) continue;
     m.points[kept++] = {p.position + shift, p.separation - radii, p.feature};
   }
   m.count = kept;
-  if (kept == 0) m.clear();
+  if (!touches) m.clear();
 }
 
 /// Where two cores are nearest, in a's frame. Those that are not apart overlap, or are too near for a direction.

@@ -67,6 +67,7 @@ template <class S, int W, int P> struct ContactBlock {
   AngularRow<S, W> twist;  // its radius is inside the Jacobian
   S twist_friction[W];     // [1] friction that acts at that radius: a part of `friction`, as the patch's own is smaller
   Velocity<S> spin[W];     // [m/s] of b's surface against a's along the twist: -0, which added changes no bit, for none
+  Velocity<S> left_gap[W];  // [m] a wider gap a relaxed pass leaves as it closes: 0 of what may bounce, else none
   NormalRow<S, W> normals[P];
 };
 

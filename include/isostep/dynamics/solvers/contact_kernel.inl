@@ -141,8 +141,9 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
   }
 
   /// Biased: overlap is pushed apart softly, at a bounded speed. Relaxed: no push, so that none of it stays as speed.
-  /// A gap may close in either, no more; relaxed, an open one only gives back: what closes it is the next sub-step's,
-  /// which may see it bounce.
+  /// A gap may close in either, no more. Of what may bounce an open one only gives back in a relaxed pass: what closes
+  /// it is the next sub-step's, which sees it bounce. Of all else that would stop one corner of a flat fall and not
+  /// another, which rounding says is open.
   template <bool Relax>
   static ISO_INLINE void solve_normals(ContactBlock<S, W, P>& c, const Shares& share, const PassLanes& pass,
                                        const Motion& da, const Motion& db, Motion& a, Motion& b) {
@@ -155,7 +156,7 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       if constexpr (Relax) {
         const V speed = along(c.normal, n.row, a, b) + max(gap, V::zero());
         change = times(L::load(n.row.effective_mass), speed);
-        change = select(less(V::zero(), separation), max(change, V::zero()), change);
+        change = select(less(V::load(c.left_gap), separation), max(change, V::zero()), change);
       } else {
         const auto apart = less(V::zero(), separation);
         const V overlap = max(times(pass.bias_rate, separation), V::zero() - pass.push_speed);

@@ -107,14 +107,17 @@ template <class S, int W, class Isa> struct ContactPreparer {
             less(L::zero(), m[0])};
   }
 
-  /// What did not touch in the last step and may bounce: its overlap is an impact's, as deep as impacts.hpp takes it.
-  static ISO_INLINE Mask bouncing(const Contact<S>* const* contacts, const Geometry* const* geometry) {
+  static ISO_INLINE std::uint32_t bouncing(const Geometry* const* geometry) {
     std::uint32_t bits = 0;
-    ISO_UNROLL for (int i = 0; i < W; ++i) {
-      const bool fresh = (contacts[i]->flags & contact_flag::kTouching) == 0;
-      bits |= (fresh && S(0) < geometry[i]->material.restitution ? 1u : 0u) << i;
-    }
-    return Mask::from_bits(bits);
+    ISO_UNROLL for (int i = 0; i < W; ++i) bits |= (S(0) < geometry[i]->material.restitution ? 1u : 0u) << i;
+    return bits;
+  }
+  /// What did not touch in the last step.
+  static ISO_INLINE std::uint32_t fresh(const Contact<S>* const* contacts) {
+    std::uint32_t bits = 0;
+    ISO_UNROLL for (int i = 0; i < W; ++i)
+      bits |= ((contacts[i]->flags & contact_flag::kTouching) == 0 ? 1u : 0u) << i;
+    return bits;
   }
 
   // ---- storing
@@ -255,7 +258,12 @@ template <class S, int W, class Isa> struct ContactPreparer {
     Arms first = sum;
     Vec3<L> arms_b[kMaxContactPoints];
     const L most_bias = L::broadcast(run.most_bias);
-    const L bias = select(bouncing(contacts, geometry), L::zero(), L::broadcast(run.penetration_bias));
+    const std::uint32_t bounces = bouncing(geometry);
+    const V none = V::broadcast(highest<Velocity<S>>());
+    select(Mask::from_bits(bounces), V::zero(), none).store(block.left_gap);
+    // The overlap of what bounces anew is an impact's, as deep as impacts.hpp takes it.
+    const Mask anew = Mask::from_bits(bounces & fresh(contacts));
+    const L bias = select(anew, L::zero(), L::broadcast(run.penetration_bias));
     for (int p = 0; p < run.points; ++p) {
       NormalRow<S, W>& row = block.normals[p];
       L separation;

@@ -165,10 +165,10 @@ template <class S> class PairLaws {
     const double beyond = leans(*c_.a) + leans(*c_.b);
     hold(as_deep_as_its_normal, along - deep - noise_);
     if (!reachable) return;
-    const bool beside = stands_for_best(n);
-    const double told = beside ? deep : along, most = beside ? std::max(along, best) : along;
-    if (exact || best < 0) hold(as_deep_as_its_normal, deep - most - beyond - cost - noise_);
-    hold(no_axis_is_better, (exact ? best : std::min(best, 0.0)) - beyond - cost - noise_ - told);
+    if (!stands_for_best(deep)) {
+      if (exact || best < 0) hold(as_deep_as_its_normal, deep - along - beyond - cost - noise_);
+      hold(no_axis_is_better, (exact ? best : std::min(best, 0.0)) - beyond - cost - noise_ - along);
+    }
     if (exact || best < 0) check_points(m, n);
   }
   void check_points(const Manifold<S>& m, Point n) {
@@ -176,7 +176,7 @@ template <class S> class PairLaws {
     for (int i = 0; i < m.count; ++i) {
       const ManifoldPoint<S>& p = m.points[i];
       hold(well_formed, is_finite(p.position) && is_finite(p.separation) ? 0 : 1);
-      hold(well_formed, p.separation <= from_double<S>(kMargin) ? 0 : 1);
+      hold(well_formed, p.separation <= from_double<S>(kMargin) + kPatchReach<S> ? 0 : 1);
       for (int j = 0; j < i; ++j) hold(well_formed, p.feature == m.points[j].feature ? 1 : 0);
       const Point half = n * (to_double(p.separation) / 2), at = point_of(p.position) - c_.shift;
       for (const Point way : {n, u, u * -1, v, v * -1}) {
@@ -200,13 +200,14 @@ template <class S> class PairLaws {
     }
     hold(law, length3(point_of(m.normal) - point_of(w.normal)) - slack);
   }
-  /// A face that looks along the best axis of boxes and hulls, but for 3.6 degrees, tells of that axis's depth: what
-  /// lies deeper along its own normal lies beside the face.
-  bool stands_for_best(Point n) const {
+  /// Faces of boxes and hulls stand for edges that cross where they tell of the same depth, but for edge_slack(): what
+  /// lies deeper along their normal lies beside them.
+  bool stands_for_best(double deep) const {
     const auto is_polyhedron = [](const DrawnShape& s) {
       return s.type() == ShapeType::box || s.type() == ShapeType::hull;
     };
-    return is_polyhedron(*c_.a) && is_polyhedron(*c_.b) && dot3(n, c_.best.normal) >= detail::kNearFace - 1e-4;
+    const double slack = detail::edge_slack(std::min(c_.a->inner, c_.b->inner)) + preference(c_) + noise_;
+    return is_polyhedron(*c_.a) && is_polyhedron(*c_.b) && std::fabs(deep - c_.best.separation) <= slack;
   }
   static double leans(const DrawnShape& s) { return s.type() == ShapeType::capsule ? 2 * s.record.half.y / 16 : 0; }
   double height() const {

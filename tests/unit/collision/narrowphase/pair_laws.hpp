@@ -67,11 +67,10 @@ inline constexpr Known kKnown[] = {
     {kRevolved, kRevolved, as_deep_as_its_normal, 60},
     {kRevolved, kRevolved, no_axis_is_better, 30},
     {kRevolved, kRevolved, points_between, 50},
-    // Faces within 3.6 degrees of each other or of the best edges, see kNearFace: a's tells what lies over it.
-    {bit(ShapeType::box), bit(ShapeType::box), as_deep_as_its_normal, 9},
-    {bit(ShapeType::box), bit(ShapeType::box), no_axis_is_better, 4},
-    {bit(ShapeType::box), bit(ShapeType::hull), as_deep_as_its_normal, 2},
-    {bit(ShapeType::box), bit(ShapeType::hull), no_axis_is_better, 1},
+    // Of more than four corners those are kept that are as deep as the deepest, but for depth_tie().
+    {bit(ShapeType::box), bit(ShapeType::mesh), as_deep_as_its_normal, 1},
+    {bit(ShapeType::box), bit(ShapeType::hull), as_deep_as_its_normal, 1},
+    // Faces within 3.6 degrees of each other, see kNearFace: a's tells what lies over it.
     {bit(ShapeType::hull), bit(ShapeType::hull), points_between, 4},
 };
 inline int known(Law law, ShapeType a, ShapeType b) {

@@ -36,7 +36,7 @@ template <class S> class Polyhedra : public SolidTest<S> {
     const double reach = std::max(oracle::length(oracle::real(ta.position)), a.radius() + b.radius());
     const double error = this->rounding(reach),
                  tolerance = 2 * inner / 128 + 2 * error,  // faces go before edges, a before b
-        slack = 3 * std::min(inner / 4, 1.0 / 1024);  // face_slack, and depth_tie
+        slack = detail::edge_slack(inner) + 2 * detail::face_slack(inner);  // and depth_tie
     if (m.count == 0) {
       ASSERT_GT(best, -error);
       ++(best < kMargin - error ? tally.beside : tally.apart);
@@ -47,7 +47,12 @@ template <class S> class Polyhedra : public SolidTest<S> {
     EXPECT_NEAR(oracle::length(normal), 1, 8 * to_double(resolution<Unit<S>>()) + 1e-15);
     // Where they are apart, crosses of edges that have nothing to do with each other may by chance be better.
     const double least = std::min(best, 0.0) - tolerance;
-    EXPECT_GT(placed.best_along(normal), least) << "no other axis is much better";
+    const auto tells_of_best = [&](const Manifold<S>& of) {
+      double told = 1e300;
+      for (int i = 0; i < of.count; ++i) told = std::min(told, to_double(of.points[i].separation));
+      return std::fabs(told - best) <= tolerance + slack;
+    };
+    EXPECT_TRUE(tells_of_best(m) || placed.best_along(normal) > least) << "no other axis is much better";
     double deepest = 1e300;
     std::set<std::uint32_t> features;
     for (int i = 0; i < m.count; ++i) {
@@ -62,7 +67,7 @@ template <class S> class Polyhedra : public SolidTest<S> {
     EXPECT_EQ(features.size(), static_cast<std::size_t>(m.count));
     ASSERT_GT(swapped.count, 0);
     const D3 other = -oracle::real(swapped.normal);
-    EXPECT_GT(placed.best_along(other), least) << "the other way round";
+    EXPECT_TRUE(tells_of_best(swapped) || placed.best_along(other) > least) << "the other way round";
     if (best < 0) {
       EXPECT_NEAR(deepest, best, tolerance + slack) << "the deepest point is there";
     }
@@ -89,7 +94,7 @@ TYPED_TEST(Polyhedra, agree_with_every_axis) {
   EXPECT_LT(tally.beside, 200) << "within the margin along every axis, but not one above the other";
   EXPECT_GT(tally.faces_a, 1000);
   EXPECT_GT(tally.faces_b, 1000);
-  EXPECT_GT(tally.edges, 1300);  // of a tenth of the crossings the faces touch
+  EXPECT_GT(tally.edges, 600);  // of half of the crossings the faces touch
   EXPECT_GT(tally.points, 10000);
 }
 
@@ -116,12 +121,12 @@ TYPED_TEST(Polyhedra, leave_out_no_edges_that_decide) {
       Manifold<S> m;
       collide_polyhedra(of_a, ta, of_b, tb, margin, m);
       const bool by_edges = m.count == 1 && m.points[0].feature >> 31 == 0;
-      const bool by_faces =
-          all.found &&
-          detail::FacesAlong<S>(of_a, of_b, all, transposed_times(pair.b_in_a.rotation, -all.normal)).are_near();
-      if (!by_faces) {
-        ASSERT_EQ(by_edges, all.found && all.separation <= margin) << n;
-      }
+      // Faces may tell of almost the same gap.
+      const double slack = to_double(detail::edge_slack(min(of_a.inner_radius, of_b.inner_radius)));
+      double told = 1e9;
+      for (int i = 0; i < m.count; ++i) told = std::min(told, to_double(m.points[i].separation));
+      const bool crosses = all.found && all.separation <= margin;
+      ASSERT_TRUE(by_edges == crosses || (crosses && std::fabs(told - to_double(all.separation)) <= slack)) << n;
     }
     bool is_known = false;
     const auto found = detail::near_edges(pair, face_a, over_a, face_b, margin, is_known).axis;
