@@ -74,11 +74,7 @@ set bmargin at screen 0.045
 set tmargin at screen 0.235
 unset title
 unset logscale x
-set xrange [0.5:6.5]
-set yrange [50:200000]
-set xtics () scale 0
-do for [k = 1:6] { set xtics add (word(names, k) k) }
-set ytics ("100 ns" 100, "1 µs" 1000, "10 µs" 10000, "100 µs" 100000)
+set autoscale xy  # stats sees nothing beyond the ranges
 array times[48]
 do for [row = 1:2] {
   do for [column = 1:4] {
@@ -88,6 +84,11 @@ do for [row = 1:2] {
     }
   }
 }
+set xrange [0.5:6.5]
+set yrange [50:1000000]
+set xtics () scale 0
+do for [k = 1:6] { set xtics add (word(names, k) k) }
+set ytics ("100 ns" 100, "1 µs" 1000, "10 µs" 10000, "100 µs" 100000)
 do for [c = 1:4] {
   set label 40 + c word(scalars, c) at screen 0.55 + 0.105 * (c - 1), 0.262 left offset 1.2, -0.2 \
     point linetype 1 linecolor rgb colours[c] pointtype solid[c] pointsize 0.9 textcolor rgb ink

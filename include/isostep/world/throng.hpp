@@ -18,8 +18,8 @@ namespace isostep {
 /// Method:  a pair is deep if its centres are nearer than kDeep of the smaller inner radius. Of the pairs of two bodies
 ///          with more deep ones than kDeepest each, about kPartners a body are kept, by a hash of their slots: the
 ///          choice is a function of the state, and stays the same while the throng does.
-/// Limits:  bodies of several parts, and what no contact moves, are none of a throng. Steps with fewer than kFew pairs a
-///          body are not looked at; bodies that touch are two inner radii apart, so a heap has no deep pairs.
+/// Limits:  bodies of several parts, and what no contact moves, are none of a throng. Steps with fewer than kFew pairs
+///          a body are not looked at; bodies that touch are two inner radii apart, so a heap has no deep pairs.
 template <class S> class Throng {
  public:
   /// Both of all awake bodies, in their order.
@@ -41,10 +41,10 @@ template <class S> class Throng {
   static Vec3<Unit<S>> way_apart(std::uint32_t slot_a, std::uint32_t slot_b);
 
  private:
-  static constexpr std::size_t kFew = 32;               // pairs a body
-  static constexpr std::uint32_t kDeepest = 4;          // pairs of a body that a blow may have driven so deep
-  static constexpr std::uint32_t kPartners = 8;         // [1] more push faster: 16 at up to 15 m/s, 8 at 13
-  static constexpr double kDeep = 1.5;                  // [1] of the smaller inner radius
+  static constexpr std::size_t kFew = 32;        // pairs a body
+  static constexpr std::uint32_t kDeepest = 4;   // pairs of a body that a blow may have driven so deep
+  static constexpr std::uint32_t kPartners = 8;  // [1] more push faster: 16 at up to 15 m/s, 8 at 13
+  static constexpr double kDeep = 1.5;           // [1] of the smaller inner radius
 
   struct Member {
     Vec3<S> centre;  // [m]

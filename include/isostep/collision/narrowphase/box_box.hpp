@@ -13,8 +13,8 @@ namespace isostep {
 ///          Clipping, CACM 17(1).
 /// Differs: crosses of edges are normalised only when, unnormalised, they could still be the best or separate; a face
 ///          of a is preferred to one of b, and any face to a pair of edges, by axis_tolerance, and where they look at
-///          each other, by kNearFace; where a face looks along the best cross, faces touch (touch_crossing).
-/// Error:   depth within 2 axis_tolerance and face_slack of the least over all axes; position within a few resolutions
+///          each other, by kNearFace; where faces tell of the depth of the best cross, they touch (touch_crossing).
+/// Error:   depth within 2 axis_tolerance and edge_slack of the least over all axes; position within a few resolutions
 ///          of the extents.
 /// Limits:  the gap of boxes apart is that along the best axis, less than the distance of two corners; so it is for the
 ///          cores of rounded boxes (radius > 0), which touch there as if their corners were sharp.

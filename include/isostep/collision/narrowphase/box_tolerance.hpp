@@ -43,9 +43,7 @@ template <class S> inline constexpr S kMostBeside = S(1.0 / 64);
 template <class S> ISO_INLINE constexpr S face_slack(S smallest) { return min(smallest * S(0.25), S(1.0 / 1024)); }
 /// [m] By which the gap that faces tell of may differ from that of two edges which cross there: a heap that crossings
 /// alone hold apart is a heap of pivots. 6 mm for crates of 40 cm; Box3D asks for 5.
-template <class S> ISO_INLINE constexpr S edge_slack(S smallest) {
-  return face_slack(smallest) + smallest * S(0.025);
-}
+template <class S> ISO_INLINE constexpr S edge_slack(S smallest) { return face_slack(smallest) + smallest * S(0.025); }
 /// [m] Depths that differ by less are equal where a polygon is reduced to four of its corners: trembling may not change
 /// which they are. slack: face_slack().
 template <class S> ISO_INLINE constexpr S depth_tie(S tolerance, S slack) {

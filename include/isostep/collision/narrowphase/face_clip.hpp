@@ -258,8 +258,8 @@ template <class S> ISO_INLINE bool tells_of(const Manifold<S>& m, S separation, 
 }
 
 /// Two boxes whose best axis is a cross of edges. Where their best faces tell of almost the same gap, those touch: what
-/// lies a little askew on something long and thin rests on the patch where they cross. Of that the edges are one corner,
-/// and in the next step another.
+/// lies a little askew on something long and thin rests on the patch where they cross. Of that the edges are one
+/// corner, and in the next step another.
 template <class S>
 ISO_INLINE void touch_crossing(const BoxPair<S>& pair, const BestAxis<S>& best, S radius_a, const Transform<S>& ta,
                                S radius_b, const Transform<S>& tb, S margin, Manifold<S>& out) {

@@ -17,7 +17,7 @@ void collide_sphere_half_space(const Primitive<S>& a, const Transform<S>& ta, co
 template <class S>
 void collide_box_half_space(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
                             const Transform<S>& tb, S margin, Manifold<S>& out);
-/// Both ends, as far as they are within the margin. Feature: 0 the negative end, 1 the positive one.
+/// Both ends, as far as they belong to the patch. Feature: 0 the negative end, 1 the positive one.
 template <class S>
 void collide_capsule_half_space(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
                                 const Transform<S>& tb, S margin, Manifold<S>& out);

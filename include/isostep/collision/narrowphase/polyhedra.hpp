@@ -13,7 +13,7 @@ namespace isostep {
 /// polyhedra, GDC 2013). Faces go before edges, and a before b, unless the other is better by 1/128 of the smaller
 /// inner radius. What is further apart than the margin along the line between the origins, too, has no contact; and a
 /// face that a vertex decides, nearer to no other face of its solid, goes before all others. Faces that look at each
-/// other, or along the best cross of edges, touch as those of boxes do (box_box.hpp).
+/// other, or tell of the depth of the best cross of edges, touch as those of boxes do (box_box.hpp).
 /// Features: faces: bit 31, bit 30 where b's face is the reference, that face, a vertex twice or both edges of another
 /// corner; edges: both.
 template <class S>
