@@ -1,4 +1,4 @@
-// What falls onto a slope lies and moves alike on both sides of a vertical plane, so nothing may turn it out of that
+// A crate that falls onto a slope is alike on both sides of a vertical plane, so nothing may turn it out of that
 // plane: all corners of an edge that touch together are stopped together, whatever rounding makes of their gaps. One
 // pass over the corners leaves a fifth of the speed at worst, a few hundredths as a rule.
 // SPDX-License-Identifier: MIT

@@ -45,7 +45,7 @@ template <class S> class PartPairs {
 
   /// Pairs of bodies that joints and rules keep from colliding, ascending.
   ISO_INLINE std::span<const std::uint64_t> joined_pairs() const { return joined_pairs_; }
-  /// Whether bodies begin in one place, so that some pairs are left out.
+  /// True if bodies begin in one place, so that gather() leaves out some of their pairs.
   ISO_INLINE bool any_throng() const { return throng_.any(); }
   /// Of awake bodies in their order, then of those that they might touch.
   ISO_INLINE const std::vector<BodyFrame<S>>& frames() const { return frames_; }

@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// Of n bodies in one place each overlaps all others. All n^2 / 2 contacts push at once, and what one relaxes another
+/// Each of n bodies in one place overlaps all others. All n^2 / 2 contacts push at once, and what one relaxes another
 /// has pushed: a thousand crates leave at 70 m/s, and a step takes seconds. A few partners push a body out as well.
 /// Input:   a step's pairs and the frames of its awake bodies.
 /// Output:  which pairs are left out.

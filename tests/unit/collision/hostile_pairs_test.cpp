@@ -61,7 +61,7 @@ constexpr KnownFlaw kKnownFlaws[] = {
     {bit(ShapeType::capsule), kRevolved, not_as_deep, 16},
     // Faces of needles and slabs.
     {bit(ShapeType::hull), kPolyhedra, out_of_reach, 3},
-    // Of four corners kept those may be others that are as deep but for depth_tie().
+    // reduce_to_four() keeps corners that are as deep as the deepest but for depth_tie().
     {bit(ShapeType::hull), bit(ShapeType::half_space), not_as_deep, 2},
     // All of these, of their parts.
     {kCompound, kAny, out_of_reach, 12},

@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// Where they are within `margin` >= 0, fills `out` with the points of their patch; else count 0 and a zero normal.
+/// Shapes within `margin` >= 0 fill `out` with the points of their patch; others leave count 0 and a zero normal.
 /// Frame:  both transforms lead to one frame near the shapes: origin at a body's centre of mass, axes as the world's.
 ///         Only the difference of the positions enters normal, separation and features; moving both moves the points.
 /// Order:  collide(b, a) gives the same points and the opposite normal to rounding; between unlike types exactly.

@@ -107,12 +107,13 @@ template <class S, int W, class Isa> struct ContactPreparer {
             less(L::zero(), m[0])};
   }
 
+  /// A bit for each contact that may bounce.
   static ISO_INLINE std::uint32_t bouncing(const Geometry* const* geometry) {
     std::uint32_t bits = 0;
     ISO_UNROLL for (int i = 0; i < W; ++i) bits |= (S(0) < geometry[i]->material.restitution ? 1u : 0u) << i;
     return bits;
   }
-  /// What did not touch in the last step.
+  /// A bit for each contact that did not touch in the last step.
   static ISO_INLINE std::uint32_t fresh(const Contact<S>* const* contacts) {
     std::uint32_t bits = 0;
     ISO_UNROLL for (int i = 0; i < W; ++i)

@@ -67,7 +67,7 @@ inline constexpr Known kKnown[] = {
     {kRevolved, kRevolved, as_deep_as_its_normal, 60},
     {kRevolved, kRevolved, no_axis_is_better, 30},
     {kRevolved, kRevolved, points_between, 50},
-    // Of more than four corners those are kept that are as deep as the deepest, but for depth_tie().
+    // reduce_to_four() keeps corners that are as deep as the deepest but for depth_tie().
     {bit(ShapeType::box), bit(ShapeType::mesh), as_deep_as_its_normal, 1},
     {bit(ShapeType::box), bit(ShapeType::hull), as_deep_as_its_normal, 1},
     // Faces within 3.6 degrees of each other, see kNearFace: a's tells what lies over it.
