@@ -1,4 +1,5 @@
 # The flags behind "same inputs, same bits": what they are for is in tests/matrix/README.md.
+include(GNUInstallDirs)
 
 # Contraction fuses a * b + c where the target can; gcc's vectorisers fuse in spite of that flag. Without errno a square
 # root is the instruction and never a call of the C library. Private: a user's own code is compiled as the user likes,
@@ -29,14 +30,14 @@ add_library(isostep::deterministic_flags ALIAS isostep_deterministic_flags)
 target_compile_options(isostep_deterministic_flags INTERFACE ${isostep_exact_flags})
 
 # Where the headers of isostep::transport and isostep::threads are installed, below the prefix.
-set(isostep_extras include/isostep_extras)
+set(isostep_extras ${CMAKE_INSTALL_INCLUDEDIR}/isostep_extras)
 
 # Sets a library of ours up: public headers under `include_dir`, private exact flags.
 function(isostep_library target export_name include_dir)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${include_dir}>
-    $<INSTALL_INTERFACE:include>)
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_options(${target} PRIVATE ${isostep_exact_flags} ${isostep_speed} ${isostep_library_warnings}
     ${isostep_roomy_flags})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name})

@@ -1,6 +1,7 @@
 // The _init of every struct; the shapes of the numbers between C and C++.
 // SPDX-License-Identifier: MIT
 #include "convert.hpp"
+#include "isostep/scalar/environment.hpp"
 
 using namespace isostep;
 using namespace isostep::c;
@@ -51,11 +52,20 @@ ISO_FOR_EACH_RECORD(ISO_Q32_RECORD, Q32_32)
   ISO_PLAIN_INIT(P, ragdoll_bone, RagdollBone<S>)
 ISO_C_FAMILIES(ISO_FAMILY)
 
-#define ISO_NUMBERS(P, S, N)                                                                       \
-  N iso_##P##_from_double(double value) { return same_bits<N>(from_double<S>(value)); }            \
-  double iso_##P##_to_double(N value) { return to_double(same_bits<S>(value)); }                   \
-  N iso_##P##_unit_from_double(double value) { return same_bits<N>(from_double<Unit<S>>(value)); } \
-  double iso_##P##_unit_to_double(N value) { return to_double(same_bits<Unit<S>>(value)); }
+namespace {
+/// Rounded to nearest, whatever the caller's float environment: languages without one come through here.
+template <class S> S number_of(double value) {
+  return isostep::detail::pinned([&] { return from_double<S>(value); });
+}
+template <class S> double double_of(S value) {
+  return isostep::detail::pinned([&] { return to_double(value); });
+}
+}  // namespace
+#define ISO_NUMBERS(P, S, N)                                                                     \
+  N iso_##P##_from_double(double value) { return same_bits<N>(number_of<S>(value)); }            \
+  double iso_##P##_to_double(N value) { return double_of(same_bits<S>(value)); }                 \
+  N iso_##P##_unit_from_double(double value) { return same_bits<N>(number_of<Unit<S>>(value)); } \
+  double iso_##P##_unit_to_double(N value) { return double_of(same_bits<Unit<S>>(value)); }
 ISO_NUMBERS(f32, float, float)
 ISO_NUMBERS(f64, double, double)
 ISO_NUMBERS(q16, Q16_16, std::int32_t)

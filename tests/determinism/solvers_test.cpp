@@ -136,7 +136,7 @@ TYPED_TEST(Solvers, are_recorded_and_verified) {
   const ReplayReader replay(file);
   EXPECT_EQ(replay.frame_count(), 30u);
   const auto accept = [](const ReplayHeader&) { return HeaderMismatch{}; };
-  const VerifyResult result = verify(replay, played, accept);
+  const VerifyResult result = verify_replay(replay, played, accept);
   EXPECT_EQ(result.outcome, VerifyOutcome::verified) << describe(result);
   EXPECT_EQ(played.hash(), this->expected()[29]);
 }

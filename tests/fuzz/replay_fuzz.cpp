@@ -78,7 +78,7 @@ void check(const Buffer& file) {
   read_all(replay, file);
 
   toy::Game game;
-  const VerifyResult result = verify(replay, game, SameHeader{here});
+  const VerifyResult result = verify_replay(replay, game, SameHeader{here});
   (void)describe(result);
   require(result.frames <= replay.frame_count());
   if (result.outcome == VerifyOutcome::verified) require(replay.status() == ReplayStatus::complete);

@@ -137,7 +137,7 @@ template <class S> void use_state(World<S>& world) {
   if (header && recorder.begin(world, header.value())) {
     keep(recorder.frame({}, world.hash())), keep(recorder.keyframe(world)), keep(recorder.finish());
     const ReplayReader replay(file);
-    keep(verify(replay, world, SameHeader{header.value()}).outcome);
+    keep(verify_replay(replay, world, SameHeader{header.value()}).outcome);
   }
   WorldRecorder<S> commands(world, sink_to(file));
   keep(commands.begin("none")), keep(commands.end_frame()), keep(commands.keyframe()), keep(commands.finish());
@@ -253,7 +253,7 @@ template <class S> void use_particles() {
   ParticleWorld<S> moved = std::move(world);
   const ReplayReader replay(file);
   const Result<ReplayHeader> header = header_of_world(moved.settings(), "none", 0);
-  if (header) keep(verify(replay, moved, SameHeader{header.value()}).outcome);
+  if (header) keep(verify_replay(replay, moved, SameHeader{header.value()}).outcome);
 }
 
 template <class S> void use_all_of() {

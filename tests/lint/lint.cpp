@@ -1,7 +1,7 @@
 // Reads the source tree and holds the rules that no compiler holds: floors, banned words, the form of a file.
 // SPDX-License-Identifier: MIT
 //
-// lint floors|words|aggregates|form ROOT: prints one line a finding, exits 1 when there is one.
+// lint floors|words|macros|pinned|aggregates|form ROOT: prints one line a finding, exits 1 when there is one.
 
 #include <algorithm>
 #include <cstdio>
@@ -106,6 +106,66 @@ void check_words(const fs::path& root) {
   }
 }
 
+// ---- macros
+
+struct Foreign {
+  const char* words;
+  const char* header;
+};
+const Foreign kForeign[] = {
+    {"near|far|small|hyper|boolean|pascal|cdecl|interface|IN|OUT|OPTIONAL|ERROR|NO_ERROR|DELETE|STRICT|ABSOLUTE|"
+     "RELATIVE|"
+     "DIFFERENCE|TRANSPARENT|OPAQUE|INFINITE|IGNORE|CONST|VOID|PURE|THIS|rad[1-9]|grp[1-9]|psh[1-9]",
+     "<windows.h>"},
+    {"slots|signals|emit|foreach|forever", "Qt"},
+    {"check|verify|ensure|unimplemented|TEXT|PI|INDEX_NONE", "Unreal's Core"},
+    {"check|verify|require|nil|Nil|YES|NO", "<AssertMacros.h> of macOS"},
+    {"None|Bool|Status|Success|Always|Above|Below|True|False|Unsorted|CursorShape|FocusIn|FocusOut|KeyPress|KeyRelease|"
+     "Expose|DestroyAll|GrayScale|Nonlinear|Ancestor|Inferior",
+     "<X11/X.h>"},
+    {"major|minor|makedev", "<sys/sysmacros.h>"},
+};
+/// A game includes its other headers first: what they define as macros is no name of ours.
+void check_macros(const fs::path& root) {
+  std::vector<std::regex> patterns;
+  for (const Foreign& foreign : kForeign) {
+    patterns.emplace_back("\\b(" + std::string(foreign.words) + ")\\b", std::regex::ECMAScript);
+  }
+  for (const File& file : read_tree(root, {"scalar/include", "include"})) {
+    if (ends_with(file.path, "/eigen_fixed.hpp")) continue;  // its class has the names that Eigen's have
+    for (std::size_t i = 0; i < file.code.size(); ++i) {
+      if (starts_with(file.code[i], "#include")) continue;
+      for (std::size_t f = 0; f < patterns.size(); ++f) {
+        std::smatch match;
+        if (!std::regex_search(file.code[i], match, patterns[f])) continue;
+        report(file, i, "\"" + match.str() + "\": a macro of " + kForeign[f].header);
+      }
+    }
+  }
+}
+
+// ---- pinned
+
+/// Functions for games that the library compiles compute in a pinned float environment: each body in math/ is a call of
+/// detail::pinned, so that a new one cannot forget it. What is ISO_INLINE follows its caller.
+void check_pinned(const fs::path& root) {
+  const std::regex function("^template <[^>]*>+ (?!struct|class|using)[^=;]*\\(.*");
+  for (const File& file : read_tree(root, {"include/isostep/math"})) {
+    if (!ends_with(file.path, ".inl")) continue;
+    bool ours = false;  // in a namespace of the engine's own
+    for (std::size_t i = 0; i < file.code.size(); ++i) {
+      const std::string& line = file.code[i];
+      if (starts_with(line, "namespace detail")) ours = true;
+      if (starts_with(file.lines[i], "}  // namespace detail")) ours = false;
+      if (ours || line.find("ISO_INLINE") != std::string::npos || !std::regex_match(line, function)) continue;
+      std::string body;
+      for (std::size_t j = i; j < file.code.size() && j < i + 4; ++j) body += file.code[j];
+      if (body.find("{  return detail::pinned(") == std::string::npos)
+        report(file, i, "a function that the library compiles begins with return detail::pinned(");
+    }
+  }
+}
+
 // ---- aggregates
 
 /// Vec3<S>(1, 2, 3) is C++20 that clang before 16 does not know: an aggregate takes braces. So do other names of one.
@@ -177,8 +237,10 @@ int main(int count, char** arguments) {
   const std::string rule = count == 3 ? arguments[1] : "";
   if (rule == "floors") check_floors(arguments[2]);
   else if (rule == "words") check_words(arguments[2]);
+  else if (rule == "macros") check_macros(arguments[2]);
+  else if (rule == "pinned") check_pinned(arguments[2]);
   else if (rule == "aggregates") check_aggregates(arguments[2]);
   else if (rule == "form") check_form(arguments[2]);
-  else return std::fprintf(stderr, "lint floors|words|aggregates|form ROOT\n"), 64;
+  else return std::fprintf(stderr, "lint floors|words|macros|pinned|aggregates|form ROOT\n"), 64;
   return findings() == 0 ? 0 : 1;
 }

@@ -53,6 +53,8 @@ ours >clang.cpp
 { standard
   undefine __GNUC__ __GNUC_MINOR__ __clang__ _MSC_VER __x86_64__ __SSE2__ __SSE4_1__ __AVX__ __SIZEOF_INT128__
   printf '#define _MSC_VER 1940\n#define _M_X64 100\n'; ours; } >msvc.cpp
+# A game has included <windows.h>, whose macros are many.
+{ echo '#define NOMINMAX'; echo '#include <windows.h>'; ours; } >after_windows.cpp
 # As isostep_add_scalar() compiles it.
 { echo '#define ISOSTEP_OWN_SCALARS'
   echo '#include "isostep/world/instantiate.inl"'

@@ -1,6 +1,6 @@
 #!/bin/sh
-# The first programs of the pages of C and Python, taken from the pages, against an installed isostep: both print the
-# last hash of hello.cpp, and so do the pages.
+# The first programs of the pages of C and Python, taken from the pages, and hello.cpp by pkg-config, against an
+# installed isostep: all print the last hash of hello.cpp, and so do the pages.
 # usage: hellos_test.sh REPOSITORY PREFIX EXAMPLE_HELLO
 # SPDX-License-Identifier: MIT
 set -u
@@ -35,6 +35,20 @@ if command -v pkg-config >/dev/null && command -v cc >/dev/null; then
   first_block src/c/README.md sh | grep '^cc ' >compile.sh
   sh -e compile.sh >out 2>err || fail "'$(cat compile.sh)' fails"
   prints_hash "program in C" ./hello
+fi
+compiler=$(command -v g++ || command -v c++)
+if command -v pkg-config >/dev/null && [ -n "$compiler" ]; then
+  # shellcheck disable=SC2046
+  "$compiler" -std=c++20 "$repository/src/examples/hello.cpp" -o hello_cpp $(pkg-config --cflags --libs isostep-cpp) ||
+    fail "hello.cpp does not compile with isostep-cpp.pc"
+  prints_hash "program in C++" ./hello_cpp
+  # Containers of another layout: the linker says so. The library is one without.
+  # shellcheck disable=SC2046
+  if "$compiler" -std=c++20 -D_GLIBCXX_DEBUG "$repository/src/examples/hello.cpp" -o hello_debug \
+    $(pkg-config --cflags --libs isostep-cpp) 2>err; then
+    fail "a program with -D_GLIBCXX_DEBUG links against a library without"
+  fi
+  grep -q 'isostep_must_be_compiled_with_GLIBCXX_DEBUG_as_well' err || fail "the linker does not say what differs"
 fi
 python=/usr/bin/python3
 if [ -x "$python" ]; then

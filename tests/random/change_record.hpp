@@ -12,7 +12,7 @@ namespace isostep::test {
 /// `draw` makes a record of the kind. Four are about as many as stay.
 template <class S, class Record, class IdType, class Draw>
 void change_record(World<S>& world, Dice& dice, const Registry<Record, IdType>& registry, const Draw& draw) {
-  const std::vector<IdType> ids = registry.slots().template ids<IdType>();
+  const std::vector<IdType> ids = registry.slot_map().template ids<IdType>();
   const std::uint32_t what = dice.below(8);
   if (ids.empty() || (what < 4 && ids.size() < 4)) {
     world.add(draw(Record{}));

@@ -100,7 +100,7 @@ template <class S> class RandomChanges {
     if (drive_of(seed) != Drive::movers) return;
     Dice dice(seed * 141650939 + frame * 160481183 + 23);
     if (!dice.one_in(12)) return;
-    const std::vector<CharacterId> ids = w.state().force_records->characters.slots().template ids<CharacterId>();
+    const std::vector<CharacterId> ids = w.state().force_records->characters.slot_map().template ids<CharacterId>();
     if (ids.size() < 3 && dice.one_in(2)) return add_character(w, dice);
     if (ids.empty()) return;
     const CharacterId id = ids[dice.below(static_cast<std::uint32_t>(ids.size()))];
@@ -154,7 +154,7 @@ template <class S> class RandomChanges {
     if (dice.one_in(3)) pair.restitution = num<S>(dice.in(0, 1));
     if (dice.one_in(3)) pair.rolling_resistance = num<S>(dice.in(0, 0.0625));
     const auto& pairs = w.state().force_records->material_pairs;
-    const std::vector<MaterialPairId> ids = pairs.slots().template ids<MaterialPairId>();
+    const std::vector<MaterialPairId> ids = pairs.slot_map().template ids<MaterialPairId>();
     for (const MaterialPairId id : ids) {
       if (kinds_key(w.find(id)->kind_a, w.find(id)->kind_b) != kinds_key(pair.kind_a, pair.kind_b)) continue;
       if (dice.one_in(2)) w.remove(id);

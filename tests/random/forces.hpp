@@ -36,7 +36,7 @@ template <class S> class RandomForces {
 
  private:
   template <class Record, class IdType> void change(const Registry<Record, IdType>& registry, std::uint32_t what) {
-    const std::vector<IdType> ids = registry.slots().template ids<IdType>();
+    const std::vector<IdType> ids = registry.slot_map().template ids<IdType>();
     if (ids.empty() || (what < 5 && ids.size() < 6)) {
       Record record;
       if (draw(record)) world_.add(record);

@@ -14,7 +14,7 @@ template <class S> class RandomMechanisms {
   RandomMechanisms(World<S>& world, Dice& dice) : world_(world), dice_(dice) {}
 
   void change() {
-    const auto couplings = world_.state().force_records->couplings.slots().template ids<CouplingId>();
+    const auto couplings = world_.state().force_records->couplings.slot_map().template ids<CouplingId>();
     if (dice_.one_in(4)) return measure();
     if (!couplings.empty() && dice_.one_in(2)) {
       const CouplingId id = couplings[dice_.below(static_cast<std::uint32_t>(couplings.size()))];

@@ -17,7 +17,7 @@ template <class S> class RandomMounts {
 
   void change() {
     const auto& mounts = world_.state().force_records->sensor_mounts;
-    const std::vector<SensorMountId> ids = mounts.slots().template ids<SensorMountId>();
+    const std::vector<SensorMountId> ids = mounts.slot_map().template ids<SensorMountId>();
     if (ids.empty() || (ids.size() < 3 && dice_.one_in(2))) return add();
     const SensorMountId id = ids[dice_.below(static_cast<std::uint32_t>(ids.size()))];
     const SensorMount<S> now = *world_.find(id);

@@ -26,7 +26,7 @@ template <class S> class RandomRules {
 
  private:
   template <class Record, class IdType> void change(const Registry<Record, IdType>& registry) {
-    const std::vector<IdType> ids = registry.slots().template ids<IdType>();
+    const std::vector<IdType> ids = registry.slot_map().template ids<IdType>();
     const std::uint32_t what = dice_.below(8);
     if (ids.empty() || (what < 5 && ids.size() < 4)) {
       const Record record = drawn(Record{});

@@ -36,7 +36,7 @@ template <class S> class ParticleReplay : public ::testing::Test {
     const ReplayReader replay(file);
     const ReplayHeader here = header_here(settings);
     ParticleWorld<S> w;
-    return verify(replay, w, SameHeader{here});
+    return verify_replay(replay, w, SameHeader{here});
   }
 };
 TYPED_TEST_SUITE(ParticleReplay, AllScalars);
@@ -93,7 +93,7 @@ TYPED_TEST(ParticleReplay, the_header_names_a_world_of_particles_and_every_setti
   rigid.world = {};
   const ReplayHeader here = make_replay_header(rigid).value();
   ParticleWorld<S> w;
-  const VerifyResult result = verify(replay, w, SameHeader{here});
+  const VerifyResult result = verify_replay(replay, w, SameHeader{here});
   EXPECT_EQ(result.outcome, VerifyOutcome::incompatible);
   EXPECT_EQ(result.mismatch.key.view(), "world");
 }

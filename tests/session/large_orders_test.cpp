@@ -35,7 +35,7 @@ struct Commanders : Composite<CommandState, OrderAssembly> {
   void step(InputView<Input> inputs) {
     CommandState& state = world;
     for (std::size_t p = 0; p < inputs.size(); ++p) {
-      for (const Unit& unit : inputs[p].small) state.digest = state.digest * 31 + unit.command;
+      for (const Unit& unit : inputs[p].brief) state.digest = state.digest * 31 + unit.command;
       const Bytes order = user.take(inputs, p);
       if (order.empty()) continue;
       // It begins with its place among its player's orders.
@@ -66,7 +66,7 @@ struct OrdersMatch {
   }
   Commanders::Input input(int player, Frame frame) {
     Commanders::Input input;
-    if (frame % 7 == 0) input.small.add({static_cast<std::uint8_t>(frame)});
+    if (frame % 7 == 0) input.brief.add({static_cast<std::uint8_t>(frame)});
     for (std::size_t i = 0; i < senders.size(); ++i) {
       if (match.machine(i).session.local_player() == player && match.machine(i).plays) senders[i]->fill(input);
     }

@@ -59,7 +59,7 @@ TEST_P(Sounds, PlayOncePerHappeningAndPeer) {
     Machine<Game>& machine = match.machine(i);
     machine.will_step = [&ear](Frame frame) { ear.log.before_step(frame); };
     machine.stepped = [&ear](const Game& game, Frame frame) {
-      for (const MatchEvent& event : game.events()) ear.log.emit(event);
+      for (const MatchEvent& event : game.events()) ear.log.tell(event);
       ear.log.after_step(frame);
     };
     machine.went_back = [&ear](Frame frame) { ear.log.rolled_back(frame); };

@@ -38,8 +38,8 @@ struct FaultReport {
   static constexpr std::uint32_t kNoChild = 0xffffffffu;
   std::uint32_t child = kNoChild;  // of a shape that is refused: the part that the field is of
 
-  friend ISO_INLINE constexpr bool operator==(const FaultReport& report, Fault fault) { return report.fault == fault; }
-  friend ISO_INLINE constexpr bool operator!=(const FaultReport& report, Fault fault) { return report.fault != fault; }
+  friend ISO_INLINE constexpr bool operator==(const FaultReport& report, Fault name) { return report.fault == name; }
+  friend ISO_INLINE constexpr bool operator!=(const FaultReport& report, Fault name) { return report.fault != name; }
   friend ISO_INLINE constexpr bool operator==(const FaultReport& a, const FaultReport& b) {
     return a.fault == b.fault && std::string_view(a.command) == b.command && std::string_view(a.field) == b.field &&
            std::string_view(a.expected) == b.expected && a.child == b.child;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/containers_tag.hpp"
 #include "isostep/scalar/scalar.hpp"
 
 /// ISO_FOR_EACH_SCALAR(X) expands X(S) for every scalar the library was built for. CMake's ISOSTEP_SCALARS trims it.

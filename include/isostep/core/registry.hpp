@@ -49,8 +49,8 @@ template <class Record, class IdType> class Registry {
   /// Of an id that is held.
   ISO_INLINE Record& change(IdType id) { return records_.change()[id.slot]; }
 
-  ISO_INLINE const SlotMap& slots() const { return slots_; }
-  ISO_INLINE SlotMap& slots() { return slots_; }
+  ISO_INLINE const SlotMap& slot_map() const { return slots_; }
+  ISO_INLINE SlotMap& slot_map() { return slots_; }
   /// By slot.
   ISO_INLINE const std::vector<Record>& all() const { return *records_; }
   ISO_INLINE std::vector<Record>& change_all() { return records_.change(); }

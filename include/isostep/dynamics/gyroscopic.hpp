@@ -116,10 +116,10 @@ template <class S> struct FreeTurn {
   }
   /// J^-1 f, J = I + h/2 ([w]x I - [I w]x).
   ISO_INLINE Vec3<V> solve(Vec3<V> w, Vec3<V> f) const {
-    const auto small = [](V x) { return convert<S>(half(x)); };
+    const auto halved = [](V x) { return convert<S>(half(x)); };
     const Vec3<V> hw = turned(w), hm = turned(moment(w));
     const Vec3<S> ix = inertia;
-    const Vec3<S> a = {small(hw.x), small(hw.y), small(hw.z)}, m = {small(hm.x), small(hm.y), small(hm.z)};
+    const Vec3<S> a = {halved(hw.x), halved(hw.y), halved(hw.z)}, m = {halved(hm.x), halved(hm.y), halved(hm.z)};
     const Mat3<S> j = {{{ix.x, m.z - a.z * ix.y, a.y * ix.z - m.y},
                         {a.z * ix.x - m.z, ix.y, m.x - a.x * ix.z},
                         {m.y - a.y * ix.x, a.x * ix.y - m.x, ix.z}}};

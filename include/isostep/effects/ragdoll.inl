@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/effects/ragdoll.hpp"
+#include "isostep/scalar/environment.hpp"
 #include "isostep/world/checks.hpp"
 
 namespace isostep {
@@ -157,6 +158,7 @@ template <class S> class RagdollBuilder {
 
 template <class S>
 Ragdoll<S> add_ragdoll(World<S>& world, std::span<const RagdollBone<S>> bones, const RagdollSettings<S>& settings) {
+  const FloatEnvironment environment;
   detail::RagdollBuilder<S> builder(world, bones, settings);
   if (builder.build()) return builder.take();
   builder.take_back();

@@ -7,6 +7,7 @@
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/geometry/mass_properties.hpp"
+#include "isostep/scalar/environment.hpp"
 
 namespace isostep {
 namespace detail {
@@ -190,25 +191,27 @@ template <class S> ISO_INLINE MassProperties<S> combined(const Parts<S>& parts, 
 
 template <class S>
 MassProperties<S> mass_properties(std::span<const Child<S>> children, S density, Contents<S> contents) {
-  const detail::Parts<S> parts(children, contents);
-  S mass = S(0);
-  bool immovable = children.empty();
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    immovable = immovable || !is_bounded(children[i].primitive.type);
-    const S part = parts.ask(i, [&](const auto& shape) { return shape.mass(density); });
-    mass = min(mass + part, Limits<S>::mass());
-  }
-  if (immovable) return {S(0), Vec3<S>::zero(), Vec3<S>::zero(), Quat<Unit<S>>::identity()};
-  mass = max(mass, resolution<S>());
-  const bool principal = visit_shape_type(
-      children[0].primitive.type, [](auto tag) { return decltype(tag)::template Of<S>::kPrincipal; });
-  if (children.size() > 1 || !principal) return detail::combined(parts, mass);
-  const Pose<S>& pose = children[0].pose;
-  const Vec3<S> kappa = parts.ask(0, [](const auto& shape) {
-    if constexpr (std::remove_cvref_t<decltype(shape)>::kPrincipal) return shape.kappa();
-    else return Vec3<S>::zero();
+  return detail::pinned([&]() -> MassProperties<S> {
+    const detail::Parts<S> parts(children, contents);
+    S mass = S(0);
+    bool immovable = children.empty();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      immovable = immovable || !is_bounded(children[i].primitive.type);
+      const S part = parts.ask(i, [&](const auto& shape) { return shape.mass(density); });
+      mass = min(mass + part, Limits<S>::mass());
+    }
+    if (immovable) return {S(0), Vec3<S>::zero(), Vec3<S>::zero(), Quat<Unit<S>>::identity()};
+    mass = max(mass, resolution<S>());
+    const bool principal = visit_shape_type(children[0].primitive.type,
+                                            [](auto tag) { return decltype(tag)::template Of<S>::kPrincipal; });
+    if (children.size() > 1 || !principal) return detail::combined(parts, mass);
+    const Pose<S>& pose = children[0].pose;
+    const Vec3<S> kappa = parts.ask(0, [](const auto& shape) {
+      if constexpr (std::remove_cvref_t<decltype(shape)>::kPrincipal) return shape.kappa();
+      else return Vec3<S>::zero();
+    });
+    return {mass, pose.position, kappa, pose.orientation};
   });
-  return {mass, pose.position, kappa, pose.orientation};
 }
 
 }  // namespace isostep

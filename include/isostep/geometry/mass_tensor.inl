@@ -32,77 +32,87 @@ template <class F> Mat3<F> times(const Mat3<F>& m, F s) { return {{m.rows[0] * s
 
 /// About the centroid the vertices add up to nothing; moments are a fifth of those of a quarter of the mass at each.
 template <class S> MassTensor<S> MassTensor<S>::tetrahedron(S mass, Vec3<S> a, Vec3<S> b, Vec3<S> c, Vec3<S> d) {
-  using F = Finer<S>;
-  const Vec3<F> corners[4] = {detail::finer_vector(a), detail::finer_vector(b), detail::finer_vector(c),
-                              detail::finer_vector(d)};
-  const Vec3<F> middle = (corners[0] + corners[1] + corners[2] + corners[3]) * F(0.25);
-  Mat3<F> sum = Mat3<F>::diagonal(Vec3<F>::zero());
-  for (const Vec3<F>& corner : corners) sum = sum + detail::moment_of_arm(corner - middle);
-  const F share = finer<F>(mass) * F(0.05);
-  return {mass,
-          {coarser<S>(middle.x), coarser<S>(middle.y), coarser<S>(middle.z)},
-          detail::coarser_symmetric<S>(detail::times(sum, share))};
+  return detail::pinned([&]() -> MassTensor<S> {
+    using F = Finer<S>;
+    const Vec3<F> corners[4] = {detail::finer_vector(a), detail::finer_vector(b), detail::finer_vector(c),
+                                detail::finer_vector(d)};
+    const Vec3<F> middle = (corners[0] + corners[1] + corners[2] + corners[3]) * F(0.25);
+    Mat3<F> sum = Mat3<F>::diagonal(Vec3<F>::zero());
+    for (const Vec3<F>& corner : corners) sum = sum + detail::moment_of_arm(corner - middle);
+    const F share = finer<F>(mass) * F(0.05);
+    return {mass,
+            {coarser<S>(middle.x), coarser<S>(middle.y), coarser<S>(middle.z)},
+            detail::coarser_symmetric<S>(detail::times(sum, share))};
+  });
 }
 
 template <class S> MassTensor<S> MassTensor<S>::placed(const Pose<S>& pose) const {
-  using F = Finer<S>;
-  const Mat3<Unit<S>> r = to_matrix(pose.orientation);
-  const auto fine = [](Vec3<Unit<S>> v) {
-    return Vec3<Unit<F>>{finer<Unit<F>>(v.x), finer<Unit<F>>(v.y), finer<Unit<F>>(v.z)};
-  };
-  const Mat3<Unit<F>> turn = {{fine(r.rows[0]), fine(r.rows[1]), fine(r.rows[2])}};
-  return {mass, pose.position + r * centre,
-          detail::coarser_symmetric<S>(turn * (detail::finer_matrix(tensor) * transpose(turn)))};
+  return detail::pinned([&]() -> MassTensor<S> {
+    using F = Finer<S>;
+    const Mat3<Unit<S>> r = to_matrix(pose.orientation);
+    const auto fine = [](Vec3<Unit<S>> v) {
+      return Vec3<Unit<F>>{finer<Unit<F>>(v.x), finer<Unit<F>>(v.y), finer<Unit<F>>(v.z)};
+    };
+    const Mat3<Unit<F>> turn = {{fine(r.rows[0]), fine(r.rows[1]), fine(r.rows[2])}};
+    return {mass, pose.position + r * centre,
+            detail::coarser_symmetric<S>(turn * (detail::finer_matrix(tensor) * transpose(turn)))};
+  });
 }
 
 template <class S> Mat3<S> MassTensor<S>::about(Vec3<S> point) const {
-  using F = Finer<S>;
-  const Mat3<F> arm = detail::moment_of_arm(detail::finer_vector(centre) - detail::finer_vector(point));
-  return detail::coarser_symmetric<S>(detail::finer_matrix(tensor) + detail::times(arm, finer<F>(mass)));
+  return detail::pinned([&]() -> Mat3<S> {
+    using F = Finer<S>;
+    const Mat3<F> arm = detail::moment_of_arm(detail::finer_vector(centre) - detail::finer_vector(point));
+    return detail::coarser_symmetric<S>(detail::finer_matrix(tensor) + detail::times(arm, finer<F>(mass)));
+  });
 }
 
 /// With d between the centres, both tensors and d's moment of the reduced mass: nothing is subtracted.
 template <class S> MassTensor<S> MassTensor<S>::joined(const MassTensor& other) const {
-  using F = Finer<S>;
-  const F a = finer<F>(mass), b = finer<F>(other.mass);
-  const Unit<F> share = divide_to<Unit<F>>(b, a + b);
-  const Vec3<F> from = detail::finer_vector(centre), arm = detail::finer_vector(other.centre) - from;
-  const Vec3<F> middle = from + arm * share;
-  const Mat3<F> sum = detail::finer_matrix(tensor) + detail::finer_matrix(other.tensor);
-  return {mass + other.mass,
-          {coarser<S>(middle.x), coarser<S>(middle.y), coarser<S>(middle.z)},
-          detail::coarser_symmetric<S>(sum + detail::times(detail::moment_of_arm(arm), a * share))};
+  return detail::pinned([&]() -> MassTensor<S> {
+    using F = Finer<S>;
+    const F a = finer<F>(mass), b = finer<F>(other.mass);
+    const Unit<F> share = divide_to<Unit<F>>(b, a + b);
+    const Vec3<F> from = detail::finer_vector(centre), arm = detail::finer_vector(other.centre) - from;
+    const Vec3<F> middle = from + arm * share;
+    const Mat3<F> sum = detail::finer_matrix(tensor) + detail::finer_matrix(other.tensor);
+    return {mass + other.mass,
+            {coarser<S>(middle.x), coarser<S>(middle.y), coarser<S>(middle.z)},
+            detail::coarser_symmetric<S>(sum + detail::times(detail::moment_of_arm(arm), a * share))};
+  });
 }
 
 template <class S> MassProperties<S> MassTensor<S>::properties() const {
-  using F = Finer<S>;
-  const MassProperties<S> immovable = {mass, centre, Vec3<S>::zero(), Quat<Unit<S>>::identity()};
-  Mat3<F> specific = detail::finer_matrix(tensor);
-  F largest = F(0);
-  for (Vec3<F>& row : specific.rows) {
-    row = row / finer<F>(mass);
-    largest = max(largest, max_abs(row));
-  }
-  if (!(F(0) < largest)) return immovable;
-  // Entries of less than a half, as principal_axes() wants them.
-  const F scale = sqrt(largest + largest + largest);
-  Mat3<Unit<F>> relative;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) relative.rows[i][j] = divide_to<Unit<F>>(specific.rows[i][j] / scale, scale);
-  }
-  const Quat<Unit<F>> axes = detail::principal_axes(relative);
-  const Mat3<Unit<F>> principal = detail::seen_from(relative, axes);
-  // What rotating rounds off is no moment.
-  const Unit<F> least = Unit<F>(0x1p-20);
-  const auto kappa = [&](int i) {
-    const Unit<F> value = principal.rows[i][i];
-    return least < value ? coarser<S>(detail::kappa_from<F>(value, scale)) : S(0);
-  };
-  const auto unit = [](Unit<F> x) { return coarser<Unit<S>>(x); };
-  return {mass,
-          centre,
-          {kappa(0), kappa(1), kappa(2)},
-          normalise(Quat<Unit<S>>{unit(axes.x), unit(axes.y), unit(axes.z), unit(axes.w)})};
+  return detail::pinned([&]() -> MassProperties<S> {
+    using F = Finer<S>;
+    const MassProperties<S> immovable = {mass, centre, Vec3<S>::zero(), Quat<Unit<S>>::identity()};
+    Mat3<F> specific = detail::finer_matrix(tensor);
+    F largest = F(0);
+    for (Vec3<F>& row : specific.rows) {
+      row = row / finer<F>(mass);
+      largest = max(largest, max_abs(row));
+    }
+    if (!(F(0) < largest)) return immovable;
+    // Entries of less than a half, as principal_axes() wants them.
+    const F scale = sqrt(largest + largest + largest);
+    Mat3<Unit<F>> relative;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) relative.rows[i][j] = divide_to<Unit<F>>(specific.rows[i][j] / scale, scale);
+    }
+    const Quat<Unit<F>> axes = detail::principal_axes(relative);
+    const Mat3<Unit<F>> principal = detail::seen_from(relative, axes);
+    // What rotating rounds off is no moment.
+    const Unit<F> least = Unit<F>(0x1p-20);
+    const auto kappa = [&](int i) {
+      const Unit<F> value = principal.rows[i][i];
+      return least < value ? coarser<S>(detail::kappa_from<F>(value, scale)) : S(0);
+    };
+    const auto unit = [](Unit<F> x) { return coarser<Unit<S>>(x); };
+    return {mass,
+            centre,
+            {kappa(0), kappa(1), kappa(2)},
+            normalise(Quat<Unit<S>>{unit(axes.x), unit(axes.y), unit(axes.z), unit(axes.w)})};
+  });
 }
 
 }  // namespace isostep

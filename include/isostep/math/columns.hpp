@@ -14,9 +14,9 @@ namespace isostep {
 /// At most kMost vectors. What lanes read beyond the last repeats it.
 template <class T, int kMost> struct Columns {
   static_assert(kMost % 16 == 0, "blocks of lanes of any width fill it");
-  alignas(64) T x[kMost];
-  alignas(64) T y[kMost];
-  alignas(64) T z[kMost];
+  alignas(64) T x[std::size_t{kMost}];
+  alignas(64) T y[std::size_t{kMost}];
+  alignas(64) T z[std::size_t{kMost}];
 
   ISO_INLINE constexpr Vec3<T> at(std::uint32_t i) const { return {x[i], y[i], z[i]}; }
   ISO_INLINE constexpr void set(std::uint32_t i, Vec3<T> v) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/math/curves.hpp"
+#include "isostep/scalar/environment.hpp"
 
 namespace isostep {
 namespace detail {
@@ -36,38 +37,50 @@ template <class U> ISO_INLINE CubicWeights<U> bezier_weights(U t) {
 
 }  // namespace detail
 
-template <class S> S lerp(S a, S b, Unit<S> t) { return round_to<S>(product(a, Unit<S>(1) - t) + product(b, t)); }
+template <class S> S lerp(S a, S b, Unit<S> t) {
+  return detail::pinned([&]() -> S { return round_to<S>(product(a, Unit<S>(1) - t) + product(b, t)); });
+}
 template <class S> Vec3<S> lerp(Vec3<S> a, Vec3<S> b, Unit<S> t) {
-  return {lerp(a.x, b.x, t), lerp(a.y, b.y, t), lerp(a.z, b.z, t)};
+  return detail::pinned([&]() -> Vec3<S> { return {lerp(a.x, b.x, t), lerp(a.y, b.y, t), lerp(a.z, b.z, t)}; });
 }
 template <class S> Unit<S> inverse_lerp(S a, S b, S x) {
-  using U = Unit<S>;
-  if (a == b) return U(0);
-  const bool rises = a < b;
-  if (rises ? x <= a : a <= x) return U(0);
-  if (rises ? b <= x : x <= b) return U(1);
-  return divide_to<U>(x - a, b - a);
+  return detail::pinned([&]() -> Unit<S> {
+    using U = Unit<S>;
+    if (a == b) return U(0);
+    const bool rises = a < b;
+    if (rises ? x <= a : a <= x) return U(0);
+    if (rises ? b <= x : x <= b) return U(1);
+    return divide_to<U>(x - a, b - a);
+  });
 }
 template <class U> U smooth_step(U t) {
-  const U square = t * t, rest = square * (U(1) - t);
-  return square + rest + rest;
+  return detail::pinned([&]() -> U {
+    const U square = t * t, rest = square * (U(1) - t);
+    return square + rest + rest;
+  });
 }
 template <class U> U smoother_step(U t) {
-  const U u = U(1) - t, cube = t * t * t, next = cube * u, last = next * u;  // t^3 (1 + 3 u + 6 u^2)
-  const U thrice = last + last + last;
-  return cube + next + next + next + thrice + thrice;
+  return detail::pinned([&]() -> U {
+    const U u = U(1) - t, cube = t * t * t, next = cube * u, last = next * u;  // t^3 (1 + 3 u + 6 u^2)
+    const U thrice = last + last + last;
+    return cube + next + next + next + thrice + thrice;
+  });
 }
 
 template <class S> S polynomial(std::span<const S> coefficients, S x) {
-  S sum = S(0);
-  for (std::size_t i = coefficients.size(); i-- > 0;) sum = sum * x + coefficients[i];
-  return sum;
+  return detail::pinned([&]() -> S {
+    S sum = S(0);
+    for (std::size_t i = coefficients.size(); i-- > 0;) sum = sum * x + coefficients[i];
+    return sum;
+  });
 }
 
-#define ISO_CUBIC(name, weights)                                                                             \
-  template <class S> S name(S a, S b, S c, S d, Unit<S> t) { return detail::mixed(a, b, c, d, weights(t)); } \
-  template <class S> Vec3<S> name(Vec3<S> a, Vec3<S> b, Vec3<S> c, Vec3<S> d, Unit<S> t) {                   \
-    return detail::mixed(a, b, c, d, weights(t));                                                            \
+#define ISO_CUBIC(name, weights)                                                           \
+  template <class S> S name(S a, S b, S c, S d, Unit<S> t) {                               \
+    return detail::pinned([&] { return detail::mixed(a, b, c, d, weights(t)); });          \
+  }                                                                                        \
+  template <class S> Vec3<S> name(Vec3<S> a, Vec3<S> b, Vec3<S> c, Vec3<S> d, Unit<S> t) { \
+    return detail::pinned([&] { return detail::mixed(a, b, c, d, weights(t)); });          \
   }
 ISO_CUBIC(hermite, detail::hermite_weights)
 ISO_CUBIC(hermite_slope, detail::hermite_slopes)

@@ -4,6 +4,7 @@
 
 #include "isostep/math/angles.inl"
 #include "isostep/math/euler.hpp"
+#include "isostep/scalar/environment.hpp"
 
 namespace isostep {
 namespace detail {
@@ -28,31 +29,35 @@ template <class U> ISO_INLINE U length2(U x, U y) { return direction_of(x, y, U(
 }  // namespace detail
 
 template <class S> Quat<Unit<S>> rotation_of(EulerOrder order, S first, S second, S third) {
-  const detail::EulerAxes axes = detail::axes_of(order);
-  return detail::turn_about(axes.first, first) * detail::turn_about(axes.second, second) *
-         detail::turn_about(axes.third, third);
+  return detail::pinned([&]() -> Quat<Unit<S>> {
+    const detail::EulerAxes axes = detail::axes_of(order);
+    return detail::turn_about(axes.first, first) * detail::turn_about(axes.second, second) *
+           detail::turn_about(axes.third, third);
+  });
 }
 
 template <class S> EulerAngles<S> euler_angles_of(EulerOrder order, Quat<Unit<S>> q) {
-  using U = Unit<S>;
-  const detail::EulerAxes axes = detail::axes_of(order);
-  const Vec3<U> v = {q.x, q.y, q.z};
-  const U i = v[axes.first], j = v[axes.second], k = axes.even ? v[axes.third] : -v[axes.third];
-  // w + j and i + k are cosine and sine of half the sum of first and third, times sqrt(2) sin(second / 2 + pi/4);
-  // w - j and i - k those of half their difference, times the cosine.
-  const U sum_cosine = q.w + j, sum_sine = i + k, difference_cosine = q.w - j, difference_sine = i - k;
-  const U with_sum = detail::length2(sum_cosine, sum_sine);
-  const U with_difference = detail::length2(difference_cosine, difference_sine);
-  S sum = atan2_to<S>(sum_sine, sum_cosine), difference = atan2_to<S>(difference_sine, difference_cosine);
-  U locked = resolution<U>();
-  for (int doubled = 0; doubled < 5; ++doubled) locked = locked + locked;
-  const bool no_sum = with_sum <= locked, no_difference = with_difference <= locked;
-  if (no_sum) sum = difference;
-  if (no_difference) difference = sum;
-  const S eighth = atan2_to<S>(with_sum, with_difference), quarter_turn = S(1.57079632679489661923);
-  const S third = sum - difference;
-  return {wrap_angle(sum + difference), eighth + eighth - quarter_turn, wrap_angle(axes.even ? third : -third),
-          no_sum || no_difference};
+  return detail::pinned([&]() -> EulerAngles<S> {
+    using U = Unit<S>;
+    const detail::EulerAxes axes = detail::axes_of(order);
+    const Vec3<U> v = {q.x, q.y, q.z};
+    const U i = v[axes.first], j = v[axes.second], k = axes.even ? v[axes.third] : -v[axes.third];
+    // w + j and i + k are cosine and sine of half the sum of first and third, times sqrt(2) sin(second / 2 + pi/4);
+    // w - j and i - k those of half their difference, times the cosine.
+    const U sum_cosine = q.w + j, sum_sine = i + k, difference_cosine = q.w - j, difference_sine = i - k;
+    const U with_sum = detail::length2(sum_cosine, sum_sine);
+    const U with_difference = detail::length2(difference_cosine, difference_sine);
+    S sum = atan2_to<S>(sum_sine, sum_cosine), difference = atan2_to<S>(difference_sine, difference_cosine);
+    U locked = resolution<U>();
+    for (int doubled = 0; doubled < 5; ++doubled) locked = locked + locked;
+    const bool no_sum = with_sum <= locked, no_difference = with_difference <= locked;
+    if (no_sum) sum = difference;
+    if (no_difference) difference = sum;
+    const S eighth = atan2_to<S>(with_sum, with_difference), quarter_turn = S(1.57079632679489661923);
+    const S third = sum - difference;
+    return {wrap_angle(sum + difference), eighth + eighth - quarter_turn, wrap_angle(axes.even ? third : -third),
+            no_sum || no_difference};
+  });
 }
 
 }  // namespace isostep

@@ -4,6 +4,7 @@
 
 #include "isostep/math/curves.inl"
 #include "isostep/math/noise.hpp"
+#include "isostep/scalar/environment.hpp"
 #include "isostep/scalar/lattice.hpp"
 
 namespace isostep {
@@ -71,25 +72,31 @@ template <class S> ISO_INLINE Unit<S> half_gradient_noise(Vec3<S> p, std::uint32
 }  // namespace detail
 
 template <class S> Unit<S> value_noise(Vec3<S> p, std::uint32_t seed) {
-  using U = Unit<S>;
-  const detail::NoiseCell<U> cell = detail::cell_of(p, 0);
-  U corners[8];
-  for (int i = 0; i < 8; ++i)
-    corners[i] = from_lattice<U>(static_cast<std::int32_t>(cell.hash(i, seed)) >> 8, 23);  // 24 bits: exact in float
-  return detail::blended(corners, cell.within);
+  return detail::pinned([&]() -> Unit<S> {
+    using U = Unit<S>;
+    const detail::NoiseCell<U> cell = detail::cell_of(p, 0);
+    U corners[8];
+    for (int i = 0; i < 8; ++i)
+      corners[i] = from_lattice<U>(static_cast<std::int32_t>(cell.hash(i, seed)) >> 8, 23);  // 24 bits: exact in float
+    return detail::blended(corners, cell.within);
+  });
 }
 template <class S> Unit<S> gradient_noise(Vec3<S> p, std::uint32_t seed) {
-  const Unit<S> half = detail::half_gradient_noise(p, seed, 0);
-  return half + half;
+  return detail::pinned([&]() -> Unit<S> {
+    const Unit<S> half = detail::half_gradient_noise(p, seed, 0);
+    return half + half;
+  });
 }
 template <class S> Unit<S> fractal_noise(Vec3<S> p, std::uint32_t seed, int octaves) {
-  using U = Unit<S>;
-  U sum = U(0), height = U(1);
-  for (int octave = 0; octave < octaves && octave < detail::kMostOctaves; ++octave) {
-    sum += detail::half_gradient_noise(p, seed + static_cast<std::uint32_t>(octave), octave) * height;
-    height = height * U(0.5);
-  }
-  return sum;
+  return detail::pinned([&]() -> Unit<S> {
+    using U = Unit<S>;
+    U sum = U(0), height = U(1);
+    for (int octave = 0; octave < octaves && octave < detail::kMostOctaves; ++octave) {
+      sum += detail::half_gradient_noise(p, seed + static_cast<std::uint32_t>(octave), octave) * height;
+      height = height * U(0.5);
+    }
+    return sum;
+  });
 }
 
 }  // namespace isostep

@@ -26,7 +26,7 @@ template <class S> class ParticleGrid {
   /// squares, as exact sums where the format has them. slots[0..count) ascend; reach[i] [m], >= 0, is slots[i]'s.
   /// False when there are more than `max_pairs` of them: then it appends max_pairs of them and stops. Which ones
   /// depends on the arguments alone.
-  bool find_pairs(const Axes<S>& position, const std::uint32_t* slots, const S* reach, std::uint32_t count,
+  bool find_pairs(const Axes<S>& position, const std::uint32_t* slot_list, const S* reach, std::uint32_t count,
                   std::vector<std::uint64_t>& pairs, std::uint32_t max_pairs);
 
   /// Of the last call: how many distances were compared.
@@ -35,7 +35,7 @@ template <class S> class ParticleGrid {
  private:
   struct Input {
     const Axes<S>& position;
-    const std::uint32_t* slots;
+    const std::uint32_t* slot_list;
     const S* reach;
   };
   struct Entry {
@@ -89,7 +89,7 @@ template <class S> class ParticleGrid {
   static void advance(Row& row, const Cell* cells, std::uint64_t key);
   void test_range(const Item& one, const Item* from, const Item* to);
   bool full() const;
-  void append_ordered(const std::uint32_t* slots, std::vector<std::uint64_t>& pairs);
+  void append_ordered(const std::uint32_t* slot_list, std::vector<std::uint64_t>& pairs);
 
   Lattice lattice_;
   std::vector<std::uint32_t> rest_;  // indices of particles whose class is to come

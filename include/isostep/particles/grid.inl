@@ -18,9 +18,9 @@ template <class T> ISO_INLINE void grow(std::vector<T>& memory, std::size_t size
 }  // namespace detail
 
 template <class S>
-bool ParticleGrid<S>::find_pairs(const Axes<S>& position, const std::uint32_t* slots, const S* reach,
+bool ParticleGrid<S>::find_pairs(const Axes<S>& position, const std::uint32_t* slot_list, const S* reach,
                                  std::uint32_t count, std::vector<std::uint64_t>& pairs, std::uint32_t max_pairs) {
-  const Input input{position, slots, reach};
+  const Input input{position, slot_list, reach};
   tests_ = 0;
   found_count_ = 0;
   max_pairs_ = max_pairs;
@@ -32,7 +32,7 @@ bool ParticleGrid<S>::find_pairs(const Axes<S>& position, const std::uint32_t* s
   while (left > 1 && !full()) left = meet_coarsest(input, left);
   const bool all = !full();
   if (!all) found_count_ = max_pairs;
-  append_ordered(slots, pairs);
+  append_ordered(slot_list, pairs);
   return all;
 }
 
@@ -53,7 +53,7 @@ template <class S> std::uint32_t ParticleGrid<S>::meet_coarsest(const Input& inp
   std::uint32_t fine = left;  // finer ones fill the entries from behind
   for (std::uint32_t i = 0; i < left; ++i) {
     const std::uint32_t index = rest_[i];
-    const std::uint32_t slot = input.slots[index];
+    const std::uint32_t slot = input.slot_list[index];
     const std::uint64_t key = numbered(0, input.position.x[slot]) +
                               lattice_.stride_y * numbered(1, input.position.y[slot]) +
                               lattice_.stride_z * numbered(2, input.position.z[slot]);
@@ -80,10 +80,10 @@ template <class S> std::uint32_t ParticleGrid<S>::meet_coarsest(const Input& inp
 /// float distances (2^-10 against 2^-22). With f = floor(2^22/D), cells floor(c f / 2^22) of two such particles differ
 /// by at most one, since D f <= 2^22. D >= 2, so c f < 2^42 2^21 fits.
 template <class S> void ParticleGrid<S>::place_lattice(const Input& input, std::uint32_t left, S reach) {
-  Vec3<S> low = input.position[input.slots[rest_[0]]];
+  Vec3<S> low = input.position[input.slot_list[rest_[0]]];
   Vec3<S> high = low;
   for (std::uint32_t i = 1; i < left; ++i) {
-    const Vec3<S> p = input.position[input.slots[rest_[i]]];
+    const Vec3<S> p = input.position[input.slot_list[rest_[i]]];
     low = min(low, p);
     high = max(high, p);
   }
@@ -139,7 +139,7 @@ template <class S> std::uint64_t ParticleGrid<S>::rank_axis(const Input& input, 
   cells.resize(left);
   ranks.resize(left);
   detail::grow(scratch_, left);
-  for (std::uint32_t i = 0; i < left; ++i) cells[i] = cell_of(axis, x[input.slots[rest_[i]]]);
+  for (std::uint32_t i = 0; i < left; ++i) cells[i] = cell_of(axis, x[input.slot_list[rest_[i]]]);
   stable_sort(cells.data(), scratch_.data(), left, OwnKey{});
   std::uint32_t kept = 1;
   ranks[0] = 1;
@@ -181,7 +181,7 @@ void ParticleGrid<S>::sort_into(Sorted& sorted, const Input& input, Entry* entri
   std::uint32_t cells = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t index = entries[i].index;
-    sorted.items[i] = {input.position[input.slots[index]], input.reach[index], index};
+    sorted.items[i] = {input.position[input.slot_list[index]], input.reach[index], index};
     if (i == 0 || entries[i].key != entries[i - 1u].key) sorted.cells[cells++] = {entries[i].key, i};
   }
   sorted.cells[cells] = {~std::uint64_t{0}, count};
@@ -261,15 +261,16 @@ template <class S> ISO_INLINE void ParticleGrid<S>::test_range(const Item& one, 
 }
 
 /// One radix sort of all pairs: counting them by lower index and sorting each particle's partners was no faster.
-template <class S> void ParticleGrid<S>::append_ordered(const std::uint32_t* slots, std::vector<std::uint64_t>& pairs) {
+template <class S>
+void ParticleGrid<S>::append_ordered(const std::uint32_t* slot_list, std::vector<std::uint64_t>& pairs) {
   const std::size_t before = pairs.size();
   const auto count = static_cast<std::uint32_t>(found_count_);
   pairs.resize(before + count);
   detail::grow(scratch_, count);
   std::uint64_t* const out = pairs.data() + before;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint64_t a = slots[found_[i] >> 32];
-    out[i] = a << 32 | slots[static_cast<std::uint32_t>(found_[i])];
+    const std::uint64_t a = slot_list[found_[i] >> 32];
+    out[i] = a << 32 | slot_list[static_cast<std::uint32_t>(found_[i])];
   }
   stable_sort(out, scratch_.data(), count, OwnKey{});
 }

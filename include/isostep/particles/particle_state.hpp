@@ -93,7 +93,7 @@ template <class S> struct ParticleState {
 
   /// Belongs to the world from birth; a null id names it.
   ISO_INLINE ParticleMaterialId first_material() const {
-    return materials.slots().template id_of<ParticleMaterialId>(0);
+    return materials.slot_map().template id_of<ParticleMaterialId>(0);
   }
 
   /// visit("name", registry) in a fixed order.

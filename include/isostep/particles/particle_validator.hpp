@@ -46,18 +46,18 @@ template <class S> class ParticleValidator {
     const char* rule = nullptr;
     ParticleState<S>::registries(
         [&](const char*, const auto& registry) {
-          if (registry.all().size() != registry.slots().entries().size()) rule = "records are not one a slot";
+          if (registry.all().size() != registry.slot_map().entries().size()) rule = "records are not one a slot";
         },
         state_);
     return rule;
   }
   const char* particles() const {
-    const SlotMap& slots = state_.particles;
-    for (std::uint32_t slot = 0; slot < slots.entries().size(); ++slot) {
+    const SlotMap& slot_map = state_.particles;
+    for (std::uint32_t slot = 0; slot < slot_map.entries().size(); ++slot) {
       const Vec3<S> p = state_.position[slot];
       const Vec3<V> v = state_.velocity[slot];
       const InverseMass<S> w = state_.inverse_mass[slot];
-      if (!slots.is_taken(slot)) {
+      if (!slot_map.is_taken(slot)) {
         const bool empty =
             p == Vec3<S>::zero() && v == Vec3<V>::zero() && w == InverseMass<S>(0) && state_.material[slot] == 0;
         if (!empty) return "a free slot holds a particle";

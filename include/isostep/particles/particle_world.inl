@@ -130,7 +130,8 @@ template <class S> S ParticleWorld<S>::mass(ParticleId particle) const {
 }
 template <class S> ParticleMaterialId ParticleWorld<S>::material(ParticleId particle) const {
   if (!contains(particle)) return {};
-  return engine_->state_.materials.slots().template id_of<ParticleMaterialId>(engine_->state_.material[particle.slot]);
+  return engine_->state_.materials.slot_map().template id_of<ParticleMaterialId>(
+      engine_->state_.material[particle.slot]);
 }
 template <class S> std::vector<ParticleId> ParticleWorld<S>::particles() const {
   return engine_->state_.particles.template ids<ParticleId>();
@@ -142,10 +143,10 @@ template <class S> ParticleCounts ParticleWorld<S>::counts() const {
   for (std::uint32_t slot = 0; slot < state.material.size(); ++slot) {
     counts.pinned += state.particles.is_taken(slot) && state.inverse_mass[slot] == InverseMass<S>(0) ? 1u : 0u;
   }
-  counts.springs = state.springs.slots().count_taken();
-  counts.forces = state.forces.slots().count_taken() + state.cohesions.slots().count_taken();
-  counts.links = state.links.slots().count_taken();
-  counts.colliders = state.colliders.slots().count_taken();
+  counts.springs = state.springs.slot_map().count_taken();
+  counts.forces = state.forces.slot_map().count_taken() + state.cohesions.slot_map().count_taken();
+  counts.links = state.links.slot_map().count_taken();
+  counts.colliders = state.colliders.slot_map().count_taken();
   counts.contacts = static_cast<std::uint32_t>(state.contacts.size());
   return counts;
 }

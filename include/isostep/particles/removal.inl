@@ -18,7 +18,7 @@ template <class S> void ParticleRemoval<S>::expire(ParticleEvents<S>& events) {
     if (state_.tick < lifetime.last_tick) continue;
     const std::uint32_t slot = lifetime.slot;
     events.expired.push_back({state_.particles.template id_of<ParticleId>(slot),
-                              state_.materials.slots().template id_of<ParticleMaterialId>(state_.material[slot]),
+                              state_.materials.slot_map().template id_of<ParticleMaterialId>(state_.material[slot]),
                               state_.position[slot], convert<S>(state_.velocity[slot])});
     leaving_.push_back(slot);
   }
@@ -46,7 +46,7 @@ template <class Id, class Registry, class Names>
 void ParticleRemoval<S>::remove_naming(const Registry& registry, const Names& names) {
   for (std::uint32_t slot = 0; slot < registry.all().size(); ++slot) {
     if (registry.is_taken(slot) && names(registry.all()[slot]))
-      remove_record(registry.slots().template id_of<Id>(slot));
+      remove_record(registry.slot_map().template id_of<Id>(slot));
   }
 }
 /// A free slot looks the same whatever lay there.

@@ -33,8 +33,8 @@ template <class S> ISO_INLINE OscillatorStep<S> oscillator_of(S kappa, S delta) 
   const S q = kappa - delta * delta;
   if (S(-0.015625) < q && q < S(0.015625)) {
     const U fall = exp_to<U>(-delta);
-    const NearZero<S> near = near_zero(q);
-    const S c = near.cos * fall, s = near.sinc * fall;
+    const NearZero<S> nearby = near_zero(q);
+    const S c = nearby.cos * fall, s = nearby.sinc * fall;
     return {convert<U>(c + delta * s), convert<U>(s), convert<U>(c - delta * s), -(kappa * s)};
   }
   if (S(0) < q) {

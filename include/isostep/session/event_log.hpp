@@ -49,19 +49,19 @@ struct EventLogConfig {
 /// What was not reported. Both zero: all of it was.
 struct EventLoss {
   std::uint64_t crowded = 0;   // past the `events` of a confirmed frame: equal on every peer
-  std::uint64_t homeless = 0;  // emitted between frames, or while `frames` full ones wait: this machine's own
+  std::uint64_t homeless = 0;  // told between frames, or while `frames` full ones wait: this machine's own
 };
 
-/// An observer of `drive` into which the game, while it steps, emits what others should hear of.
+/// An observer of `drive` into which the game, while it steps, tells what others should hear of.
 ///
-/// The confirmed notices are, frame for frame and in order, what a run that never rolled back emits: equal on every
+/// The confirmed notices are, frame for frame and in order, what a run that never rolled back tells: equal on every
 /// peer. Predictions and retractions are this machine's. Nothing is decided during a rollback: `poll` compares what was
 /// reported with what stands when it is called, so poll after `drive`, until nothing is left. An event of a frame that
 /// was stepped again is, if equal, the one that was reported there; failing that, the nearest equal one within `reach`
 /// frames; equal ones count one by one. So a retraction waits until `reach` frames past the event were stepped without
 /// it.
 ///
-///     for (const auto& touch : world.events().contact_begin) log->emit({touch.a, touch.b});  // after world.step()
+///     for (const auto& touch : world.events().contact_begin) log->tell({touch.a, touch.b});  // after world.step()
 ///     drive(session, game, now, log);
 ///     while (const auto notice = log.poll()) if (notice->first) play(notice->event);
 ///
@@ -81,7 +81,7 @@ template <LoggedEvent E> class EventLog {
   EventLog& operator=(const EventLog&) = delete;
 
   /// In a frame that is being stepped. False: lost, see `lost`.
-  ISO_INLINE bool emit(const E& event) {
+  ISO_INLINE bool tell(const E& event) {
     if (frame_ != kNoFrame && frame_ <= confirmed_) return true;  // reported or waiting to be, and final
     if (frame_ != kNoFrame && in_frame_ == events_) {
       ++records_.back().crowded;
@@ -96,7 +96,7 @@ template <LoggedEvent E> class EventLog {
     return true;
   }
 
-  /// What is new: retractions, then confirmed and predicted ones by frame and in the order they were emitted.
+  /// What is new: retractions, then confirmed and predicted ones by frame and in the order they were told.
   ISO_INLINE std::optional<Notice<E>> poll() {
     if (changed_) settle();
     for (std::size_t i = 0; i < missing_.size(); ++i) {

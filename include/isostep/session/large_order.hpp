@@ -26,14 +26,14 @@ template <class Small, std::size_t kPiece = 192> struct WithOrders {
   static_assert(kPiece > 0 && kPiece < 256, "a piece's size is one byte");
   /// [bytes] of an order: pieces are counted modulo 256, and half of that are of the order under way.
   static constexpr std::size_t kOrderCap = kPiece * 120 < kLargeOrderCap ? kPiece * 120 : kLargeOrderCap;
-  Small small{};
+  Small brief{};
   std::uint8_t sequence = 0, size = 0;
   std::uint16_t offset = 0, total = 0;
   std::uint8_t bytes[kPiece] = {};
 
   OrderPiece piece() const { return {sequence, offset, total, Bytes(bytes, size)}; }
   friend bool operator==(const WithOrders& a, const WithOrders& b) {
-    return a.small == b.small && a.sequence == b.sequence && a.size == b.size && a.offset == b.offset &&
+    return a.brief == b.brief && a.sequence == b.sequence && a.size == b.size && a.offset == b.offset &&
            a.total == b.total && std::memcmp(a.bytes, b.bytes, a.size) == 0;
   }
 };
@@ -53,7 +53,7 @@ template <class Small, std::size_t kPiece> struct InputCodec<WithOrders<Small, k
       std::memcpy(at + kPlace, input.bytes, input.size);
       at += kPlace + input.size;
     }
-    return static_cast<std::size_t>(at - to) + InputCodec<Small>::encode(input.small, at);
+    return static_cast<std::size_t>(at - to) + InputCodec<Small>::encode(input.brief, at);
   }
   static bool decode(Bytes bytes, Input& input) {
     Input read;
@@ -71,7 +71,7 @@ template <class Small, std::size_t kPiece> struct InputCodec<WithOrders<Small, k
       std::memcpy(read.bytes, bytes.data() + kHead + kPlace, read.size);
       at += kPlace + read.size;
     }
-    if (!InputCodec<Small>::decode(bytes.subspan(at), read.small)) return false;
+    if (!InputCodec<Small>::decode(bytes.subspan(at), read.brief)) return false;
     input = read;
     return true;
   }
@@ -88,7 +88,7 @@ template <class Small, std::size_t kPiece> struct InputCodec<WithOrders<Small, k
 template <class Predictor> struct PredictNoPiece {
   template <class Input> static Input predict(const Input& last, Frame ahead) {
     Input guess;
-    guess.small = Predictor::predict(last.small, ahead);
+    guess.brief = Predictor::predict(last.brief, ahead);
     guess.sequence = last.sequence;
     return guess;
   }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "isostep/core/index.hpp"
 #include "isostep/session/core.hpp"
 #include "isostep/session/input_codec.hpp"
 #include "isostep/state/concepts.hpp"
@@ -254,7 +255,7 @@ template <class Game, class Predictor> void probe(Session<Game, Predictor>& sess
   for (std::uint64_t i = 0; i < kProbes && !bytes.empty(); ++i) {
     // Multiples of the golden ratio fill the range evenly.
     const std::uint64_t place = ((static_cast<std::uint64_t>(frame) * kProbes + i) * 0x9e3779b97f4a7c15u) >> 32;
-    const auto at = static_cast<std::size_t>(place * bytes.size() >> 32);
+    const std::size_t at = as_index(place * bytes.size() >> 32);
     bytes[at] ^= 1u;
     const bool unseen = read_whole(game, bytes) && game.hash() == hash;
     bytes[at] ^= 1u;

@@ -46,7 +46,7 @@ constexpr std::uint64_t siphash_2_4(const SipKey& key, Bytes message) {
   const std::size_t whole = message.size() / 8 * 8;
   for (std::size_t at = 0; at < whole; at += 8) state.take(load_le<std::uint64_t>(message.data() + at));
   // The rest, and the length in the uppermost byte.
-  std::uint64_t last = static_cast<std::uint64_t>(message.size()) << 56;
+  std::uint64_t last = std::uint64_t{message.size()} << 56;
   for (std::size_t at = whole; at < message.size(); ++at) last |= std::uint64_t{message[at]} << (8 * (at - whole));
   state.take(last);
   state.v2 ^= 0xff;

@@ -145,9 +145,9 @@ template <class Visitor> class StateFields {
 
   template <class T> void operator()(const char* name, T& value) const {
     if constexpr (std::is_same_v<std::remove_const_t<T>, SlotMap>) {
-      slots(name, value);
+      visit_slots(name, value);
     } else if constexpr (requires { value.all(); }) {  // Registry
-      slots((std::string(name) + "_slots").c_str(), std::as_const(value).slots());
+      visit_slots((std::string(name) + "_slots").c_str(), std::as_const(value).slot_map());
       if constexpr (Visitor::kEdits) visit_(name, value.change_all());
       else visit_(name, std::as_const(value).all());
     } else {
@@ -179,12 +179,12 @@ template <class Visitor> class StateFields {
   }
 
  private:
-  void slots(const char* name, const SlotMap& slots) const {
+  void visit_slots(const char* name, const SlotMap& slot_map) const {
     visit_.within(name, [&](const Visitor& of_slots) {
-      const std::uint32_t first_free = slots.first_free();
+      const std::uint32_t first_free = slot_map.first_free();
       of_slots("first_free", first_free);
     });
-    visit_(name, slots.entries());
+    visit_(name, slot_map.entries());
   }
 
   const Visitor& visit_;

@@ -46,7 +46,7 @@ class StateHasher {
   ISO_INLINE std::uint64_t value() const { return combiner_.value(); }
 
   ISO_INLINE void operator()(const char*, std::uint64_t number) { combiner_.add(number); }
-  ISO_INLINE void operator()(const char*, const SlotMap& slots) { combiner_.add(hash_slots(slots)); }
+  ISO_INLINE void operator()(const char*, const SlotMap& slot_map) { combiner_.add(hash_slots(slot_map)); }
   template <HasFields Record> ISO_INLINE void operator()(const char*, const Record& record) {
     combiner_.add(hash_records_by_fields(&record, 1));
   }
@@ -54,7 +54,7 @@ class StateHasher {
     combiner_.add(hash_records(records.data(), records.size()));
   }
   template <class Record, class Id> ISO_INLINE void operator()(const char*, const Registry<Record, Id>& registry) {
-    combiner_.add(hash_slots(registry.slots()));
+    combiner_.add(hash_slots(registry.slot_map()));
     combiner_.add(registry.remembered().get(
         [&]() ISO_INLINE_LAMBDA { return hash_records_by_fields(registry.all().data(), registry.all().size()); }));
   }
@@ -109,12 +109,14 @@ class StateSize {
   ISO_INLINE std::size_t value() const { return bytes_; }
 
   template <class T> ISO_INLINE void operator()(const char*, const T&) {}
-  ISO_INLINE void operator()(const char*, const SlotMap& slots) { bytes_ += slots.entries().pages() * sizeof(void*); }
+  ISO_INLINE void operator()(const char*, const SlotMap& slot_map) {
+    bytes_ += slot_map.entries().pages() * sizeof(void*);
+  }
   template <class Record> ISO_INLINE void operator()(const char*, const std::vector<Record>& records) {
     bytes_ += records.size() * sizeof(Record);
   }
   template <class Record, class Id> ISO_INLINE void operator()(const char* name, const Registry<Record, Id>& registry) {
-    (*this)(name, registry.slots());
+    (*this)(name, registry.slot_map());
   }
   template <class List> ISO_INLINE void bodies_in_pages(const List& list) { bytes_ += list.pages() * sizeof(void*); }
   template <class List> ISO_INLINE void islands(const char*, const List& list) {
@@ -132,12 +134,12 @@ class StateWriter {
   ISO_INLINE explicit StateWriter(Writer& writer) : writer_(writer) {}
 
   template <class T> ISO_INLINE void operator()(const char*, const T& value) { writer_.write(value); }
-  ISO_INLINE void operator()(const char*, const SlotMap& slots) { write_slots(writer_, slots); }
+  ISO_INLINE void operator()(const char*, const SlotMap& slot_map) { write_slots(writer_, slot_map); }
   template <class Record> ISO_INLINE void operator()(const char*, const std::vector<Record>& records) {
     writer_.write_array(records);
   }
   template <class Record, class Id> ISO_INLINE void operator()(const char*, const Registry<Record, Id>& registry) {
-    write_slots(writer_, registry.slots());
+    write_slots(writer_, registry.slot_map());
     writer_.write_array(registry.all());
   }
   /// As two arrays: the pages do not show.
@@ -186,12 +188,12 @@ template <class ReadStore = ReadNoStore> class StateReader {
       : reader_(reader), read_store_(std::move(read_store)), there_(there) {}
 
   template <class T> ISO_INLINE void operator()(const char*, T& value) { reader_.read(value); }
-  ISO_INLINE void operator()(const char*, SlotMap& slots) { read_slots(reader_, slots); }
+  ISO_INLINE void operator()(const char*, SlotMap& slot_map) { read_slots(reader_, slot_map); }
   template <class Record> ISO_INLINE void operator()(const char*, std::vector<Record>& records) {
     reader_.read_array(records, kMaxRecords);
   }
   template <class Record, class Id> ISO_INLINE void operator()(const char*, Registry<Record, Id>& registry) {
-    read_slots(reader_, registry.slots());
+    read_slots(reader_, registry.slot_map());
     reader_.read_array(registry.change_all(), kMaxRecords);
   }
   template <class List> ISO_INLINE void bodies_in_pages(List& list) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/index.hpp"
 #include "isostep/state/concepts.hpp"
 #include "isostep/state/replay_format.hpp"
 
@@ -68,7 +69,7 @@ class ReplaySeeker {
     return {};
   }
   ISO_INLINE void go_to(std::uint64_t key) {
-    sim_.load(keys_[static_cast<std::size_t>(key)]);
+    sim_.load(keys_[as_index(key)]);
     position_ = key * spacing_;
   }
   ISO_INLINE Result<void> advance() {

@@ -14,11 +14,11 @@ namespace isostep::detail {
 inline constexpr std::uint32_t kMaxRecords = 1u << 24;  // of any kind in a file; more is a damaged count
 
 /// Of the free list's start and the entries page by page, so that a slot taken or given back costs its page.
-ISO_INLINE std::uint64_t hash_slots(const SlotMap& slots) {
-  return slots.remembered_hash().get([&]() ISO_INLINE_LAMBDA {
-    const SlotMap::Entries& entries = slots.entries();
+ISO_INLINE std::uint64_t hash_slots(const SlotMap& slot_map) {
+  return slot_map.remembered_hash().get([&]() ISO_INLINE_LAMBDA {
+    const SlotMap::Entries& entries = slot_map.entries();
     HashCombiner combiner;
-    combiner.add(slots.first_free());
+    combiner.add(slot_map.first_free());
     for (std::size_t p = 0; p < entries.pages(); ++p) {
       combiner.add(entries.remembered(p).get(
           [&]() ISO_INLINE_LAMBDA { return hash_records(entries.page(p), entries.page_size(p)); }));
@@ -26,17 +26,17 @@ ISO_INLINE std::uint64_t hash_slots(const SlotMap& slots) {
     return combiner.value();
   });
 }
-ISO_INLINE void write_slots(Writer& writer, const SlotMap& slots) {
-  const SlotMap::Entries& entries = slots.entries();
-  writer.write(slots.first_free());
+ISO_INLINE void write_slots(Writer& writer, const SlotMap& slot_map) {
+  const SlotMap::Entries& entries = slot_map.entries();
+  writer.write(slot_map.first_free());
   writer.write_count(entries.size());
   for (std::size_t p = 0; p < entries.pages(); ++p) writer.write_records(entries.page(p), entries.page_size(p));
 }
-ISO_INLINE void read_slots(Reader& reader, SlotMap& slots) {
+ISO_INLINE void read_slots(Reader& reader, SlotMap& slot_map) {
   const auto first_free = reader.read<std::uint32_t>();
   std::vector<SlotEntry> entries;
   reader.read_array(entries, kMaxRecords);
-  if (reader.ok() && !slots.restore(entries, first_free))
+  if (reader.ok() && !slot_map.restore(entries, first_free))
     reader.fail(ErrorCode::corrupt, "a slot table's free list is broken");
 }
 

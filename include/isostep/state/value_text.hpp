@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-enum class FieldKind : std::uint32_t { boolean, signed_integer, unsigned_integer, scalar };
+enum class FieldKind : std::uint32_t { truth, signed_integer, unsigned_integer, scalar };
 
 /// What must be known of a field's type to read its bits.
 struct FieldFormat {
@@ -21,7 +21,7 @@ struct FieldFormat {
 
 template <FieldValue T> constexpr FieldFormat field_format_of() {
   if constexpr (std::is_same_v<T, bool>) {
-    return {FieldKind::boolean, 1, 0};
+    return {FieldKind::truth, 1, 0};
   } else if constexpr (std::is_enum_v<T>) {
     return field_format_of<std::underlying_type_t<T>>();
   } else if constexpr (std::is_integral_v<T>) {

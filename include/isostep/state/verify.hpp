@@ -109,12 +109,13 @@ ISO_INLINE VerifyResult verify_frames(const ReplayReader& replay, Sim& sim, cons
 /// `check(header)` returns a HeaderMismatch; with an empty key the replay is accepted. What `sim` was before does not
 /// matter. A damaged file is never stepped; a cut one is, as far as it goes, and may turn out to diverge.
 template <ReplayableSimulation Sim, class Check>
-requires requires(Check& check, const ReplayHeader& header) { HeaderMismatch(check(header)); }
-ISO_INLINE VerifyResult verify(const ReplayReader& replay, Sim& sim, Check&& check, const VerifySpan& span = {}) {
+requires requires(Check& check_header, const ReplayHeader& header) { HeaderMismatch(check_header(header)); }
+ISO_INLINE VerifyResult verify_replay(const ReplayReader& replay, Sim& sim, Check&& check_header,
+                                      const VerifySpan& span = {}) {
   const VerifyResult file = detail::verify_file(replay);
   if (file.outcome != VerifyOutcome::verified) return file;
   if (replay.has_header()) {
-    const HeaderMismatch mismatch = check(replay.header());
+    const HeaderMismatch mismatch = check_header(replay.header());
     if (!mismatch.key.empty()) return detail::incompatible(mismatch);
   }
   if (!replay.has_state()) return detail::verify_end(replay, 0);

@@ -145,9 +145,9 @@ ISO_INLINE bool visit_near_children(const BodyFrame<S>& outer, const Transform<S
   if (outer.tree != nullptr) box = grow(inner.tree->bounds(of_inner), margin);
   return visit_children_near(outer, of_outer, box, [&](std::uint32_t i, std::uint32_t first_i) ISO_INLINE_LAMBDA {
     const PlacedLeaves<S> own = {part(outer, i), placed(of_outer, outer.children[i]), first_i};
-    Aabb<S> near = {};
-    if (inner.tree != nullptr) near = grow(bounds(own.shape, own.at), margin);
-    return visit_children_near(inner, of_inner, near, [&](std::uint32_t j, std::uint32_t first_j) ISO_INLINE_LAMBDA {
+    Aabb<S> nearby = {};
+    if (inner.tree != nullptr) nearby = grow(bounds(own.shape, own.at), margin);
+    return visit_children_near(inner, of_inner, nearby, [&](std::uint32_t j, std::uint32_t first_j) ISO_INLINE_LAMBDA {
       return visit(own, PlacedLeaves<S>{part(inner, j), placed(of_inner, inner.children[j]), first_j});
     });
   });

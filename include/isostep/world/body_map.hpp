@@ -36,7 +36,7 @@ template <class S> class BodyMap {
   ISO_INLINE explicit BodyMap(WorldState<S>& state) : state_(state) {}
 
   // Locations, by slot.
-  ISO_INLINE std::size_t slots() const { return locations_.size(); }
+  ISO_INLINE std::size_t slot_count() const { return locations_.size(); }
   ISO_INLINE Location location(std::uint32_t slot) const { return locations_[slot]; }
   ISO_INLINE Location joint_location(std::uint32_t slot) const { return joint_locations_[slot]; }
   /// The row of SolverBodies: 0, which nothing moves, unless the body is awake.

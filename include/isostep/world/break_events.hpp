@@ -19,7 +19,7 @@ template <class S> class BreakEvents {
  public:
   ISO_INLINE BreakEvents(WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
-  void emit(const SolvedContacts<S>& contacts, Events<S>& events);
+  void collect(const SolvedContacts<S>& contacts, Events<S>& events);
 
  private:
   struct Blow {

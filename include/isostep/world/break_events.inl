@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-template <class S> void BreakEvents<S>::emit(const SolvedContacts<S>& contacts, Events<S>& events) {
+template <class S> void BreakEvents<S>::collect(const SolvedContacts<S>& contacts, Events<S>& events) {
   const auto& records = state_.force_records->breakables;
   if (records.all().empty()) return;
   record_of_.assign(state_.body_slots.entries().size(), 0);

@@ -202,13 +202,13 @@ template <class S> void CharacterWalk<S>::find_ground(bool walks, Vec3<S> carrie
   const Vec3<S> down = convert<S>(up_) * -reach;
   const std::optional<Hit> hit = rises ? std::nullopt : cast(down);
   if (hit && is_walkable(*hit)) return stand_on(*hit, reach * hit->fraction);
-  const bool near = hit && reach * hit->fraction < S(2) * character_.skin;
-  if (!rises && (near || has_supports()) && stand_between()) return;
+  const bool nearby = hit && reach * hit->fraction < S(2) * character_.skin;
+  if (!rises && (nearby || has_supports()) && stand_between()) return;
   if (walks) set_velocity(flat(character_.move) + speed_of(carried));
-  character_.footing = near ? Footing::steep : Footing::airborne;
-  character_.ground = near ? hit->body : BodyId{};
-  character_.normal = near ? hit->normal : Vec3<Unit<S>>::zero();
-  if (near) foot_ = hit->point;
+  character_.footing = nearby ? Footing::steep : Footing::airborne;
+  character_.ground = nearby ? hit->body : BodyId{};
+  character_.normal = nearby ? hit->normal : Vec3<Unit<S>>::zero();
+  if (nearby) foot_ = hit->point;
 }
 
 /// What stays where it is, within two skins.

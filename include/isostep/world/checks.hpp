@@ -207,8 +207,8 @@ template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_
 
 /// An id that names nothing.
 template <class AnyId>
-ISO_INLINE FaultReport fault_of_id(const SlotMap& slots, AnyId id, std::uint32_t space, const char* field) {
-  if (slots.holds(id)) return {};
+ISO_INLINE FaultReport fault_of_id(const SlotMap& slot_map, AnyId id, std::uint32_t space, const char* field) {
+  if (slot_map.holds(id)) return {};
   if (!id) return {Fault::null_id, "", field, ""};
   return {SlotMap::space_of(id) != space ? Fault::foreign_id : Fault::stale_id, "", field, ""};
 }

@@ -50,8 +50,8 @@ template <class S> class CommandExecutor {
 
  private:
   // Whether a command may do what it is to do; if not, that is its fault.
-  template <class AnyId> bool known(const SlotMap& slots, AnyId id, const char* field) {
-    return journal_.accept(detail::fault_of_id(slots, id, state_.settings.id_space, field));
+  template <class AnyId> bool known(const SlotMap& slot_map, AnyId id, const char* field) {
+    return journal_.accept(detail::fault_of_id(slot_map, id, state_.settings.id_space, field));
   }
   bool known(BodyId body) { return known(state_.body_slots, body, "body"); }
   bool is_enabled(BodyId body);
@@ -69,9 +69,9 @@ template <class S> class CommandExecutor {
   void renew_ground(std::uint32_t body, const Pose<S>& field, const FieldChange& change);
   void lift_buried(std::uint32_t ground, const Transform<S>& placed, const Aabb<S>& there, const FieldChange& change);
   S rise_below(Vec3<S> centre, const Transform<S>& placed, const FieldChange& change) const;
-  bool check(const BodyDefinition<S>& definition);
+  bool accepts(const BodyDefinition<S>& definition);
   bool check_drives(JointId joint, const JointProperties<S>& next);
-  bool check(const BodyMass<S>& mass);
+  bool accepts(const BodyMass<S>& mass);
   bool check_mass(const BodyMass<S>& mass, const MassProperties<S>& shape);
   bool check_ties(std::uint32_t slot, const BodyProperties<S>& next);
   bool check_joints_of(std::uint32_t slot, const BodyProperties<S>& next);

@@ -31,7 +31,7 @@ template <class S> class ContactEvents {
 
   /// Two bodies touch when any of their contacts carried an impulse. Appends to `events`, which may hold ends that
   /// commands made.
-  void emit(const SolvedContacts<S>& contacts, Events<S>& events);
+  void collect(const SolvedContacts<S>& contacts, Events<S>& events);
 
  private:
   const WorldState<S>& state_;

@@ -35,7 +35,7 @@ ISO_INLINE S normal_impulse(const WorldState<S>& state, const SolvedContacts<S>&
 }  // namespace detail
 
 /// Both lists ascend, so the events do, but for ends that commands made.
-template <class S> void ContactEvents<S>::emit(const SolvedContacts<S>& contacts, Events<S>& events) {
+template <class S> void ContactEvents<S>::collect(const SolvedContacts<S>& contacts, Events<S>& events) {
   const std::span<const Contact<S>> old = contacts.old, now = contacts.now;
   const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };
   constexpr std::uint64_t kNone = ~std::uint64_t{0};

@@ -18,7 +18,7 @@ template <class S> class ContactPoints {
  public:
   ISO_INLINE ContactPoints(WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
-  void emit(const SolvedContacts<S>& contacts, Events<S>& events);
+  void collect(const SolvedContacts<S>& contacts, Events<S>& events);
 
  private:
   void tell(const SolvedContacts<S>& contacts, std::size_t at, Events<S>& events) const;

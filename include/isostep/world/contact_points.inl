@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-template <class S> void ContactPoints<S>::emit(const SolvedContacts<S>& contacts, Events<S>& events) {
+template <class S> void ContactPoints<S>::collect(const SolvedContacts<S>& contacts, Events<S>& events) {
   const auto& records = state_.force_records->contact_reports;
   if (records.all().empty()) return;
   asked_.clear();

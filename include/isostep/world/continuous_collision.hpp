@@ -101,7 +101,7 @@ template <class S> class ContinuousCollision {
     std::uint32_t slot;
     CoreMotion<S> motion;  // of the piece; its start is its end: at rest
     S moved;               // [m] no point of it moves further, in the frame
-    S far;                 // [m] no two points of the body and of it move further against each other
+    S relative_motion;     // [m] no two points of the body and of it move further against each other
     const Pose<S>* end;    // at the end of the step, in the world: what it stops goes on with it; null: it stays
 
     /// In the world, at the end of the step: what was at `there`, in the frame, after the fraction.

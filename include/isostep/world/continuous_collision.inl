@@ -175,7 +175,7 @@ void ContinuousCollision<S>::sweep_against_moving(const Mover& mover, std::uint3
   Obstacle obstacle = {slot, {}, S(0), S(0), &end};
   for (std::uint32_t i = 0; i < path.pieces; ++i)
     obstacle.moved += detail::most_motion<S>({path.poses[i], path.poses[i + 1], Vec3<S>::zero()}, length(sides));
-  obstacle.far = mover.motion + obstacle.moved;
+  obstacle.relative_motion = mover.motion + obstacle.moved;
   const std::uint32_t pieces = max(mover.pieces, path.pieces);
   for (std::uint32_t i = 0; i < pieces; ++i) {
     obstacle.motion = motion_in(path, {i, pieces}, Vec3<S>::zero());
@@ -194,7 +194,7 @@ void ContinuousCollision<S>::sweep_against_kinematic(const Mover& mover, std::ui
     const Unit<S> fraction = detail::share_of<S>(i + 1, mover.pieces);
     const Pose<S> to = detail::pose_from(pose_at(of_other, fraction), mover.poses[i + 1]);
     const CoreMotion<S> motion = {from, to, mover.motion_of(i).centre};
-    obstacle.far = detail::most_motion(motion, mover.reach);
+    obstacle.relative_motion = detail::most_motion(motion, mover.reach);
     sweep_piece(mover, {i, mover.pieces}, motion, obstacle, cut);
     from = to;
   }
@@ -249,8 +249,10 @@ void ContinuousCollision<S>::sweep_piece(const Mover& mover, Piece piece, const 
   const auto sweep_parts = [&](const PlacedShape<S>& part, const PlacedShape<S>& met) {
     const S inner = thickness<S>(part.shape), thick = moving ? S(0) : thickness<S>(met.shape);
     const bool closely = mover.closely && thick * S(0.5) < inner;
-    if (!closely && obstacle.far < (inner + thick) * S(0.5)) {  // it would be pushed out the way that it came
-      if (moving || !mover.deep || obstacle.far < detail::kDeepMotion<S> || !ends_deep(part, motion, met, obstacle))
+    // It would be pushed out the way that it came.
+    if (!closely && obstacle.relative_motion < (inner + thick) * S(0.5)) {
+      if (moving || !mover.deep || obstacle.relative_motion < detail::kDeepMotion<S> ||
+          !ends_deep(part, motion, met, obstacle))
         return;
     }
     const FreeWay<S> way = free_way(part, motion, met, obstacle.motion);

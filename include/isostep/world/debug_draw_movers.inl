@@ -37,7 +37,7 @@ template <class S> class MoverSketch {
     const Quat<double> steered = about(up, to_double(wheel.steered));
     const Quat<double> turn = of_body * steered * about(axle, to_double(wheel.angle)) * from_y_to(axle);
     DrawnWheel drawn = {};
-    drawn.wheel = records_.wheels.slots().template id_of<WheelId>(slot);
+    drawn.wheel = records_.wheels.slot_map().template id_of<WheelId>(slot);
     drawn.body = wheel.body;
     drawn.awake = world_.is_awake(wheel.body);
     const D origin = real(body.pose.position), hard_point = origin + to_matrix(of_body) * real(wheel.hard_point);
@@ -65,7 +65,7 @@ template <class S> class MoverSketch {
     const BodyView<S> body = world_.view(character.body);
     if (body.state == nullptr) return;
     DrawnCharacter drawn = {};
-    drawn.character = records_.characters.slots().template id_of<CharacterId>(slot);
+    drawn.character = records_.characters.slot_map().template id_of<CharacterId>(slot);
     drawn.body = character.body;
     drawn.footing = character.footing;
     drawn.ground = character.ground;

@@ -32,7 +32,7 @@ template <class S> class ParticleSketch {
       if (!state_.springs.is_taken(slot)) continue;
       const Spring<S>& spring = state_.springs.all()[slot];
       DrawnSpring drawn = {};
-      drawn.spring = state_.springs.slots().template id_of<SpringId>(slot);
+      drawn.spring = state_.springs.slot_map().template id_of<SpringId>(slot);
       drawn.type = spring.type;
       drawn.a = spring.a;
       drawn.b = spring.b;
@@ -46,7 +46,7 @@ template <class S> class ParticleSketch {
       if (!state_.links.is_taken(slot)) continue;
       const Link<S>& link = state_.links.all()[slot];
       DrawnLink drawn = {};
-      drawn.link = state_.links.slots().template id_of<LinkId>(slot);
+      drawn.link = state_.links.slot_map().template id_of<LinkId>(slot);
       drawn.type = link.type;
       drawn.a = link.a;
       drawn.b = link.b;
@@ -61,7 +61,7 @@ template <class S> class ParticleSketch {
       if (!state_.colliders.is_taken(slot)) continue;
       const Collider<S>& collider = state_.colliders.all()[slot];
       DrawnCollider drawn = {};
-      drawn.collider = state_.colliders.slots().template id_of<ColliderId>(slot);
+      drawn.collider = state_.colliders.slot_map().template id_of<ColliderId>(slot);
       drawn.type = collider.type;
       if (collider.type == ColliderType::line) {
         sketch_.point(collider.start, drawn.start);

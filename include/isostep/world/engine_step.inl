@@ -47,11 +47,11 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   after(Stage::update_sensors);
   const SolvedContacts<S> solved = {narrow_phase_.old_contacts(), state_.contacts, narrow_phase_.geometry(),
                                     solver_.impulses(), responses_.all()};
-  contact_events_.emit(solved, events_);
-  break_events_.emit(solved, events_);
+  contact_events_.collect(solved, events_);
+  break_events_.collect(solved, events_);
   joint_loads_.update(events_);
-  hit_events_.emit(solved, events_);
-  contact_points_.emit(solved, events_);
+  hit_events_.collect(solved, events_);
+  contact_points_.collect(solved, events_);
   after(Stage::emit_events);
   sleep_.update(events_.fell_asleep, &belts_, solver_.pulls());
   after(Stage::update_sleep);

@@ -9,7 +9,7 @@
 namespace isostep {
 
 /// Everything about a definition that needs no mass.
-template <class S> bool CommandExecutor<S>::check(const BodyDefinition<S>& d) {
+template <class S> bool CommandExecutor<S>::accepts(const BodyDefinition<S>& d) {
   const Vec3<S> zero = Vec3<S>::zero();
   const bool still = d.type == BodyType::static_;
   return known(state_.shape_slots, d.shape, "shape") &&
@@ -88,7 +88,7 @@ template <class S> BodyProperties<S> CommandExecutor<S>::properties_of(const Bod
 
 template <class S> BodyId CommandExecutor<S>::execute(const CreateBody<S>& command) {
   const BodyDefinition<S>& d = command.definition;
-  if (!check(d)) return {};
+  if (!accepts(d)) return {};
   BodyProperties<S> body = properties_of(d);
   if (!give_mass({d.density, d.mass, d.inertia}, body)) return {};
 

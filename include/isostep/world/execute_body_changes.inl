@@ -12,7 +12,7 @@ namespace isostep {
 
 // ---- whether a body may be another
 
-template <class S> bool CommandExecutor<S>::check(const BodyMass<S>& mass) {
+template <class S> bool CommandExecutor<S>::accepts(const BodyMass<S>& mass) {
   return journal_.accept(detail::Checklist()
                              .finite(mass.density, "density")
                              .finite(mass.mass, "mass")
@@ -24,7 +24,7 @@ template <class S> bool CommandExecutor<S>::check(const BodyMass<S>& mass) {
 /// The centre is the shape's and stays: another density rounds it otherwise.
 template <class S> bool CommandExecutor<S>::give_mass_anew(const BodyMass<S>& mass, BodyProperties<S>& body) {
   const Vec3<S> centre = body.local_centre;
-  const bool good = check(mass) && give_mass(mass, body);
+  const bool good = accepts(mass) && give_mass(mass, body);
   body.local_centre = centre;
   return good;
 }

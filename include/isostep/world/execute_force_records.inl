@@ -239,7 +239,7 @@ template <class S> template <class Record> auto CommandExecutor<S>::add_force(co
 template <class S>
 template <class Record, class IdType>
 bool CommandExecutor<S>::set_force(IdType id, const Record& record) {
-  if (!known(detail::registry_of(*state_.force_records, id).slots(), id, "id") || !check_force(record) ||
+  if (!known(detail::registry_of(*state_.force_records, id).slot_map(), id, "id") || !check_force(record) ||
       !check_alone(record, id.slot))
     return false;
   wake_for_force(*detail::registry_of(*state_.force_records, id).find(id));
@@ -248,7 +248,7 @@ bool CommandExecutor<S>::set_force(IdType id, const Record& record) {
   return true;
 }
 template <class S> template <class IdType> bool CommandExecutor<S>::remove_force(IdType id) {
-  if (!known(detail::registry_of(*state_.force_records, id).slots(), id, "id")) return false;
+  if (!known(detail::registry_of(*state_.force_records, id).slot_map(), id, "id")) return false;
   wake_for_force(*detail::registry_of(*state_.force_records, id).find(id));
   return detail::registry_of(state_.force_records.change(), id).remove(id);
 }

@@ -88,7 +88,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetHeights& command) {
   const Aabb<S> about = merge(detail::box_of_steps<S>(field.bounds_about(patch), exponent),
                               detail::box_of_steps<S>(changed.value().bounds_about(patch), exponent));
   replace_blob(shape, command.child, height_field_blob(changed.value()));
-  for (std::uint32_t body = 0; body < map_.slots(); ++body) {
+  for (std::uint32_t body = 0; body < map_.slot_count(); ++body) {
     if (map_.location(body).set != Location::kNone && map_.properties_at(map_.location(body)).shape == shape)
       renew_ground(body, child.pose, {about, {child.primitive, &before}, {child.primitive, &changed.value()}});
   }

@@ -21,7 +21,7 @@ template <class S> class HitEvents {
   /// Before the solver: how fast they close.
   void measure(std::span<const ContactGeometry<S>> geometry);
   /// After it: which of them began to press.
-  void emit(const SolvedContacts<S>& contacts, Events<S>& events);
+  void collect(const SolvedContacts<S>& contacts, Events<S>& events);
 
  private:
   struct Approach {

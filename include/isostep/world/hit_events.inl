@@ -48,7 +48,7 @@ template <class S> bool HitEvents<S>::touched(std::span<const Contact<S>> old, s
   return false;
 }
 
-template <class S> void HitEvents<S>::emit(const SolvedContacts<S>& contacts, Events<S>& events) {
+template <class S> void HitEvents<S>::collect(const SolvedContacts<S>& contacts, Events<S>& events) {
   if (approaches_.empty()) return;
   const std::span<const Contact<S>> now = contacts.now;
   detail::for_each_pair(now, [&](std::size_t first, std::size_t end) {

@@ -107,16 +107,16 @@ template <class S> void IslandSleep<S>::stop_clocks_by_forces() {
 /// What rests on something that moves is not at rest: a drum or a conveyor carries it.
 template <class S> void IslandSleep<S>::stop_clocks_of_carried(const Belts<S>* belts) {
   for (const Contact<S>& contact : state_.contacts) {
-    const std::uint32_t slots[2] = {contact.key.body_a, contact.key.body_b};
+    const std::uint32_t slot_list[2] = {contact.key.body_a, contact.key.body_b};
     const std::uint32_t leaves[2] = {contact.key.child_a, contact.key.child_b};
     for (int side = 0; side < 2; ++side) {
-      const Location at = map_.location(slots[side]);
-      const Location other = map_.location(slots[1 - side]);
+      const Location at = map_.location(slot_list[side]);
+      const Location other = map_.location(slot_list[1 - side]);
       if (other.set != Location::kAwake) continue;
       const BodyProperties<S>& body = map_.properties_at(at);
       const bool driven = body.type == BodyType::kinematic && map_.state_at(at).sleep_clock == 0;
       const bool runs = !(body.material.surface_velocity == Vec3<S>::zero()) ||
-                        (belts != nullptr && belts->find(slots[side], leaves[side]) != nullptr);
+                        (belts != nullptr && belts->find(slot_list[side], leaves[side]) != nullptr);
       if (driven || runs) state_.awake.states[other.index].sleep_clock = 0;
     }
   }

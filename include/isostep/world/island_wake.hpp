@@ -26,7 +26,7 @@ template <class S> class IslandWake {
   /// The island of a body, if it sleeps.
   void wake(std::uint32_t slot);
   /// One island after another in this order, at the cost of one merge.
-  void wake(std::span<const std::uint32_t> slots);
+  void wake(std::span<const std::uint32_t> slot_list);
   void wake_all();
   /// Islands that something awake and moving has a contact with, or something awake a wheel on, or that a fast
   /// kinematic body is about to pass through. False: there was none. Waking brings new pairs, so the caller updates the

@@ -19,15 +19,15 @@ void merge_from_back(std::size_t old, std::size_t more, const OldIsLater& old_is
   }
 }
 /// In the order in which islands wake.
-inline void sort_slots(std::vector<std::uint32_t>& slots) {
-  std::vector<std::uint32_t> scratch(slots.size());
-  stable_sort(slots.data(), scratch.data(), static_cast<std::uint32_t>(slots.size()), OwnKey{});
+inline void sort_slots(std::vector<std::uint32_t>& slot_list) {
+  std::vector<std::uint32_t> scratch(slot_list.size());
+  stable_sort(slot_list.data(), scratch.data(), static_cast<std::uint32_t>(slot_list.size()), OwnKey{});
 }
 }  // namespace detail
 
 template <class S> void IslandWake<S>::wake(std::uint32_t slot) { wake({&slot, 1}); }
-template <class S> void IslandWake<S>::wake(std::span<const std::uint32_t> slots) {
-  for (const std::uint32_t slot : slots) {
+template <class S> void IslandWake<S>::wake(std::span<const std::uint32_t> slot_list) {
+  for (const std::uint32_t slot : slot_list) {
     const Location at = map_.location(slot);
     if (at.is_asleep()) start_waking(at.set);
   }

@@ -30,10 +30,10 @@ template <class S> class PairRules {
 
  private:
   enum class Verdict {
-    open,   // they have no contact: as they meet
-    solid,  // as any two bodies
-    near,   // from the wrong side, hardly deeper than they touch: no contact
-    passes  // from the wrong side
+    open,    // they have no contact: as they meet
+    solid,   // as any two bodies
+    nearby,  // from the wrong side, hardly deeper than they touch: no contact
+    passes   // from the wrong side
   };
   /// The bodies of a pair, and what is one-way of them.
   struct Meeting {

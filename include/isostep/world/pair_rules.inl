@@ -144,7 +144,7 @@ template <class S> typename PairRules<S>::Verdict PairRules<S>::judge(std::uint6
       verdict = Verdict::solid;
       return false;
     }
-    if (verdict == Verdict::open) verdict = Verdict::near;
+    if (verdict == Verdict::open) verdict = Verdict::nearby;
     for (int p = 0; p < manifold.count; ++p) {
       if (manifold.points[p].separation < -detail::kPassingDepth<S>) verdict = Verdict::passes;
     }

@@ -30,7 +30,7 @@ template <class S> void PartPairs<S>::collect_joined_pairs(std::span<const std::
 template <class S> void PartPairs<S>::make_room_for_frames() {
   const std::size_t count = state_.awake.states.size();
   for (const std::uint32_t slot : framed_slots_) framed_[slot] = Framed{};
-  framed_.resize(map_.slots());
+  framed_.resize(map_.slot_count());
   framed_slots_.resize(count);
   frames_.resize(count);
   materials_.resize(count);

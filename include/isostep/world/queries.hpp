@@ -38,9 +38,9 @@ template <class S> class Queries {
   // For who asks often about one place, and asks nothing that is refused: appends the slots of all that the filter sees
   // whose fat box meets a box, in no order; what a cast or ray meets of those, where its way lies in `box`.
   void find_near(const Aabb<S>& box, const QueryFilter& filter, std::vector<std::uint32_t>& out) const;
-  std::size_t cast_among(std::span<const std::uint32_t> slots, const Aabb<S>& box, const ShapeCast<S>& cast,
+  std::size_t cast_among(std::span<const std::uint32_t> slot_list, const Aabb<S>& box, const ShapeCast<S>& cast,
                          std::span<ShapeCastHit<S>> out) const;
-  std::size_t ray_among(std::span<const std::uint32_t> slots, const Aabb<S>& box, const RayCast<S>& ray,
+  std::size_t ray_among(std::span<const std::uint32_t> slot_list, const Aabb<S>& box, const RayCast<S>& ray,
                         std::span<RayCastHit<S>> out) const;
   bool cast_rays(std::span<const RayCast<S>> rays, std::span<RayCastHit<S>> hits, const TaskRunner& runner) const;
   bool cast_shapes(std::span<const ShapeCast<S>> casts, std::span<ShapeCastHit<S>> hits,
@@ -81,7 +81,7 @@ template <class S> class Queries {
   template <class Visit> void visit_cast(const ShapeCast<S>& cast, const Visit& visit) const;
   template <class List> void gather_cast(const ShapeCast<S>& cast, List& list) const;
   template <class Probe, class List>
-  void meet_among(const Probe& probe, const QueryFilter& filter, std::span<const std::uint32_t> slots,
+  void meet_among(const Probe& probe, const QueryFilter& filter, std::span<const std::uint32_t> slot_list,
                   const Aabb<S>& box, List& list) const;
   // query_batches.inl
   template <class Work> bool run_batch(const char* name, const Work& work, const TaskRunner& runner) const;

@@ -160,24 +160,24 @@ void Queries<S>::find_near(const Aabb<S>& box, const QueryFilter& filter, std::v
 }
 template <class S>
 template <class Probe, class List>
-void Queries<S>::meet_among(const Probe& probe, const QueryFilter& filter, std::span<const std::uint32_t> slots,
+void Queries<S>::meet_among(const Probe& probe, const QueryFilter& filter, std::span<const std::uint32_t> slot_list,
                             const Aabb<S>& box, List& list) const {
-  for (const std::uint32_t slot : slots) {
+  for (const std::uint32_t slot : slot_list) {
     if (overlap(map_.state_at(map_.location(slot)).fat, box)) meet(probe, filter, slot, list);
   }
 }
 template <class S>
-std::size_t Queries<S>::cast_among(std::span<const std::uint32_t> slots, const Aabb<S>& box, const ShapeCast<S>& cast,
-                                   std::span<ShapeCastHit<S>> out) const {
+std::size_t Queries<S>::cast_among(std::span<const std::uint32_t> slot_list, const Aabb<S>& box,
+                                   const ShapeCast<S>& cast, std::span<ShapeCastHit<S>> out) const {
   detail::NearestHits<S, Unit<S>> list(out);
-  visit_cast(cast, [&](const auto& probe) { meet_among(probe, cast.filter, slots, box, list); });
+  visit_cast(cast, [&](const auto& probe) { meet_among(probe, cast.filter, slot_list, box, list); });
   return list.count();
 }
 template <class S>
-std::size_t Queries<S>::ray_among(std::span<const std::uint32_t> slots, const Aabb<S>& box, const RayCast<S>& ray,
+std::size_t Queries<S>::ray_among(std::span<const std::uint32_t> slot_list, const Aabb<S>& box, const RayCast<S>& ray,
                                   std::span<RayCastHit<S>> out) const {
   detail::NearestHits<S, S> list(out);
-  meet_among(detail::RayProbe<S>(ray.origin, ray.translation, ray.filter), ray.filter, slots, box, list);
+  meet_among(detail::RayProbe<S>(ray.origin, ray.translation, ray.filter), ray.filter, slot_list, box, list);
   return list.count();
 }
 

@@ -47,15 +47,15 @@ template <class S> ISO_INLINE std::uint8_t material_of(const ShapeView<S>& surfa
 /// Ascending.
 template <class S>
 std::vector<std::uint32_t> children_near(const ChildTree<S>& tree, const Transform<S>& t, const Aabb<S>& box) {
-  std::vector<std::uint32_t> near;
+  std::vector<std::uint32_t> nearby;
   tree.query(t, box, [&](std::uint32_t child) {
-    near.push_back(child);
+    nearby.push_back(child);
     return true;
   });
-  const auto count = static_cast<std::uint32_t>(near.size());
+  const auto count = static_cast<std::uint32_t>(nearby.size());
   std::vector<std::uint32_t> scratch(count <= kInsertionSortLimit ? 0 : count);
-  stable_sort(near.data(), scratch.data(), count, OwnKey{});
-  return near;
+  stable_sort(nearby.data(), scratch.data(), count, OwnKey{});
+  return nearby;
 }
 }  // namespace detail
 

@@ -37,10 +37,10 @@ template <class S> struct SlotTables {
 };
 
 namespace detail {
-ISO_INLINE bool lie_in(const SlotMap& slots, std::uint32_t space) {
+ISO_INLINE bool lie_in(const SlotMap& slot_map, std::uint32_t space) {
   bool all = true;
-  for (std::uint32_t i = 0; i < slots.entries().size(); ++i)
-    all = all && SlotMap::space_of(slots.id_of<BodyId>(i)) == space;
+  for (std::uint32_t i = 0; i < slot_map.entries().size(); ++i)
+    all = all && SlotMap::space_of(slot_map.id_of<BodyId>(i)) == space;
   return all;
 }
 }  // namespace detail
@@ -119,8 +119,8 @@ template <class S> class RecordValidator {
   }
   template <class Record, class IdType> const char* records(const Registry<Record, IdType>& registry) const {
     const std::vector<Record>& all = registry.all();
-    if (all.size() != registry.slots().entries().size()) return "force records are not one a slot";
-    if (!detail::lie_in(registry.slots(), state_.settings.id_space)) return "a force's slot is of another id space";
+    if (all.size() != registry.slot_map().entries().size()) return "force records are not one a slot";
+    if (!detail::lie_in(registry.slot_map(), state_.settings.id_space)) return "a force's slot is of another id space";
     for (std::uint32_t slot = 0; slot < all.size(); ++slot) {
       if (!registry.is_taken(slot)) {
         if (detail::first_body_of(all[slot]) || detail::second_body_of(all[slot]) ||
@@ -202,8 +202,8 @@ template <class S> class RecordValidator {
         all, state_.joint_slots, [](const auto& record) { return record.joint.slot; }, rule);
   }
   template <class Records, class SlotOf>
-  const char* one_a_slot(const Records& all, const SlotMap& slots, const SlotOf& slot_of, const char* rule) const {
-    std::vector<std::uint8_t> has(slots.entries().size(), 0);
+  const char* one_a_slot(const Records& all, const SlotMap& slot_map, const SlotOf& slot_of, const char* rule) const {
+    std::vector<std::uint8_t> has(slot_map.entries().size(), 0);
     for (std::uint32_t slot = 0; slot < all.all().size(); ++slot) {
       if (all.is_taken(slot) && has[slot_of(all.all()[slot])]++ != 0) return rule;
     }

@@ -25,6 +25,6 @@ struct CheckedReplay {
 };
 
 /// Refuses what was made with another behaviour version, as it does every other required field.
-CheckedReplay check_replay(Bytes file, const ReplayCheck& check = {});
+CheckedReplay check_replay(Bytes file, const ReplayCheck& checks = {});
 
 }  // namespace isostep

@@ -34,8 +34,8 @@ template <class S> class StateValidator {
     seen_.properties_of_body.assign(seen_.set_of_body.size(), nullptr);
     leaves_of_body_.assign(seen_.set_of_body.size(), 0);
     seen_.joint_at.assign(state_.joint_slots.entries().size(), {nullptr, 0});
-    for (const SlotMap* slots : {&state_.body_slots, &state_.shape_slots, &state_.joint_slots}) {
-      if (!detail::lie_in(*slots, s.id_space)) return "a slot is of another id space";
+    for (const SlotMap* slot_map : {&state_.body_slots, &state_.shape_slots, &state_.joint_slots}) {
+      if (!detail::lie_in(*slot_map, s.id_space)) return "a slot is of another id space";
     }
     if (const char* rule = shapes()) return rule;
     for (std::size_t p = 0; p < state_.static_bodies.pages(); ++p) {

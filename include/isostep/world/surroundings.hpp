@@ -79,7 +79,7 @@ template <class S> class Surroundings {
     Range parts;
   };
   struct BySlot {
-    ISO_INLINE std::uint64_t operator()(const Near& near) const { return near.slot; }
+    ISO_INLINE std::uint64_t operator()(const Near& nearby) const { return nearby.slot; }
   };
   struct Part {
     std::uint32_t placed;

@@ -66,8 +66,8 @@ template <class S> void Surroundings<S>::gather_around(const Aabb<S>& box) {
   region_ = {held_within(all.low, edge), held_within(all.high, edge)};
   find_bodies_near();
   parts_.clear();
-  for (const Near& near : near_) {
-    for (std::uint32_t i = near.parts.first; i < near.parts.last; ++i) {
+  for (const Near& nearby : near_) {
+    for (std::uint32_t i = nearby.parts.first; i < nearby.parts.last; ++i) {
       if (overlap(placed_[i].box, region_)) parts_.push_back({i, {}});
     }
   }

@@ -202,16 +202,16 @@ template <class S> auto WheelForces<S>::ground_below(const Run& run, const Stanc
   const Search search = search_of(run, at);
   Group& group = groups_[run.group];
   if (!contains(group.region, search.box)) look_around(group, grow(search.box, wheel(run).radius));
-  const auto near = std::span(near_).subspan(group.first_near, group.end_near - group.first_near);
+  const auto nearby = std::span(near_).subspan(group.first_near, group.end_near - group.first_near);
   const Primitive<S> sphere = Sphere<S>{wheel(run).radius}.primitive();
   ShapeCastHit<S> met[kMostMet];
   const std::size_t count = queries_.cast_among(
-      near, search.box, {sphere, {search.start, Quat<U>::identity()}, search.way}, std::span<ShapeCastHit<S>>(met));
+      nearby, search.box, {sphere, {search.start, Quat<U>::identity()}, search.way}, std::span<ShapeCastHit<S>>(met));
   const Ground ground = first_that_bears(std::span(met, count), at.down);
   if (count == 0 || ground.body) return ground;
   RayCastHit<S> struck[kMostMet];
   const std::size_t rays =
-      queries_.ray_among(near, search.box, {search.start, search.way + at.down * wheel(run).radius},
+      queries_.ray_among(nearby, search.box, {search.start, search.way + at.down * wheel(run).radius},
                          std::span<RayCastHit<S>>(struck));
   return first_that_bears(std::span(struck, rays), at.down);
 }
@@ -250,10 +250,10 @@ template <class S> Vec3<S> WheelForces<S>::way_of(const Run& run, const Stance& 
 template <class S> bool WheelForces<S>::is_uneven(const Run& run, const Stance& at, const Ground& ground) {
   const S radius = wheel(run).radius;
   const Vec3<S> way = way_of(run, at);
-  const S far = length(way);
-  if (far < radius * S(0.125)) return false;  // over an edge the plane errs by less than a 128th of the radius
+  const S distant = length(way);
+  if (distant < radius * S(0.125)) return false;  // over an edge the plane errs by less than a 128th of the radius
   int looks = 1;
-  while (looks < kMostLooks && radius * S(0.5) * S(looks) < far) ++looks;
+  while (looks < kMostLooks && radius * S(0.5) * S(looks) < distant) ++looks;
   for (int i = looks; i > 0; --i) {
     const Stance there = {at.hard_point + way * divide_to<U>(S(i), S(looks)), at.down};
     const S found = length_over(run, there, ground_below(run, there));

@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "isostep/scalar/environment.hpp"
 #include "isostep/state/command_log.hpp"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/engine_state.inl"
@@ -239,17 +240,19 @@ template <class S> S World<S>::mass(BodyId body) const {
   return properties == nullptr ? S(0) : properties->mass;
 }
 template <class S> S World<S>::inertia(BodyId body, Vec3<Unit<S>> axis) const {
-  const BodyProperties<S>* properties = engine_->map_.properties_of(body);
-  if (properties == nullptr) return S(0);
-  const Quat<Unit<S>> principal = pose(body).orientation * properties->principal;
-  const Vec3<S> along = convert<S>(transposed_times(to_matrix(principal), axis));
-  S sum = S(0);
-  for (int i = 0; i < 3; ++i) {
-    if (!(S(0) < properties->kappa[i])) continue;
-    const S of_axis = divide_to<S>(properties->mass, properties->kappa[i]);
-    sum = saturating_add(sum, along[i] * along[i] * of_axis);
-  }
-  return sum;
+  return detail::pinned([&]() -> S {
+    const BodyProperties<S>* properties = engine_->map_.properties_of(body);
+    if (properties == nullptr) return S(0);
+    const Quat<Unit<S>> principal = pose(body).orientation * properties->principal;
+    const Vec3<S> along = convert<S>(transposed_times(to_matrix(principal), axis));
+    S sum = S(0);
+    for (int i = 0; i < 3; ++i) {
+      if (!(S(0) < properties->kappa[i])) continue;
+      const S of_axis = divide_to<S>(properties->mass, properties->kappa[i]);
+      sum = saturating_add(sum, along[i] * along[i] * of_axis);
+    }
+    return sum;
+  });
 }
 template <class S> std::uint64_t World<S>::user_data(BodyId body) const {
   const BodyProperties<S>* properties = engine_->map_.properties_of(body);
@@ -302,6 +305,7 @@ template <class S> void World<S>::contacts_of(BodyId body, std::vector<ContactPo
 }
 template <class S> const Events<S>& World<S>::events() const { return engine_->events_; }
 template <class S> const std::vector<RenderPose>& World<S>::poses_float(float alpha) {
+  const FloatEnvironment environment;
   return engine_->render_poses_.fill(alpha);
 }
 

@@ -6,6 +6,7 @@
 
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/core/stable_sort.hpp"
+#include "isostep/scalar/environment.hpp"
 #include "isostep/scalar/wide_int.hpp"
 #include "quickhull.hpp"
 
@@ -232,6 +233,7 @@ GridVector ConvexHull::normal(std::uint8_t face) const {
 }
 
 Result<std::vector<GridPoint>> simplified(std::span<const GridPoint> points, std::uint32_t count) {
+  const FloatEnvironment environment;
   if (count < 4) return error(ErrorCode::invalid, "fewer than 4 points are asked for");
   std::vector<GridPoint> distinct;
   if (!take_distinct(points, distinct)) return out_of_grid();
@@ -249,6 +251,7 @@ Result<std::vector<GridPoint>> simplified(std::span<const GridPoint> points, std
 }
 
 Result<ConvexHull> convex_hull(std::span<const GridPoint> points) {
+  const FloatEnvironment environment;
   std::vector<GridPoint> distinct;
   if (!take_distinct(points, distinct)) return out_of_grid();
   const std::vector<HullTriangle> triangles = Quickhull(distinct).run();

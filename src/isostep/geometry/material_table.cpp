@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "material_table.hpp"
 
+#include "isostep/scalar/environment.hpp"
 #include "isostep/scalar/lattice.hpp"
 
 namespace isostep {
 
 Result<SurfaceMaterial> surface_material(double friction, double restitution) {
+  const FloatEnvironment environment;
   if (!(friction >= 0 && friction <= 16)) return Error{ErrorCode::invalid, "friction is 0 to 16", "friction"};
   if (!(restitution >= 0 && restitution <= 1)) return Error{ErrorCode::invalid, "restitution is 0 to 1", "restitution"};
   return SurfaceMaterial{static_cast<std::uint16_t>(nearest_scaled(friction, SurfaceMaterial::kBits)),

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "isostep/scalar/environment.hpp"
 #include "isostep/scalar/math.hpp"
 
 namespace isostep {
@@ -31,6 +32,7 @@ BlobRef height_field_blob(const BakedHeightField& field, BlobHome home) {
 
 Result<BlobRef> mesh_blob(std::span<const Vec3<double>> points, std::span<const MeshTriangle> triangles,
                           const SurfaceMaterials& materials, BlobHome home) {
+  const FloatEnvironment environment;
   double most = 0;
   for (const Vec3<double>& p : points) {
     if (!is_finite(p) || max_abs(p) > kMostMetres)
@@ -52,6 +54,7 @@ Result<BlobRef> mesh_blob(std::span<const Vec3<double>> points, std::span<const 
 
 Result<BlobRef> height_field_blob(const HeightSheet& sheet, std::span<const double> heights,
                                   const SurfaceMaterials& materials, BlobHome home) {
+  const FloatEnvironment environment;
   const double widest = static_cast<double>(max(sheet.columns, sheet.rows)) * sheet.pitch;
   if (!(sheet.pitch > 0) || !(widest <= kMostMetres))
     return bad_number("pitch", "a height field is at most 8388607 m wide");

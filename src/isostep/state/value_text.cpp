@@ -35,7 +35,7 @@ std::uint64_t ordered(FieldFormat format, std::uint64_t bits) {
 
 std::string value_text(FieldFormat format, std::uint64_t bits) {
   switch (format.kind) {
-    case FieldKind::boolean: return bits != 0 ? "true" : "false";
+    case FieldKind::truth: return bits != 0 ? "true" : "false";
     case FieldKind::signed_integer: return std::to_string(sign_extended(format, bits));
     case FieldKind::unsigned_integer: return std::to_string(bits);
     case FieldKind::scalar: break;
@@ -55,7 +55,7 @@ std::uint64_t steps_between(FieldFormat format, std::uint64_t a, std::uint64_t b
     b = ordered(format, b);
     return a < b ? b - a : a - b;
   }
-  if (format.kind == FieldKind::boolean || format.kind == FieldKind::unsigned_integer) return a < b ? b - a : a - b;
+  if (format.kind == FieldKind::truth || format.kind == FieldKind::unsigned_integer) return a < b ? b - a : a - b;
   const std::int64_t signed_a = sign_extended(format, a);
   const std::int64_t signed_b = sign_extended(format, b);
   const auto wide_a = static_cast<std::uint64_t>(signed_a);

@@ -60,8 +60,8 @@ Scene flight(Turn turn) {
 template <class S> void fly(World<S>& world, Turn turn) {
   const SlotMap& bodies = world.state().body_slots;
   const ForceRecords<S>& records = *world.state().force_records;
-  const auto surfaces = records.aero_surfaces.slots().template ids<AeroSurfaceId>();
-  const auto engines = records.thrusters.slots().template ids<ThrusterId>();
+  const auto surfaces = records.aero_surfaces.slot_map().template ids<AeroSurfaceId>();
+  const auto engines = records.thrusters.slot_map().template ids<ThrusterId>();
   const auto aircraft = bodies.template ids<BodyId>();
   if (aircraft.empty() || surfaces.size() < 4 || engines.empty()) return;
   const BodyId body = aircraft[0];

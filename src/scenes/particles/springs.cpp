@@ -109,16 +109,16 @@ template <class S> void change_springs(ParticleWorld<S>& world) {
   if (world.tick() % 12 != 6) return;
   const ParticleState<S>& state = world.state();
   const auto particle = [&](std::uint32_t slot) { return particle_at(world, slot); };
-  const auto spring = any<SpringId>(state.springs.slots(), 3);
-  const auto force = any<ForceId>(state.forces.slots(), 1);
-  const auto cohesion = any<CohesionId>(state.cohesions.slots(), 0);
-  const auto link = [&] { return any<LinkId>(state.links.slots(), 0); };  // there is none at first
-  const auto ground = any<ColliderId>(state.colliders.slots(), 0);
+  const auto spring = any<SpringId>(state.springs.slot_map(), 3);
+  const auto force = any<ForceId>(state.forces.slot_map(), 1);
+  const auto cohesion = any<CohesionId>(state.cohesions.slot_map(), 0);
+  const auto link = [&] { return any<LinkId>(state.links.slot_map(), 0); };  // there is none at first
+  const auto ground = any<ColliderId>(state.colliders.slot_map(), 0);
   switch (world.tick() / 12) {
     case 1: world.apply_impulse(particle(10), {S(0), S(1), S(-2)}); break;
     case 2: world.apply_force(particle(11), {S(20), S(0), S(0)}); break;
     case 3: edit(world, spring, [](Spring<S>& stronger) { stronger.stiffness = S(60); }); break;
-    case 4: world.remove(any<SpringId>(state.springs.slots(), 1)); break;
+    case 4: world.remove(any<SpringId>(state.springs.slot_map(), 1)); break;
     case 5: world.set_gravity({S(1), S(-9), S(0)}); break;
     case 6: world.set_mass(particle(0), S(3)); break;
     case 7: world.set_mass(particle(1), S(2), true); break;

@@ -12,7 +12,7 @@ template <class S> ParticleId particle_at(const ParticleWorld<S>& world, std::ui
   return world.state().particles.template id_of<ParticleId>(slot);
 }
 template <class S> ParticleMaterialId material_at(const ParticleWorld<S>& world, std::uint32_t slot) {
-  return world.state().materials.slots().template id_of<ParticleMaterialId>(slot);
+  return world.state().materials.slot_map().template id_of<ParticleMaterialId>(slot);
 }
 
 /// In steps, of a time in seconds.

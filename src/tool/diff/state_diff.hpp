@@ -129,7 +129,7 @@ class StateDiffer {
     if constexpr (std::is_same_v<T, SlotMap>) {
       slots(path, a, b);
     } else if constexpr (requires { a.all(); }) {  // Registry
-      slots(PathPart{outer_, (std::string(name) + "_slots").c_str(), 0}, a.slots(), b.slots());
+      slots(PathPart{outer_, (std::string(name) + "_slots").c_str(), 0}, a.slot_map(), b.slot_map());
       rows(path, name, a.all(), b.all());
     } else if constexpr (requires { a.size(); }) {
       rows(path, name, a, b);

@@ -83,7 +83,7 @@ template <class S> class MatchPeer {
     if (frame == options_.fault) flip_a_bit();
   }
   void after_step(Frame frame) {
-    for (const scenes::MatchEvent& event : game_.events()) sounds_.emit(event);
+    for (const scenes::MatchEvent& event : game_.events()) sounds_.tell(event);
     sounds_.after_step(frame);
     history_.after_step(frame);
     step_ms_ += thread_milliseconds() - started_at_;

@@ -26,7 +26,7 @@ template <class T> Quat<double> in_double(Quat<T> q) {
 /// visit(id, record) of all that are there, ascending by slot.
 template <class Record, class IdType, class Visit>
 void for_each_record(const Registry<Record, IdType>& registry, const Visit& visit) {
-  for (const IdType id : registry.slots().template ids<IdType>()) visit(id, *registry.find(id));
+  for (const IdType id : registry.slot_map().template ids<IdType>()) visit(id, *registry.find(id));
 }
 
 /// Tensor of a surface at its control.

@@ -118,7 +118,7 @@ TYPED_TEST(Breakables, break_as_deep_as_they_may) {
   }
   EXPECT_GT(broken, 4) << "the fall breaks the crate and most of its pieces";
   EXPECT_LE(broken, 9);
-  EXPECT_TRUE(this->world_.state().force_records->breakables.slots().template ids<BreakableId>().size() <= 8u);
+  EXPECT_TRUE(this->world_.state().force_records->breakables.slot_map().template ids<BreakableId>().size() <= 8u);
 }
 
 TYPED_TEST(Breakables, small_pieces_expire_with_their_shapes) {
@@ -228,7 +228,7 @@ TYPED_TEST(Breakables, what_is_disabled_breaks_once_it_is_not) {
   Breakable<S> marked = w.state().force_records->breakables.all()[0];
   marked.broken_by = S(2);
   marked.hit_direction = {Unit<S>(0), Unit<S>(-1), Unit<S>(0)};
-  ASSERT_TRUE(w.set(w.state().force_records->breakables.slots().template ids<BreakableId>()[0], marked))
+  ASSERT_TRUE(w.set(w.state().force_records->breakables.slot_map().template ids<BreakableId>()[0], marked))
       << describe(w.fault());
   ASSERT_TRUE(w.set_enabled(crate, false));
   break_bodies(w, 8);

@@ -132,9 +132,9 @@ TYPED_TEST(CoupledFrames, each_worlds_recording_replays_without_the_other) {
   const ReplayReader bodies_replay(bodies_file), particles_replay(particles_file);
   World<S> bodies;
   ParticleWorld<S> particles;
-  const VerifyResult a = verify(bodies_replay, bodies, SameHeader{bodies_replay.header()});
+  const VerifyResult a = verify_replay(bodies_replay, bodies, SameHeader{bodies_replay.header()});
   EXPECT_EQ(a.outcome, VerifyOutcome::verified) << describe(a);
-  const VerifyResult b = verify(particles_replay, particles, SameHeader{particles_replay.header()});
+  const VerifyResult b = verify_replay(particles_replay, particles, SameHeader{particles_replay.header()});
   EXPECT_EQ(b.outcome, VerifyOutcome::verified) << describe(b);
   EXPECT_EQ(a.frames + b.frames, 180u);
   EXPECT_EQ(bodies.hash(), game.bodies.hash());

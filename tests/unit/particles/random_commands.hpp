@@ -22,7 +22,7 @@ template <class S> class RandomCommands {
       case 0: return destroy();
       case 1: return SetParticleMotion<S>{particle(), position(), velocity()};
       case 2: return SetParticleMass<S>{particle(), mass(), chance_.one_in(8)};
-      case 3: return SetParticleMaterial{particle(), id_of<ParticleMaterialId>(world_.state().materials.slots())};
+      case 3: return SetParticleMaterial{particle(), id_of<ParticleMaterialId>(world_.state().materials.slot_map())};
       case 4:
       case 5: return PushParticle<S>{particle(), vector(chance_.point(30), highest<S>())};
       case 6:
@@ -104,7 +104,7 @@ template <class S> class RandomCommands {
 
   template <class IdType, class Records, class Record>
   ParticleCommand<S> any_record(const Records& records, const Record& record) {
-    const IdType id = id_of<IdType>(records.slots());
+    const IdType id = id_of<IdType>(records.slot_map());
     switch (chance_.below(records.all().size() < 16 ? 5 : 3)) {
       case 0: return SetRecord<Record, IdType>{id, record};
       case 1: return RemoveRecord<IdType>{id};
@@ -117,7 +117,7 @@ template <class S> class RandomCommands {
     d.velocity = velocity();
     d.mass = mass();
     d.pinned = chance_.one_in(12);
-    if (!chance_.one_in(4)) d.material = id_of<ParticleMaterialId>(world_.state().materials.slots());
+    if (!chance_.one_in(4)) d.material = id_of<ParticleMaterialId>(world_.state().materials.slot_map());
     if (chance_.one_in(2)) d.lifetime = 1 + chance_.below(90);
     if (is_wild()) d.lifetime = 0xffffffffu;
     return d;
@@ -162,7 +162,7 @@ template <class S> class RandomCommands {
   }
   Cohesion<S> cohesion() {
     Cohesion<S> c;
-    c.material = id_of<ParticleMaterialId>(world_.state().materials.slots());
+    c.material = id_of<ParticleMaterialId>(world_.state().materials.slot_map());
     c.repel_distance = size(0.5);
     c.repel_force = strength(20);
     c.attract_start = number(chance_.in(0.5, 0.75), ParticleLimits<S>::position());

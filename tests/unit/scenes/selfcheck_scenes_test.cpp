@@ -123,7 +123,7 @@ template <class S> std::set<std::string> kinds_of(const World<S>& world) {
   std::set<std::string> kinds;
   ForceRecords<S>::members(
       [&](const char* kind, const auto& registry) {
-        if (!registry.slots().template ids<BodyId>().empty()) kinds.insert(kind);
+        if (!registry.slot_map().template ids<BodyId>().empty()) kinds.insert(kind);
       },
       *world.state().force_records);
   return kinds;
@@ -148,7 +148,7 @@ TYPED_TEST(SelfcheckScenes, ElementsHasEveryRecordAndEachActs) {
     joints_broken += world.events().joint_broke.size();
     hits += world.events().hits.size();
     felt += world.events().sensor_begin.size();
-    ghosts = std::max(ghosts, world.state().force_records->ghosts.slots().template ids<GhostId>().size());
+    ghosts = std::max(ghosts, world.state().force_records->ghosts.slot_map().template ids<GhostId>().size());
     slowest = std::min(slowest, to_double(world.velocity(bodies[8]).z));
     most = std::max<std::size_t>(most, world.counts().bodies);
   }

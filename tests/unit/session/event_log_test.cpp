@@ -44,7 +44,7 @@ std::string told(Log& log) {
 }
 void step(Log& log, Frame frame, const std::vector<std::uint32_t>& hits = {}) {
   log.before_step(frame);
-  for (const std::uint32_t who : hits) log.emit({who, 0});
+  for (const std::uint32_t who : hits) log.tell({who, 0});
   log.after_step(frame);
 }
 void steps(Log& log, Frame first, Frame last) {
@@ -208,11 +208,11 @@ TEST(EventLog, EqualEventsOfAFrameCountOneByOne) {
 TEST(EventLog, TheConfirmationCarriesWhatReallyHappened) {
   Log log;
   log.before_step(0);
-  log.emit({7, 100});
+  log.tell({7, 100});
   log.after_step(0);
   EXPECT_EQ(all_of(log).at(0).event.strength, 100u);
   log.before_step(0);  // a step again is a rollback, said or not
-  log.emit({7, 90});
+  log.tell({7, 90});
   log.after_step(0);
   log.confirmed(0, 0);
   const std::vector<Notice<Hit>> notices = all_of(log);
@@ -285,10 +285,10 @@ TEST(EventLog, ACrowdedFrameKeepsItsFirstEventsAndCountsTheOthersOnceConfirmed) 
   Log log({.frames = 4, .events = 2});
   for (int again = 0; again < 3; ++again) {
     log.before_step(0);
-    EXPECT_TRUE(log.emit({1, 0}));
-    EXPECT_TRUE(log.emit({2, 0}));
-    EXPECT_FALSE(log.emit({3, 0}));
-    EXPECT_FALSE(log.emit({4, 0}));
+    EXPECT_TRUE(log.tell({1, 0}));
+    EXPECT_TRUE(log.tell({2, 0}));
+    EXPECT_FALSE(log.tell({3, 0}));
+    EXPECT_FALSE(log.tell({4, 0}));
     log.after_step(0);
     EXPECT_EQ(log.lost().crowded, 0u);
   }
@@ -320,9 +320,9 @@ TEST(EventLog, WithoutPollingTheNewestAreLostAndCountedAndPromisesAreKept) {
 
 TEST(EventLog, AnEventBetweenFramesIsRefusedAndCounted) {
   Log log;
-  EXPECT_FALSE(log.emit({7, 0}));
+  EXPECT_FALSE(log.tell({7, 0}));
   step(log, 0);
-  EXPECT_FALSE(log.emit({7, 0}));
+  EXPECT_FALSE(log.tell({7, 0}));
   EXPECT_EQ(log.lost().homeless, 2u);
   EXPECT_EQ(told(log), "");
 }
@@ -394,7 +394,7 @@ TEST(EventLog, AnyRollbacksConfirmWhatAStraightRunEmits) {
       // A guess makes it early or late, or something else.
       const bool wrong = frame > final && random_below(random, 2) == 0;
       log.before_step(frame);
-      for (const Hit& hit : truth_of(wrong ? frame + random_between(random, -2, 2) : frame)) log.emit(hit);
+      for (const Hit& hit : truth_of(wrong ? frame + random_between(random, -2, 2) : frame)) log.tell(hit);
       log.after_step(frame);
     }
     next = to;
@@ -470,7 +470,7 @@ TEST(EventLog, ABallThatIsRolledBackHitsTheFloorAsOftenAsInAStraightRun) {
   const auto advance = [&](Frame frame, int kick) {
     client.world.save(saved[static_cast<std::size_t>(frame) % saved.size()]);
     log.before_step(frame);
-    client.step(kick, [&](const Touch& touch) { emitted += log.emit(touch); });
+    client.step(kick, [&](const Touch& touch) { emitted += log.tell(touch); });
     log.after_step(frame);
   };
   for (Frame frame = 0; frame < kFrames + kLate; ++frame) {

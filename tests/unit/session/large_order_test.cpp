@@ -22,7 +22,7 @@ using Codec = InputCodec<Input>;
 
 Input piece(std::uint8_t sequence, std::uint16_t offset, std::uint16_t total, std::uint8_t size) {
   Input input;
-  input.small.way = 3;
+  input.brief.way = 3;
   input.sequence = sequence;
   input.offset = offset;
   input.total = total;
@@ -53,7 +53,7 @@ TEST(LargeOrderCodec, ReadsWhatItWroteAndNothingElse) {
   EXPECT_FALSE(reads(piece(1, 26, 25, 10)));
   EXPECT_FALSE(reads(piece(1, 0, Input::kOrderCap + 1, 10))) << "larger than an order may be";
   Input bad = piece(1, 0, 25, 10);
-  bad.small.way = 77;
+  bad.brief.way = 77;
   EXPECT_FALSE(reads(bad)) << "the small input is none";
   std::uint8_t bytes[64];
   const std::size_t size = Codec::encode(piece(1, 0, 25, 10), bytes);
@@ -68,7 +68,7 @@ TEST(LargeOrderCodec, GuessesNoPieces) {
   const Input guess = DefaultPredictor<Input>::Type::predict(piece(9, 0, 25, 10), 1);
   EXPECT_EQ(guess.size, 0);
   EXPECT_EQ(guess.sequence, 9);
-  EXPECT_EQ(guess.small.way, 3);
+  EXPECT_EQ(guess.brief.way, 3);
 }
 
 struct Receiver {

@@ -138,7 +138,7 @@ TEST(CommandRecorder, WhatItWritesIsPlayedAndVerified) {
   EXPECT_EQ(identity_of(replay.header()).value().world, "toys");
   const ReplayHeader here = header_of_world(world.settings(), "a toy", 0).value();
   ToyWorld again;
-  const VerifyResult result = verify(replay, again, SameHeader{here});
+  const VerifyResult result = verify_replay(replay, again, SameHeader{here});
   EXPECT_EQ(result.outcome, VerifyOutcome::verified) << describe(result);
   EXPECT_EQ(again.tick(), world.tick());
 }
@@ -163,7 +163,7 @@ TEST(CommandRecorder, AKeyframeIsTheStateAfterTheLastFrame) {
   EXPECT_EQ(replay.keyframes()[1].hash, world.hash());
   const ReplayHeader here = header_of_world(world.settings(), "a toy", 0).value();
   ToyWorld again;
-  EXPECT_EQ(verify(replay, again, SameHeader{here}).outcome, VerifyOutcome::verified);
+  EXPECT_EQ(verify_replay(replay, again, SameHeader{here}).outcome, VerifyOutcome::verified);
 
   Buffer other;
   CommandRecorder<ToyWorld> early(world, sink_to(other));

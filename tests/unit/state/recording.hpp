@@ -55,7 +55,7 @@ inline VerifyResult verify_toy(Bytes file) {
   const ReplayReader replay(file);
   const ReplayHeader here = header();
   Game game;
-  return verify(replay, game, SameHeader{here});
+  return verify_replay(replay, game, SameHeader{here});
 }
 
 struct Part {

@@ -38,8 +38,8 @@ TEST(Replay, WatchingTwiceWithOneSimulationGivesTheSame) {
   const ReplayReader replay(file);
   const ReplayHeader here = toy::header();
   toy::Game game;
-  EXPECT_EQ(verify(replay, game, SameHeader{here}).outcome, VerifyOutcome::verified);
-  EXPECT_EQ(verify(replay, game, SameHeader{here}).outcome, VerifyOutcome::verified);
+  EXPECT_EQ(verify_replay(replay, game, SameHeader{here}).outcome, VerifyOutcome::verified);
+  EXPECT_EQ(verify_replay(replay, game, SameHeader{here}).outcome, VerifyOutcome::verified);
 }
 
 TEST(Replay, EndsWhereItsCallerHasNoMoreTime) {
@@ -52,7 +52,7 @@ TEST(Replay, EndsWhereItsCallerHasNoMoreTime) {
     VerifySpan span;
     span.go_on = [](void* user) { return (*static_cast<int*>(user))-- > 0; };
     span.user = &left;
-    const VerifyResult result = verify(replay, game, SameHeader{here}, span);
+    const VerifyResult result = verify_replay(replay, game, SameHeader{here}, span);
     if (frames == 200) {  // nobody is asked once all is done
       EXPECT_EQ(result.outcome, VerifyOutcome::verified);
       continue;
@@ -71,7 +71,7 @@ TEST(Replay, AnotherSimulationDivergesAtTheFrameWhereItDiffers) {
   for (const std::uint64_t frame : {0u, 1u, 59u, 60u, 137u, 199u}) {
     toy::Game game;
     game.bug_at = frame;
-    const VerifyResult result = verify(replay, game, SameHeader{here});
+    const VerifyResult result = verify_replay(replay, game, SameHeader{here});
     EXPECT_EQ(result.outcome, VerifyOutcome::diverged);
     EXPECT_EQ(exit_code(result.outcome), 1);
     EXPECT_EQ(result.frames, frame);
@@ -87,9 +87,9 @@ TEST(Replay, ACutFileWhosePrefixDivergesIsDiverged) {
   ASSERT_EQ(replay.status(), ReplayStatus::truncated);
   const ReplayHeader here = toy::header();
   toy::Game game;
-  EXPECT_EQ(verify(replay, game, SameHeader{here}).outcome, VerifyOutcome::truncated);
+  EXPECT_EQ(verify_replay(replay, game, SameHeader{here}).outcome, VerifyOutcome::truncated);
   game.bug_at = 100;
-  EXPECT_EQ(verify(replay, game, SameHeader{here}).outcome, VerifyOutcome::diverged);
+  EXPECT_EQ(verify_replay(replay, game, SameHeader{here}).outcome, VerifyOutcome::diverged);
 }
 
 TEST(Replay, WithoutItsEndAFilePlaysItsWholeBlocks) {
@@ -121,28 +121,29 @@ TEST(Replay, APartOfItIsComparedFromAStateInTheMiddle) {
   const ReplayHeader here = toy::header();
   const Bytes state = replay.keyframes()[1].state;  // after 50 frames
   toy::Game game;
-  VerifyResult result = verify(replay, game, SameHeader{here}, {.first = 50, .state = state});
+  VerifyResult result = verify_replay(replay, game, SameHeader{here}, {.first = 50, .state = state});
   EXPECT_EQ(result.outcome, VerifyOutcome::verified) << describe(result);
   EXPECT_EQ(result.frames, 50u);
   EXPECT_EQ(game.hash(), replay.frame(99).hash);
-  result = verify(replay, game, SameHeader{here}, {.first = 50, .count = 7, .state = state});
+  result = verify_replay(replay, game, SameHeader{here}, {.first = 50, .count = 7, .state = state});
   EXPECT_EQ(result.frames, 7u);
   EXPECT_EQ(game.hash(), replay.frame(56).hash);
-  result = verify(replay, game, SameHeader{here}, {.count = 30});
+  result = verify_replay(replay, game, SameHeader{here}, {.count = 30});
   EXPECT_EQ(result.frames, 30u);
   EXPECT_EQ(game.hash(), replay.frame(29).hash);
 
   game.bug_at = 70;
-  result = verify(replay, game, SameHeader{here}, {.first = 50, .state = state});
+  result = verify_replay(replay, game, SameHeader{here}, {.first = 50, .state = state});
   EXPECT_EQ(result.outcome, VerifyOutcome::diverged);
   EXPECT_EQ(result.frames, 70u);
-  result = verify(replay, game, SameHeader{here}, {.first = 51, .state = state});
+  result = verify_replay(replay, game, SameHeader{here}, {.first = 51, .state = state});
   EXPECT_EQ(result.outcome, VerifyOutcome::diverged) << "not the state there";
   EXPECT_EQ(result.where, VerifyResult::Where::start);
   EXPECT_EQ(result.frames, 51u);
-  EXPECT_EQ(verify(replay, game, SameHeader{here}, {.first = 50, .state = state.first(state.size() - 1)}).outcome,
-            VerifyOutcome::corrupt);
-  result = verify(replay, game, SameHeader{here}, {.first = 101, .state = state});
+  EXPECT_EQ(
+      verify_replay(replay, game, SameHeader{here}, {.first = 50, .state = state.first(state.size() - 1)}).outcome,
+      VerifyOutcome::corrupt);
+  result = verify_replay(replay, game, SameHeader{here}, {.first = 101, .state = state});
   EXPECT_EQ(result.outcome, VerifyOutcome::truncated);
   EXPECT_EQ(result.frames, 100u);
 }
@@ -156,7 +157,7 @@ TEST(Replay, EveryRequiredFieldOfTheHeaderIsNamedWhenItDiffers) {
     ReplayHeader here = good;
     ASSERT_TRUE(here.set(good[i].key.view(), "other", good[i].required));
     toy::Game game;
-    const VerifyResult result = verify(replay, game, SameHeader{here});
+    const VerifyResult result = verify_replay(replay, game, SameHeader{here});
     if (!good[i].required) {
       EXPECT_EQ(result.outcome, VerifyOutcome::verified) << good[i].key.view();
       continue;
@@ -281,7 +282,8 @@ TEST(Replay, OutcomesAreDescribedInOneLine) {
   ReplayHeader here = toy::header();
   ASSERT_TRUE(here.set("hz", "120", true));
   toy::Game game;
-  EXPECT_EQ(describe(verify(replay, game, SameHeader{here})), "INCOMPATIBLE: hz is \"60\" in the replay, \"120\" here");
+  EXPECT_EQ(describe(verify_replay(replay, game, SameHeader{here})),
+            "INCOMPATIBLE: hz is \"60\" in the replay, \"120\" here");
 }
 
 TEST(ReplayWriter, WritesTheSameBytesWhateverTheSinkIs) {

@@ -107,7 +107,7 @@ class OrderlySide : public tool::StageSide {
 
 /// A bit whose turning moves any value by a power of two of steps: not the sign's.
 inline std::uint32_t bit_of(const NamedField& field) {
-  if (field.format.kind == FieldKind::boolean) return 0;
+  if (field.format.kind == FieldKind::truth) return 0;
   return static_cast<std::uint32_t>((field.bits ^ field.bits >> 17 ^ field.path.size()) % (8 * field.format.size - 1));
 }
 /// "bodies[3].velocity.x: 1.5 | 1.25 (0x3fc00000 | 0x3fa00000), 2097152 ulp apart"

@@ -130,7 +130,7 @@ TYPED_TEST(CommandLogs, a_recording_takes_pauses_and_several_steps_and_verifies)
   ASSERT_TRUE(recorder.finish().ok());
   const ReplayReader replay(file);
   World<S> again;
-  const VerifyResult result = verify(replay, again, SameHeader{replay.header()});
+  const VerifyResult result = verify_replay(replay, again, SameHeader{replay.header()});
   EXPECT_EQ(result.outcome, VerifyOutcome::verified) << describe(result);
   EXPECT_EQ(result.frames, 5u);
   EXPECT_EQ(again.tick(), 3u + kFrameStepCap);

@@ -51,13 +51,13 @@ TYPED_TEST(ContactEventsOf, a_touch_begins_once_with_the_impulse_of_all_parts_to
   now.push_back(more[0]);
   const std::vector<ContactGeometry<S>> geometry(2, this->rows(0, 1));
   const std::vector<Velocity<S>> impulses = {Velocity<S>(3), Velocity<S>(1)};
-  this->contact_events.emit({{}, now, geometry, impulses}, this->events);
+  this->contact_events.collect({{}, now, geometry, impulses}, this->events);
   ASSERT_EQ(this->events.contact_begin.size(), 1u);
   EXPECT_EQ(this->events.contact_begin[0].a, this->bodies[0]);
   EXPECT_EQ(this->events.contact_begin[0].b, this->bodies[1]);
   EXPECT_NEAR(to_double(this->events.contact_begin[0].impulse), 8, 1e-5) << "2 kg by 4 m/s";
   this->events.clear();
-  this->contact_events.emit({now, now, geometry, impulses}, this->events);
+  this->contact_events.collect({now, now, geometry, impulses}, this->events);
   EXPECT_TRUE(this->events.contact_begin.empty());
   EXPECT_TRUE(this->events.contact_end.empty());
 }
@@ -67,7 +67,7 @@ TYPED_TEST(ContactEventsOf, two_bodies_that_move_press_with_the_mass_of_the_pair
   const std::vector<ContactGeometry<S>> geometry = {this->rows(1, 2)};
   const std::vector<Velocity<S>> impulses = {Velocity<S>(3)};
   const std::vector<Contact<S>> now = this->contact(1, 2, true);
-  this->contact_events.emit({{}, now, geometry, impulses}, this->events);
+  this->contact_events.collect({{}, now, geometry, impulses}, this->events);
   ASSERT_EQ(this->events.contact_begin.size(), 1u);
   EXPECT_NEAR(to_double(this->events.contact_begin[0].impulse), 3, 1e-5) << "2 * 2 / (2 + 2) kg by 3 m/s";
 }
@@ -80,7 +80,7 @@ TYPED_TEST(ContactEventsOf, a_touch_ends_with_its_contact_or_with_its_impulse_in
   const std::vector<ContactGeometry<S>> geometry = {this->rows(0, 2)};
   const std::vector<Velocity<S>> impulses = {Velocity<S>(0)};
   this->events.contact_end.push_back({this->bodies[1], this->bodies[2]});  // that a command made
-  this->contact_events.emit({old, now, geometry, impulses}, this->events);
+  this->contact_events.collect({old, now, geometry, impulses}, this->events);
   ASSERT_EQ(this->events.contact_end.size(), 3u);
   EXPECT_EQ(this->events.contact_end[0].b, this->bodies[1]);
   EXPECT_EQ(this->events.contact_end[1].b, this->bodies[2]);

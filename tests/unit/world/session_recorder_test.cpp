@@ -38,7 +38,7 @@ template <class S> std::vector<std::uint8_t> straight_recording(Arena<S>& arena,
 template <class S> VerifyResult verify_world(const std::vector<std::uint8_t>& file) {
   const ReplayReader replay(file);
   World<S> world;
-  return verify(replay, world, SameHeader{replay.header()});
+  return verify_replay(replay, world, SameHeader{replay.header()});
 }
 
 template <class S> class SessionRecording : public ::testing::Test {

@@ -204,7 +204,7 @@ TYPED_TEST(SetHeightsOf, a_recording_verifies) {
   ASSERT_TRUE(recorder.finish().ok());
   const ReplayReader replay(file);
   World<S> again;
-  const VerifyResult result = verify(replay, again, SameHeader{replay.header()});
+  const VerifyResult result = verify_replay(replay, again, SameHeader{replay.header()});
   EXPECT_EQ(result.outcome, VerifyOutcome::verified) << describe(result);
   EXPECT_EQ(again.hash(), w.hash());
 }

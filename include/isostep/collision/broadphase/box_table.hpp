@@ -56,10 +56,10 @@ namespace detail {
 
 /// overlapping_pairs_of by a query for every box.
 template <class Structure, class Visit>
-ISO_INLINE bool query_pairs_of(const Structure& structure, std::span<const std::uint32_t> slots, std::uint64_t most,
+ISO_INLINE bool query_pairs_of(const Structure& structure, std::span<const std::uint32_t> slot_list, std::uint64_t most,
                                const Visit& visit) {
   bool within = true;
-  for (const std::uint32_t slot : slots) {
+  for (const std::uint32_t slot : slot_list) {
     if (!structure.contains(slot)) continue;
     structure.query(structure.box(slot), [&](std::uint32_t other) ISO_INLINE_LAMBDA {
       within = most != 0;

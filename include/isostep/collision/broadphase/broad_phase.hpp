@@ -46,7 +46,7 @@ template <class B, class S>
 concept BroadPhase = std::default_initializable<B> &&
     std::same_as<typename B::Matches, typename AabbTree<S>::Matches> &&
     requires(B b, const B& asked, std::uint32_t slot, const Aabb<S>& box, const Sweep<S>& sweep,
-             std::span<const std::uint32_t> slots, typename B::Matches& matches, std::uint64_t most) {
+             std::span<const std::uint32_t> slot_list, typename B::Matches& matches, std::uint64_t most) {
   { b.insert(slot, box) } -> std::same_as<void>;
   { b.update(slot, box) } -> std::same_as<void>;
   { b.remove(slot) } -> std::same_as<void>;
@@ -58,7 +58,7 @@ concept BroadPhase = std::default_initializable<B> &&
   { asked.query(box, detail::AnyBoxVisit{}) } -> std::same_as<void>;
   { asked.sweep(sweep, detail::AnySweepVisit<S>{}) } -> std::same_as<void>;
   { asked.overlapping_pairs(matches, most, detail::AnyPairVisit{}) } -> std::same_as<bool>;
-  { asked.overlapping_pairs_of(slots, matches, most, detail::AnyPairVisit{}) } -> std::same_as<bool>;
+  { asked.overlapping_pairs_of(slot_list, matches, most, detail::AnyPairVisit{}) } -> std::same_as<bool>;
   { asked.validate() } -> std::same_as<bool>;
 };
 

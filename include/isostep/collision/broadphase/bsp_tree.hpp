@@ -38,7 +38,7 @@ template <class S> class BspTree {
   template <class Visit> ISO_INLINE void sweep(const Sweep<S>& sweep, Visit&& visit) const;
   template <class Visit> ISO_INLINE bool overlapping_pairs(Matches& matches, std::uint64_t most, Visit&& visit) const;
   template <class Visit>
-  ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches, std::uint64_t most,
+  ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches, std::uint64_t most,
                                        Visit&& visit) const;
 
   /// Planes that divide space.
@@ -136,9 +136,9 @@ ISO_INLINE bool BspTree<S>::overlapping_pairs(Matches& matches, std::uint64_t mo
 
 template <class S>
 template <class Visit>
-ISO_INLINE bool BspTree<S>::overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches&, std::uint64_t most,
+ISO_INLINE bool BspTree<S>::overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches&, std::uint64_t most,
                                                  Visit&& visit) const {
-  return detail::query_pairs_of(*this, slots, most, visit);
+  return detail::query_pairs_of(*this, slot_list, most, visit);
 }
 
 #define ISO_EXTERN(S) extern template class BspTree<S>;

@@ -42,7 +42,7 @@ template <class S, bool kManySizes> class CellGrid {
   template <class Visit> ISO_INLINE void sweep(const Sweep<S>& sweep, Visit&& visit) const;
   template <class Visit> ISO_INLINE bool overlapping_pairs(Matches& matches, std::uint64_t most, Visit&& visit) const;
   template <class Visit>
-  ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches, std::uint64_t most,
+  ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches, std::uint64_t most,
                                        Visit&& visit) const;
 
   /// Sizes of cells that are in use.
@@ -283,9 +283,9 @@ ISO_INLINE bool CellGrid<S, kManySizes>::overlapping_pairs(Matches&, std::uint64
 }
 template <class S, bool kManySizes>
 template <class Visit>
-ISO_INLINE bool CellGrid<S, kManySizes>::overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches&,
+ISO_INLINE bool CellGrid<S, kManySizes>::overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches&,
                                                               std::uint64_t most, Visit&& visit) const {
-  return detail::query_pairs_of(*this, slots, most, visit);
+  return detail::query_pairs_of(*this, slot_list, most, visit);
 }
 
 #define ISO_EXTERN(S)                       \

@@ -40,7 +40,7 @@ template <class S, int kAxes> class CellTree {
   template <class Visit> ISO_INLINE void sweep(const Sweep<S>& sweep, Visit&& visit) const;
   template <class Visit> ISO_INLINE bool overlapping_pairs(Matches& matches, std::uint64_t most, Visit&& visit) const;
   template <class Visit>
-  ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches, std::uint64_t most,
+  ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches, std::uint64_t most,
                                        Visit&& visit) const;
 
   /// Cells that are divided.
@@ -193,9 +193,9 @@ ISO_INLINE bool CellTree<S, kAxes>::overlapping_pairs(Matches&, std::uint64_t mo
 }
 template <class S, int kAxes>
 template <class Visit>
-ISO_INLINE bool CellTree<S, kAxes>::overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches&,
+ISO_INLINE bool CellTree<S, kAxes>::overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches&,
                                                          std::uint64_t most, Visit&& visit) const {
-  return detail::query_pairs_of(*this, slots, most, visit);
+  return detail::query_pairs_of(*this, slot_list, most, visit);
 }
 
 #define ISO_EXTERN(S)                   \

@@ -37,7 +37,7 @@ template <class S> class SphereTree {
   template <class Visit> ISO_INLINE void sweep(const Sweep<S>& sweep, Visit&& visit) const;
   template <class Visit> ISO_INLINE bool overlapping_pairs(Matches& matches, std::uint64_t most, Visit&& visit) const;
   template <class Visit>
-  ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches, std::uint64_t most,
+  ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches, std::uint64_t most,
                                        Visit&& visit) const;
 
   std::uint32_t height() const { return size() == 0 ? 0u : tree_.height(root_); }
@@ -83,10 +83,10 @@ ISO_INLINE bool SphereTree<S>::overlapping_pairs(Matches& matches, std::uint64_t
 
 template <class S>
 template <class Visit>
-ISO_INLINE bool SphereTree<S>::overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches,
+ISO_INLINE bool SphereTree<S>::overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches,
                                                     std::uint64_t most, Visit&& visit) const {
   std::uint32_t count = 0;
-  for (const std::uint32_t slot : slots) {
+  for (const std::uint32_t slot : slot_list) {
     if (contains(slot)) tree_.match(matches, count, tree_.leaf_of(slot), root_);
   }
   return tree_.resolve(matches, count, most, [&](std::uint32_t slot, std::uint32_t other) ISO_INLINE_LAMBDA {

@@ -41,7 +41,7 @@ template <class S> class SweepAndPrune {
   template <class Visit> ISO_INLINE void sweep(const Sweep<S>& sweep, Visit&& visit) const;
   template <class Visit> ISO_INLINE bool overlapping_pairs(Matches& matches, std::uint64_t most, Visit&& visit) const;
   template <class Visit>
-  ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches, std::uint64_t most,
+  ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches, std::uint64_t most,
                                        Visit&& visit) const;
 
   /// 0, 1, 2 for x, y, z.
@@ -153,9 +153,9 @@ ISO_INLINE bool SweepAndPrune<S>::overlapping_pairs(Matches&, std::uint64_t most
 }
 template <class S>
 template <class Visit>
-ISO_INLINE bool SweepAndPrune<S>::overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches&,
+ISO_INLINE bool SweepAndPrune<S>::overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches&,
                                                        std::uint64_t most, Visit&& visit) const {
-  return detail::query_pairs_of(*this, slots, most, visit);
+  return detail::query_pairs_of(*this, slot_list, most, visit);
 }
 
 #define ISO_EXTERN(S) extern template class SweepAndPrune<S>;

@@ -148,7 +148,7 @@ template <class S> class AabbTree {
   /// visit(slot, other) -> void for every one of `slots` that is in the tree and every leaf, itself included, whose box
   /// overlaps its own, in no stated order. Half the time of as many queries. False: given up, as above.
   template <class Visit>
-  ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches, std::uint64_t most,
+  ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches, std::uint64_t most,
                                        Visit&& visit) const;
 
   /// visit(slot, max_fraction) -> the new max_fraction, not larger, for every leaf whose box the sweep touches within
@@ -301,11 +301,11 @@ ISO_INLINE bool AabbTree<S>::overlapping_pairs(Matches& matches, std::uint64_t m
 
 template <class S>
 template <class Visit>
-ISO_INLINE bool AabbTree<S>::overlapping_pairs_of(std::span<const std::uint32_t> slots, Matches& matches,
+ISO_INLINE bool AabbTree<S>::overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches,
                                                   std::uint64_t most, Visit&& visit) const {
-  if (matches.now.size() < slots.size()) matches.now.resize(slots.size());
+  if (matches.now.size() < slot_list.size()) matches.now.resize(slot_list.size());
   std::uint32_t count = 0;
-  for (const std::uint32_t slot : slots) {
+  for (const std::uint32_t slot : slot_list) {
     if (contains(slot)) matches.now[count++] = {leaf_of_[slot], kRoot};
   }
   return resolve(matches, count, most, visit);

@@ -29,12 +29,12 @@ template <class S> class PlaneAdvance {
                       core_.reach * resolution<F>() * F(4);
       const F target = max(target_, noise * F(8)), keep = target * F(0.5);
       const F separation = bound.at(U(0)).height - noise;
-      const bool near = separation <= target, begins = result.rounds == 1;
-      stays = near && (begins || stays);
+      const bool nearby = separation <= target, begins = result.rounds == 1;
+      stays = nearby && (begins || stays);
       result.impact = begins ? Impact::at_start : stays && t < kAtOnce<U> ? Impact::stays : Impact::touch;
       result.separation = coarser_down<S>(separation);
       if (separation <= (begins ? keep : target)) return result;
-      result.impact = near ? Impact::touch : Impact::cut_off;
+      result.impact = nearby ? Impact::touch : Impact::cut_off;
       const U rest = U(1) - t;
       GapBound<F> above = bound;
       above.gap = bound.gap - (keep + noise);

@@ -98,9 +98,9 @@ template <class S> class Passage {
   template <class Shape> bool is_touched(const Shape& solid, Vec3<S>& on_a) const {
     if constexpr (kIsSolid<Shape>) {
       const S graze = graze_of<S>(solid.inner_radius());
-      const TimeOfImpact<S> near = impact(solid, {graze, S(0)}, graze * S(3));
-      on_a = near.on_a;
-      return near.impact == Impact::at_start && !(near.normal == Vec3<Unit<S>>::zero());
+      const TimeOfImpact<S> nearby = impact(solid, {graze, S(0)}, graze * S(3));
+      on_a = nearby.on_a;
+      return nearby.impact == Impact::at_start && !(nearby.normal == Vec3<Unit<S>>::zero());
     }
     return false;
   }

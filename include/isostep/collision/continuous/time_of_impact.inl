@@ -143,19 +143,19 @@ template <class S> class Advance {
       const Gjk<F> search(a_.core.vertices, b_.core.vertices, b_in_a);
       simplex = result.rounds == 1 ? search.begin() : search.begin(simplex);
       const F noise = noise_at(max_abs(b_in_a.position)), target = max(target_, noise * F(8)), keep = target * F(0.5);
-      const F far = radii_ + target * F(2);
+      const F distant = radii_ + target * F(2);
       const GjkDistance<F> found = search.run(simplex, [=, this](F separation, F distance) ISO_INLINE_LAMBDA {
-        return separation > far && separation - radii_ >= (distance - radii_) * kEnough;
+        return separation > distant && separation - radii_ >= (distance - radii_) * kEnough;
       });
       result.separation = found.separation - radii_ - noise;
       result.normal = ta.rotation * found.normal;
       result.on_a = to_world(ta, found.on_a);
       result.on_b = to_world(ta, found.on_b);
-      const bool near = result.separation <= target, begins = result.rounds == 1;
-      stays = near && (begins || stays);
+      const bool nearby = result.separation <= target, begins = result.rounds == 1;
+      stays = nearby && (begins || stays);
       result.impact = begins ? Impact::at_start : stays && t < kAtOnce<U> ? Impact::stays : Impact::touch;
       if (found.distance == F(0) || result.separation <= (begins ? keep : target)) return result;
-      result.impact = near ? Impact::touch : Impact::cut_off;
+      result.impact = nearby ? Impact::touch : Impact::cut_off;
       const U rest = U(1) - t;
       const U step = bound_at(t, ta, tb, result.normal, keep + noise).proved(result.separation - keep, rest);
       if (!(step < rest)) return {Impact::none, U(1), Vec3<U>::zero(), result.on_a, result.on_b, F(0), result.rounds};

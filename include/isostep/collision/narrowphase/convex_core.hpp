@@ -40,8 +40,8 @@ template <class Out, class T> ISO_INLINE Vec3<Out> finer_of(Vec3<T> v) {
 }
 /// Never above a.
 template <class Out, class In> ISO_INLINE Out coarser_down(In a) {
-  const Out near = coarser<Out>(a);
-  return finer<In>(near) > a ? near - resolution<Out>() : near;
+  const Out nearby = coarser<Out>(a);
+  return finer<In>(nearby) > a ? nearby - resolution<Out>() : nearby;
 }
 template <class Out, class T> ISO_INLINE Vec3<Out> coarser_of(Vec3<T> v) {
   return {coarser<Out>(v.x), coarser<Out>(v.y), coarser<Out>(v.z)};

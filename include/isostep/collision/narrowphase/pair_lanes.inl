@@ -69,18 +69,18 @@ template <class S, int W, class Isa> struct PairLanes {
     for (std::uint32_t at = run.begin; at < run.end; at += W) {
       const Batch batch = batch_at(run, at);
       const Bodies p = gather_bodies(batch);
-      const Mask near = ~is_longer(p.gap.x, p.gap.y, p.gap.z, p.radius_a + p.radius_b + L::broadcast(run.margin));
-      const std::uint32_t near_bits = to_bits(near), touching = near_bits & batch.real;
+      const Mask nearby = ~is_longer(p.gap.x, p.gap.y, p.gap.z, p.radius_a + p.radius_b + L::broadcast(run.margin));
+      const std::uint32_t near_bits = to_bits(nearby), touching = near_bits & batch.real;
       for (int i = 0; i < W; ++i) run.counts[batch.pair[i]] = near_bits >> i & 1u;
-      if (touching != 0) touch_spheres(run, batch, p, near, touching);
+      if (touching != 0) touch_spheres(run, batch, p, nearby, touching);
     }
   }
 
  private:
   /// touch_points() of sphere_pairs.inl, upright where centres coincide.
-  static ISO_INLINE void touch_spheres(const PairRun<S>& run, const Batch& batch, const Bodies& p, Mask near,
+  static ISO_INLINE void touch_spheres(const PairRun<S>& run, const Batch& batch, const Bodies& p, Mask nearby,
                                        std::uint32_t touching) {
-    const Direction<L> heading = direction_where(near, p.gap.x, p.gap.y, p.gap.z);
+    const Direction<L> heading = direction_where(nearby, p.gap.x, p.gap.y, p.gap.z);
     const Mask apart = less(L::zero(), heading.length);
     const Vec3<U> normal = {select(apart, heading.x, U::zero()), select(apart, heading.y, U::broadcast(Unit<S>(1))),
                             select(apart, heading.z, U::zero())};

@@ -185,12 +185,12 @@ ISO_INLINE EdgeContact<S> near_edges(const PolyhedronPair<S, W, Isa>& pair, cons
   const S over_b = height_over<S, W, Isa>(pair.b, pair.vertices_a.at(face_b.vertex));
   is_known = over_b <= min(limit, S(0));
   if (is_known) return {{0, 0, Vec3<Unit<S>>::zero(), limit, false}, {}, {}};
-  const EdgeContact<S> near =
+  const EdgeContact<S> nearby =
       contact_of(pair, EdgeAxes<S, W, Isa>(pair, face_a, face_b, margin).best(limit, margin));
   const bool overlap = over_a <= S(0) || over_b <= S(0);
   // Over a face of solids that are apart a contact has their true distance.
-  is_known = near.axis.found ? is_best(pair, near, margin) : best > S(0) || overlap;
-  return near;
+  is_known = nearby.axis.found ? is_best(pair, nearby, margin) : best > S(0) || overlap;
+  return nearby;
 }
 template <class S, int W, class Isa>
 ISO_INLINE EdgeContact<S> all_edges(const PolyhedronPair<S, W, Isa>& pair, S best, S margin) {
@@ -284,22 +284,22 @@ void collide_polyhedron_half_space(const Polyhedron<S>& a, const Transform<S>& t
   const Lowest<S> lowest = lowest_of(a.vertices, up_in_a);
   if (origin + lowest.height > margin) return;
   const Tangents<Unit<S>> across = tangents_of(up_in_a);
-  FacePolygon<S> near;  // no polygon, but what is reduced to four alike
-  near.count = 0;
+  FacePolygon<S> nearby;  // no polygon, but what is reduced to four alike
+  nearby.count = 0;
   visit_flat_faces(a, face_against(a, lowest.vertex, up_in_a), [&](std::uint32_t face) ISO_INLINE_LAMBDA {
     std::uint32_t edge = a.faces[face];
     do {
       const std::uint32_t i = a.origin(edge);
       const Vec3<S> p = a.vertices[i];
       const S height = origin + dot(up_in_a, p);
-      if (height <= margin + kPatchReach<S>) add_point({dot(across.t, p), dot(across.u, p), height, i, i}, near);
+      if (height <= margin + kPatchReach<S>) add_point({dot(across.t, p), dot(across.u, p), height, i, i}, nearby);
       edge = a.half_edges[edge].next;
     } while (edge != a.faces[face]);
   });
-  if (near.count > kMaxContactPoints) reduce_to_four(near, depth_tie(S(0), face_slack(a.inner_radius)));
+  if (nearby.count > kMaxContactPoints) reduce_to_four(nearby, depth_tie(S(0), face_slack(a.inner_radius)));
   out.normal = -up;
-  for (int i = 0; i < near.count; ++i) {
-    const ClipPoint<S>& p = near.points[i];
+  for (int i = 0; i < nearby.count; ++i) {
+    const ClipPoint<S>& p = nearby.points[i];
     out.add(to_world(ta, a.vertices[p.before]) - up * (p.height * S(0.5)), p.height, p.before);
   }
 }

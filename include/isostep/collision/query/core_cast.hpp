@@ -71,24 +71,24 @@ template <class S> struct CoreCast {
     CoreHit<F> last = {};
     for (int round = 0; round < kMostRounds; ++round) {
       const Vec3<F> at = from + way * t;
-      const F noise = gap_noise(extent + max_abs(at)), near = noise * F(2) + resolution;
-      const F far = radii + near * F(16);
+      const F noise = gap_noise(extent + max_abs(at)), nearby = noise * F(2) + resolution;
+      const F distant = radii + nearby * F(16);
       const GjkDistance<F> found = search.nearest(at, [=, this](F separation, F distance) ISO_INLINE_LAMBDA {
-        return separation > far && separation - radii >= (distance - radii) * kEnough;
+        return separation > distant && separation - radii >= (distance - radii) * kEnough;
       });
       const F gap = found.separation - radii - noise;
-      if (round == 0 && (found.distance == F(0) || gap <= near)) return from_touch(search, found, near);
+      if (round == 0 && (found.distance == F(0) || gap <= nearby)) return from_touch(search, found, nearby);
       const F closing = -dot(way, found.normal);
       if (found.distance != F(0)) {
         if (!(closing > F(0)) || gap >= closing * (end - t)) return missed(found.normal, gap + closing * t);
         // Within `near` they touch, at t: how far the plane would let them go on is not asked.
-        const bool ends_later = gap > near && gap > closing * (latest - t) + isostep::resolution<F>() * F(4);
+        const bool ends_later = gap > nearby && gap > closing * (latest - t) + isostep::resolution<F>() * F(4);
         if (latest < end && ends_later) return missed(found.normal, gap + closing * t);
         last.hit = true;
         if (round == 0 || is_clear(found, noise)) last.normal = found.normal;
       }
       last.on_b = found.on_b - way * t;
-      if (gap <= near) return last;
+      if (gap <= nearby) return last;
       const U step = divide_to<U>(gap, closing) - isostep::resolution<U>();
       if (!(step > U(0))) return last;
       t = last.fraction = t + step;
@@ -119,7 +119,8 @@ template <class S> struct CoreCast {
   static ISO_INLINE bool is_clear(const GjkDistance<F>& found, F noise) { return found.distance > noise * F(256); }
 
   /// What a plane that they do not sink through decides for the whole way, as both are convex.
-  template <class Search> ISO_INLINE CoreHit<F> from_touch(Search& search, const GjkDistance<F>& found, F near) const {
+  template <class Search>
+  ISO_INLINE CoreHit<F> from_touch(Search& search, const GjkDistance<F>& found, F nearby) const {
     CoreHit<F> start = {true, false, U(0), found.normal, found.on_b};
     F depth = radii - found.separation;
     if (!is_clear(found, gap_noise(extent + max_abs(from)))) {
@@ -132,8 +133,8 @@ template <class S> struct CoreCast {
     }
     start.gap = -depth;
     const F sinks = -dot(way, start.normal) * end;
-    start.inside = depth > max(touch, near);
-    start.hit = start.inside || sinks > max(min(touch, length(way) * end * F(0.00390625)), near);
+    start.inside = depth > max(touch, nearby);
+    start.hit = start.inside || sinks > max(min(touch, length(way) * end * F(0.00390625)), nearby);
     return start;
   }
 };

@@ -22,15 +22,15 @@ ISO_INLINE bool cast_plane(const ConvexCore<S>& core, const Transform<S>& start,
     if (dot(up_of_core, v) < dot(up_of_core, lowest)) lowest = v;
   }
   const F above = dot(up, apart) - finer<F>(offset) + dot(up_of_core, lowest) - fine.radius;
-  const F noise = gap_noise(fine.extent + max_abs(apart)), near = noise * F(2) + finer<F>(resolution<S>());
+  const F noise = gap_noise(fine.extent + max_abs(apart)), nearby = noise * F(2) + finer<F>(resolution<S>());
   const F gap = above - noise, fall = -dot(up, way), end = fall * finer<U>(motion.max_fraction);
   hit.inside = false;
   if (motion.parting != nullptr) *motion.parting = {coarser_of<Unit<S>>(up), start.position, coarser<S>(gap)};
   U fraction = U(0);
-  if (gap <= near) {
+  if (gap <= nearby) {
     const F touch = finer<F>(motion.touch), long_way = length(way) * finer<U>(motion.max_fraction);
-    hit.inside = -above > max(touch, near);
-    if (!hit.inside && !(end > max(min(touch, long_way * F(0.00390625)), near))) return false;
+    hit.inside = -above > max(touch, nearby);
+    if (!hit.inside && !(end > max(min(touch, long_way * F(0.00390625)), nearby))) return false;
   } else {
     if (!(fall > F(0)) || gap >= end) return false;
     fraction = max(divide_to<U>(gap, fall) - resolution<U>(), U(0));

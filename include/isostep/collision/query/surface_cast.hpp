@@ -54,8 +54,8 @@ template <class S, class G> class SurfaceCast {
     }
     const Vec3<S> half = (high - low) * S(0.5);
     const Aabb<S> box = box_of_surface<G, S>(surface_);
-    const S far = max_abs(placed.position) + long_way_ + max(max_abs(box.low), max_abs(box.high));
-    const S more = cast_.core.radius + cast_margin(far);
+    const S distant = max_abs(placed.position) + long_way_ + max(max_abs(box.low), max_abs(box.high));
+    const S more = cast_.core.radius + cast_margin(distant);
     return {placed.position + low + half, surface_way_, half + Vec3<S>{more, more, more}, Unit<S>(1)};
   }
   /// visit(id, corners) -> bool for the triangles that the solid's box sweeps over, the first ones first as a rule.
@@ -111,20 +111,20 @@ template <class S, class G> class SurfaceCast {
     return a;
   }
   /// What the plane alone decides: the solid does not come down to it, or touches it and moves along.
-  ISO_INLINE bool passes(const Approach& a, S near) const {
-    const S fall = a.fall * cast_.motion.max_fraction, touch = max(cast_.motion.touch, near);
-    if (a.gap > fall + near) return true;
-    const S along = max(min(cast_.motion.touch, long_way_ * cast_.motion.max_fraction * S(0.00390625)), near);
-    return a.gap <= near && a.gap >= -touch && fall <= along;
+  ISO_INLINE bool passes(const Approach& a, S nearby) const {
+    const S fall = a.fall * cast_.motion.max_fraction, touch = max(cast_.motion.touch, nearby);
+    if (a.gap > fall + nearby) return true;
+    const S along = max(min(cast_.motion.touch, long_way_ * cast_.motion.max_fraction * S(0.00390625)), nearby);
+    return a.gap <= nearby && a.gap >= -touch && fall <= along;
   }
   bool meet(std::uint32_t id, const TriangleCorners& corners, Unit<S> latest, SolidHit<S>& out) const {
     SurfaceTriangle<S> triangle(frame_, corners);
     const bool behind = -dot(triangle.normal, way_) < S(0);
     if (behind && !cast_.back_faces) return false;
     const Approach approach = approach_of(triangle);
-    S far = extent_;
-    for (const Vec3<S>& p : triangle.points) far = max(far, max_abs(p));
-    if (passes(approach, gap_noise(far) * S(4))) return false;
+    S distant = extent_;
+    for (const Vec3<S>& p : triangle.points) distant = max(distant, max_abs(p));
+    if (passes(approach, gap_noise(distant) * S(4))) return false;
     const Transform<S> here = {Vec3<S>::zero(), Mat3<Unit<S>>::identity()};
     CastMotion<S> motion = cast_.motion;
     motion.translation = way_;

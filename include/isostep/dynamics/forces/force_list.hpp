@@ -93,7 +93,7 @@ template <class S> struct ForceRecords {
   ISO_INLINE std::uint32_t newer_kinds() const {
     std::uint32_t kinds = 0, bit = 1;
 #define ISO_BIT(name, Record, Id, S)                        \
-  kinds |= name##s.slots().entries().size() == 0 ? 0u : bit; \
+  kinds |= name##s.slot_map().entries().size() == 0 ? 0u : bit; \
   bit <<= 1;
     ISO_FOR_EACH_NEWER_RECORD(ISO_BIT, S)
 #undef ISO_BIT
@@ -102,7 +102,7 @@ template <class S> struct ForceRecords {
   /// None of the first was ever added.
   ISO_INLINE bool untouched() const {
     bool none = true;
-#define ISO_NONE(name, Record, Id, S) none = none && name##s.slots().entries().size() == 0;
+#define ISO_NONE(name, Record, Id, S) none = none && name##s.slot_map().entries().size() == 0;
     ISO_FOR_EACH_FORCE(ISO_NONE, S)
     ISO_FOR_EACH_OTHER_RECORD(ISO_NONE, S)
 #undef ISO_NONE
@@ -110,7 +110,7 @@ template <class S> struct ForceRecords {
   }
   ISO_INLINE bool no_forces() const {
     bool none = true;
-#define ISO_NONE(name, Record, Id, S) none = none && name##s.slots().entries().size() == 0;
+#define ISO_NONE(name, Record, Id, S) none = none && name##s.slot_map().entries().size() == 0;
     ISO_FOR_EACH_FORCE(ISO_NONE, S)
 #undef ISO_NONE
     return none;

@@ -51,7 +51,7 @@ template <class S> struct DriveBounds {
   Velocity<S> low, high;  // [m/s]
 
   /// No bound: faster than anything moves, and sums with it fit.
-  static ISO_INLINE constexpr Velocity<S> far() { return highest<Velocity<S>>() * Velocity<S>(0.5); }
+  static ISO_INLINE constexpr Velocity<S> limitless() { return highest<Velocity<S>>() * Velocity<S>(0.5); }
 };
 
 namespace detail {
@@ -74,7 +74,7 @@ template <class S> ISO_INLINE Velocity<S> least_speed(S gap, Velocity<S> push_sp
   using V = Velocity<S>;
   if (gap > S(0)) {
     const S most = Limits<S>::speed() * h;  // farther away than anything moves in a sub-step
-    return most < gap ? -DriveBounds<S>::far() : -scaled(rate, convert<V>(gap));
+    return most < gap ? -DriveBounds<S>::limitless() : -scaled(rate, convert<V>(gap));
   }
   const S deep = max(gap, -S(32) * h);
   return min(-scaled(bias_rate, convert<V>(deep)), push_speed);
@@ -82,7 +82,7 @@ template <class S> ISO_INLINE Velocity<S> least_speed(S gap, Velocity<S> push_sp
 
 template <class S> ISO_INLINE DriveBounds<S> bounds_of(const JointDrive<S>& drive, S rate, Step<S> h, S bias_rate) {
   using V = Velocity<S>;
-  DriveBounds<S> bounds = {-DriveBounds<S>::far(), DriveBounds<S>::far()};
+  DriveBounds<S> bounds = {-DriveBounds<S>::limitless(), DriveBounds<S>::limitless()};
   if (drive.bounded_below) bounds.low = least_speed(drive.position - drive.lower, drive.push_speed, rate, h, bias_rate);
   if (drive.bounded_above) {
     bounds.high = -least_speed(drive.upper - drive.position, drive.push_speed, rate, h, bias_rate);

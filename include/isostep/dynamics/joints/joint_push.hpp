@@ -49,7 +49,7 @@ template <class S> class JointPush {
     }
     // A sum of all rows beyond half of the format is held there: a larger one does not fit with a velocity.
     const auto held = [](auto sum) {
-      const auto most = widen<decltype(sum)>(DriveBounds<S>::far());
+      const auto most = widen<decltype(sum)>(DriveBounds<S>::limitless());
       return round_to<V>(clamp(sum, -most, most));
     };
     const auto rounded = [&](const auto(&sum)[3]) { return Vec3<V>{held(sum[0]), held(sum[1]), held(sum[2])}; };

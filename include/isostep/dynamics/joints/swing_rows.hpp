@@ -310,8 +310,8 @@ template <class S>
 ISO_INLINE void limit_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, bool ends, JointDrive<S>* x,
                              JointDrive<S>* y) {
   set_swings(swing, a, x, y);
-  const S far = S(4);  // [rad] more than any limit leaves
-  S left_x = far, left_y = far;
+  const S distant = S(4);  // [rad] more than any limit leaves
+  S left_x = distant, left_y = distant;
   if (x != nullptr && is_limited(*x)) left_x = set_limit(swing, a, *x);
   if (y != nullptr && is_limited(*y)) left_y = set_limit(swing, a, *y);
   if (!ends) return;

@@ -95,11 +95,11 @@ template <class S, int W, class Isa> struct TreeLaws : TreePusher<S, W, Isa> {
  private:
   static ISO_INLINE V least_speed(L gap, const JointStep<S>& step, S bias_rate) {
     const L most = number(Limits<S>::speed() * step.h), deepest = number(-S(32) * step.h);
-    const V far = V::broadcast(DriveBounds<S>::far()), push = V::broadcast(detail::kAnglePushSpeed<S>);
+    const V distant = V::broadcast(DriveBounds<S>::limitless()), push = V::broadcast(detail::kAnglePushSpeed<S>);
     const auto apart = less(L::zero(), gap), beyond = less(most, gap);
-    const V near = -Base::times(number(step.rate), convert<V>(min(max(gap, L::zero()), most)));
+    const V nearby = -Base::times(number(step.rate), convert<V>(min(max(gap, L::zero()), most)));
     const V back = min(-Base::times(number(bias_rate), convert<V>(min(max(gap, deepest), L::zero()))), push);
-    return select(apart, select(beyond, -far, near), back);
+    return select(apart, select(beyond, -distant, nearby), back);
   }
 };
 

@@ -42,76 +42,77 @@ template <class S> bool is_sound(const Pose<S>& pose, S reach) {
 }
 template <class S> bool is_number(S x, S low, S high) { return is_finite(x) && low <= x && x <= high; }
 
-template <class S> void check_settings(const ArticulationSettings<S>& s, DefinitionCheck& check) {
-  check.ask(10 <= s.hz && s.hz <= 1000, "settings.hz", "10 to 1000");
-  check.ask(1 <= s.substeps && s.substeps <= 64 && s.hz * s.substeps <= kMaxRate, "settings.substeps",
-            "1 to 64, and hz * substeps up to 16384");
-  check.ask(is_finite(s.gravity) && within(s.gravity, S(1024)), "settings.gravity", "up to 1024 m/s^2 along each axis");
-  check.ask(is_sound(s.base, Limits<S>::position()), "settings.base",
-            "a position up to Limits::position() and a quaternion of length 1");
+template <class S> void check_settings(const ArticulationSettings<S>& s, DefinitionCheck& checks) {
+  checks.ask(10 <= s.hz && s.hz <= 1000, "settings.hz", "10 to 1000");
+  checks.ask(1 <= s.substeps && s.substeps <= 64 && s.hz * s.substeps <= kMaxRate, "settings.substeps",
+             "1 to 64, and hz * substeps up to 16384");
+  checks.ask(is_finite(s.gravity) && within(s.gravity, S(1024)), "settings.gravity",
+             "up to 1024 m/s^2 along each axis");
+  checks.ask(is_sound(s.base, Limits<S>::position()), "settings.base",
+             "a position up to Limits::position() and a quaternion of length 1");
 }
 
-template <class S> void check_mass(const LinkMass<S>& m, DefinitionCheck& check) {
+template <class S> void check_mass(const LinkMass<S>& m, DefinitionCheck& checks) {
   const S most = Limits<S>::mass();
-  check.ask(is_number(m.mass, resolution<S>(), most), "mass.mass", "above 0, up to Limits::mass()");
-  check.ask(is_finite(m.centre) && within(m.centre, Limits<S>::extent()), "mass.centre",
-            "coordinates up to Limits::extent()");
+  checks.ask(is_number(m.mass, resolution<S>(), most), "mass.mass", "above 0, up to Limits::mass()");
+  checks.ask(is_finite(m.centre) && within(m.centre, Limits<S>::extent()), "mass.centre",
+             "coordinates up to Limits::extent()");
   const Vec3<S> i = m.inertia;
   const bool finite = is_number(i.x, S(0), most) && is_number(i.y, S(0), most) && is_number(i.z, S(0), most);
-  check.ask(finite, "mass.inertia", "0 to Limits::mass() about each axis");
+  checks.ask(finite, "mass.inertia", "0 to Limits::mass() about each axis");
   // A thousandth is left for the rounding of who computed it.
   const auto solid = [](S a, S b, S c) { return a - b - c <= (b + c) * S(0x1p-10) + S(64) * resolution<S>(); };
-  check.ask(!finite || (solid(i.x, i.y, i.z) && solid(i.y, i.z, i.x) && solid(i.z, i.x, i.y)), "mass.inertia",
-            "no component larger than the two others together");
-  check.ask(is_rotation<S>(m.principal), "mass.principal", kUnitLength);
+  checks.ask(!finite || (solid(i.x, i.y, i.z) && solid(i.y, i.z, i.x) && solid(i.z, i.x, i.y)), "mass.inertia",
+             "no component larger than the two others together");
+  checks.ask(is_rotation<S>(m.principal), "mass.principal", kUnitLength);
 }
 
-template <class S> void check_limits(const ArticulationLink<S>& l, DefinitionCheck& check) {
+template <class S> void check_limits(const ArticulationLink<S>& l, DefinitionCheck& checks) {
   const bool ball = l.type == ArticulationJoint::ball;
   if (!l.limited) {
-    check.ask(l.type != ArticulationJoint::slider || l.parent == kArticulationBase, "limited",
-              "limits on a slider between two links");
+    checks.ask(l.type != ArticulationJoint::slider || l.parent == kArticulationBase, "limited",
+               "limits on a slider between two links");
     return;
   }
-  check.ask(is_scalar(l.type) || ball, "limited", "a hinge, a slider or a ball");
-  check.ask(is_finite(l.lower) && is_finite(l.upper), "upper", "finite numbers");
+  checks.ask(is_scalar(l.type) || ball, "limited", "a hinge, a slider or a ball");
+  checks.ask(is_finite(l.lower) && is_finite(l.upper), "upper", "finite numbers");
   if (ball) {
-    check.ask(kLeastCone<S> <= l.upper && l.upper <= kMostCone<S>, "upper", "0.05 to 2.8 rad, a cone's half angle");
-    check.ask(l.lower == S(0), "lower", "0 of a ball");
+    checks.ask(kLeastCone<S> <= l.upper && l.upper <= kMostCone<S>, "upper", "0.05 to 2.8 rad, a cone's half angle");
+    checks.ask(l.lower == S(0), "lower", "0 of a ball");
     return;
   }
   const S most = l.type == ArticulationJoint::hinge ? S(0x1p14) : Limits<S>::extent();
-  check.ask(within(l.lower, most) && within(l.upper, most), "upper",
-            "a size up to 16384 rad, or Limits::extent() of a slider");
-  check.ask(l.lower < l.upper, "upper", "above lower");
+  checks.ask(within(l.lower, most) && within(l.upper, most), "upper",
+             "a size up to 16384 rad, or Limits::extent() of a slider");
+  checks.ask(l.lower < l.upper, "upper", "above lower");
 }
 
-template <class S> void check_link(const ArticulationDefinition<S>& d, std::uint32_t index, DefinitionCheck& check) {
+template <class S> void check_link(const ArticulationDefinition<S>& d, std::uint32_t index, DefinitionCheck& checks) {
   const ArticulationLink<S>& l = d.links[index];
   const S reach = Limits<S>::extent();
-  check.link(index);
-  check.ask(l.parent == kArticulationBase || l.parent < index, "parent", "an earlier link, or kArticulationBase");
-  if (!check.ask(static_cast<std::uint32_t>(l.type) < kArticulationJoints, "type", "one of ArticulationJoint")) return;
+  checks.link(index);
+  checks.ask(l.parent == kArticulationBase || l.parent < index, "parent", "an earlier link, or kArticulationBase");
+  if (!checks.ask(static_cast<std::uint32_t>(l.type) < kArticulationJoints, "type", "one of ArticulationJoint")) return;
   const bool free = l.type == ArticulationJoint::free;
-  check.ask(!free || index == 0, "type", "a free link only as the first");
-  check.ask(index == 0 || d.links[0].type != ArticulationJoint::free || l.parent != kArticulationBase, "parent",
-            "a link: the first one is free, and the base holds no other");
-  check.ask(is_sound(l.frame_a, reach), "frame_a", "a position up to Limits::extent() and a quaternion of length 1");
-  check.ask(is_sound(l.frame_b, reach), "frame_b", "a position up to Limits::extent() and a quaternion of length 1");
+  checks.ask(!free || index == 0, "type", "a free link only as the first");
+  checks.ask(index == 0 || d.links[0].type != ArticulationJoint::free || l.parent != kArticulationBase, "parent",
+             "a link: the first one is free, and the base holds no other");
+  checks.ask(is_sound(l.frame_a, reach), "frame_a", "a position up to Limits::extent() and a quaternion of length 1");
+  checks.ask(is_sound(l.frame_b, reach), "frame_b", "a position up to Limits::extent() and a quaternion of length 1");
   const S length_of_axis = is_finite(l.axis) ? convert<S>(heading_of(l.axis).length) : S(0);
-  check.ask(is_number(length_of_axis, S(0.999), S(1.001)), "axis", "a vector of length 1");
-  check_mass(l.mass, check);
+  checks.ask(is_number(length_of_axis, S(0.999), S(1.001)), "axis", "a vector of length 1");
+  check_mass(l.mass, checks);
   const S most = Limits<S>::mass();
-  check.ask(is_number(l.armature, S(0), most), "armature", "0 to Limits::mass()");
-  check.ask(is_number(l.damping, S(0), most), "damping", "0 to Limits::mass()");
-  check.ask(is_number(l.stiffness, S(0), most), "stiffness", "0 to Limits::mass()");
+  checks.ask(is_number(l.armature, S(0), most), "armature", "0 to Limits::mass()");
+  checks.ask(is_number(l.damping, S(0), most), "damping", "0 to Limits::mass()");
+  checks.ask(is_number(l.stiffness, S(0), most), "stiffness", "0 to Limits::mass()");
   const bool moves = l.type != ArticulationJoint::fixed && !free;
-  check.ask(moves || (l.armature == S(0) && l.damping == S(0) && l.stiffness == S(0)), "type",
-            "a joint of one or three coordinates for armature, damping or stiffness");
+  checks.ask(moves || (l.armature == S(0) && l.damping == S(0) && l.stiffness == S(0)), "type",
+             "a joint of one or three coordinates for armature, damping or stiffness");
   const bool round = l.type == ArticulationJoint::hinge && !l.limited;
-  check.ask(is_number(l.rest, -S(0x1p14), S(0x1p14)), "rest", "a size up to 16384");
-  check.ask(!round || within(l.rest, S(6.5)), "rest", "a size up to 6.5 rad of a hinge without limits");
-  check_limits(l, check);
+  checks.ask(is_number(l.rest, -S(0x1p14), S(0x1p14)), "rest", "a size up to 16384");
+  checks.ask(!round || within(l.rest, S(6.5)), "rest", "a size up to 6.5 rad of a hinge without limits");
+  check_limits(l, checks);
 }
 
 template <class S> S ArticulatedTree<S>::over_mass(S x, int lengths, int times) const {
@@ -135,20 +136,20 @@ template <class S> S ArticulatedTree<S>::coefficient(S x, ArticulationJoint type
 template <class S>
 Result<void> check_drive(const ArticulatedTree<S>& tree, std::uint32_t link, const ArticulationDrive<S>& drive) {
   const PreparedLink<S>& l = tree.links[link];
-  DefinitionCheck check;
+  DefinitionCheck checks;
   const S most = Limits<S>::mass();
-  check.ask(is_number(drive.target, -S(0x1p14), S(0x1p14)), "drive.target", "a size up to 16384");
-  check.ask(is_rotation<S>(drive.pose), "drive.pose", kUnitLength);
-  check.ask(is_finite(drive.speed) && within(drive.speed, Limits<S>::speed()), "drive.speed",
-            "a size up to Limits::speed() along each axis");
-  check.ask(is_number(drive.stiffness, S(0), most), "drive.stiffness", "0 to Limits::mass()");
-  check.ask(is_number(drive.damping, S(0), most), "drive.damping", "0 to Limits::mass()");
-  check.ask(is_number(drive.max_force, S(0), most), "drive.max_force", "0 to Limits::mass()");
+  checks.ask(is_number(drive.target, -S(0x1p14), S(0x1p14)), "drive.target", "a size up to 16384");
+  checks.ask(is_rotation<S>(drive.pose), "drive.pose", kUnitLength);
+  checks.ask(is_finite(drive.speed) && within(drive.speed, Limits<S>::speed()), "drive.speed",
+             "a size up to Limits::speed() along each axis");
+  checks.ask(is_number(drive.stiffness, S(0), most), "drive.stiffness", "0 to Limits::mass()");
+  checks.ask(is_number(drive.damping, S(0), most), "drive.damping", "0 to Limits::mass()");
+  checks.ask(is_number(drive.max_force, S(0), most), "drive.max_force", "0 to Limits::mass()");
   const bool round = l.type == ArticulationJoint::hinge && !l.limited;
-  check.ask(!round || within(drive.target, S(6.5)), "drive.target", "a size up to 6.5 rad of a hinge without limits");
-  check.ask(is_scalar(l.type) || l.type == ArticulationJoint::ball || drive.max_force == S(0), "drive.max_force",
-            "0 where a joint has no coordinates");
-  return check.result();
+  checks.ask(!round || within(drive.target, S(6.5)), "drive.target", "a size up to 6.5 rad of a hinge without limits");
+  checks.ask(is_scalar(l.type) || l.type == ArticulationJoint::ball || drive.max_force == S(0), "drive.max_force",
+             "0 where a joint has no coordinates");
+  return checks.result();
 }
 
 /// [m] How far the farthest mass may be from the anchors of the links before it.
@@ -229,7 +230,7 @@ template <class S> PreparedLink<S> prepared(const ArticulatedTree<S>& tree, cons
 }
 
 /// The next link, with its places among the state's numbers.
-template <class S> void add_link(ArticulatedTree<S>& tree, std::uint32_t index, DefinitionCheck& check) {
+template <class S> void add_link(ArticulatedTree<S>& tree, std::uint32_t index, DefinitionCheck& checks) {
   const ArticulationLink<S>& l = tree.definition.links[index];
   PreparedLink<S> p = prepared(tree, l);
   const bool free = l.type == ArticulationJoint::free;
@@ -240,32 +241,32 @@ template <class S> void add_link(ArticulatedTree<S>& tree, std::uint32_t index, 
   tree.rotations += has_rotation(l.type) ? 1 : 0;
   tree.speeds += is_scalar(l.type) ? 1 : free ? 6 : has_rotation(l.type) ? 3 : 0;
   tree.links.push_back(p);
-  check.link(index);
-  check.ask(S(0) < p.mass, "mass.mass", "more beside the mass of the tree", ErrorCode::limit);
-  if (const Result<void> drive = check_drive(tree, index, l.drive); !drive) check.also(drive.error());
+  checks.link(index);
+  checks.ask(S(0) < p.mass, "mass.mass", "more beside the mass of the tree", ErrorCode::limit);
+  if (const Result<void> drive = check_drive(tree, index, l.drive); !drive) checks.also(drive.error());
 }
 
 template <class S>
 Result<std::shared_ptr<const ArticulatedTree<S>>> make_tree(const ArticulationDefinition<S>& definition) {
-  DefinitionCheck check;
-  check_settings(definition.settings, check);
-  check.ask(!definition.links.empty() && definition.links.size() <= kMostArticulationLinks, "links",
-            "1 to 4096 of them");
-  const auto count = static_cast<std::uint32_t>(check.ok() ? definition.links.size() : 0);
-  for (std::uint32_t i = 0; i < count && check.ok(); ++i) check_link(definition, i, check);
-  if (!check.ok()) return check.result().error();
+  DefinitionCheck checks;
+  check_settings(definition.settings, checks);
+  checks.ask(!definition.links.empty() && definition.links.size() <= kMostArticulationLinks, "links",
+             "1 to 4096 of them");
+  const auto count = static_cast<std::uint32_t>(checks.ok() ? definition.links.size() : 0);
+  for (std::uint32_t i = 0; i < count && checks.ok(); ++i) check_link(definition, i, checks);
+  if (!checks.ok()) return checks.result().error();
   auto tree = std::make_shared<ArticulatedTree<S>>();
   tree->definition = definition;
   const S reach = reach_of(definition);
-  check.link(kArticulationBase);
-  if (!check.ask(reach <= Limits<S>::extent(), "links", "a tree that reaches no further than Limits::extent()",
-                 ErrorCode::limit)) {
-    return check.result().error();
+  checks.link(kArticulationBase);
+  if (!checks.ask(reach <= Limits<S>::extent(), "links", "a tree that reaches no further than Limits::extent()",
+                  ErrorCode::limit)) {
+    return checks.result().error();
   }
   prepare_units(*tree, reach);
   tree->free = definition.links[0].type == ArticulationJoint::free;
-  for (std::uint32_t i = 0; i < count; ++i) add_link(*tree, i, check);
-  if (!check.ok()) return check.result().error();
+  for (std::uint32_t i = 0; i < count; ++i) add_link(*tree, i, checks);
+  if (!checks.ok()) return checks.result().error();
   HashCombiner hash;
   hash.add(hash_records_by_fields(&tree->definition.settings, 1));
   hash.add(hash_records_by_fields(tree->definition.links.data(), tree->definition.links.size()));

@@ -126,13 +126,13 @@ template <class S> bool Articulation<S>::apply_force(std::uint32_t link, Vec3<S>
   Engine& e = *engine_;
   if (e.refuse(e.fault_of_link(link), "apply_force")) return false;
   const auto fits = [](Vec3<S> v) { return is_finite(v) && detail::within(v, detail::kMostLoad<S>); };
-  const bool near = is_finite(point) && detail::within(point, Limits<S>::position());
-  Vec3<S> lever = near ? point - link_centre(link) : Vec3<S>::zero();
+  const bool nearby = is_finite(point) && detail::within(point, Limits<S>::position());
+  Vec3<S> lever = nearby ? point - link_centre(link) : Vec3<S>::zero();
   const Vec3<S> all = fits(force) ? saturating_add(e.state.loads[link].force, force) : force;
   const Vec3<S> torque =
       fits(force) ? saturating_add(e.state.loads[link].torque, detail::held_cross(lever, force)) : Vec3<S>::zero();
   const auto report = detail::Checklist()
-                          .in_range(near, "point", detail::kWithinPosition)
+                          .in_range(nearby, "point", detail::kWithinPosition)
                           .in_range(fits(force) && fits(all) && fits(torque), "force", detail::kMostLoadText)
                           .report();
   if (e.refuse(report, "apply_force")) return false;

@@ -9,6 +9,7 @@
 #include "isostep/effects/fracture/breaking.hpp"
 #include "isostep/effects/fracture/shatter.hpp"
 #include "isostep/math/transform.hpp"
+#include "isostep/scalar/environment.hpp"
 #include "isostep/world/state.hpp"
 
 namespace isostep {
@@ -127,10 +128,11 @@ template <class S> void remove_expired(World<S>& world, const Breakable<S>& reco
 }  // namespace detail
 
 template <class S> BreakReport break_bodies(World<S>& world, std::uint32_t most) {
+  const FloatEnvironment environment;
   BreakReport report;
   const auto& registry = world.state().force_records->breakables;
   std::vector<BreakableId> due;
-  for (const BreakableId id : registry.slots().template ids<BreakableId>()) {
+  for (const BreakableId id : registry.slot_map().template ids<BreakableId>()) {
     const Breakable<S>& record = *registry.find(id);
     const bool is_over = record.expires != 0 && record.expires <= world.tick();
     if (!world.is_enabled(record.body)) continue;

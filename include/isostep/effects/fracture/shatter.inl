@@ -6,6 +6,7 @@
 #include "isostep/geometry/baked/hull_content.inl"
 #include "isostep/geometry/content.hpp"
 #include "isostep/geometry/mass_properties.inl"
+#include "isostep/scalar/environment.hpp"
 
 namespace isostep {
 namespace detail {
@@ -194,6 +195,7 @@ template <class S> ISO_INLINE bool may_shatter(const BodyView<S>& body) {
 template <class S>
 Result<std::vector<BodyDefinition<S>>> shatter(const Fracture& pieces, const BodyView<S>& body,
                                                std::span<const ShapeId> shapes) {
+  const FloatEnvironment environment;
   if (!detail::may_shatter(body))
     return detail::bad_fracture_number("body", "a dynamic body whose one part is a box or a hull without a radius");
   if (pieces.pieces.empty()) return detail::bad_fracture_number("pieces", "one or more, as fracture gives them");
@@ -220,6 +222,7 @@ Result<std::vector<BodyDefinition<S>>> shatter(const Fracture& pieces, const Bod
 }
 
 template <class S> std::vector<ShapeId> add_piece_shapes(World<S>& world, const Fracture& pieces) {
+  const FloatEnvironment environment;
   std::vector<ShapeId> shapes;
   for (const FracturePiece& piece : pieces.pieces) {
     shapes.push_back(piece.blob != nullptr ? world.add_shape(piece.blob)

@@ -42,13 +42,13 @@ struct GridRay {
     return {p.x * scale - from.x, p.y * scale - from.y, p.z * scale - from.z};
   }
   /// Separating axes: the box's, as far as `far` of 2^30 of the way, and the crosses of its edges with the way.
-  ISO_INLINE bool meets(const MeshBox& box, std::int64_t far) const {
+  ISO_INLINE bool meets(const MeshBox& box, std::int64_t distant) const {
     const std::int64_t scale = std::int64_t{1} << bits;
     const std::int64_t at[3] = {from.x, from.y, from.z}, to[3] = {way.x, way.y, way.z};
     std::int64_t centre[3], half[3];  // doubled
     for (int i = 0; i < 3; ++i) {
       const std::int64_t low = box.low[i] * scale - at[i] - 2, high = box.high[i] * scale - at[i] + 2;
-      const std::int64_t end = ((to[i] * ((far >> 15) + 1)) >> 15) + (to[i] < 0 ? -1 : 1) * 2;
+      const std::int64_t end = ((to[i] * ((distant >> 15) + 1)) >> 15) + (to[i] < 0 ? -1 : 1) * 2;
       if ((to[i] < 0 ? end : 0) > high || (to[i] < 0 ? 0 : end) < low) return false;
       centre[i] = low + high;
       half[i] = high - low;

@@ -30,10 +30,10 @@ template <class S> ISO_INLINE LocalHit<S> cast_box(const LocalRay<S>& ray, Vec3<
       continue;
     }
     const S at = ray.direction[axis] < Unit<S>(0) ? -ray.origin[axis] : ray.origin[axis];
-    const S near = divide_to<S>(-half[axis] - at, u);
+    const S nearby = divide_to<S>(-half[axis] - at, u);
     exit = min(exit, divide_to<S>(half[axis] - at, u));
-    if (near > entry) {
-      entry = near;
+    if (nearby > entry) {
+      entry = nearby;
       face = axis;
     }
   }

@@ -6,6 +6,7 @@
 
 #include "isostep/particles/bodies/particle_body.hpp"
 #include "isostep/particles/checks.hpp"
+#include "isostep/scalar/environment.hpp"
 #include "isostep/scalar/math.hpp"
 
 namespace isostep {
@@ -35,10 +36,10 @@ template <class S> class BodyBuilder {
   explicit BodyBuilder(ParticleWorld<S>& world) : world_(world) {}
 
   bool good() const { return body_.fault == Fault::none; }
-  void demand(bool condition) { require(condition, Fault::bad_argument); }
+  void demand(bool condition) { fail_unless(condition, Fault::bad_argument); }
   /// Places and edges, before they are added up.
   void demand_places(std::initializer_list<Vec3<S>> places) {
-    for (const Vec3<S> place : places) require(fault_of_position(place) == Fault::none, fault_of_position(place));
+    for (const Vec3<S> place : places) fail_unless(fault_of_position(place) == Fault::none, fault_of_position(place));
   }
 
   void particle(Vec3<S> position, S mass, bool pinned, ParticleMaterialId material) {
@@ -79,12 +80,12 @@ template <class S> class BodyBuilder {
   }
   ParticleMaterialId material(const ParticleMaterial<S>& material) {
     if (good()) body_.material = world_.add(material);
-    require(static_cast<bool>(body_.material), world_.fault().fault);
+    fail_unless(static_cast<bool>(body_.material), world_.fault().fault);
     return body_.material;
   }
   void cohesion(const Cohesion<S>& cohesion) {
     if (good()) body_.cohesion = world_.add(cohesion);
-    require(static_cast<bool>(body_.cohesion), world_.fault().fault);
+    fail_unless(static_cast<bool>(body_.cohesion), world_.fault().fault);
   }
   /// The kind with its numbers, for a share of k h^2/m: see SpringKind.
   SpringKind<S> resolve(const SpringKind<S>& kind, S mass, S share) const {
@@ -99,14 +100,15 @@ template <class S> class BodyBuilder {
   }
 
  private:
-  void require(bool condition, Fault fault) {
+  void fail_unless(bool condition, Fault fault) {
     if (good() && !condition) body_.fault = fault;
   }
   template <class Id> void keep(std::vector<Id>& ids, Id id) {
-    require(static_cast<bool>(id), world_.fault().fault);
+    fail_unless(static_cast<bool>(id), world_.fault().fault);
     if (id) ids.push_back(id);
   }
 
+  const FloatEnvironment environment_;  // a builder lives as long as its function
   ParticleWorld<S>& world_;
   ParticleBody body_;
   std::vector<Vec3<S>> positions_;

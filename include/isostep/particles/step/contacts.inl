@@ -178,7 +178,7 @@ template <class S> void ParticleContacts<S>::tell_contact(const ParticleContact<
   ParticleContactBegin<S> begin = {};
   begin.a = state_.particles.template id_of<ParticleId>(contact.a);
   const std::uint32_t slot = contact.other_slot();
-  if (contact.with_collider()) begin.collider = state_.colliders.slots().template id_of<ColliderId>(slot);
+  if (contact.with_collider()) begin.collider = state_.colliders.slot_map().template id_of<ColliderId>(slot);
   else begin.b = state_.particles.template id_of<ParticleId>(slot);
   begin.speed = convert<S>(-row.approach);
   step_.events.contact_begin.push_back(begin);

@@ -48,7 +48,7 @@ template <class S> void ParticleSprings<S>::yield() {
     const S wanted = extension < S(0) ? now + spring.elastic_limit : now - spring.elastic_limit;
     const S rest = clamp(wanted, S(0), ParticleLimits<S>::position());
     if (rest == spring.rest_length) continue;  // it cannot give more
-    const SpringId id = state_.springs.slots().template id_of<SpringId>(slot);
+    const SpringId id = state_.springs.slot_map().template id_of<SpringId>(slot);
     state_.springs.change(id).rest_length = rest;
     step_.events.yielded.push_back(id);
   }

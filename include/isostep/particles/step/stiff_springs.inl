@@ -64,9 +64,9 @@ template <class S> ISO_INLINE void StiffSprings<S>::swing(const Spring<S>& sprin
   for (int axis = 0; axis < 3; ++axis) {
     const V before = saturating_subtract(moved[axis], ahead[axis]);
     const S d = rest[axis] + convert<S>(before);
-    const V far = saturate_to<V>(product(d, Unit<S>(1)));
+    const V distant = saturate_to<V>(product(d, Unit<S>(1)));
     // (dd - 1) of a length in the coarse format and its fine rest, (dv - 1) of the way that v made.
-    way[axis] = saturating_add(saturating_subtract(saturate_to<V>(product(d, motion.dd)), far),
+    way[axis] = saturating_add(saturating_subtract(saturate_to<V>(product(d, motion.dd)), distant),
                                ahead[axis] * motion.dv - ahead[axis]);
     change[axis] =
         saturating_add(saturate_to<V>(product(d, motion.vd)), saturating_subtract(v[axis] * motion.vv, v[axis]));

@@ -161,6 +161,18 @@ class FloatEnvironment {
   std::uint64_t caller_;
 };
 
+namespace detail {
+template <class Work, class Result> ISO_NOINLINE void run_alone(const Work& work, Result& result) { result = work(); }
+/// work() in a pinned environment: the body of a function that the library compiles, that computes and that returns a
+/// number. `work` takes all by reference and is not inlined, so that none of its arithmetic leaves the scope.
+template <class Work> ISO_INLINE auto pinned(const Work& work) -> decltype(work()) {
+  const FloatEnvironment environment;
+  decltype(work()) result = {};
+  run_alone(work, result);
+  return result;
+}
+}  // namespace detail
+
 /// What the probe finds; bit n of its result is the n-th of these. One cause may set several: rounding upwards looks
 /// like contraction too.
 enum class Deviation : std::uint8_t {
@@ -206,9 +218,9 @@ ISO_INLINE bool is_zero(float x) { return (std::bit_cast<std::uint32_t>(x) << 1)
 ISO_INLINE bool is_zero(double x) { return (std::bit_cast<std::uint64_t>(x) << 1) == 0; }
 
 ISO_INLINE std::uint32_t probe_denormals() {
-  volatile float quarter = 0.25f, small = 0x1p-126f, tiny = 0x1p-149f, large = 0x1p100f;
+  volatile float quarter = 0.25f, least = 0x1p-126f, tiny = 0x1p-149f, large = 0x1p100f;
   volatile double dquarter = 0.25, dsmall = 0x1p-1022, dtiny = 0x1p-1074, dlarge = 0x1p1000;
-  volatile float made = small * quarter, taken = tiny * large;
+  volatile float made = least * quarter, taken = tiny * large;
   volatile double dmade = dsmall * dquarter, dtaken = dtiny * dlarge;
   return when(is_zero(float(made)), Deviation::flush_float) | when(is_zero(double(dmade)), Deviation::flush_double) |
          when(is_zero(float(taken)), Deviation::zero_float) | when(is_zero(double(dtaken)), Deviation::zero_double);

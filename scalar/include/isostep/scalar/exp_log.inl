@@ -54,7 +54,7 @@ ISO_INLINE constexpr WideSoft soft_log(Soft x) {
   constexpr UInt128Parts one = {std::uint64_t{1} << 15, 0};
   const bool below = product.high < one.high;
   const UInt128Parts d = below ? subtract(one, product) : subtract(product, one);
-  WideSoft small = {{0, 0}, -116, false};
+  WideSoft lesser = {{0, 0}, -116, false};
   if (!is_zero(d)) {
     const int zeros = leading_zeros(d);
     const int octave = zeros - 48;  // |r| = d 2^-79 in [2^-octave, 2^(1 - octave)); at least 7
@@ -65,11 +65,11 @@ ISO_INLINE constexpr WideSoft soft_log(Soft x) {
     for (int i = 6; i >= 0; --i) sum = kLogSeries[i] + ((multiply_high(sum, u) ^ alternate) - alternate);
     const UInt128Parts bend = shift_right(multiply(multiply_high(r.high, r.high), sum), octave);
     const UInt128Parts line = shift_right(r, 1);
-    small = {below ? add(line, bend) : subtract(line, bend), -126 - octave, below};
+    lesser = {below ? add(line, bend) : subtract(line, bend), -126 - octave, below};
   }
-  if (whole == Int128(0)) return small;
-  const Int128 rest = int128_from(shift_right(small.mantissa, -116 - small.exponent));
-  const Int128 total = small.negative ? whole - rest : whole + rest;
+  if (whole == Int128(0)) return lesser;
+  const Int128 rest = int128_from(shift_right(lesser.mantissa, -116 - lesser.exponent));
+  const Int128 total = lesser.negative ? whole - rest : whole + rest;
   const bool negative = total < Int128(0);
   return {parts(negative ? -total : total), -116, negative};
 }

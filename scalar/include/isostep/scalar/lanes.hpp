@@ -75,7 +75,7 @@ template <class S, int W> inline constexpr std::size_t kLaneAlignment = detail::
 /// W results of a comparison. Key is detail::LaneKey of the scalar.
 template <class Key, int W, class Isa> struct LaneMask {
   static_assert(W >= 1 && W <= 32, "the bits of a mask fit 32");
-  detail::LaneAnswer v[W];
+  detail::LaneAnswer v[std::size_t{W}];
 
   static ISO_INLINE LaneMask from_bits(std::uint32_t bits) {
     LaneMask r;
@@ -113,7 +113,7 @@ template <class S, int W, class Isa> struct Lanes {
   using Scalar = S;
   using Mask = LaneMask<detail::LaneKey<S>, W, Isa>;
   static constexpr int kWidth = W;
-  S v[W];
+  S v[std::size_t{W}];
 
   static ISO_INLINE Lanes load(const S* p) {
     Lanes r;
@@ -200,7 +200,7 @@ template <class S, int W, class Isa> struct Lanes {
 /// W exact sums of products of fixed-point lanes; SumS is the scalar's FixedSum. (Sums of float lanes are lanes.)
 template <class SumS, int W, class Isa> struct LaneSum {
   static_assert(sizeof(Isa) > 0, "include the lanes header of this instruction set");
-  SumS v[W];
+  SumS v[std::size_t{W}];
 
   static ISO_INLINE LaneSum zero() {
     LaneSum r;
@@ -208,8 +208,8 @@ template <class SumS, int W, class Isa> struct LaneSum {
     return r;
   }
   template <class A, class B> static ISO_INLINE LaneSum of_product(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
-    alignas(kLaneAlignment<A, W>) A x[W];
-    alignas(kLaneAlignment<B, W>) B y[W];
+    alignas(kLaneAlignment<A, W>) A x[std::size_t{W}];
+    alignas(kLaneAlignment<B, W>) B y[std::size_t{W}];
     a.store(x);
     b.store(y);
     LaneSum r;
@@ -285,9 +285,9 @@ template <class Out, class A, class B, int W, class Isa>
 ISO_INLINE Out divide_to(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
   if constexpr (kIsFixed<A>) {
     using Quotient = typename Out::Scalar;
-    alignas(kLaneAlignment<A, W>) A x[W];
-    alignas(kLaneAlignment<B, W>) B y[W];
-    alignas(kLaneAlignment<Quotient, W>) Quotient q[W];
+    alignas(kLaneAlignment<A, W>) A x[std::size_t{W}];
+    alignas(kLaneAlignment<B, W>) B y[std::size_t{W}];
+    alignas(kLaneAlignment<Quotient, W>) Quotient q[std::size_t{W}];
     a.store(x);
     b.store(y);
     ISO_UNROLL for (int i = 0; i < W; ++i) q[i] = divide_to<Quotient>(x[i], y[i]);

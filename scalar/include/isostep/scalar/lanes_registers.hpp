@@ -150,8 +150,8 @@ requires InRegister<std::int64_t, W, Isa>
 struct LaneSum<FixedSum<std::int64_t, F>, W, Isa> {
   using R = Registers<std::int64_t, Isa>;
   using Near = typename R::NearSum;
-  detail::FarSum<R> far;
-  Near near;
+  detail::FarSum<R> distant;
+  Near nearby;
 
   static ISO_INLINE LaneSum zero() { return {detail::FarSum<R>::zero(), Near::zero()}; }
   template <class A, class B> static ISO_INLINE LaneSum of_product(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
@@ -169,8 +169,8 @@ struct LaneSum<FixedSum<std::int64_t, F>, W, Isa> {
   }
   template <class Out> ISO_INLINE Lanes<Out, W, Isa> round() const {
     constexpr int shift = F - Out::kFracBits;
-    if constexpr (shift <= 32) return {near.template round<shift>()};
-    if constexpr (shift > 32) return {far.template round<shift>()};
+    if constexpr (shift <= 32) return {nearby.template round<shift>()};
+    if constexpr (shift > 32) return {distant.template round<shift>()};
   }
   template <class Out, class A, class B>
   static ISO_INLINE Lanes<Out, W, Isa> round_product(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
@@ -178,8 +178,8 @@ struct LaneSum<FixedSum<std::int64_t, F>, W, Isa> {
     if constexpr (shift > 0 && shift <= 32) return {Near::template round_product<shift>(a.v, b.v)};
     if constexpr (shift <= 0 || shift > 32) return of_product(a, b).template round<Out>();
   }
-  friend ISO_INLINE LaneSum operator+(LaneSum a, LaneSum b) { return {a.far + b.far, a.near + b.near}; }
-  friend ISO_INLINE LaneSum operator-(LaneSum a, LaneSum b) { return {a.far - b.far, a.near - b.near}; }
+  friend ISO_INLINE LaneSum operator+(LaneSum a, LaneSum b) { return {a.distant + b.distant, a.nearby + b.nearby}; }
+  friend ISO_INLINE LaneSum operator-(LaneSum a, LaneSum b) { return {a.distant - b.distant, a.nearby - b.nearby}; }
   friend ISO_INLINE LaneSum operator-(LaneSum a) { return zero() - a; }
 };
 

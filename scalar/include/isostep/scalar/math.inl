@@ -149,9 +149,9 @@ ISO_INLINE constexpr Soft soft_atan2(Soft y, Soft x) {
   const Soft v = normalised(y);
   const Soft u = normalised(x);
   const bool steep = v.exponent > u.exponent || (v.exponent == u.exponent && v.mantissa > u.mantissa);
-  const Soft small = steep ? u : v;
+  const Soft lesser = steep ? u : v;
   const Soft large = steep ? v : u;
-  Soft angle = atan_of_ratio(small.mantissa >> 1, large.mantissa >> 1, large.exponent - small.exponent);
+  Soft angle = atan_of_ratio(lesser.mantissa >> 1, large.mantissa >> 1, large.exponent - lesser.exponent);
   if (steep || x.negative) {
     const std::uint64_t units = magnitude_in_units(angle, 62);
     const std::uint64_t from = steep ? kHalfPiQ62 : kPiQ62;

@@ -53,6 +53,12 @@ static_assert(sizeof(1.0) == sizeof(double), "isostep: compile without -fsingle-
 #define ISO_INLINE_LAMBDA __attribute__((always_inline))
 #endif
 
+#if defined(_MSC_VER) && !defined(__clang__)
+#define ISO_NOINLINE __declspec(noinline)
+#else
+#define ISO_NOINLINE __attribute__((noinline))
+#endif
+
 /// Ends the program: to go on would be to compute nonsense.
 #if defined(_MSC_VER) && !defined(__clang__)
 #define ISO_TRAP() __debugbreak()
