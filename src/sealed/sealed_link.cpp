@@ -83,7 +83,7 @@ void SealedLink::close() {
       channel.count = 0;
     }
   }
-  window_ = ReplayWindow{};
+  window_ = {};
   stage_ = Stage::none;
 }
 

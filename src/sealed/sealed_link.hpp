@@ -9,7 +9,7 @@
 
 #include "isostep/core/bytes.hpp"
 #include "isostep/session/frame.hpp"
-#include "sealed/replay_window.hpp"
+#include "transport/replay_window.hpp"
 
 namespace isostep::sealed {
 
@@ -86,7 +86,7 @@ class SealedLink {
   std::uint64_t key_id_ = 0;
   Key secret_{}, public_{};  // drawn for this connection
   Way ways_[2][2];           // in and out, by channel
-  ReplayWindow window_;
+  transport::ReplayWindow window_;
 };
 
 }  // namespace isostep::sealed

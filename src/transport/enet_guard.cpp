@@ -27,10 +27,9 @@ constexpr std::size_t kSizes[ENET_PROTOCOL_COMMAND_COUNT] = {
     0,  // SEND_UNRELIABLE_FRAGMENT
 };
 
-constexpr std::size_t kPiece = kEnetMtu - sizeof(ENetProtocolHeader) - sizeof(ENetProtocolSendFragment);
+static_assert(kEnetPiece ==
+              kEnetMtu - sizeof(ENetProtocolHeader) - sizeof(enet_uint32) - sizeof(ENetProtocolSendFragment));
 static_assert(cap_of(Channel::datagram) + sizeof(ENetProtocolHeader) + sizeof(ENetProtocolSendUnsequenced) <= kEnetMtu);
-static_assert(cap_of(Channel::datagram) <= kPiece,
-              "ENet fragments whatever is larger than a piece, and fragments are reliable");
 
 template <class Command> Command read(Bytes at) {
   Command command;
@@ -44,7 +43,7 @@ bool is_plausible(const ENetProtocolConnect& connect) {
 bool is_plausible(const ENetProtocolSendFragment& fragment) {
   const std::size_t total = ENET_NET_TO_HOST_32(fragment.totalLength);
   return total <= cap_of(Channel::reliable) &&
-         ENET_NET_TO_HOST_32(fragment.fragmentCount) == (total + kPiece - 1) / kPiece;
+         ENET_NET_TO_HOST_32(fragment.fragmentCount) == (total + kEnetPiece - 1) / kEnetPiece;
 }
 
 /// Bytes of the command and its message; 0 when it is not plausible.

@@ -1,4 +1,4 @@
-// What peers of ours put on the wire, so that ENet never sees the rest and strangers cannot fill its memory.
+// What peers of ours put on the wire, so that ENet never sees the rest and a hostile peer cannot fill its memory.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -6,12 +6,16 @@
 #include <cstdint>
 
 #include "isostep/core/bytes.hpp"
+#include "transport/line_guard.hpp"
 
 namespace isostep::transport {
 
-/// [bytes] of UDP payload: the largest that every IPv6 path carries whole (1280 - 40 - 8). Holds a datagram of ours
-/// with ENet's 12 bytes around it; a larger one would silently become reliable.
-inline constexpr std::uint32_t kEnetMtu = 1232;
+/// [bytes] of UDP payload: the largest that every IPv6 path carries whole (1280 - 40 - 8).
+inline constexpr std::size_t kPacketCap = 1232;
+/// [bytes] of it that are ENet's: beside a tag. Holds a datagram of ours with ENet's 12 bytes around it.
+inline constexpr std::uint32_t kEnetMtu = kPacketCap - LineTags::kSize;
+/// [bytes] Reliable messages that are larger go in fragments: beside a header, its checksum and a fragment's command.
+inline constexpr std::size_t kEnetPiece = kEnetMtu - 4 - 4 - 24;
 inline constexpr std::size_t kEnetChannels = 2;
 
 /// False for what ENet 1.3.17 would accept and no peer of ours sends: packets above the MTU or of more commands than

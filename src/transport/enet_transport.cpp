@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "transport/enet_guard.hpp"
+#include "transport/enet_lines.hpp"
+#include "transport/system_random.hpp"
 
 namespace isostep::transport {
 namespace {
@@ -57,7 +59,8 @@ struct EnetTransport::State {
   EnetSettings settings;
   EnetStatistics statistics;
   bool accepts = false;  // connections that others ask for
-  bool more = false;     // the last poll left something behind
+  std::optional<EnetLines> lines;
+  bool more = false;  // the last poll left something behind
   ENetHost* host = nullptr;
   ENetAddress target = {};     // of the last connection that we asked for
   std::optional<PeerId> ours;  // that connection, until it ends
@@ -79,17 +82,6 @@ struct EnetTransport::State {
   void count();
 };
 
-namespace {
-
-/// ENet's hook for every packet; 1 means that it is dealt with.
-int ENET_CALLBACK throw_away_implausible(ENetHost* host, ENetEvent*) {
-  if (is_plausible_enet_packet({host->receivedData, host->receivedDataLength})) return 0;
-  ++static_cast<EnetStatistics*>(host->peers[0].data)->implausible;
-  return 1;
-}
-
-}  // namespace
-
 // ---- opening and ending
 
 EnetTransport::State::~State() {
@@ -101,6 +93,8 @@ EnetTransport::State::~State() {
 }
 
 Result<void> EnetTransport::State::open(const ENetAddress* address) {
+  std::uint64_t secret[2];
+  if (!draw_secret(secret)) return failure("the system gives no random numbers", "draw_secret");
   if (enet_initialize() != 0) return failure("ENet could not start", "enet_initialize");
   peers.resize(settings.max_peers);
   host = enet_host_create(address, peers.size(), kEnetChannels, 0, 0);
@@ -112,17 +106,19 @@ Result<void> EnetTransport::State::open(const ENetAddress* address) {
   host->maximumPacketSize = cap_of(Channel::reliable);
   host->maximumWaitingData = kWaitingCap;
   host->duplicatePeers = settings.max_peers_an_address;
-  host->intercept = throw_away_implausible;
-  for (PeerId peer = 0; peer < peers.size(); ++peer) {
-    enet_peer_reset(enet_peer(peer));  // takes the host's MTU over: until 1.3.18 nothing else does
-    enet_peer(peer)->data = &statistics;
-  }
+  lines.emplace(Doorkeeper(settings.key, {secret[0], secret[1]}), accepts);
+  lines->guard(host);
+  // Takes the host's MTU over: until 1.3.18 nothing else does.
+  for (PeerId peer = 0; peer < peers.size(); ++peer) enet_peer_reset(enet_peer(peer));
   return {};
 }
 
 Result<void> EnetTransport::State::attempt(const ENetAddress& address) {
   target = address;
+  std::uint64_t drawn[2];
+  if (!draw_secret(drawn)) return failure("the system gives no random numbers", "draw_secret");
   if (ours && peers[*ours].link == Link::attempting) leave(*ours);
+  host->randomSeed = static_cast<enet_uint32>(drawn[0]);  // of the identity, by which a host tells connections apart
   ENetPeer* peer = enet_host_connect(host, &target, kEnetChannels, 0);
   if (peer == nullptr) {
     return Error{ErrorCode::limit, "max_peers connections are open or closing", "enet_host_connect"};
@@ -131,6 +127,7 @@ Result<void> EnetTransport::State::attempt(const ENetAddress& address) {
   enet_peer_timeout(peer, ENET_PEER_TIMEOUT_LIMIT, milliseconds, milliseconds);
   ours = peer->incomingPeerID;
   peers[*ours].link = Link::attempting;
+  lines->begin(peer, drawn[1]);
   enet_host_flush(host);
   return {};
 }
@@ -148,27 +145,35 @@ void EnetTransport::State::leave(PeerId peer) {
   purge(peer);
   peers[peer].link = Link::none;
   if (ours == peer) ours.reset();
-  enet_peer_disconnect_now(enet_peer(peer), 0);
+  ENetPeer* remote = enet_peer(peer);
+  // Who has not answered yet cannot be told.
+  if (remote->state == ENET_PEER_STATE_CONNECTING) return enet_peer_reset(remote);
+  enet_peer_disconnect_now(remote, 0);
 }
 
 // ---- events
 
 void EnetTransport::State::poll() {
-  constexpr int kMostErrors = 64;  // each is of one packet: a peer out of reach, or a stranger's above ENet's buffer
-  int errors = 0;
+  constexpr enet_uint32 kEnetPackets = 256;  // that ENet reads before it looks whether there is anything to tell
+  // Looks that find nothing: an error is of one packet, of a peer out of reach or a stranger's above ENet's buffer; and
+  // 256 packets that are thrown away leave the rest waiting.
+  constexpr int kMostEmpty = 64;
+  int empty = 0;
   more = false;
   for (Peer& peer : peers) peer.datagrams = 0;
   for (std::uint32_t events = 0; events < settings.events_per_poll && inbox.size() < settings.events_per_poll;) {
     ENetEvent event;
+    const enet_uint32 before = host->totalReceivedPackets;
     const int found = enet_host_service(host, &event, 0);
-    if (found == 0) return count();
+    const bool is_flooded = host->totalReceivedPackets - before >= kEnetPackets;
+    if (found == 0 && !is_flooded) return count();
     if (found > 0) {
       handle(event);
       ++events;
-    } else {
-      ++statistics.socket_errors;
-      if (++errors == kMostErrors) break;
+      continue;
     }
+    if (found < 0) ++statistics.socket_errors;
+    if (++empty == kMostEmpty) break;
   }
   more = true;
   count();
@@ -226,6 +231,10 @@ void EnetTransport::State::count() {
   statistics.bytes_sent += std::exchange(host->totalSentData, 0u);
   statistics.packets_received += std::exchange(host->totalReceivedPackets, 0u);
   statistics.bytes_received += std::exchange(host->totalReceivedData, 0u);
+  const EnetLines::Sent sent = lines->take_sent();
+  statistics.packets_sent += sent.packets;
+  statistics.bytes_sent += sent.bytes;
+  statistics.implausible = lines->refused();
 }
 
 // ---- the endpoint
@@ -330,7 +339,13 @@ Result<void> EnetTransport::send(PeerId id, Channel channel, Bytes bytes) {
     packet->freeCallback = let_go;
     peer.unacknowledged += bytes.size();
   }
-  if (enet_peer_send(state_->enet_peer(id), reliable ? kReliables : kDatagrams, packet) == 0) return {};
+  ENetPeer* remote = state_->enet_peer(id);
+  // ENet fragments what is larger than a piece, and fragments are reliable; a datagram fits beside less.
+  static_assert(kEnetPiece + 16 >= cap_of(Channel::datagram));
+  if (!reliable) remote->mtu = kEnetMtu + 16;
+  const int sent = enet_peer_send(remote, reliable ? kReliables : kDatagrams, packet);
+  remote->mtu = kEnetMtu;
+  if (sent == 0) return {};
   if (packet->referenceCount == 0) enet_packet_destroy(packet);
   return failure("the peer is not connected", "enet_peer_send");
 }

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "transport/endpoint.hpp"
+#include "transport/line_guard.hpp"
 
 namespace isostep::transport {
 
@@ -24,22 +25,24 @@ struct EnetSettings {
   std::uint32_t events_per_poll = 1024;       // the rest waits for the next poll
   std::uint32_t datagrams_per_peer = 256;     // in one poll; more are dropped, so that a flood costs only the flooder
   std::size_t unacknowledged_cap = 4u << 20;  // [bytes] sent reliably to one peer; above that its connection ends
+  /// That all machines of the match have and nobody else, as sealed::packet_key gives it: who lacks it is no peer, and
+  /// whoever is on the line can forge nothing. All zeros: there is none, and peers are who speaks as we do.
+  PacketKey key = {};
 };
 
 /// Bytes and packets are those of UDP's payload.
 struct EnetStatistics {
   std::uint64_t packets_sent = 0, bytes_sent = 0, packets_received = 0, bytes_received = 0;
-  std::uint64_t implausible = 0;    // packets thrown away before ENet saw them
-  std::uint64_t refused = 0;        // messages on the wrong channel or above its cap
-  std::uint64_t flooded = 0;        // datagrams above datagrams_per_peer
+  std::uint64_t implausible = 0;  // packets thrown away before ENet saw them: forged, sent again, or of no peer's kind
+  std::uint64_t refused = 0;      // messages on the wrong channel or above its cap
+  std::uint64_t flooded = 0;      // datagrams above datagrams_per_peer
   std::uint64_t socket_errors = 0;  // a network that is down comes back, or the timeout ends its connections
 };
 
 /// Models Connector. PeerId is ENet's index of the peer: the lowest free one, 0 on who only connects.
 /// A frame: poll(), receive() until it has nothing, the session, send(), flush(); then wait() instead of sleeping.
-/// Not secret and not authenticated: whoever sees the packets can forge them, and requests from forged addresses hold a
-/// host's places for ENet's 5 to 30 s each; see SealedTransport. IPv4 only; see UdpRelay. Time is ENet's: the system's
-/// clock, whose jumps count as silence.
+/// Who does not hear what is sent to an address can say nothing in its name: README. Not secret; see SealedTransport.
+/// IPv4 only; see UdpRelay. Time is ENet's: the system's clock, whose jumps count as silence.
 class EnetTransport {
  public:
   /// Accepts connections: a host, or a machine that may follow one. Port 0 lets the system choose one.

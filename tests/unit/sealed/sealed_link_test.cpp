@@ -179,7 +179,7 @@ TEST(SealedLink, AnotherConnectionOfTheSameKeyHasOtherKeys) {
 TEST(SealedLink, DatagramsMayOvertakeEachOtherWithinTheWindowAndMessagesMayNot) {
   const auto pair = met();
   std::vector<Bytevec> datagrams;
-  for (std::uint32_t i = 0; i <= ReplayWindow::kSize; ++i)
+  for (std::uint32_t i = 0; i <= transport::ReplayWindow::kSize; ++i)
     datagrams.push_back(seal(pair->client, Channel::datagram, {1}));
   EXPECT_EQ(open(pair->host, Channel::datagram, datagrams.back()), Opened::good);
   for (std::size_t i = datagrams.size() - 1; i-- > 1;) {

@@ -71,8 +71,8 @@ TEST(EnetGuard, LetsThroughWhatPeersOfOursSend) {
   EXPECT_TRUE(passes(Packet().header().command(kThrottle).zeros(12)));
   EXPECT_TRUE(passes(Packet().u16(0).unsequenced(kMostDatagram)));
   EXPECT_TRUE(passes(Packet().header().reliable(1000).command(kPing).command(kAcknowledge).u32(0).unsequenced(9)));
-  EXPECT_TRUE(passes(Packet().header().fragment(2, 2000, 1204)));
-  EXPECT_TRUE(passes(Packet().header().fragment(14, kMostReliable, 1204)));
+  EXPECT_TRUE(passes(Packet().header().fragment(2, 2000, kEnetPiece)));
+  EXPECT_TRUE(passes(Packet().header().fragment(14, kMostReliable, kEnetPiece)));
 }
 
 TEST(EnetGuard, RefusesWhatOnlyTheHostileSend) {

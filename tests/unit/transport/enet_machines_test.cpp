@@ -67,7 +67,7 @@ TEST(EnetTransport, ConnectingAgainLeavesNoConnectionThatOthersAskedFor) {
 
 TEST(EnetTransport, WhoOnlyConnectsAcceptsNobody) {
   const UdpSocket silent;
-  EnetTransport host = listen_here(), client = connect_to(silent.port());
+  EnetTransport host = listen_here({.timeout = 100 * kMs}), client = connect_to(silent.port());
   // Its port is the system's choice: the silent socket hears from which one it asks.
   const std::optional<UdpSocket::Got> asked = silent.receive(10000);
   ASSERT_TRUE(asked.has_value());
