@@ -48,7 +48,7 @@ class LineTags {
 /// until then, and says no more than it heard.
 ///     ask        0x81, version, nonce, zeros, tag           29 bytes; again until it is answered
 ///     challenge  0x82, nonce, cookie, tag                   29 bytes
-///     open       0x83, nonce, cookie, packet with LineTags  89 bytes with ENet's CONNECT
+///     open       0x83, nonce, cookie, packet with LineTags  81 bytes with ENet's CONNECT
 /// Tags here are 64 bits by the match's key. The cookie is the time and its hash with address and nonce, by a secret
 /// that who made it shares with nobody.
 /// Source:  RFC 9147 sec. 5.1 (the cookie of DTLS).

@@ -66,11 +66,17 @@ export class DataChannelTransport implements Transport {
 /** Offer, answer and candidates as JSON over an open WebSocket. `offers`: on one side of the two. */
 export function connectBySocket(connection: ConnectionLike, socket: SocketLike, offers: boolean): Promise<void>;
 
+export interface EnetOptions {
+  maxPeers?: number;
+  timeout?: number;
+  key?: Uint8Array;
+}
 /** In Node alone: to native hosts over UDP, as their own clients. */
 export class EnetTransport implements Transport {
-  constructor(options?: {maxPeers?: number, timeout?: number});
+  /** timeout: [ms] without a word until a peer is gone; key: the host's EnetSettings::key, 16 bytes. */
+  constructor(options?: EnetOptions);
   /** "192.0.2.7:4000" */
-  static connect(address: string, options?: {maxPeers?: number, timeout?: number}): EnetTransport;
+  static connect(address: string, options?: EnetOptions): EnetTransport;
   connectTo(address: string): number | undefined;
   send(peer: number, channel: 0 | 1, bytes: Uint8Array): boolean;
   receive(): Arrival | null;

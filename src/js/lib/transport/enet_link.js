@@ -7,12 +7,12 @@
 
 import {kCaps, kDatagram, kReliable} from './channel.js';
 
-const kMtu = 1232, kMostCommands = 32, kControl = 0xff, kNobody = 0xfff;
+const kMtu = 1224, kMostCommands = 32, kControl = 0xff, kNobody = 0xfff;
 const kAcknowledge = 1, kConnect = 2, kVerify = 3, kDisconnect = 4, kPing = 5, kSendReliable = 6, kSendFragment = 8,
   kSendUnsequenced = 9;
 const kSizes = [0, 8, 48, 44, 8, 4, 6, 0, 24, 8, 12, 16, 0];  // [bytes] of each command
 const kAsksAcknowledgement = 0x80, kUnsequenced = 0x40, kHasTime = 0x8000;
-const kPiece = kMtu - 4 - kSizes[kSendFragment];
+const kPiece = kMtu - 4 - 4 - kSizes[kSendFragment];  // as if a checksum were there
 const kInFlight = 32 << 10;    // [bytes] sent reliably and not acknowledged yet; half of ENet's window
 const kWaiting = 4 << 20;      // [bytes] above that the connection ends
 const kSoonest = 100;          // [ms] before something is sent again
