@@ -68,14 +68,12 @@ int ENET_CALLBACK EnetLines::intercept(ENetHost* host, ENetEvent*) {
 
 /// Whether ENet may read it.
 bool EnetLines::take(std::span<std::uint8_t> packet) {
-  if (!Doorkeeper::is_word(packet)) {
-    if (take_packet(packet)) return true;
-    refuse();
+  if (Doorkeeper::is_word(packet) && packet.size() <= Doorkeeper::kWord) {
+    if (!take_challenge(packet) && !answer(packet)) ++refused_;
     return false;
   }
-  if (accepts_ && packet.size() > Doorkeeper::kWord) return take_open(packet);
-  if (asked_ != nullptr && are_equal(asked_->address, host_->receivedAddress)) take_challenge(packet);
-  if (accepts_) answer(packet);
+  if (Doorkeeper::is_word(packet) ? accepts_ && take_open(packet) : take_packet(packet)) return true;
+  ++refused_;
   return false;
 }
 
@@ -99,51 +97,59 @@ bool EnetLines::show(std::span<std::uint8_t> packet) {
   return true;
 }
 
-void EnetLines::answer(Bytes ask) {
+bool EnetLines::answer(Bytes ask) {
+  if (!accepts_) return false;
   const auto word = door_.answer(ask, source_of(host_->receivedAddress), enet_time_get());
-  if (!word) return refuse();
-  send(host_->receivedAddress, *word);
+  if (word) send(host_->receivedAddress, *word);
+  return word.has_value();
 }
 
-/// Of who has proved its address ENet reads one packet more, a CONNECT, and has the peer that is free first for it.
-bool EnetLines::take_open(std::span<std::uint8_t> open) {
-  constexpr std::size_t kConnect = Doorkeeper::kOpen + LineTags::kSize + 4 + sizeof(ENetProtocolConnect);
-  const auto nonce = door_.take_open(open, source_of(host_->receivedAddress), enet_time_get());
-  const std::span<std::uint8_t> packet = open.subspan(Doorkeeper::kOpen);
-  LineTags tags = door_.tags(nonce.value_or(0), false);
-  if (!nonce || open.size() != kConnect || !tags.open(packet) ||
-      peer_of(packet.subspan(LineTags::kSize)) != kPeerMask) {
-    refuse();
-    return false;
-  }
-  ENetProtocolConnect connect;
-  std::memcpy(&connect, open.data() + open.size() - sizeof connect, sizeof connect);
+/// The peer that ENet will take for a CONNECT: the one that is free first, unless it refuses.
+ENetPeer* EnetLines::place_for(const ENetAddress& address, std::uint32_t connect_id) const {
   ENetPeer* free = nullptr;
+  std::size_t of_address = 0;
   for (std::size_t i = 0; i < tags_.size(); ++i) {
     ENetPeer& peer = host_->peers[i];
     if (peer.state == ENET_PEER_STATE_DISCONNECTED) {
       if (free == nullptr) free = &peer;
-    } else if (peer.connectID == connect.connectID) {
-      return false;  // asked again, before it heard that it is let in
+      continue;
     }
+    if (peer.connectID == connect_id) return nullptr;  // or tags_to() would not tell them apart
+    of_address += peer.state != ENET_PEER_STATE_CONNECTING && peer.address.host == address.host ? 1 : 0;
   }
-  if (free == nullptr || !show(packet)) {
-    refuse();
-    return false;
-  }
-  tags_[free->incomingPeerID] = tags;
+  return of_address < host_->duplicatePeers ? free : nullptr;
+}
+
+/// Of who has proved its address ENet reads one packet more, a CONNECT, and takes a peer for it.
+bool EnetLines::take_open(std::span<std::uint8_t> open) {
+  constexpr std::size_t kConnect = Doorkeeper::kOpen + LineTags::kSize + 4 + sizeof(ENetProtocolConnect);
+  const auto nonce = door_.take_open(open, source_of(host_->receivedAddress), enet_time_get());
+  if (!nonce || open.size() != kConnect) return false;
+  // Asked again, before it heard that it is let in; or said again by others.
+  if (std::find(opened_.begin(), opened_.end(), *nonce) != opened_.end()) return false;
+  const std::span<std::uint8_t> packet = open.subspan(Doorkeeper::kOpen);
+  LineTags tags = door_.tags(*nonce, false);
+  if (!tags.open(packet) || peer_of(packet.subspan(LineTags::kSize)) != kPeerMask) return false;
+  ENetProtocolConnect connect;
+  std::memcpy(&connect, open.data() + open.size() - sizeof connect, sizeof connect);
+  ENetPeer* const peer = place_for(host_->receivedAddress, connect.connectID);
+  if (peer == nullptr || !show(packet)) return false;
+  tags_[peer->incomingPeerID] = tags;
+  opened_[next_opened_++ % opened_.size()] = *nonce;
   return true;
 }
 
-void EnetLines::take_challenge(Bytes challenge) {
-  if (!awaits_challenge_ || asked_->state != ENET_PEER_STATE_CONNECTING) return;
+bool EnetLines::take_challenge(Bytes challenge) {
+  if (!awaits_challenge_ || asked_->state != ENET_PEER_STATE_CONNECTING) return false;
+  if (!are_equal(asked_->address, host_->receivedAddress)) return false;
   const auto cookie = door_.take_challenge(challenge, nonce_);
-  if (!cookie) return;
+  if (!cookie) return false;
   awaits_challenge_ = false;
   const std::span<std::uint8_t> open(connect_, connect_size_);
   Doorkeeper::write_open(nonce_, *cookie, open.first<Doorkeeper::kOpen>());
   tags_[asked_->incomingPeerID].seal(open.subspan(Doorkeeper::kOpen));
   send(asked_->address, open);
+  return true;
 }
 
 // ---- what goes

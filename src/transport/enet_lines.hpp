@@ -4,6 +4,7 @@
 
 #include <enet/enet.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -41,10 +42,10 @@ class EnetLines {
   bool take(std::span<std::uint8_t> packet);
   bool take_packet(std::span<std::uint8_t> packet);
   bool take_open(std::span<std::uint8_t> open);
-  void take_challenge(Bytes challenge);
-  void answer(Bytes ask);
+  ENetPeer* place_for(const ENetAddress& address, std::uint32_t connect_id) const;
+  bool take_challenge(Bytes challenge);
+  bool answer(Bytes ask);
   bool show(std::span<std::uint8_t> packet);
-  void refuse() { ++refused_; }
   void send(const ENetAddress& to, Bytes bytes);
   void seal();
   LineTags* tags_to(std::uint32_t connect_id, std::uint32_t peer_there);
@@ -53,6 +54,9 @@ class EnetLines {
   bool accepts_ = false;
   ENetHost* host_ = nullptr;
   std::vector<LineTags> tags_;  // by ENet's index of the peer
+  /// Nonces of the opens that were let in last: each opens once, also within the life of its cookie.
+  std::array<std::uint64_t, 256> opened_ = {};
+  std::size_t next_opened_ = 0;
   std::uint64_t refused_ = 0;
   Sent sent_;
 
