@@ -76,9 +76,10 @@ int main() {
   iso::SessionConfig config;
   config.silence = config.patience = 60 * iso::kSecond;  // this machine may be busy
   config.identity = iso::make_replay_header(iso::identity_of_world(Game().world.settings(), "two balls")).value();
-  iso::Result<EnetTransport> here = EnetTransport::listen(0, {.bind_address = "127.0.0.1"});
+  const iso::transport::EnetSettings settings{.bind_address = "127.0.0.1", .key = iso::sealed::packet_key(key)};
+  iso::Result<EnetTransport> here = EnetTransport::listen(0, settings);
   if (!here) return 1;
-  iso::Result<EnetTransport> there = EnetTransport::connect("127.0.0.1", here.value().port());
+  iso::Result<EnetTransport> there = EnetTransport::connect("127.0.0.1", here.value().port(), settings);
   if (!there) return 1;
   Machine client(std::move(there.value()), key, config);
   config.host = true;

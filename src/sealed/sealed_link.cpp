@@ -65,6 +65,13 @@ bool is_hello(Bytes bytes) {
 
 }  // namespace
 
+transport::PacketKey packet_key(const LobbyKey& key) {
+  transport::PacketKey derived{};
+  Digest digest("isostep packets", key, derived.size());
+  digest.finish(derived.data());
+  return derived;
+}
+
 // ---- the handshake
 
 bool SealedLink::draw() {

@@ -9,6 +9,7 @@
 
 #include "isostep/core/bytes.hpp"
 #include "isostep/session/frame.hpp"
+#include "transport/line_guard.hpp"
 #include "transport/replay_window.hpp"
 
 namespace isostep::sealed {
@@ -19,6 +20,10 @@ struct LobbyKey {
   std::uint64_t id = 0;  // travels in the clear; who is connected to looks the key up by it
   std::array<std::uint8_t, 32> secret{};
 };
+
+/// For EnetSettings::key: packets without a tag by the lobby's key are none, ENet's own words included. Where each two
+/// machines have a key, the lobby gives one more to all of them for this.
+transport::PacketKey packet_key(const LobbyKey& key);
 
 enum class Opened : std::uint8_t {
   good,

@@ -135,6 +135,7 @@ bool EnetLines::take_open(std::span<std::uint8_t> open) {
   ENetPeer* const peer = place_for(host_->receivedAddress, connect.connectID);
   if (peer == nullptr || !show(packet)) return false;
   tags_[peer->incomingPeerID] = tags;
+  enet_peer_timeout(peer, ENET_PEER_TIMEOUT_LIMIT, Doorkeeper::kLife, Doorkeeper::kLife);  // until it is connected
   opened_[next_opened_++ % opened_.size()] = *nonce;
   return true;
 }

@@ -423,7 +423,7 @@ internal static class LayoutTable
         R(typeof(Isostep.Fixed32.RankedWater), 176, 0, 4, 8, 16, 24, 48, 72, 96, 104, 112, 120, 128, 136, 144, 168,
             172),
         R(typeof(Isostep.Fixed32.SensorMount), 80, 0, 4, 8, 16, 24),
-        R(typeof(Isostep.UdpSettings), 112, 0, 4, 8, 12, 16, 20, 24, 32, 40),
+        R(typeof(Isostep.UdpSettings), 128, 0, 4, 8, 12, 16, 20, 24, 32, 40, 112),
         R(typeof(Isostep.UdpStatistics), 72, 0, 4, 8, 16, 24, 32, 40, 48, 56, 64),
     };
 }

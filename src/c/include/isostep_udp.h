@@ -1,5 +1,5 @@
 /* Sessions across UDP, by ENet: libisostep_udp, which is a library of its own so that libisostep needs none. POSIX and
-   Windows; not for browsers. Not secret and not authenticated. IPv4 only.
+   Windows; not for browsers. Not secret; who can forge what: src/transport/README.md. IPv4 only.
    SPDX-License-Identifier: MIT */
 #ifndef ISOSTEP_UDP_H
 #define ISOSTEP_UDP_H
@@ -28,6 +28,7 @@ typedef struct iso_udp_settings {
   uint64_t timeout;            /* [us] a peer that acknowledges nothing is given up after this */
   uint64_t unacknowledged_cap; /* [bytes] sent reliably to one peer; above that its connection ends */
   char bind_address[72];       /* empty: every interface */
+  uint8_t key[16]; /* random bytes that all machines of the match have and nobody else; all zeros: there is none */
 } iso_udp_settings;
 ISO_UDP_API iso_status iso_udp_settings_init_sized(iso_udp_settings* settings, size_t size);
 
@@ -38,7 +39,7 @@ typedef struct iso_udp_statistics {
   uint64_t bytes_sent; /* of UDP's payload, as all here */
   uint64_t packets_received;
   uint64_t bytes_received;
-  uint64_t implausible; /* packets thrown away before ENet saw them */
+  uint64_t implausible; /* packets thrown away before ENet saw them: forged, sent again, or of no peer's kind */
   uint64_t refused;     /* messages on the wrong channel or above its cap */
   uint64_t flooded;     /* datagrams above datagrams_per_peer */
   uint64_t socket_errors;

@@ -84,6 +84,7 @@ iso_status make(const iso_udp_settings* asked, iso_udp** out, char* problem, std
   settings.events_per_poll = from.events_per_poll;
   settings.datagrams_per_peer = from.datagrams_per_peer;
   settings.unacknowledged_cap = static_cast<std::size_t>(from.unacknowledged_cap);
+  std::memcpy(settings.key.data(), from.key, settings.key.size());
   Result<EnetTransport> opened = open(settings);
   if (!opened) {
     const Error& error = opened.error();
@@ -180,7 +181,8 @@ iso_status iso_udp_get_statistics(const iso_udp* udp, iso_udp_statistics* out) {
     ISO_COPY(packets_sent)
     ISO_COPY(bytes_sent)
     ISO_COPY(packets_received)
-    ISO_COPY(bytes_received) ISO_COPY(implausible) ISO_COPY(refused) ISO_COPY(flooded) ISO_COPY(socket_errors)
+    ISO_COPY(bytes_received)
+    ISO_COPY(implausible) ISO_COPY(refused) ISO_COPY(flooded) ISO_COPY(socket_errors)
 #undef ISO_COPY
         give(to, out);
     return ISO_OK;

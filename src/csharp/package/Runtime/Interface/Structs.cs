@@ -854,6 +854,9 @@ namespace Isostep
             get { fixed (byte* at = bindAddress) return NativeText.Read(at, 72); }
             set { fixed (byte* at = bindAddress) NativeText.Write(value, at, 72, "BindAddress"); }
         }
+        /// <summary>Random bytes that all machines of the match have and nobody else; all zeros: there is
+        /// none</summary>
+        public fixed byte Key[16];
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static UdpSettings Sized()
@@ -874,7 +877,7 @@ namespace Isostep
         public ulong BytesSent;
         public ulong PacketsReceived;
         public ulong BytesReceived;
-        /// <summary>Packets thrown away before ENet saw them</summary>
+        /// <summary>Packets thrown away before ENet saw them: forged, sent again, or of no peer's kind</summary>
         public ulong Implausible;
         /// <summary>Messages on the wrong channel or above its cap</summary>
         public ulong Refused;

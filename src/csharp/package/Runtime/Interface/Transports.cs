@@ -17,7 +17,7 @@ namespace Isostep
         protected override void Destroy(IntPtr handle) => IsostepException.Check(Native.iso_network_destroy(handle));
     }
 
-    /// <summary>UDP, by ENet, in a library of its own: libisostep_udp. Not secret and not authenticated.</summary>
+    /// <summary>UDP, by ENet, in a library of its own: libisostep_udp. Not secret.</summary>
     public sealed unsafe partial class UdpTransport : Handle
     {
         private UdpTransport(IntPtr made) { Pointer = made; }
