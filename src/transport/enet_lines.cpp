@@ -164,11 +164,14 @@ enet_uint32 ENET_CALLBACK EnetLines::before_sending(const ENetBuffer* buffers, s
   return 0;
 }
 
-/// The tags for the peer to whom ENet has given this identity.
+/// The tags for the peer to whom ENet has given this identity. None for a CONNECT, where it stands for nothing.
 LineTags* EnetLines::tags_to(std::uint32_t connect_id, std::uint32_t peer_there) {
+  if (peer_there == kPeerMask) return nullptr;
   for (std::size_t i = 0; i < tags_.size(); ++i) {
     const ENetPeer& peer = host_->peers[i];
-    if (is_alive(peer) && peer.connectID == connect_id && peer.outgoingPeerID == peer_there) return &tags_[i];
+    // Who acknowledges an end is over for ENet before that is sent.
+    if (peer.state == ENET_PEER_STATE_DISCONNECTED) continue;
+    if (peer.connectID == connect_id && peer.outgoingPeerID == peer_there) return &tags_[i];
   }
   return nullptr;
 }
@@ -190,15 +193,18 @@ void EnetLines::seal() {
   buffers[0].dataLength = size;
   host_->bufferCount = 1;
   const std::uint32_t peer_there = peer_of(Bytes(out_).subspan(LineTags::kSize));
-  if (LineTags* tags = peer_there == kPeerMask ? nullptr : tags_to(connect_id, peer_there)) {
-    return tags->seal({out_, size});
+  if (LineTags* tags = tags_to(connect_id, peer_there)) {
+    tags->seal({out_, size});
+  } else if (asked_ != nullptr && peer_there == kPeerMask) {
+    // ENet does not know the other side's number yet: its CONNECT, which it repeats until it is answered.
+    std::copy_n(out_, size, connect_ + Doorkeeper::kOpen);
+    connect_size_ = Doorkeeper::kOpen + size;
+    awaits_challenge_ = true;
+    buffers[0].data = ask_.data();
+    buffers[0].dataLength = ask_.size();
+  } else {
+    buffers[0].dataLength = 0;  // of no connection: an empty packet, which nobody reads
   }
-  // ENet does not know the other side's number yet: its CONNECT, which it repeats until it is answered.
-  std::copy_n(out_, size, connect_ + Doorkeeper::kOpen);
-  connect_size_ = Doorkeeper::kOpen + size;
-  awaits_challenge_ = true;
-  buffers[0].data = ask_.data();
-  buffers[0].dataLength = ask_.size();
 }
 
 }  // namespace isostep::transport

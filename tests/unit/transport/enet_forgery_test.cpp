@@ -146,6 +146,26 @@ TEST(EnetForgery, APacketThatIsAlteredIsNoPacket) {
   EXPECT_EQ(pair.bench.count(0, ArrivalKind::connected), 1u);
 }
 
+TEST(EnetForgery, AWordToWhoAskedForNothingIsNothing) {
+  Pair pair({.timeout = kPatience}, {.timeout = kPatience});
+  const UdpSocket stranger;
+  const auto say_words = [&] {
+    for (const std::uint8_t kind : {0x80, 0x81, 0x82, 0x83, 0x84, 0xff}) {
+      for (std::size_t size = 1; size < 90; ++size) stranger.send(pair.host.port(), Bytevec(size, kind));
+    }
+    pair.bench.turn();
+  };
+  say_words();
+  pair.client.disconnect(0);
+  ASSERT_TRUE(pair.bench.turn_until_heard(0, ArrivalKind::disconnected));
+  say_words();
+  // The end was acknowledged, so the only place is free again: nobody's time is over.
+  ASSERT_TRUE(pair.bench.turn_until([&] { return pair.client.connect_to("127.0.0.1", pair.host.port()).ok(); }));
+  say_words();
+  EXPECT_TRUE(pair.bench.turn_until_heard(0, ArrivalKind::connected, 2));
+  EXPECT_TRUE(pair.bench.turn_until_heard(1, ArrivalKind::connected, 2));
+}
+
 // ---- addresses
 
 TEST(EnetForgery, AnAddressThatChangesIsAnotherPeersAndTheOldOneGoesOn) {
