@@ -85,7 +85,10 @@ void check(const Buffer& file) {
   if (replay.status() != ReplayStatus::complete) return;
 
   Buffer longer = file;
-  longer.push_back(0);
+  longer.push_back(0);  // what a power failure leaves
+  require(ReplayReader(longer).status() == ReplayStatus::truncated);
+  require(ReplayReader(longer).frame_count() == replay.frame_count());
+  longer.back() = 1;
   require(ReplayReader(longer).status() == ReplayStatus::corrupt);
   require(ReplayReader(Bytes(file).first(file.size() - 1)).status() == ReplayStatus::truncated);
 }

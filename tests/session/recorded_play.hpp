@@ -27,8 +27,9 @@ template <class Game> struct Played {
 };
 /// Records what a machine of the match confirms, until `end`.
 template <class Game> struct MachineRecorder {
-  MachineRecorder(Machine<Game>& machine, std::vector<std::uint8_t>& file, Frame end = kLastFrame)
-      : recorder(machine.session, *machine.game, sink_to(file)) {
+  MachineRecorder(Machine<Game>& machine, std::vector<std::uint8_t>& file, Frame end = kLastFrame,
+                  std::uint32_t block_frames = 0)
+      : recorder(machine.session, *machine.game, sink_to(file), block_frames) {
     machine.will_step = [this](Frame frame) { recorder.before_step(frame); };
     machine.went_back = [this](Frame frame) { recorder.rolled_back(frame); };
     machine.restarts_at = [this](Frame frame) { recorder.restarted(frame); };

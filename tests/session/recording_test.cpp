@@ -110,5 +110,32 @@ TEST(LateRecordings, OfAFirstFrameThatCannotBeAreRefused) {
   }
 }
 
+TEST(FlushedRecording, ACrashCostsASecondOrWhatTheSettingSaysOrNothingThatWasFlushed) {
+  for (const int hz : {20, 60}) {
+    for (const std::uint32_t block_frames : {0u, 1u, 5u}) {
+      SessionConfig config;
+      config.players = 2;
+      config.hz = hz;
+      VirtualMatch<Toy> match(
+          config, [] { return std::make_unique<Toy>(100); },
+          [](int player, Frame frame) { return toy_input(43, player, frame); });
+      match.add(profile("wifi"));
+      std::vector<std::uint8_t> file;
+      MachineRecorder<Toy> recorder(match.host(), file, kLastFrame, block_frames);
+      const Frame most = block_frames != 0 ? static_cast<Frame>(block_frames) : hz;
+      for (Frame frame = 10; frame <= 200; frame += 10) {
+        ASSERT_TRUE(match.run_to(frame, 60 * kSecond));
+        const auto left = static_cast<Frame>(ReplayReader(file).frame_count());
+        ASSERT_LT(recorder.recorder.frames() - left, most) << hz << " Hz, blocks of " << block_frames;
+      }
+      ASSERT_TRUE(recorder.recorder.flush().ok());
+      const Played<Toy> played = play(config, file, Toy(100));
+      EXPECT_EQ(played.hashes.size(), static_cast<std::size_t>(recorder.recorder.frames()));
+      for (std::size_t f = 0; f < played.hashes.size(); ++f) ASSERT_EQ(played.hashes[f], match.host().hashes[f]);
+      ASSERT_TRUE(recorder.recorder.finish().ok());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace isostep::test

@@ -16,9 +16,11 @@ namespace isostep {
 /// recording ends, whole; what follows wants a recorder of its own. Errors stay, and `finish` returns them.
 template <class Game, class Predictor = typename DefaultPredictor<typename Game::Input>::Type> class MatchRecorder {
  public:
-  /// Session and game outlive the recorder.
-  MatchRecorder(const Session<Game, Predictor>& session, const Game& game, ReplaySink sink)
-      : session_(session), game_(game), recorder_(sink) {}
+  /// Session and game outlive the recorder. `block_frames`: 1 to kReplayBlockFrames, so many final ones a crash may
+  /// cost; 0: a second.
+  MatchRecorder(const Session<Game, Predictor>& session, const Game& game, ReplaySink sink,
+                std::uint32_t block_frames = 0)
+      : session_(session), game_(game), recorder_(sink, block_frames != 0 ? block_frames : a_second(session)) {}
 
   void before_step(Frame frame) {
     if (phase_ == Phase::waiting) begin(frame);
@@ -46,6 +48,11 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
     if (phase_ == Phase::open) end();
   }
 
+  /// All final frames so far are with the sink: a crash costs nothing of them.
+  const Result<void>& flush() {
+    if (phase_ == Phase::open) keep(recorder_.flush());
+    return result_;
+  }
   /// Ends the file with the last confirmed frame.
   Result<void> finish() {
     if (phase_ == Phase::waiting) fail("no frame was stepped");
@@ -62,6 +69,11 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
 
  private:
   enum class Phase : std::uint8_t { waiting, open, ended };
+
+  /// The rate is the session's: a game without a world has none in its header.
+  static std::uint32_t a_second(const Session<Game, Predictor>& session) {
+    return second_of_frames(static_cast<std::uint64_t>(session.config().hz));
+  }
 
   void begin(Frame frame) {
     ReplayHeader header = session_.config().identity;

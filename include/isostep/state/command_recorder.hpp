@@ -57,10 +57,12 @@ template <RecordableWorld W> struct CommandLogStart {
 /// `begin`; then for every frame commands and steps, in any number and order, and `end_frame`; then `finish`. A frame
 /// without a step is a pause; one has at most kFrameStepCap. The world must outlive it and records to nothing else
 /// meanwhile. Loading a snapshot ends a recording, for commands alone do not lead there. Without `finish` the file is
-/// truncated, its whole blocks still play.
+/// truncated, its whole blocks still play: a crash costs at most a second of frames, or `block_frames`, or what came
+/// after the last `flush`.
 template <RecordableWorld W> class CommandRecorder {
  public:
-  ISO_INLINE CommandRecorder(W& world, ReplaySink sink) : world_(world), recorder_(sink) {}
+  ISO_INLINE CommandRecorder(W& world, ReplaySink sink, std::uint32_t block_frames = 0)
+      : world_(world), recorder_(sink, block_frames) {}
   ISO_INLINE ~CommandRecorder() { world_.record_to(nullptr); }
   CommandRecorder(const CommandRecorder&) = delete;
   CommandRecorder& operator=(const CommandRecorder&) = delete;
@@ -89,6 +91,8 @@ template <RecordableWorld W> class CommandRecorder {
     if (flaw != nullptr) return Error{ErrorCode::invalid, flaw, "recorder"};
     return recorder_.keyframe(world_);
   }
+  /// All frames so far are with the sink.
+  ISO_INLINE Result<void> flush() { return recorder_.flush(); }
   ISO_INLINE Result<void> finish() { return recorder_.finish(); }
 
  private:

@@ -14,7 +14,8 @@ namespace isostep {
 /// truncated, its whole blocks still play.
 template <PortableState Sim> class Recorder {
  public:
-  ISO_INLINE explicit Recorder(ReplaySink sink) : writer_(sink) {}
+  /// `block_frames`: as ReplayWriter has it.
+  ISO_INLINE explicit Recorder(ReplaySink sink, std::uint32_t block_frames = 0) : writer_(sink, block_frames) {}
 
   ISO_INLINE Result<void> begin(const Sim& sim, const ReplayHeader& header) {
     return writer_.begin(header, portable(sim), sim.hash());
@@ -22,6 +23,8 @@ template <PortableState Sim> class Recorder {
   ISO_INLINE Result<void> frame(Bytes input, std::uint64_t hash) { return writer_.frame(input, hash); }
   /// A state to seek to: what `sim` is after the last frame.
   ISO_INLINE Result<void> keyframe(const Sim& sim) { return writer_.keyframe(portable(sim), sim.hash()); }
+  /// All frames so far are with the sink: what a crash leaves behind.
+  ISO_INLINE Result<void> flush() { return writer_.flush(); }
   ISO_INLINE Result<void> finish() { return writer_.finish(); }
 
   ISO_INLINE ReplayWriter& writer() { return writer_; }

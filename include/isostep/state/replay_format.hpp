@@ -21,7 +21,11 @@ inline constexpr std::size_t kReplayPreambleSize = 32;  // [bytes]
 inline constexpr std::uint8_t kReplayMagic[8] = {0x89, 'I', 'S', 'O', '\r', '\n', 0x1a, '\n'};
 /// Whether a file begins as a replay does; the rest of it may be wrong.
 bool has_replay_magic(Bytes file);
-inline constexpr std::uint32_t kReplayBlockFrames = 60;
+inline constexpr std::uint32_t kReplayBlockFrames = 60;  // at most in a block
+/// A second of frames, as far as one block holds them: a crash costs no more.
+constexpr std::uint32_t second_of_frames(std::uint64_t hz) {
+  return hz == 0 ? 1 : hz < kReplayBlockFrames ? static_cast<std::uint32_t>(hz) : kReplayBlockFrames;
+}
 
 /// A chunk's type is four letters; as a little-endian u32 they stand in the file in reading order.
 constexpr std::uint32_t replay_chunk_type(char a, char b, char c, char d) {
@@ -46,10 +50,12 @@ inline constexpr std::uint32_t kReplayInputCap = 1u << 25;       // one block's 
 inline constexpr std::uint32_t kReplayUnknownCap = 1u << 24;
 std::uint32_t replay_payload_cap(std::uint32_t type);
 
-/// Where the bytes of a replay go. False from `write` ends the recording with an error.
+/// Where the bytes of a replay go. False ends the recording with an error.
 struct ReplaySink {
   bool (*write)(void* context, const std::uint8_t* bytes, std::size_t size);
   void* context;
+  /// After every whole block: what `write` holds back is to be safe from a crash. Null: it holds nothing back.
+  bool (*flush)(void* context) = nullptr;
 };
 /// Appends to `out`, which must outlive the writer.
 ReplaySink sink_to(std::vector<std::uint8_t>& out);
@@ -58,7 +64,8 @@ ReplaySink sink_to(std::vector<std::uint8_t>& out);
 /// frames is held back. After an error every call returns that error.
 class ReplayWriter {
  public:
-  explicit ReplayWriter(ReplaySink sink);
+  /// `block_frames`: as many frames make a block, 1 to kReplayBlockFrames; 0: those of a second, by the header's hz.
+  explicit ReplayWriter(ReplaySink sink, std::uint32_t block_frames = 0);
   ~ReplayWriter();
   ReplayWriter(const ReplayWriter&) = delete;
   ReplayWriter& operator=(const ReplayWriter&) = delete;
@@ -71,7 +78,7 @@ class ReplayWriter {
   Result<void> keyframe(Bytes state, std::uint64_t hash);
   /// A chunk of the caller's own; the type's first letter is lower case. Ends the block.
   Result<void> ancillary(std::uint32_t type, Bytes payload);
-  /// Ends the block early, so that it is safe with the sink.
+  /// Ends the block early and flushes the sink: all frames so far survive a crash.
   Result<void> flush();
   Result<void> finish();
 
@@ -84,13 +91,15 @@ class ReplayWriter {
   Result<void> require_open();
   Result<void> put(Bytes bytes);
   Result<void> put_chunk(std::uint32_t type, Bytes payload);
+  Result<void> flush_sink();
 
   ReplaySink sink_;
   Phase phase_;
   Error error_;
   HashStream digest_;
   std::uint64_t frame_count_;  // with those of the open block
-  std::uint32_t block_frames_;
+  std::uint32_t block_cap_;     // frames that make a block
+  std::uint32_t block_frames_;  // in the open block
   std::vector<std::uint8_t> block_inputs_;  // [u32 length, bytes] per frame
   std::vector<std::uint8_t> block_hashes_;  // u64 per frame
   std::vector<std::uint8_t> scratch_;
@@ -98,7 +107,7 @@ class ReplayWriter {
 
 enum class ReplayStatus : std::uint8_t {
   complete,     // everything is there and agrees with itself
-  truncated,    // ends early; whole blocks before the end can be played
+  truncated,    // ends early, or in zeros that were never written over; whole blocks before that can be played
   corrupt,      // contradicts itself
   incompatible  // intact, but made for another reader
 };
@@ -169,6 +178,7 @@ class ReplayReader {
   enum class Expect : std::uint8_t { head, init, inputs, hashes, end };
 
   bool stop(ReplayStatus status, std::size_t place, const char* message);
+  bool stop_at_damage(std::size_t offset, std::size_t size, std::size_t place, const char* message);
   bool read_preamble();
   bool read_chunk(std::size_t offset, Chunk& chunk);
   bool accept(const Chunk& chunk);

@@ -17,9 +17,10 @@ namespace isostep {
 /// its own. Errors stay, and `finish` returns them: the hooks of observers return nothing.
 template <class S> class SessionRecorder {
  public:
-  /// `scene` is copied; the history must outlive this.
-  ISO_INLINE SessionRecorder(const FrameHistory<S>& history, ReplaySink sink, std::string_view scene)
-      : history_(history), recorder_(sink), scene_(scene) {}
+  /// `scene` is copied; the history must outlive this. `block_frames`: as MatchRecorder has it.
+  ISO_INLINE SessionRecorder(const FrameHistory<S>& history, ReplaySink sink, std::string_view scene,
+                             std::uint32_t block_frames = 0)
+      : history_(history), recorder_(sink, block_frames), scene_(scene) {}
 
   ISO_INLINE void before_step(Frame frame) {
     if (phase_ == Phase::waiting) begin(frame);
@@ -40,6 +41,11 @@ template <class S> class SessionRecorder {
     if (phase_ == Phase::open) end();
   }
 
+  /// All final frames so far are with the sink.
+  ISO_INLINE const Result<void>& flush() {
+    if (phase_ == Phase::open) keep(recorder_.flush());
+    return result_;
+  }
   /// Ends the file with the last confirmed frame.
   ISO_INLINE Result<void> finish() {
     if (phase_ == Phase::waiting) fail("no frame was stepped");

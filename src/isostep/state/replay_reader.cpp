@@ -14,6 +14,11 @@ namespace {
 
 constexpr std::size_t kChunkHead = 12;  // type, length, raw length
 constexpr std::size_t kChunkTail = 4;   // checksum
+// What a power failure leaves of a file that grew: its length, and zeros where bytes were not written yet. Systems write
+// whole pages, in any order.
+constexpr std::size_t kPage = 4096;  // [bytes]
+// [bytes] A shorter run of zeros before the end of a page may be an input's.
+constexpr std::size_t kLeastHole = 64;
 
 bool is_type(std::uint32_t type) {
   for (int shift = 0; shift < 32; shift += 8) {
@@ -21,6 +26,36 @@ bool is_type(std::uint32_t type) {
     if (letter < 'a' || letter > 'z') return false;
   }
   return true;
+}
+
+/// Where the zeros begin in which the bytes end.
+std::size_t end_of_data(Bytes bytes) {
+  std::size_t end = bytes.size();
+  while (end > 0 && bytes[end - 1] == 0) --end;
+  return end;
+}
+
+/// Whether all from some place of the `size` damaged bytes on is zeros. A checksum is torn only where its bytes before
+/// that place are right.
+bool ends_in_zeros(Bytes file, std::size_t offset, std::size_t size) {
+  const std::size_t end = end_of_data(file);
+  if (end >= offset + size) return false;
+  if (size <= kChunkHead || end <= offset + size - kChunkTail) return true;
+  const std::size_t covered = size - kChunkTail;
+  std::uint8_t checksum[kChunkTail];
+  store_le(checksum, crc32c(file.subspan(offset, covered)));
+  return std::memcmp(checksum, file.data() + offset + covered, end - offset - covered) == 0;
+}
+
+/// Whether zeros that begin in the `size` damaged bytes reach the end of a page, and what follows was written.
+bool has_hole(Bytes file, std::size_t offset, std::size_t size) {
+  const std::size_t end = offset + size;
+  for (std::size_t page = (offset / kPage + 1) * kPage; page <= file.size() && page - kPage < end; page += kPage) {
+    const std::size_t least = page - kPage > offset ? page - kPage : offset;
+    const std::size_t begin = least + end_of_data(file.subspan(least, page - least));
+    if (begin < end && (page - begin >= kLeastHole || (begin == offset && begin < page))) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -47,7 +82,10 @@ ReplayReader::ReplayReader(Bytes file)
     if (!read_chunk(offset, chunk) || !accept(chunk)) return;
     offset = chunk.offset + kChunkHead + chunk.payload.size() + kChunkTail;
   }
-  if (offset != file_.size()) stop(ReplayStatus::corrupt, offset, "bytes after the last chunk");
+  if (offset == file_.size()) return;
+  const bool is_zeros = end_of_data(file_) <= offset;
+  stop(is_zeros ? ReplayStatus::truncated : ReplayStatus::corrupt, offset,
+       is_zeros ? "zeros after the last chunk" : "bytes after the last chunk");
 }
 ReplayReader::~ReplayReader() = default;
 
@@ -62,13 +100,23 @@ bool ReplayReader::stop(ReplayStatus status, std::size_t place, const char* mess
   return false;
 }
 
+/// `size` bytes at `offset` are not what a chunk is: one that was not written whole, or damage.
+bool ReplayReader::stop_at_damage(std::size_t offset, std::size_t size, std::size_t place, const char* message) {
+  if (!ends_in_zeros(file_, offset, size) && !has_hole(file_, offset, size)) {
+    return stop(ReplayStatus::corrupt, place, message);
+  }
+  return stop(ReplayStatus::truncated, offset, "zeros stand where a chunk was to be written");
+}
+
 bool ReplayReader::read_preamble() {
-  const std::size_t have = file_.size() < sizeof kReplayMagic ? file_.size() : sizeof kReplayMagic;
+  const std::size_t written = end_of_data(file_);
+  const std::size_t have = written < sizeof kReplayMagic ? written : sizeof kReplayMagic;
   if (have > 0 && std::memcmp(file_.data(), kReplayMagic, have) != 0) {
     return stop(ReplayStatus::corrupt, 0, "not a replay: the first eight bytes are others");
   }
   if (file_.size() < kReplayPreambleSize) return stop(ReplayStatus::truncated, 0, "the file ends in its preamble");
   if (load_le<std::uint32_t>(file_.data() + 28) != crc32c(file_.first(28))) {
+    if (written < kReplayPreambleSize) return stop(ReplayStatus::truncated, 0, "zeros stand in the preamble");
     return stop(ReplayStatus::corrupt, 0, "the preamble's checksum does not match");
   }
   if (load_le<std::uint16_t>(file_.data() + 8) != kReplayMajor) {
@@ -90,16 +138,18 @@ bool ReplayReader::read_chunk(std::size_t offset, Chunk& chunk) {
   const std::uint8_t* head = file_.data() + offset;
   const auto type = load_le<std::uint32_t>(head);
   const auto length = load_le<std::uint32_t>(head + 4);
-  if (!is_type(type)) return stop(ReplayStatus::corrupt, offset, "a chunk type is four letters");
+  if (!is_type(type)) return stop_at_damage(offset, kChunkHead, offset, "a chunk type is four letters");
   // Version 1 stores payloads as they are; two equal lengths also tell a damaged length from a file that ends early.
-  if (load_le<std::uint32_t>(head + 8) != length) return stop(ReplayStatus::corrupt, offset + 4, "the lengths differ");
+  if (load_le<std::uint32_t>(head + 8) != length) {
+    return stop_at_damage(offset, kChunkHead, offset + 4, "the lengths differ");
+  }
   if (length > replay_payload_cap(type)) return stop(ReplayStatus::corrupt, offset + 4, "a chunk above its cap");
   if (left - kChunkHead < std::size_t{length} + kChunkTail) {
     return stop(ReplayStatus::truncated, offset, "the file ends inside a chunk");
   }
   const std::size_t covered = kChunkHead + length;
   if (load_le<std::uint32_t>(head + covered) != crc32c({head, covered})) {
-    return stop(ReplayStatus::corrupt, offset, "a chunk's checksum does not match");
+    return stop_at_damage(offset, covered + kChunkTail, offset, "a chunk's checksum does not match");
   }
   chunk = {type, offset, {head + kChunkHead, length}};
   return true;

@@ -33,8 +33,8 @@ std::uint32_t replay_payload_cap(std::uint32_t type) {
 
 ReplaySink sink_to(std::vector<std::uint8_t>& out) { return {append, &out}; }
 
-ReplayWriter::ReplayWriter(ReplaySink sink)
-    : sink_(sink), phase_(Phase::fresh), error_{}, frame_count_(0), block_frames_(0) {}
+ReplayWriter::ReplayWriter(ReplaySink sink, std::uint32_t block_frames)
+    : sink_(sink), phase_(Phase::fresh), error_{}, frame_count_(0), block_cap_(block_frames), block_frames_(0) {}
 ReplayWriter::~ReplayWriter() = default;
 
 std::uint64_t ReplayWriter::frame_count() const { return frame_count_; }
@@ -74,10 +74,20 @@ Result<void> ReplayWriter::put_chunk(std::uint32_t type, Bytes payload) {
   return put(tail);
 }
 
+Result<void> ReplayWriter::flush_sink() {
+  if (sink_.flush == nullptr || sink_.flush(sink_.context)) return {};
+  return refuse(ErrorCode::sink, "the sink refused to flush");
+}
+
 Result<void> ReplayWriter::begin(const ReplayHeader& header, Bytes state, std::uint64_t hash) {
   if (phase_ == Phase::failed) return error_;
   if (phase_ != Phase::fresh) return refuse(ErrorCode::invalid, "begin comes once");
   if (state.size() > kReplayStateCap) return refuse(ErrorCode::limit, "the initial state is above its cap");
+  if (block_cap_ > kReplayBlockFrames) return refuse(ErrorCode::limit, "a block has at most 60 frames");
+  if (block_cap_ == 0) {
+    const Result<std::uint64_t> hz = header.number("hz");
+    block_cap_ = hz ? second_of_frames(hz.value()) : kReplayBlockFrames;
+  }
   phase_ = Phase::open;
 
   std::uint8_t preamble[kReplayPreambleSize] = {};
@@ -96,7 +106,8 @@ Result<void> ReplayWriter::begin(const ReplayHeader& header, Bytes state, std::u
   Writer writer(scratch_);
   writer.write(hash);
   writer.write_raw(state);
-  return put_chunk(replay_chunk::kInit, scratch_);
+  if (Result<void> result = put_chunk(replay_chunk::kInit, scratch_); !result) return result;
+  return flush_sink();
 }
 
 Result<void> ReplayWriter::frame(Bytes input, std::uint64_t hash) {
@@ -109,13 +120,13 @@ Result<void> ReplayWriter::frame(Bytes input, std::uint64_t hash) {
   Writer(block_hashes_).write(hash);
   ++block_frames_;
   ++frame_count_;
-  if (block_frames_ == kReplayBlockFrames) return flush();
+  if (block_frames_ == block_cap_) return flush();
   return {};
 }
 
 Result<void> ReplayWriter::flush() {
   if (Result<void> result = require_open(); !result) return result;
-  if (block_frames_ == 0) return {};
+  if (block_frames_ == 0) return flush_sink();
   const struct {
     std::uint32_t type;
     std::vector<std::uint8_t>* body;
@@ -130,7 +141,7 @@ Result<void> ReplayWriter::flush() {
     if (Result<void> result = put_chunk(chunk.type, scratch_); !result) return result;
   }
   block_frames_ = 0;
-  return {};
+  return flush_sink();
 }
 
 Result<void> ReplayWriter::keyframe(Bytes state, std::uint64_t hash) {
@@ -161,9 +172,10 @@ Result<void> ReplayWriter::finish() {
   std::uint8_t payload[16];
   store_le(payload, frame_count_);
   store_le(payload + 8, digest_.value());
-  Result<void> result = put_chunk(replay_chunk::kDone, payload);
-  if (result) phase_ = Phase::done;
-  return result;
+  if (Result<void> result = put_chunk(replay_chunk::kDone, payload); !result) return result;
+  if (Result<void> result = flush_sink(); !result) return result;
+  phase_ = Phase::done;
+  return {};
 }
 
 }  // namespace isostep

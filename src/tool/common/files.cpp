@@ -98,7 +98,13 @@ ReplaySink ReplayFile::sink() {
     if (to.error_ == 0) to.error_ = errno;
     return false;
   };
-  return {write, this};
+  const auto flush = [](void* self) {
+    ReplayFile& to = *static_cast<ReplayFile*>(self);
+    if (std::fflush(to.file_) == 0) return true;
+    if (to.error_ == 0) to.error_ = errno;
+    return false;
+  };
+  return {write, this, flush};
 }
 void ReplayFile::check(const Result<void>& result) const {
   if (result) return;

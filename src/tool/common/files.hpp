@@ -24,7 +24,8 @@ void write_file(const std::string& path, Bytes content);
 void expect_writable(const std::string& path);
 
 /// Open for a replay until `close`, beside the place as write_file has it: what was there stays until the new one is
-/// whole. A process that is killed leaves a valid beginning in PATH.part; a command that fails leaves nothing.
+/// whole. A process that is killed leaves a valid beginning in PATH.part, all but its last second; a command that fails
+/// leaves nothing.
 class ReplayFile {
  public:
   /// Throws ToolError 74.

@@ -339,6 +339,86 @@ TEST(ReplayWriter, ARefusingSinkEndsTheRecordingAndLeavesAValidBeginning) {
   }
 }
 
+/// A buffer in the process, as stdio has one: what is in it a crash takes along.
+struct BufferedDisk {
+  Buffer held, safe;
+  bool refuses = false;
+  static bool write(void* context, const std::uint8_t* bytes, std::size_t size) {
+    auto& disk = *static_cast<BufferedDisk*>(context);
+    disk.held.insert(disk.held.end(), bytes, bytes + size);
+    return true;
+  }
+  static bool flush(void* context) {
+    auto& disk = *static_cast<BufferedDisk*>(context);
+    if (disk.refuses) return false;
+    disk.safe.insert(disk.safe.end(), disk.held.begin(), disk.held.end());
+    disk.held.clear();
+    return true;
+  }
+  ReplaySink sink() { return {write, this, flush}; }
+};
+
+TEST(ReplayWriter, ACrashCostsAtMostASecondAtEveryRate) {
+  for (const std::uint32_t hz : {1u, 2u, 10u, 20u, 30u, 59u, 60u, 61u, 144u, 1000u}) {
+    ReplayIdentity identity = toy::identity();
+    identity.hz = hz;
+    BufferedDisk disk;
+    ReplayWriter writer(disk.sink());
+    ASSERT_TRUE(writer.begin(make_replay_header(identity).value(), Buffer(8), 0));
+    for (std::uint64_t i = 1; i <= 4 * hz; ++i) {
+      ASSERT_TRUE(writer.frame(toy::input_of(i), i));
+      const ReplayReader after_crash(disk.safe);
+      ASSERT_EQ(after_crash.status(), ReplayStatus::truncated);
+      ASSERT_TRUE(after_crash.has_state());
+      ASSERT_LT(i - after_crash.frame_count(), hz == 1 ? 1u : hz) << hz << " Hz";
+    }
+  }
+}
+
+TEST(ReplayWriter, ASettingSaysHowManyFramesACrashMayCost) {
+  for (const std::uint32_t most : {1u, 2u, 7u, 60u}) {
+    BufferedDisk disk;
+    Recorder<toy::Game> recorder(disk.sink(), most);
+    toy::Game game;
+    ASSERT_TRUE(recorder.begin(game, toy::header()));
+    for (std::uint64_t i = 1; i <= 130; ++i) {
+      ASSERT_TRUE(game.step_recorded(toy::input_of(i)));
+      ASSERT_TRUE(recorder.frame(toy::input_of(i), game.hash()));
+      ASSERT_EQ(ReplayReader(disk.safe).frame_count(), i / most * most);
+    }
+    ASSERT_TRUE(recorder.finish());
+    EXPECT_EQ(toy::verify_toy(disk.safe).outcome, VerifyOutcome::verified);
+    EXPECT_TRUE(disk.held.empty());
+  }
+  Buffer file;
+  ReplayWriter refused(sink_to(file), kReplayBlockFrames + 1);
+  const Result<void> begun = refused.begin(toy::header(), {}, 0);
+  ASSERT_FALSE(begun);
+  EXPECT_EQ(begun.error().code, ErrorCode::limit);
+}
+
+TEST(ReplayWriter, WhatIsFlushedOnRequestSurvivesACrash) {
+  BufferedDisk disk;
+  Recorder<toy::Game> recorder(disk.sink());
+  toy::Game game;
+  ASSERT_TRUE(recorder.begin(game, toy::header()));
+  for (std::uint64_t i = 1; i <= 50; ++i) {
+    ASSERT_TRUE(game.step_recorded(toy::input_of(i)));
+    ASSERT_TRUE(recorder.frame(toy::input_of(i), game.hash()));
+    if (i % 17 != 0) continue;
+    ASSERT_TRUE(recorder.flush());
+    EXPECT_EQ(ReplayReader(disk.safe).frame_count(), i);
+  }
+  ASSERT_TRUE(recorder.keyframe(game));
+  ASSERT_TRUE(recorder.flush());
+  EXPECT_EQ(ReplayReader(disk.safe).keyframes().size(), 1u) << "no frames since, and yet something to flush";
+  disk.refuses = true;
+  const Result<void> flushed = recorder.flush();
+  ASSERT_FALSE(flushed);
+  EXPECT_EQ(flushed.error().code, ErrorCode::sink);
+  EXPECT_FALSE(recorder.finish()) << "errors stay";
+}
+
 TEST(ReplayWriter, RefusesCallsOutOfOrder) {
   Buffer file;
   ReplayWriter early(sink_to(file));

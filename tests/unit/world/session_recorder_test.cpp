@@ -306,5 +306,15 @@ TYPED_TEST(Bundles, refuse_facts_that_do_not_fit_their_frames) {
   }
 }
 
+TYPED_TEST(SessionRecording, what_is_flushed_or_older_than_a_second_survives_a_crash) {
+  play_session(this->arena, 0, 95, this->both);
+  ASSERT_GT(this->recorder.frames(), 60);
+  EXPECT_LT(this->recorder.frames() - static_cast<Frame>(ReplayReader(this->file).frame_count()), 60);
+  ASSERT_TRUE(this->recorder.flush().ok());
+  const VerifyResult result = verify_world<TypeParam>(this->file);
+  EXPECT_EQ(result.outcome, VerifyOutcome::truncated) << describe(result);
+  EXPECT_EQ(result.frames, static_cast<std::uint64_t>(this->recorder.frames()));
+}
+
 }  // namespace
 }  // namespace isostep::test
