@@ -31,7 +31,7 @@ const char* iso_status_text(iso_status status) {
     case ISO_NOT_ALIVE: return "the handle was destroyed, or is none of this kind";
     case ISO_CALLED_BACK: return "called from within a callback";
     case ISO_REFUSED: return "not done, for it is not sound, or not now";
-    case ISO_UNFINISHED: return "requests of the turn are not carried out: iso_session_next has more";
+    case ISO_UNFINISHED: return "not within a turn: iso_session_next has more";
     default: return "unknown status";
   }
 }

@@ -81,6 +81,7 @@ class TapeWriter {
   virtual ~TapeWriter();
   virtual Result<void> end_frame() = 0;
   virtual Result<void> keyframe() = 0;
+  virtual Result<void> flush() = 0;
   virtual Result<void> finish() = 0;
 };
 struct TapeObject {

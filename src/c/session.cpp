@@ -9,9 +9,10 @@
 namespace isostep::c {
 
 void SessionTurn::begin(Session<SessionGame>& session, Time now) {
-  requests_ = session.advance(now);
+  requests_ = session.advance(now);  // tells misuse where the turn before was left
   at_ = 0;
   is_open_ = true;
+  is_stepping_ = false;
 }
 
 iso_request SessionTurn::next(Session<SessionGame>& session, SessionGame& game, SessionObserver& observer) {
@@ -58,14 +59,13 @@ SessionObject::SessionObject(const iso_game& its_game, const iso_session_config&
       session(rest, game.rules(), its_config.mode == ISO_REPLAY ? Bytes(file) : Bytes()),
       config(its_config) {}
 
-iso_status enter(const iso_session* handle, const char* call, bool in_turn, SessionObject*& object) {
+iso_status enter(const iso_session* handle, const char* call, SessionObject*& object) {
   const Found<iso_session> found(handle, call);
   if (found.status != ISO_OK) return found.status;
   object = found.object;
   if (object->is_called) return refuse(ISO_CALLED_BACK, call);
   if (object->is_broken) return refuse(ISO_NO_MEMORY, call, "an earlier call");
-  if (!object->game.is_alive()) return refuse(ISO_NOT_ALIVE, call, "the game's world");
-  return object->turn.is_open() && !in_turn ? refuse(ISO_UNFINISHED, call) : ISO_OK;
+  return object->game.is_alive() ? ISO_OK : refuse(ISO_NOT_ALIVE, call, "the game's world");
 }
 
 namespace {
@@ -147,11 +147,10 @@ iso_status iso_session_advance(iso_session* session, uint64_t now) {
 
 iso_status iso_session_next(iso_session* session, iso_request* out) {
   if (const iso_status status = check_struct(out, ISO_C_CALL); status != ISO_OK) return status;
-  const auto next = [&](SessionObject& one) {
+  return in_session(session, ISO_C_CALL, [&](SessionObject& one) {
     give(one.turn.next(one.session, one.game, one.observer), out);
     return ISO_OK;
-  };
-  return in_session(session, ISO_C_CALL, next, true);
+  });
 }
 
 const iso_input* iso_session_inputs(const iso_session* session, uint32_t* players) {

@@ -52,7 +52,8 @@ struct SessionObserver {
   }
 };
 
-/// drive(), one request at a time.
+/// drive(), one request at a time. A turn that the caller leaves in its middle, by an exception of the game's step, ends
+/// where the next begins: its requests were not carried out, which the session tells as misuse and makes good.
 class SessionTurn {
  public:
   bool is_open() const { return is_open_; }
@@ -94,14 +95,14 @@ template <> struct HandleOf<iso_session> {
 /// The name of the function that this stands in, as sentences have it: without iso_.
 #define ISO_C_CALL (__func__ + 4)
 
-/// May it be called now? `in_turn`: also between the requests of a turn.
-iso_status enter(const iso_session* handle, const char* call, bool in_turn, SessionObject*& object);
+/// May it be called now?
+iso_status enter(const iso_session* handle, const char* call, SessionObject*& object);
 
 /// Every function that changes a session is called by this; `work(SessionObject&)` returns a status.
 template <class Work>
-iso_status in_session(iso_session* handle, const char* call, const Work& work, bool in_turn = false) {
+iso_status in_session(iso_session* handle, const char* call, const Work& work) {
   SessionObject* object = nullptr;
-  if (const iso_status status = enter(handle, call, in_turn, object); status != ISO_OK) return status;
+  if (const iso_status status = enter(handle, call, object); status != ISO_OK) return status;
   object->is_called = true;
   const iso_status status = guarded(call, [&] { return work(*object); });
   object->is_called = false;

@@ -15,11 +15,17 @@ class MatchRecording final : public FrameRecording {
   void rolled_back(Frame frame) override { recorder_.rolled_back(frame); }
   void restarted(Frame frame) override { recorder_.restarted(frame); }
   void confirmed(Frame frame, std::uint64_t hash) override { recorder_.confirmed(frame, hash); }
+  Result<void> flush() override { return recorder_.flush(); }
   Result<void> finish() override { return recorder_.finish(); }
 
  private:
   MatchRecorder<SessionGame> recorder_;
 };
+
+/// Between two turns alone: states of one under way are missing.
+iso_status require_no_turn(const SessionObject& session, const char* call) {
+  return session.turn.is_open() ? refuse(ISO_UNFINISHED, call) : iso_status{ISO_OK};
+}
 
 std::unique_ptr<FrameRecording> make_recording(SessionObject& session, std::uint32_t kind, const char* scene) {
   if (kind == ISO_RECORD_MATCH) return std::make_unique<MatchRecording>(session);
@@ -37,6 +43,7 @@ extern "C" {
 iso_status iso_session_record(iso_session* session, iso_recording kind, const char* scene) {
   if (kind > ISO_RECORD_WORLD) return refuse(ISO_BAD_ENUM, ISO_C_CALL, "kind");
   return in_session(session, ISO_C_CALL, [&, call = ISO_C_CALL](SessionObject& one) -> iso_status {
+    if (const iso_status status = require_no_turn(one, call); status != ISO_OK) return status;
     const SessionObserver& observer = one.observer;
     const bool is_free = observer.recordings[kind] == nullptr || observer.has_ended[kind];
     if (!is_free) return refuse(ISO_REFUSED, call, "kind", "one that is not being recorded");
@@ -46,6 +53,25 @@ iso_status iso_session_record(iso_session* session, iso_recording kind, const ch
     }
     one.observer.recordings[kind] = make_recording(one, kind, scene);
     one.observer.has_ended[kind] = false;
+    return ISO_OK;
+  });
+}
+
+iso_status iso_session_flush_recording(iso_session* session, iso_recording kind, const void** bytes, size_t* size) {
+  ISO_C_REQUIRE(ISO_C_CALL, bytes);
+  ISO_C_REQUIRE(ISO_C_CALL, size);
+  *bytes = nullptr;
+  *size = 0;
+  if (kind > ISO_RECORD_WORLD) return refuse(ISO_BAD_ENUM, ISO_C_CALL, "kind");
+  return in_session(session, ISO_C_CALL, [&, call = ISO_C_CALL](SessionObject& one) -> iso_status {
+    FrameRecording* const recording = one.observer.recordings[kind].get();
+    if (recording == nullptr) return refuse(ISO_REFUSED, call, "kind", "one that iso_session_record began");
+    if (const isostep::Result<void> result = recording->flush(); !result) {
+      return refuse(ISO_REFUSED, call, result.error());
+    }
+    const isostep::Bytes news = recording->show_news();
+    *bytes = news.data();
+    *size = news.size();
     return ISO_OK;
   });
 }
@@ -67,6 +93,7 @@ iso_status iso_session_recorded(iso_session* session, iso_recording kind, void* 
 iso_status iso_session_save_match(iso_session* session, void* bytes, size_t* size) {
   ISO_C_REQUIRE(ISO_C_CALL, size);
   return in_session(session, ISO_C_CALL, [&, call = ISO_C_CALL](SessionObject& one) -> iso_status {
+    if (const iso_status status = require_no_turn(one, call); status != ISO_OK) return status;
     if (!one.game.has_portable()) return refuse(ISO_REFUSED, call, "", "a game with write and read");
     std::vector<std::uint8_t> match;
     if (const isostep::Result<void> result = one.session.save_match(one.game, match); !result) {

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "session_world.hpp"
 
+#include <optional>
+#include <utility>
+
 #include "isostep/state/replay_format.hpp"
 #include "isostep/world/session_recorder.hpp"
 #include "isostep/world/state.hpp"
@@ -14,29 +17,35 @@ namespace {
 template <class S> class WorldRecording final : public FrameRecording {
  public:
   WorldRecording(World<S>& world, std::size_t kept, std::string_view scene)
-      : history_(world, {.frames = kept, .states = false}), recorder_(history_, sink_to(file_), scene) {}
+      : history_(std::in_place, world, HistorySettings{.frames = kept, .states = false}),
+        recorder_(*history_, sink_to(file_), scene) {}
 
   void before_step(Frame frame) override {
-    history_.before_step(frame);
+    history_->before_step(frame);
     recorder_.before_step(frame);
   }
-  void after_step(Frame frame) override { history_.after_step(frame); }
+  void after_step(Frame frame) override { history_->after_step(frame); }
   void rolled_back(Frame frame) override {
-    history_.rolled_back(frame);
+    history_->rolled_back(frame);
     recorder_.rolled_back(frame);
   }
   void restarted(Frame frame) override {
-    history_.restarted(frame);
+    history_->restarted(frame);
     recorder_.restarted(frame);
   }
   void confirmed(Frame frame, std::uint64_t hash) override {
-    history_.confirmed(frame, hash);
+    history_->confirmed(frame, hash);
     recorder_.confirmed(frame, hash);
   }
-  Result<void> finish() override { return recorder_.finish(); }
+  Result<void> flush() override { return recorder_.flush(); }
+  Result<void> finish() override {
+    const Result<void> finished = recorder_.finish();
+    history_.reset();  // which listens to the world in the middle of a step too
+    return finished;
+  }
 
  private:
-  FrameHistory<S> history_;
+  std::optional<FrameHistory<S>> history_;  // until the end
   SessionRecorder<S> recorder_;
 };
 

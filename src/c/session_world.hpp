@@ -23,11 +23,22 @@ class FrameRecording {
   virtual void rolled_back(Frame) = 0;
   virtual void restarted(Frame) = 0;
   virtual void confirmed(Frame, std::uint64_t hash) = 0;
+  /// All final frames so far are in the file.
+  virtual Result<void> flush() = 0;
   virtual Result<void> finish() = 0;
   const std::vector<std::uint8_t>& file() const { return file_; }
+  /// Of the file what was not shown before.
+  Bytes show_news() {
+    const Bytes news = Bytes(file_).subspan(shown_);
+    shown_ = file_.size();
+    return news;
+  }
 
  protected:
   std::vector<std::uint8_t> file_;
+
+ private:
+  std::size_t shown_ = 0;  // [bytes]
 };
 
 class SessionWorld {

@@ -14,6 +14,7 @@ template <class S> class WriterOf final : public TapeWriter {
   Result<void> begin(std::string_view scene) { return recorder_.begin(scene); }
   Result<void> end_frame() override { return recorder_.end_frame(); }
   Result<void> keyframe() override { return recorder_.keyframe(); }
+  Result<void> flush() override { return recorder_.flush(); }
   Result<void> finish() override { return recorder_.finish(); }
 
  private:
@@ -76,6 +77,9 @@ iso_status iso_tape_end_frame(iso_tape* tape) {
 }
 iso_status iso_tape_keyframe(iso_tape* tape) {
   return on_tape(tape, "tape_keyframe", [](TapeObject& of) { return of.writer->keyframe(); });
+}
+iso_status iso_tape_flush(iso_tape* tape) {
+  return on_tape(tape, "tape_flush", [](TapeObject& of) { return of.writer->flush(); });
 }
 iso_status iso_tape_finish(iso_tape* tape) {
   return on_tape(tape, "tape_finish", [](TapeObject& of) {

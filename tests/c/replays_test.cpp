@@ -116,6 +116,31 @@ TEST(CReplays, ATapeIsWrittenAsItGrows) {
   EXPECT_STREQ(result.lanes, "scalar");
 }
 
+TEST(CReplays, WhatIsFlushedIsThereAfterACrash) {
+  Q32Game game;
+  iso_tape* tape = nullptr;
+  ASSERT_EQ(iso_tape_create(&tape), ISO_OK);
+  EXPECT_EQ(iso_tape_flush(tape), ISO_FAULT_BAD_ARGUMENT) << "it records nothing yet";
+  EXPECT_EQ(iso_tape_flush(nullptr), ISO_NULL);
+  ASSERT_EQ(iso_world_record(game.world, tape, "crash"), ISO_OK);
+  for (std::uint64_t frames = 1; frames <= 130; ++frames) {
+    game.step(1);
+    ASSERT_EQ(iso_tape_end_frame(tape), ISO_OK);
+    if (frames % 13 == 0) ASSERT_EQ(iso_tape_flush(tape), ISO_OK);
+    const void* bytes = nullptr;
+    std::size_t size = 0;
+    ASSERT_EQ(iso_tape_bytes(tape, &bytes, &size), ISO_OK);
+    std::vector<std::uint8_t> file(static_cast<const std::uint8_t*>(bytes), static_cast<const std::uint8_t*>(bytes) + size);
+    file.resize((size / 4096 + 1) * 4096);  // the page's rest, as a power failure leaves it
+    iso_replay_info info;
+    iso_replay_info_init(&info);
+    ASSERT_EQ(iso_replay_about(file.data(), file.size(), &info), ISO_OK);
+    EXPECT_EQ(info.file, std::uint32_t{ISO_VERIFY_OUTCOME_TRUNCATED});
+    EXPECT_EQ(info.frames, frames / 13 * 13);
+  }
+  ASSERT_EQ(iso_tape_destroy(tape), ISO_OK);
+}
+
 TEST(CReplays, TracesTellEveryStage) {
   Q32Game game;
   ASSERT_EQ(iso_world_trace(game.world, 1), ISO_OK);

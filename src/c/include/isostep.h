@@ -2529,6 +2529,8 @@ ISO_API iso_status iso_world_record(iso_world* world, iso_tape* tape, const char
 ISO_API iso_status iso_tape_end_frame(iso_tape* tape);
 /* The whole state, for seeking; after iso_tape_end_frame, before the next command. */
 ISO_API iso_status iso_tape_keyframe(iso_tape* tape);
+/* All frames so far are in its bytes, where a crash costs none of them; a second's are without it. */
+ISO_API iso_status iso_tape_flush(iso_tape* tape);
 ISO_API iso_status iso_tape_finish(iso_tape* tape);
 /* What there is of the file, until the next call with the tape. */
 ISO_API iso_status iso_tape_bytes(const iso_tape* tape, const void** bytes, size_t* size);
@@ -2737,7 +2739,7 @@ typedef struct iso_session iso_session;
 
 enum {
   ISO_REFUSED = -11, /* not now, not yours or not sound: iso_last_error() says more */
-  ISO_UNFINISHED = -12 /* between iso_session_advance and the last request of iso_session_next */
+  ISO_UNFINISHED = -12 /* not between iso_session_advance and the last request of iso_session_next */
 };
 
 enum {
@@ -2915,7 +2917,8 @@ typedef struct iso_request {
 } iso_request;
 ISO_API iso_status iso_request_init_sized(iso_request* out, size_t size);
 
-/* Begins the turn. */
+/* Begins the turn. One that was left in its middle, as by an exception of the game's step, is over: ISO_EVENT_MISUSE
+   tells, and what was missed is stepped again from the newest final state. */
 ISO_API iso_status iso_session_advance(iso_session* session, uint64_t now);
 /* The next request; saves, loads and all else is done by itself in between. */
 ISO_API iso_status iso_session_next(iso_session* session, iso_request* out);
@@ -3133,6 +3136,10 @@ enum {
 };
 /* `scene`: of ISO_RECORD_WORLD the name in the file, 1 to 128 characters; null: config.name. */
 ISO_API iso_status iso_session_record(iso_session* session, iso_recording kind, const char* scene);
+/* All final frames so far, and the bytes of the file that are new since the last such call, until the session's next
+   call: for who appends them to a file, so that a crash costs nothing of them. */
+ISO_API iso_status iso_session_flush_recording(iso_session* session, iso_recording kind, const void** bytes,
+                                               size_t* size);
 /* Ends it with the last confirmed frame; the file. Asked with too little room it stays for the next call. It has ended
    before where the session restarted from another state. */
 ISO_API iso_status iso_session_recorded(iso_session* session, iso_recording kind, void* bytes, size_t* size);

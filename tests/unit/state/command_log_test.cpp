@@ -199,4 +199,22 @@ TEST(CommandRecorder, EndsWhereTheWorldWasLoadedOrSteppedTooOften) {
   EXPECT_FALSE(of_silent.end_frame().ok());
 }
 
+TEST(CommandRecorder, ACrashCostsWhatTheSettingSaysAndNothingThatWasFlushed) {
+  for (const std::uint32_t block_frames : {0u, 1u, 9u}) {
+    ToyWorld world;
+    Buffer file;
+    CommandRecorder<ToyWorld> recorder(world, sink_to(file), block_frames);
+    ASSERT_TRUE(recorder.begin("a toy").ok());
+    const std::uint32_t most = block_frames != 0 ? block_frames : world.settings().hz;
+    for (std::uint32_t frame = 1; frame <= 100; ++frame) {
+      world.apply(Push{frame, Q32_32(0.5)});
+      world.step();
+      ASSERT_TRUE(recorder.end_frame().ok());
+      ASSERT_EQ(ReplayReader(file).frame_count(), frame / most * most);
+    }
+    ASSERT_TRUE(recorder.flush().ok());
+    EXPECT_EQ(ReplayReader(file).frame_count(), 100u);
+  }
+}
+
 }  // namespace

@@ -364,7 +364,7 @@ namespace Isostep
         CalledBack = -10,
         /// <summary>Not now, not yours or not sound: iso_last_error() says more</summary>
         Refused = -11,
-        /// <summary>Between iso_session_advance and the last request of iso_session_next</summary>
+        /// <summary>Not between iso_session_advance and the last request of iso_session_next</summary>
         Unfinished = -12,
         FaultStaleId = 1,
         FaultNotFinite = 2,

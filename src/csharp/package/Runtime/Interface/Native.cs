@@ -438,6 +438,11 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_tape_keyframe(IntPtr tape);
 
+        /// <summary>All frames so far are in its bytes, where a crash costs none of them; a second's are without
+        /// it.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_tape_flush(IntPtr tape);
+
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_tape_finish(IntPtr tape);
 
@@ -517,7 +522,8 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_request_init_sized(SessionRequest* @out, UIntPtr size);
 
-        /// <summary>Begins the turn.</summary>
+        /// <summary>Begins the turn. One that was left in its middle, as by an exception of the game's step, is over:
+        /// ISO_EVENT_MISUSE tells, and what was missed is stepped again from the newest final state.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_advance(IntPtr session, ulong now);
 
@@ -682,6 +688,12 @@ namespace Isostep
         /// config.name.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_record(IntPtr session, RecordingKind kind, byte* scene);
+
+        /// <summary>All final frames so far, and the bytes of the file that are new since the last such call, until
+        /// the session's next call: for who appends them to a file, so that a crash costs nothing of them.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_session_flush_recording(IntPtr session, RecordingKind kind, void** bytes,
+            UIntPtr* size);
 
         /// <summary>Ends it with the last confirmed frame; the file. Asked with too little room it stays for the next
         /// call. It has ended before where the session restarted from another state.</summary>

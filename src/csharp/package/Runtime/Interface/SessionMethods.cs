@@ -6,7 +6,8 @@ namespace Isostep
 {
     public unsafe partial class Session
     {
-        /// <summary>Begins the turn.</summary>
+        /// <summary>Begins the turn. One that was left in its middle, as by an exception of the game's step, is over:
+        /// ISO_EVENT_MISUSE tells, and what was missed is stepped again from the newest final state.</summary>
         public void Advance(ulong now)
         {
             Check(Native.iso_session_advance(Pointer, now));
@@ -190,6 +191,16 @@ namespace Isostep
         {
             fixed (byte* sceneAt = NativeText.Bytes(scene))
                 Check(Native.iso_session_record(Pointer, kind, sceneAt));
+        }
+
+        /// <summary>All final frames so far, and the bytes of the file that are new since the last such call, until
+        /// the session's next call: for who appends them to a file, so that a crash costs nothing of them.</summary>
+        public byte[] FlushRecording(RecordingKind kind)
+        {
+            void* bytes;
+            UIntPtr size;
+            Check(Native.iso_session_flush_recording(Pointer, kind, &bytes, &size));
+            return NativeText.Copy(bytes, size);
         }
 
         /// <summary>Ends it with the last confirmed frame; the file. Asked with too little room it stays for the next

@@ -18,6 +18,13 @@ namespace Isostep
             Check(Native.iso_tape_keyframe(Pointer));
         }
 
+        /// <summary>All frames so far are in its bytes, where a crash costs none of them; a second's are without
+        /// it.</summary>
+        public void Flush()
+        {
+            Check(Native.iso_tape_flush(Pointer));
+        }
+
         public void Finish()
         {
             Check(Native.iso_tape_finish(Pointer));
