@@ -6,8 +6,9 @@ what the call returns, several as a tuple. A status that is no success becomes a
 
 # SPDX-License-Identifier: MIT
 import ctypes
+import operator
 
-from .errors import error_of
+from .errors import Closed, error_of
 
 try:
     import numpy
@@ -19,11 +20,12 @@ PLAIN = {"size_t": ctypes.c_size_t, "float": ctypes.c_float, "double": ctypes.c_
           "uint32_t": ctypes.c_uint32, "int32_t": ctypes.c_int32, "uint64_t": ctypes.c_uint64,
           "int64_t": ctypes.c_int64, "iso_status": ctypes.c_int32, "iso_body": ctypes.c_uint64,
           "iso_shape": ctypes.c_uint64, "iso_joint": ctypes.c_uint64, "iso_record": ctypes.c_uint64}
-SMALL_BUFFER = -4
+SMALL_BUFFER, NOT_ALIVE = -4, -9
 
 
 class Handle:
-    """An object of the library. Closed by `close`, by `with`, or when nobody has it any more."""
+    """An object of the library. Closed by `close`, by `with`, or when nobody has it any more. Once closed it raises
+    Closed, whatever it is asked but `is_open` and `close`."""
 
     _kind = ""  # "world": destroyed by iso_world_destroy
 
@@ -46,8 +48,14 @@ class Handle:
     def is_open(self):
         return self._address != 0
 
+    def _open(self):
+        """Its address."""
+        if not self._address:
+            raise Closed(NOT_ALIVE, f"the {self._kind} was closed")
+        return self._address
+
     def close(self):
-        """Destroys it; views of its arrays end with it. Closing again does nothing."""
+        """Destroys it; arrays that it gave stay. Closing again does nothing."""
         if self._address:
             status = self._destroy()
             if status:
@@ -69,15 +77,14 @@ class Handle:
         return self._library.raw(f"iso_{self._kind}_destroy")(ctypes.c_void_p(self._address))
 
 
-def view(c_type, address, count, dtype, owner):
-    """`count` elements in somebody else's memory: a read-only numpy array or, without numpy, ctypes' own."""
-    array = (c_type * count).from_address(address) if count else (c_type * 0)()
-    array._owner = owner  # lives as long as the view
+def copied(c_type, address, count, dtype):
+    """`count` elements in the library's memory as they are now: a read-only numpy array or, without numpy, ctypes'
+    own. What lies there goes with its owner, or is moved by the next call; a copy costs less than the call."""
+    size = count * ctypes.sizeof(c_type)
+    data = ctypes.string_at(address, size) if size else b""
     if numpy is None:
-        return array
-    seen = numpy.frombuffer(array, dtype=dtype) if count else numpy.zeros(0, dtype=dtype)
-    seen.flags.writeable = False
-    return seen
+        return (c_type * count).from_buffer_copy(data)
+    return numpy.frombuffer(data, dtype=dtype) if size else numpy.zeros(0, dtype=dtype)
 
 
 def owned(array, count, dtype):
@@ -99,8 +106,8 @@ class _Declared:
 class _Run:
     """One execution: `room` for what is handed out in unknown amounts, `need` as the function tells it."""
 
-    def __init__(self, owner, room):
-        self.owner, self.room, self.need = owner, room, None
+    def __init__(self, room):
+        self.room, self.need = room, None
 
 
 class Call:
@@ -127,7 +134,7 @@ class Call:
     def __call__(self, *values):
         if len(values) != len(self.takes):
             raise TypeError(f"{self.name} takes {', '.join(self.takes)}")
-        run = _Run(values[0] if values else None, self.room)
+        run = _Run(self.room)
         while True:
             arguments, readers, given = [], [], iter(values)
             for takes, step in self.steps:
@@ -229,7 +236,7 @@ class Call:
         low = -(1 << bits - 1) if one.base.startswith("int") else 0
 
         def whole(value):
-            value = value.__index__()
+            value = operator.index(value)
             if not low <= value < low + (1 << bits):
                 raise ValueError(f"{self.name}: {name} does not hold {value}")
             return (value,)
@@ -292,7 +299,7 @@ class Call:
         def step(run):
             address, count = ctypes.c_void_p(), ctypes.c_size_t()
             return ((ctypes.byref(address), ctypes.byref(count)),
-                    lambda: view(element, address.value, count.value, self._dtype(element), run.owner))
+                    lambda: copied(element, address.value, count.value, self._dtype(element)))
 
         return step
 
@@ -325,11 +332,11 @@ class Call:
 
 
 def _handle(value):
-    return (None if value is None else value._address,)
+    return (None if value is None else value._open(),)
 
 
 def _handles(values):
-    return (ctypes.c_void_p * len(values))(*[one._address for one in values]), len(values)
+    return (ctypes.c_void_p * len(values))(*[one._open() for one in values]), len(values)
 
 
 def _bytes(value):

@@ -4,6 +4,7 @@
 import os
 
 from .calls import Handle
+from .errors import Error
 
 _library = None
 
@@ -54,12 +55,21 @@ class Replay(Handle):
     """A recording, by its path or its bytes. `for frame in replay` plays it from the start."""
 
     _kind = "replay"
-    SPACING = 60  # [frames] between states that `at` keeps
+    SPACING = 60  # [frames] between states that `at` keeps, at first
+    STATES, BYTES = 128, 256 << 20  # that it keeps at most, the start included, and what they may take
 
     def __init__(self, source):
         self._source = source
         self._take(_library.call("iso_replay_open")(_bytes_of(source)))
-        self._player, self._position, self._kept = None, 0, []
+        self._player, self._position, self._kept, self._spacing = None, 0, [], self.SPACING
+
+    def close(self):
+        """With the world of `at`, which is its own."""
+        super().close()
+        for one in [self._player, *self._kept]:
+            if one is not None:
+                one.close()
+        self._player, self._kept = None, []
 
     @property
     def info(self):
@@ -85,24 +95,41 @@ class Replay(Handle):
                 yield Frame(world, number, recorded)
 
     def at(self, frames):
-        """The replay's own world after so many frames; 0 is the start. Going back costs at most SPACING frames."""
+        """The replay's own world after so many frames; 0 is the start. Going back costs at most SPACING frames at first.
+        When there is room for no more states every other one goes, and the spacing doubles."""
         if not 0 <= frames <= len(self):
             raise IndexError(f"the replay has {len(self)} frames, {frames} were asked for")
-        if self._player is None:
-            self._player = self.start()
-            self._kept = [self._player.save()]
-        if frames < self._position or frames // self.SPACING > self._position // self.SPACING:
-            key = min(frames // self.SPACING, len(self._kept) - 1)
-            if key * self.SPACING > self._position or frames < self._position:
-                self._player.load(self._kept[key])
-                self._position = key * self.SPACING
+        if self._player is None or not self._player.is_open:
+            self._player, self._position = self.start(), 0
+            self._kept = self._kept or [self._player.save()]
+        key = min(frames // self._spacing, len(self._kept) - 1)
+        if frames < self._position or key * self._spacing > self._position:
+            self._go_to(key)
         while self._position < frames:
-            self._player.call("apply", self.frame(self._position)[0])
+            try:
+                self._player.call("apply", self.frame(self._position)[0])
+            except Error:  # commands before the bad one were applied
+                self._go_to(min(self._position // self._spacing, len(self._kept) - 1))
+                raise
             self._position += 1
-            if self._position == len(self._kept) * self.SPACING:
+            if self._position == len(self._kept) * self._spacing:
                 self._kept.append(self._player.save())
+                self._thin()
         return self._player
+
+    def _go_to(self, key):
+        self._player.load(self._kept[key])
+        self._position = key * self._spacing
+
+    def _thin(self):
+        while len(self._kept) > 1 and (len(self._kept) > self.STATES or
+                                       sum(state.size for state in self._kept) > self.BYTES):
+            for state in self._kept[1::2]:
+                state.close()
+            self._kept = self._kept[::2]
+            self._spacing *= 2
 
     def verify(self, **options):
         """The file, by `verify`."""
+        self._open()
         return verify(self._source, **options)

@@ -52,7 +52,7 @@ class Game:
     def _in_c(self):
         made = _library.new("game")
         if self.world is not None:
-            made.set(world=self.world._address)
+            made.set(world=self.world._open())
         if self._block is not None:
             made.set(block=ctypes.addressof(self._block), block_size=len(self._block))
         return made
@@ -80,14 +80,20 @@ class Session(Handle):
         if status:
             raise _library.error(status, None)
         Handle.__init__(self, _library, address.value)
-        self.game = game  # lives as long as the session
+        self._game = game  # lives as long as the session
+
+    @property
+    def game(self):
+        self._open()
+        return self._game
 
     def close(self):
         super().close()
-        self.game = None
+        self._game = None
 
     def call(self, name, *values):
         """iso_session_NAME of isostep.h, with this session first."""
+        self._open()
         return _library.call(f"iso_session_{name}")(self, *values)
 
     def add_input(self, player, data):
@@ -95,7 +101,9 @@ class Session(Handle):
         self.call("add_local_input", player, data)
 
     def drive(self, now):
-        """A turn at the time `now` [us]: steps the game as often as it is due; the number of steps."""
+        """A turn at the time `now` [us]: steps the game as often as it is due; the number of steps. What the game raises
+        ends the turn. The next one tells "misuse", steps again what was missed, from the newest final state, and the
+        match goes on."""
         self.call("advance", now)
         steps = 0
         while True:
@@ -137,6 +145,11 @@ class Session(Handle):
                 return
             yield out.peer, out.channel, ctypes.string_at(address, out.length) if out.length else b"", bool(out.close)
 
+    def flush_recording(self, kind):
+        """What is new of the file of a recording, "match" or "world", with all final frames so far: appended to a file it
+        survives a crash. `call("record", kind, None)` begins one and `call("recorded", kind)` ends it: the whole."""
+        return self.call("flush_recording", kind)
+
     @property
     def confirmed(self):
         """States up to this frame are final; -1: none."""
@@ -166,6 +179,7 @@ class Network(Handle):
 
     def call(self, name, *values):
         """iso_network_NAME of isostep.h, with this network first."""
+        self._open()
         return _library.call(f"iso_network_{name}")(self, *values)
 
     def add_client(self, profile="wifi"):

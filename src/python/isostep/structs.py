@@ -7,7 +7,9 @@ have the numbers' bits, so that nothing is rounded by who only looks.
 
 # SPDX-License-Identifier: MIT
 import ctypes
+import functools
 import math
+import operator
 
 _C_TYPES = {"float": ctypes.c_float, "double": ctypes.c_double, "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64,
             "u8": ctypes.c_uint8, "u16": ctypes.c_uint16, "u32": ctypes.c_uint32, "u64": ctypes.c_uint64,
@@ -19,6 +21,14 @@ _POINTEES = {"iso_body": ctypes.c_uint64, "uint32_t": ctypes.c_uint32, "int16_t"
              "uint8_t": ctypes.c_uint8, "double": ctypes.c_double}
 _NARROW = ctypes.sizeof(ctypes.c_void_p) == 4  # a struct with words has another layout then
 _NUMPY_TYPES = {ctypes.c_float: "<f4", ctypes.c_double: "<f8", ctypes.c_char: "S1"}
+
+
+def whole(value):
+    """An integer of any type, numpy's too, as int; None of what is none."""
+    try:
+        return operator.index(value)
+    except TypeError:
+        return None
 
 
 class Raw:
@@ -70,14 +80,19 @@ class Enumeration:
         self.by_value = {number: name for name, number in self.by_name.items()}
 
     def number(self, value):
-        """Of a name, of a number, and of several names of flags."""
-        if isinstance(value, int):
-            return value
+        """Of a name, of a number of any integer type, and of several of them where they are flags."""
         if isinstance(value, str):
             if value not in self.by_name:
                 raise ValueError(f"no {self.name} '{value}': {', '.join(self.by_name)}")
             return self.by_name[value]
-        return sum({self.number(one) for one in value})
+        number = whole(value)
+        if number is not None:
+            if not 0 <= number < 1 << 32:
+                raise ValueError(f"no {self.name} {number}: {', '.join(self.by_name)}")
+            return number
+        if not self.flags or not hasattr(value, "__iter__"):
+            raise ValueError(f"no {self.name} {value!r}: {', '.join(self.by_name)}")
+        return functools.reduce(operator.or_, map(self.number, value), 0)
 
     def text(self, number):
         return self.by_value.get(number, number)
@@ -179,7 +194,7 @@ class _Member:
             return
         if self.kind == "struct":
             self._raw(value, struct.raw(self.name))
-        elif self.kind == "pointer" and not isinstance(value, int):
+        elif self.kind == "pointer" and whole(value) is None:
             self._point_at(struct, value)
         else:
             super(Struct, struct).__setattr__("_" + self.name, self._raw(value, None))
@@ -207,11 +222,13 @@ class _Member:
             return self.enumeration.number(value)
         if self.kind == "struct":
             return fill(place, value)
-        low = -(1 << (8 * ctypes.sizeof(self.c_type) - 1)) if self.kind.startswith("i") and self.kind != "id" else 0
-        if self.c_type not in (ctypes.c_float, ctypes.c_double) and not low <= value < (
-                1 << 8 * ctypes.sizeof(self.c_type)) + low:
-            raise ValueError(f"{self.name} does not hold {value}")
-        return value
+        if self.c_type in (ctypes.c_float, ctypes.c_double):
+            return value
+        bits, number = 8 * ctypes.sizeof(self.c_type), whole(value)
+        low = -(1 << bits - 1) if self.kind.startswith("i") and self.kind != "id" else 0
+        if number is None or not low <= number < low + (1 << bits):
+            raise ValueError(f"{self.name} does not hold {value!r}")
+        return number
 
 
 def fill(struct, values):

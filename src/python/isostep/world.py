@@ -4,7 +4,6 @@
 import ctypes
 
 from .calls import Handle, numpy, owned
-from .errors import Closed
 
 _library = None  # set by the package, once it is loaded
 
@@ -68,6 +67,10 @@ class Tape(Handle):
     def end_frame(self):
         _library.call("iso_tape_end_frame")(self)
 
+    def flush(self):
+        """All frames so far are in `bytes`: written to disk, a crash costs none of them. Else it costs a second."""
+        _library.call("iso_tape_flush")(self)
+
     def keyframe(self):
         _library.call("iso_tape_keyframe")(self)
 
@@ -83,7 +86,7 @@ class Tape(Handle):
 
 
 class Events:
-    """What the last step told of, each an array of the world's memory that holds until the next call that changes it."""
+    """What the last step told of, each an array of Python's own."""
 
     NAMES = ("contact_begins", "contact_ends", "contact_points", "contact_hits", "sensor_begins", "sensor_ends",
              "broke_events", "joint_broke_events", "fell_asleep", "woke")
@@ -114,6 +117,7 @@ class World(Handle):
     @property
     def scalar(self):
         """ "f32", "f64", "q16" or "q32"."""
+        self._open()
         if not hasattr(self, "_prefix"):
             self._prefix = _library.call("iso_world_get_scalar")(self)
         return self._prefix
@@ -143,8 +147,6 @@ class World(Handle):
     @property
     def hash(self):
         """Of the whole state; the same on every machine."""
-        if not self.is_open:
-            raise Closed(-9, "the world was closed")
         return self.call("hash")
 
     @property
@@ -248,7 +250,7 @@ class World(Handle):
         one = element()
         one.set(size=ctypes.sizeof(element))
         array = (element * len(ids)).from_buffer(bytearray(bytes(one) * len(ids)))
-        status = _library.call(f"iso_{self.scalar}_bodies_get_states").function(self._address, given, len(ids), array)
+        status = _library.call(f"iso_{self.scalar}_bodies_get_states").function(self._open(), given, len(ids), array)
         if status:
             raise _library.error(status, self)
         return owned(array, len(ids), _library.interface.dtype(element) if numpy is not None else None)
@@ -258,16 +260,17 @@ class World(Handle):
         quaternions. float and double are not copied."""
         from numpy.lib.recfunctions import structured_to_unstructured
 
+        family = self.family
         raw = structured_to_unstructured(values) if values.dtype.names else values
-        return self.family.to_float(raw, "unit" if unit else "number")
+        return family.to_float(raw, "unit" if unit else "number")
 
     def poses(self, alpha=1.0):
-        """For drawing: body, position [m] and orientation of all moving bodies between the last two steps, in float, as
-        an array of the world's memory that holds until the next call that changes the world."""
+        """For drawing: body, position [m] and orientation of all moving bodies between the last two steps, in float."""
         return self.call("poses", alpha)
 
     @property
     def events(self):
+        self._open()
         return Events(self)
 
     def set_pose(self, body, position, orientation=(0, 0, 0, 1)):
