@@ -17,6 +17,9 @@ internal static class WorldTest
         Each("layout", Layout.Check);
         Each("what is wrong is said", HelloF32.WhatIsWrongIsSaid, HelloF64.WhatIsWrongIsSaid,
             HelloFixed16.WhatIsWrongIsSaid, HelloFixed32.WhatIsWrongIsSaid);
+        Each("an exception in a step is made good", HelloF32.AnExceptionInAStepIsMadeGood,
+            HelloF64.AnExceptionInAStepIsMadeGood, HelloFixed16.AnExceptionInAStepIsMadeGood,
+            HelloFixed32.AnExceptionInAStepIsMadeGood);
         Each("records come and go", HelloF32.RecordsComeAndGo, HelloF64.RecordsComeAndGo, HelloFixed16.RecordsComeAndGo,
             HelloFixed32.RecordsComeAndGo);
         Each("a recording is proved", HelloF32.ARecordingIsProved, HelloF64.ARecordingIsProved,

@@ -304,7 +304,7 @@ class Method {
   std::string view_text(const std::string& call) {
     const std::string indent = kIndent, name = method_name(function_, handle_), view = viewed_ + "View";
     const std::string body =
-        before_ + check(call, indent + "    ") + indent + "    return new " + view + "(first, (int)count);\n";
+        before_ + check(call, indent + "    ") + indent + "    return new " + view + "(this, first, (int)count);\n";
     if (!parameters_.empty()) {
       return indent + "public " + view + " " + name + "(" + parameters_ + ")\n" + indent + "{\n" + body + indent +
              "}\n";

@@ -35,23 +35,27 @@ const std::set<std::string>& by_hand() {
   return names;
 }
 std::string view_class(const std::string& of) {
-  return "    /// <summary>What the library holds: valid until the next call that changes its owner.</summary>\n"
+  return "    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is\n"
+         "    /// disposed an exception.</summary>\n"
          "    public unsafe struct " +
-         of + "View\n    {\n        private readonly " + of +
+         of + "View\n    {\n        private readonly Handle owner;\n        private readonly " + of +
          "* first;\n"
          "        public readonly int Count;\n\n"
          "        internal " +
-         of + "View(" + of +
-         "* first, int count)\n        {\n            this.first = first;\n"
+         of + "View(Handle owner, " + of +
+         "* first, int count)\n        {\n            this.owner = owner;\n            this.first = first;\n"
          "            Count = count;\n        }\n\n"
          "        public ref " +
          of +
          " this[int index]\n        {\n            get\n            {\n"
          "                if ((uint)index >= (uint)Count) throw new ArgumentOutOfRangeException(\"index\");\n"
-         "                return ref first[index];\n            }\n        }\n\n"
+         "                return ref Pointer[index];\n            }\n        }\n\n"
          "        /// <summary>The first of Count, for unsafe code.</summary>\n"
          "        public " +
-         of + "* Pointer { get { return first; } }\n    }\n";
+         of +
+         "* Pointer\n        {\n            get\n            {\n"
+         "                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);\n"
+         "                return first;\n            }\n        }\n    }\n";
 }
 
 /// A file of a partial class, or of several.

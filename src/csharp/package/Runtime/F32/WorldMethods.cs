@@ -288,7 +288,7 @@ namespace Isostep.F32
                 ContactBegin* first;
                 UIntPtr count;
                 Check(Native.iso_f32_contact_begins(Pointer, &first, &count));
-                return new ContactBeginView(first, (int)count);
+                return new ContactBeginView(this, first, (int)count);
             }
         }
 
@@ -300,7 +300,7 @@ namespace Isostep.F32
                 Broke* first;
                 UIntPtr count;
                 Check(Native.iso_f32_broke_events(Pointer, &first, &count));
-                return new BrokeView(first, (int)count);
+                return new BrokeView(this, first, (int)count);
             }
         }
 
@@ -311,7 +311,7 @@ namespace Isostep.F32
                 JointBroke* first;
                 UIntPtr count;
                 Check(Native.iso_f32_joint_broke_events(Pointer, &first, &count));
-                return new JointBrokeView(first, (int)count);
+                return new JointBrokeView(this, first, (int)count);
             }
         }
 
@@ -323,7 +323,7 @@ namespace Isostep.F32
                 ContactHit* first;
                 UIntPtr count;
                 Check(Native.iso_f32_contact_hits(Pointer, &first, &count));
-                return new ContactHitView(first, (int)count);
+                return new ContactHitView(this, first, (int)count);
             }
         }
 
@@ -335,7 +335,7 @@ namespace Isostep.F32
                 ContactPoint* first;
                 UIntPtr count;
                 Check(Native.iso_f32_contact_points(Pointer, &first, &count));
-                return new ContactPointView(first, (int)count);
+                return new ContactPointView(this, first, (int)count);
             }
         }
 

@@ -288,7 +288,7 @@ namespace Isostep.F64
                 ContactBegin* first;
                 UIntPtr count;
                 Check(Native.iso_f64_contact_begins(Pointer, &first, &count));
-                return new ContactBeginView(first, (int)count);
+                return new ContactBeginView(this, first, (int)count);
             }
         }
 
@@ -300,7 +300,7 @@ namespace Isostep.F64
                 Broke* first;
                 UIntPtr count;
                 Check(Native.iso_f64_broke_events(Pointer, &first, &count));
-                return new BrokeView(first, (int)count);
+                return new BrokeView(this, first, (int)count);
             }
         }
 
@@ -311,7 +311,7 @@ namespace Isostep.F64
                 JointBroke* first;
                 UIntPtr count;
                 Check(Native.iso_f64_joint_broke_events(Pointer, &first, &count));
-                return new JointBrokeView(first, (int)count);
+                return new JointBrokeView(this, first, (int)count);
             }
         }
 
@@ -323,7 +323,7 @@ namespace Isostep.F64
                 ContactHit* first;
                 UIntPtr count;
                 Check(Native.iso_f64_contact_hits(Pointer, &first, &count));
-                return new ContactHitView(first, (int)count);
+                return new ContactHitView(this, first, (int)count);
             }
         }
 
@@ -335,7 +335,7 @@ namespace Isostep.F64
                 ContactPoint* first;
                 UIntPtr count;
                 Check(Native.iso_f64_contact_points(Pointer, &first, &count));
-                return new ContactPointView(first, (int)count);
+                return new ContactPointView(this, first, (int)count);
             }
         }
 

@@ -4,14 +4,17 @@ using System;
 
 namespace Isostep.Fixed16
 {
-    /// <summary>What the library holds: valid until the next call that changes its owner.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
+    /// disposed an exception.</summary>
     public unsafe struct BrokeView
     {
+        private readonly Handle owner;
         private readonly Broke* first;
         public readonly int Count;
 
-        internal BrokeView(Broke* first, int count)
+        internal BrokeView(Handle owner, Broke* first, int count)
         {
+            this.owner = owner;
             this.first = first;
             Count = count;
         }
@@ -21,22 +24,32 @@ namespace Isostep.Fixed16
             get
             {
                 if ((uint)index >= (uint)Count) throw new ArgumentOutOfRangeException("index");
-                return ref first[index];
+                return ref Pointer[index];
             }
         }
 
         /// <summary>The first of Count, for unsafe code.</summary>
-        public Broke* Pointer { get { return first; } }
+        public Broke* Pointer
+        {
+            get
+            {
+                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                return first;
+            }
+        }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
+    /// disposed an exception.</summary>
     public unsafe struct ContactBeginView
     {
+        private readonly Handle owner;
         private readonly ContactBegin* first;
         public readonly int Count;
 
-        internal ContactBeginView(ContactBegin* first, int count)
+        internal ContactBeginView(Handle owner, ContactBegin* first, int count)
         {
+            this.owner = owner;
             this.first = first;
             Count = count;
         }
@@ -46,22 +59,32 @@ namespace Isostep.Fixed16
             get
             {
                 if ((uint)index >= (uint)Count) throw new ArgumentOutOfRangeException("index");
-                return ref first[index];
+                return ref Pointer[index];
             }
         }
 
         /// <summary>The first of Count, for unsafe code.</summary>
-        public ContactBegin* Pointer { get { return first; } }
+        public ContactBegin* Pointer
+        {
+            get
+            {
+                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                return first;
+            }
+        }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
+    /// disposed an exception.</summary>
     public unsafe struct ContactHitView
     {
+        private readonly Handle owner;
         private readonly ContactHit* first;
         public readonly int Count;
 
-        internal ContactHitView(ContactHit* first, int count)
+        internal ContactHitView(Handle owner, ContactHit* first, int count)
         {
+            this.owner = owner;
             this.first = first;
             Count = count;
         }
@@ -71,22 +94,32 @@ namespace Isostep.Fixed16
             get
             {
                 if ((uint)index >= (uint)Count) throw new ArgumentOutOfRangeException("index");
-                return ref first[index];
+                return ref Pointer[index];
             }
         }
 
         /// <summary>The first of Count, for unsafe code.</summary>
-        public ContactHit* Pointer { get { return first; } }
+        public ContactHit* Pointer
+        {
+            get
+            {
+                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                return first;
+            }
+        }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
+    /// disposed an exception.</summary>
     public unsafe struct ContactPointView
     {
+        private readonly Handle owner;
         private readonly ContactPoint* first;
         public readonly int Count;
 
-        internal ContactPointView(ContactPoint* first, int count)
+        internal ContactPointView(Handle owner, ContactPoint* first, int count)
         {
+            this.owner = owner;
             this.first = first;
             Count = count;
         }
@@ -96,22 +129,32 @@ namespace Isostep.Fixed16
             get
             {
                 if ((uint)index >= (uint)Count) throw new ArgumentOutOfRangeException("index");
-                return ref first[index];
+                return ref Pointer[index];
             }
         }
 
         /// <summary>The first of Count, for unsafe code.</summary>
-        public ContactPoint* Pointer { get { return first; } }
+        public ContactPoint* Pointer
+        {
+            get
+            {
+                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                return first;
+            }
+        }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
+    /// disposed an exception.</summary>
     public unsafe struct JointBrokeView
     {
+        private readonly Handle owner;
         private readonly JointBroke* first;
         public readonly int Count;
 
-        internal JointBrokeView(JointBroke* first, int count)
+        internal JointBrokeView(Handle owner, JointBroke* first, int count)
         {
+            this.owner = owner;
             this.first = first;
             Count = count;
         }
@@ -121,11 +164,18 @@ namespace Isostep.Fixed16
             get
             {
                 if ((uint)index >= (uint)Count) throw new ArgumentOutOfRangeException("index");
-                return ref first[index];
+                return ref Pointer[index];
             }
         }
 
         /// <summary>The first of Count, for unsafe code.</summary>
-        public JointBroke* Pointer { get { return first; } }
+        public JointBroke* Pointer
+        {
+            get
+            {
+                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                return first;
+            }
+        }
     }
 }

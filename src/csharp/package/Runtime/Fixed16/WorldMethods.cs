@@ -287,7 +287,7 @@ namespace Isostep.Fixed16
                 ContactBegin* first;
                 UIntPtr count;
                 Check(Native.iso_q16_contact_begins(Pointer, &first, &count));
-                return new ContactBeginView(first, (int)count);
+                return new ContactBeginView(this, first, (int)count);
             }
         }
 
@@ -299,7 +299,7 @@ namespace Isostep.Fixed16
                 Broke* first;
                 UIntPtr count;
                 Check(Native.iso_q16_broke_events(Pointer, &first, &count));
-                return new BrokeView(first, (int)count);
+                return new BrokeView(this, first, (int)count);
             }
         }
 
@@ -310,7 +310,7 @@ namespace Isostep.Fixed16
                 JointBroke* first;
                 UIntPtr count;
                 Check(Native.iso_q16_joint_broke_events(Pointer, &first, &count));
-                return new JointBrokeView(first, (int)count);
+                return new JointBrokeView(this, first, (int)count);
             }
         }
 
@@ -322,7 +322,7 @@ namespace Isostep.Fixed16
                 ContactHit* first;
                 UIntPtr count;
                 Check(Native.iso_q16_contact_hits(Pointer, &first, &count));
-                return new ContactHitView(first, (int)count);
+                return new ContactHitView(this, first, (int)count);
             }
         }
 
@@ -334,7 +334,7 @@ namespace Isostep.Fixed16
                 ContactPoint* first;
                 UIntPtr count;
                 Check(Native.iso_q16_contact_points(Pointer, &first, &count));
-                return new ContactPointView(first, (int)count);
+                return new ContactPointView(this, first, (int)count);
             }
         }
 

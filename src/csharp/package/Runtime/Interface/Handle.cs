@@ -8,18 +8,29 @@ namespace Isostep
     /// not disposed is a leak, never a crash.</summary>
     public abstract class Handle : IDisposable
     {
-        internal IntPtr Pointer;
+        private IntPtr pointer;
+
+        /// <summary>What every call is given; of what is disposed an exception, whatever is asked.</summary>
+        internal IntPtr Pointer
+        {
+            get
+            {
+                if (pointer == IntPtr.Zero) throw IsostepException.Disposed(GetType().Name);
+                return pointer;
+            }
+            set { pointer = value; }
+        }
 
         /// <summary>For Native. Zero once disposed; the library refuses that as ISO_NULL.</summary>
-        public IntPtr Address => Pointer;
+        public IntPtr Address => pointer;
 
-        public bool IsDisposed => Pointer == IntPtr.Zero;
+        public bool IsDisposed => pointer == IntPtr.Zero;
 
         public void Dispose()
         {
-            if (Pointer == IntPtr.Zero) return;
-            Destroy(Pointer);
-            Pointer = IntPtr.Zero;
+            if (pointer == IntPtr.Zero) return;
+            Destroy(pointer);
+            pointer = IntPtr.Zero;
         }
 
         /// <summary>One that the library refuses to end stays as it was.</summary>

@@ -40,6 +40,9 @@ namespace Isostep
             return new IsostepException(status, last, null, null, null);
         }
 
+        /// <summary>With the status that the library has for no object.</summary>
+        internal static IsostepException Disposed(string what) => Of(Status.Null, "the " + what + " was disposed");
+
         internal static unsafe IsostepException OfWorld(Status status, IntPtr world)
         {
             FaultReport report = FaultReport.Sized();

@@ -10,6 +10,8 @@ namespace Isostep
     public sealed unsafe class NativeBlock : IDisposable
     {
         private IntPtr memory;
+        private int sessions;  // that save and load it
+        private bool isDisposed;
 
         public readonly int Size;
 
@@ -18,10 +20,17 @@ namespace Isostep
             if (size <= 0) throw new ArgumentOutOfRangeException("size", "1 byte or more");
             memory = Marshal.AllocHGlobal(size);
             Size = size;
-            for (int i = 0; i < size; ++i) Pointer[i] = 0;
+            for (int i = 0; i < size; ++i) ((byte*)memory)[i] = 0;
         }
 
-        public byte* Pointer => (byte*)memory;
+        public byte* Pointer
+        {
+            get
+            {
+                RequireAlive();
+                return (byte*)memory;
+            }
+        }
 
         public int GetInt32(int offset)
         {
@@ -47,16 +56,36 @@ namespace Isostep
             *(long*)(Pointer + offset) = value;
         }
 
-        /// <summary>After the sessions that have it.</summary>
+        /// <summary>The memory goes with the last session that has it.</summary>
         public void Dispose()
         {
-            Marshal.FreeHGlobal(memory);
+            isDisposed = true;
+            FreeWhenUnused();
+        }
+
+        internal void Hold() { ++sessions; }
+
+        internal void LetGo()
+        {
+            --sessions;
+            FreeWhenUnused();
+        }
+
+        private void FreeWhenUnused()
+        {
+            if (!isDisposed || sessions != 0) return;
+            Marshal.FreeHGlobal(memory);  // which takes zero
             memory = IntPtr.Zero;
+        }
+
+        private void RequireAlive()
+        {
+            if (isDisposed) throw new ObjectDisposedException("NativeBlock");
         }
 
         private void RequireInside(int offset, int size)
         {
-            if (memory == IntPtr.Zero) throw new ObjectDisposedException("NativeBlock");
+            RequireAlive();
             if (offset < 0 || offset > Size - size || offset % size != 0)
                 throw new ArgumentOutOfRangeException("offset", "a multiple of " + size + " within " + Size + " bytes");
         }

@@ -6,7 +6,9 @@ namespace Isostep
 {
     /// <summary>A turn of the game's loop:
     /// what the transport has goes in; AddLocalInput(...); Advance(now); then while (session.Next(out request)) step
-    /// the game where request.Kind is Step, with session.Inputs; what PollSend gives goes out.</summary>
+    /// the game where request.Kind is Step, with session.Inputs; what PollSend gives goes out. A turn that an exception
+    /// of the game leaves in its middle ends where the next begins: SessionEventKind.Misuse tells, what was missed is stepped
+    /// again from the newest final state, and the match goes on.</summary>
     public sealed unsafe partial class Session : Handle
     {
         // Named by the library while the session lives.
@@ -31,6 +33,7 @@ namespace Isostep
             fixed (byte* at = file)
                 IsostepException.Check(Native.iso_session_create(&config, &game, at, NativeText.Length(file), &made));
             Pointer = made;
+            if (block != null) block.Hold();
         }
 
         public WorldBase World => world;
@@ -53,7 +56,7 @@ namespace Isostep
             {
                 uint players;
                 SessionInput* first = Native.iso_session_inputs(Pointer, &players);
-                return new SessionInputs(first, first == null ? 0 : (int)players);
+                return new SessionInputs(this, first, first == null ? 0 : (int)players);
             }
         }
 
@@ -102,17 +105,23 @@ namespace Isostep
             return NativeText.Read(address);
         }
 
-        protected override void Destroy(IntPtr handle) => IsostepException.Check(Native.iso_session_destroy(handle));
+        protected override void Destroy(IntPtr handle)
+        {
+            IsostepException.Check(Native.iso_session_destroy(handle));
+            if (block != null) block.LetGo();
+        }
     }
 
     /// <summary>The players' inputs for one frame.</summary>
     public unsafe struct SessionInputs
     {
+        private readonly Session owner;
         private readonly SessionInput* first;
         public readonly int Players;
 
-        internal SessionInputs(SessionInput* first, int players)
+        internal SessionInputs(Session owner, SessionInput* first, int players)
         {
+            this.owner = owner;
             this.first = first;
             Players = players;
         }
@@ -122,7 +131,7 @@ namespace Isostep
         {
             if ((uint)player >= (uint)Players) throw new ArgumentOutOfRangeException("player");
             if ((uint)index >= Limits.InputCap) throw new ArgumentOutOfRangeException("index");
-            return first[player].Bytes[index];
+            return Pointer[player].Bytes[index];
         }
 
         /// <summary>The player is gone, and its bytes are SessionConfig.Neutral: all that a game may look at beside
@@ -130,11 +139,18 @@ namespace Isostep
         public bool IsDisconnected(int player)
         {
             if ((uint)player >= (uint)Players) throw new ArgumentOutOfRangeException("player");
-            return first[player].Status == (byte)InputStatus.Disconnected;
+            return Pointer[player].Status == (byte)InputStatus.Disconnected;
         }
 
         /// <summary>The first of Players, for unsafe code.</summary>
-        public SessionInput* Pointer => first;
+        public SessionInput* Pointer
+        {
+            get
+            {
+                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed("Session");
+                return first;
+            }
+        }
     }
 
     public unsafe partial struct SessionConfig

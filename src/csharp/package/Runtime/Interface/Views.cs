@@ -4,14 +4,17 @@ using System;
 
 namespace Isostep
 {
-    /// <summary>What the library holds: valid until the next call that changes its owner.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
+    /// disposed an exception.</summary>
     public unsafe struct BodyIdView
     {
+        private readonly Handle owner;
         private readonly BodyId* first;
         public readonly int Count;
 
-        internal BodyIdView(BodyId* first, int count)
+        internal BodyIdView(Handle owner, BodyId* first, int count)
         {
+            this.owner = owner;
             this.first = first;
             Count = count;
         }
@@ -21,22 +24,32 @@ namespace Isostep
             get
             {
                 if ((uint)index >= (uint)Count) throw new ArgumentOutOfRangeException("index");
-                return ref first[index];
+                return ref Pointer[index];
             }
         }
 
         /// <summary>The first of Count, for unsafe code.</summary>
-        public BodyId* Pointer { get { return first; } }
+        public BodyId* Pointer
+        {
+            get
+            {
+                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                return first;
+            }
+        }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
+    /// disposed an exception.</summary>
     public unsafe struct BodyPairView
     {
+        private readonly Handle owner;
         private readonly BodyPair* first;
         public readonly int Count;
 
-        internal BodyPairView(BodyPair* first, int count)
+        internal BodyPairView(Handle owner, BodyPair* first, int count)
         {
+            this.owner = owner;
             this.first = first;
             Count = count;
         }
@@ -46,22 +59,32 @@ namespace Isostep
             get
             {
                 if ((uint)index >= (uint)Count) throw new ArgumentOutOfRangeException("index");
-                return ref first[index];
+                return ref Pointer[index];
             }
         }
 
         /// <summary>The first of Count, for unsafe code.</summary>
-        public BodyPair* Pointer { get { return first; } }
+        public BodyPair* Pointer
+        {
+            get
+            {
+                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                return first;
+            }
+        }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
+    /// disposed an exception.</summary>
     public unsafe struct RenderPoseView
     {
+        private readonly Handle owner;
         private readonly RenderPose* first;
         public readonly int Count;
 
-        internal RenderPoseView(RenderPose* first, int count)
+        internal RenderPoseView(Handle owner, RenderPose* first, int count)
         {
+            this.owner = owner;
             this.first = first;
             Count = count;
         }
@@ -71,22 +94,32 @@ namespace Isostep
             get
             {
                 if ((uint)index >= (uint)Count) throw new ArgumentOutOfRangeException("index");
-                return ref first[index];
+                return ref Pointer[index];
             }
         }
 
         /// <summary>The first of Count, for unsafe code.</summary>
-        public RenderPose* Pointer { get { return first; } }
+        public RenderPose* Pointer
+        {
+            get
+            {
+                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                return first;
+            }
+        }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
+    /// disposed an exception.</summary>
     public unsafe struct SensorEventView
     {
+        private readonly Handle owner;
         private readonly SensorEvent* first;
         public readonly int Count;
 
-        internal SensorEventView(SensorEvent* first, int count)
+        internal SensorEventView(Handle owner, SensorEvent* first, int count)
         {
+            this.owner = owner;
             this.first = first;
             Count = count;
         }
@@ -96,11 +129,18 @@ namespace Isostep
             get
             {
                 if ((uint)index >= (uint)Count) throw new ArgumentOutOfRangeException("index");
-                return ref first[index];
+                return ref Pointer[index];
             }
         }
 
         /// <summary>The first of Count, for unsafe code.</summary>
-        public SensorEvent* Pointer { get { return first; } }
+        public SensorEvent* Pointer
+        {
+            get
+            {
+                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                return first;
+            }
+        }
     }
 }

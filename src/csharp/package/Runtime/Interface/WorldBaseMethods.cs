@@ -405,7 +405,7 @@ namespace Isostep
                 BodyPair* first;
                 UIntPtr count;
                 Check(Native.iso_contact_ends(Pointer, &first, &count));
-                return new BodyPairView(first, (int)count);
+                return new BodyPairView(this, first, (int)count);
             }
         }
 
@@ -416,7 +416,7 @@ namespace Isostep
                 SensorEvent* first;
                 UIntPtr count;
                 Check(Native.iso_sensor_begins(Pointer, &first, &count));
-                return new SensorEventView(first, (int)count);
+                return new SensorEventView(this, first, (int)count);
             }
         }
 
@@ -427,7 +427,7 @@ namespace Isostep
                 SensorEvent* first;
                 UIntPtr count;
                 Check(Native.iso_sensor_ends(Pointer, &first, &count));
-                return new SensorEventView(first, (int)count);
+                return new SensorEventView(this, first, (int)count);
             }
         }
 
@@ -438,7 +438,7 @@ namespace Isostep
                 BodyId* first;
                 UIntPtr count;
                 Check(Native.iso_fell_asleep(Pointer, &first, &count));
-                return new BodyIdView(first, (int)count);
+                return new BodyIdView(this, first, (int)count);
             }
         }
 
@@ -449,7 +449,7 @@ namespace Isostep
                 BodyId* first;
                 UIntPtr count;
                 Check(Native.iso_woke(Pointer, &first, &count));
-                return new BodyIdView(first, (int)count);
+                return new BodyIdView(this, first, (int)count);
             }
         }
 
@@ -460,7 +460,7 @@ namespace Isostep
             RenderPose* first;
             UIntPtr count;
             Check(Native.iso_world_poses(Pointer, alpha, &first, &count));
-            return new RenderPoseView(first, (int)count);
+            return new RenderPoseView(this, first, (int)count);
         }
 
         /// <summary>From the state that the world has now. `scene`: what the header calls it. A tape records once, a
