@@ -204,7 +204,7 @@ class Views(unittest.TestCase):
                 world.states([body, body + (1 << 32)])
         self.assertEqual(len(isostep.World("q16").states()), 0)
 
-    def test_poses_and_events_are_the_worlds_own_memory(self):
+    def test_poses_and_events_are_what_was_and_read_only(self):
         for scalar in isostep.SCALARS:
             world, body = support.crate(isostep, scalar)
             begun = None
@@ -218,21 +218,11 @@ class Views(unittest.TestCase):
             poses = world.poses()
             self.assertEqual(poses["body"].tolist(), [body])
             self.assertAlmostEqual(float(poses["position"][0][1]), 0.5, places=2)
-            self.assertFalse(poses.flags.owndata)
             with self.assertRaises(ValueError):
                 poses["position"][0][1] = 7
             with self.assertRaises(AttributeError):
                 world.events.explosions
             self.assertEqual(len(world.events.woke), 0)
-
-    def test_a_view_keeps_its_world(self):
-        world, _ = support.crate(isostep, "f32")
-        world.step()
-        poses = world.poses()
-        seen = poses.copy()
-        del world
-        gc.collect()
-        self.assertTrue(numpy.array_equal(poses, seen))
 
 
 class Memory(unittest.TestCase):

@@ -136,7 +136,7 @@ export class AskedWorld extends Handle {
     });
   }
 
-  // ---- poses, and what the last step reports: Records, until the next call that changes the world
+  // ---- poses, and what the last step reports: Records, which outlive the world
 
   /** Of all moving bodies, between the step before the last and the last; alpha from 0 to 1. Always float. */
   poses(alpha = 1) { return this.#records('world_poses', 'render_pose', Float32Array, alpha); }

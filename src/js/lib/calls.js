@@ -162,6 +162,14 @@ export class Calls {
     this.call(name, ...words, at, size);
     return this.module.bytes(at, need).slice();
   }
+  /** A copy of what a function shows as (pointer, size). */
+  bytesSeen(name, ...words) {
+    this.begin();
+    const pointer = this.take(4), size = this.take(4);
+    this.runNow(name, ...words, pointer, size);
+    const {view} = this.module;
+    return this.module.bytes(view.getUint32(pointer, true), view.getUint32(size, true)).slice();
+  }
   /** What a function writes as (array, room, count), as objects: asked again where there was too little room. */
   listOut(name, layout, ...words) {
     const codec = this.layout(layout);

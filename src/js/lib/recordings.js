@@ -16,15 +16,11 @@ export class Tape extends Handle {
   endFrame() { this.#calls.run('tape_end_frame', this.at); }
   /** The whole state, for seeking; after endFrame, before the next command. */
   keyframe() { this.#calls.run('tape_keyframe', this.at); }
+  /** All frames so far are in bytes(): kept, a crash costs none of them. Else it costs a second. */
+  flush() { this.#calls.run('tape_flush', this.at); }
   finish() { this.#calls.run('tape_finish', this.at); }
   /** A copy of what there is of the file. */
-  bytes() {
-    this.#calls.begin();
-    const pointer = this.#calls.take(4), size = this.#calls.take(4);
-    this.#calls.runNow('tape_bytes', this.at, pointer, size);
-    const {view} = this.module;
-    return this.module.bytes(view.getUint32(pointer, true), view.getUint32(size, true)).slice();
-  }
+  bytes() { return this.#calls.bytesSeen('tape_bytes', this.at); }
 }
 
 /** One that is read. */

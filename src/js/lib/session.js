@@ -42,6 +42,13 @@ export class Session extends Handle {
     this.#game = game;
   }
 
+  /** Of a session whose world or state is gone nothing is asked: the engine would write to what is somebody else's. */
+  get at() {
+    const {world, state} = this.#game;
+    world?.at;
+    state?.at;
+    return super.at;
+  }
   #call(name, ...words) { this.#calls.call(name, this.at, ...words); }
   /** True, or false where the session refuses: not now, not yours, or not sound. */
   #try(name, ...words) {
@@ -58,11 +65,10 @@ export class Session extends Handle {
   /**
    * Plays what is due with `game.step`, and tells `rolledBack`, `restarted` and `confirmed` of it. Returns how many
    * frames were stepped, those again included. Without inputs of its own since the last turn a player repeats the last.
+   * What the game throws ends the turn: the next one tells 'misuse', steps again what was missed, from the newest final
+   * state, and the match goes on.
    */
   drive(now) {
-    const {world, state} = this.#game;
-    if (world !== undefined) world.at;  // disposed of: an error, before the engine is told
-    if (state !== undefined) state.at;
     this.#call('iso_session_advance', time(now));
     const layout = this.#calls.layout('request');
     for (let steps = 0;;) {
@@ -219,6 +225,10 @@ export class Session extends Handle {
     this.#calls.begin();
     const text = scene === null ? 0 : this.#calls.placeText(scene, 'scene');
     return this.#try('iso_session_record', this.#calls.number('recording', kind), text);
+  }
+  /** What is new of the file since the last such call, with all final frames so far: appended, it survives a crash. */
+  flushRecording(kind) {
+    return this.#calls.bytesSeen('session_flush_recording', this.at, this.#calls.number('recording', kind));
   }
   /** Ends the recording with the last confirmed frame: the file. */
   recorded(kind) {

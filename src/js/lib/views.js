@@ -9,6 +9,8 @@ export class Records {
   #codec;
   #bytes;
   #array;
+  #numbers;
+  #ids;
 
   constructor(module, codec, at, length, array) {
     this.#codec = codec;
@@ -19,10 +21,10 @@ export class Records {
 
   /** Words of `numbers` from a record to the next. */
   get stride() { return this.#codec.size / this.#array.BYTES_PER_ELEMENT; }
-  get numbers() { return new this.#array(this.#bytes); }
+  get numbers() { return this.#numbers ??= new this.#array(this.#bytes); }
   /** Words of `ids` from a record to the next. */
   get idStride() { return this.#codec.size / 8; }
-  get ids() { return new BigUint64Array(this.#bytes); }
+  get ids() { return this.#ids ??= new BigUint64Array(this.#bytes); }
 
   at(i) {
     if (!(Number.isInteger(i) && i >= 0 && i < this.length)) return undefined;

@@ -116,11 +116,11 @@ export interface Blob extends Owned {
   write(): Uint8Array;
 }
 
-/** Records in the engine's memory, until the next call that changes their world. */
+/** Records as they were when they were asked for: a copy, which outlives their world. */
 export interface Records<T, A extends ArrayLike<unknown> = ArrayLike<unknown>> extends Iterable<T> {
   readonly length: number;
   at(i: number): T | undefined;
-  /** The memory itself: word w of record i is at [i * stride + w]. Made anew when the memory has grown. */
+  /** Word w of record i is at [i * stride + w]. */
   readonly numbers: A;
   readonly stride: number;
   /** The same in words of 64 bits, for ids. */
@@ -255,6 +255,8 @@ export interface Snapshot extends Owned {
 export interface Tape extends Owned {
   endFrame(): void;
   keyframe(): void;
+  /** All frames so far are in bytes(): kept, a crash costs none of them. Else it costs a second. */
+  flush(): void;
   finish(): void;
   bytes(): Uint8Array;
 }
@@ -345,6 +347,8 @@ export interface Session extends Owned {
 
   saveMatch(): Uint8Array;
   record(kind: RecordingName, scene?: string): boolean;
+  /** What is new of the file since the last such call: appended, it survives a crash. */
+  flushRecording(kind: RecordingName): Uint8Array;
   recorded(kind: RecordingName): Uint8Array;
 }
 

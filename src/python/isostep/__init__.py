@@ -1,7 +1,7 @@
 """isostep in Python: deterministic 3D physics for lockstep and rollback games, by the shared library's C interface.
 
 Replays are opened, played, verified and compared; worlds of every scalar stepped and changed; sessions driven. numpy is
-optional: with it arrays are structured numpy views, without it ctypes arrays of the same members. See README.md.
+optional: with it arrays are structured numpy arrays, without it ctypes arrays of the same members. See README.md.
 """
 
 # SPDX-License-Identifier: MIT
