@@ -52,8 +52,8 @@ struct SessionObserver {
   }
 };
 
-/// drive(), one request at a time. A turn that the caller leaves in its middle, by an exception of the game's step, ends
-/// where the next begins: its requests were not carried out, which the session tells as misuse and makes good.
+/// drive(), one request at a time. A turn that the caller leaves in its middle, by an exception of the game's step, is
+/// over where the next begins: its requests were not carried out, which the session tells as misuse and makes good.
 class SessionTurn {
  public:
   bool is_open() const { return is_open_; }
@@ -99,8 +99,7 @@ template <> struct HandleOf<iso_session> {
 iso_status enter(const iso_session* handle, const char* call, SessionObject*& object);
 
 /// Every function that changes a session is called by this; `work(SessionObject&)` returns a status.
-template <class Work>
-iso_status in_session(iso_session* handle, const char* call, const Work& work) {
+template <class Work> iso_status in_session(iso_session* handle, const char* call, const Work& work) {
   SessionObject* object = nullptr;
   if (const iso_status status = enter(handle, call, object); status != ISO_OK) return status;
   object->is_called = true;

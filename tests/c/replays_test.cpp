@@ -130,7 +130,8 @@ TEST(CReplays, WhatIsFlushedIsThereAfterACrash) {
     const void* bytes = nullptr;
     std::size_t size = 0;
     ASSERT_EQ(iso_tape_bytes(tape, &bytes, &size), ISO_OK);
-    std::vector<std::uint8_t> file(static_cast<const std::uint8_t*>(bytes), static_cast<const std::uint8_t*>(bytes) + size);
+    std::vector<std::uint8_t> file(static_cast<const std::uint8_t*>(bytes),
+                                   static_cast<const std::uint8_t*>(bytes) + size);
     file.resize((size / 4096 + 1) * 4096);  // the page's rest, as a power failure leaves it
     iso_replay_info info;
     iso_replay_info_init(&info);

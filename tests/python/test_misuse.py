@@ -53,9 +53,9 @@ class ClosedObjects(unittest.TestCase):
                 if isinstance(member, property):
                     self.assert_closed(lambda: getattr(one, name), what)
                     continue
-                wanted = [parameter for parameter in inspect.signature(getattr(one, name)).parameters.values()
-                          if parameter.default is parameter.empty and parameter.kind is parameter.POSITIONAL_OR_KEYWORD]
-                values = ["step" if name == "call" else "box" if parameter.name == "kind" else 0 for parameter in wanted]
+                wanted = [one for one in inspect.signature(member).parameters.values()
+                          if one.default is one.empty and one.kind is one.POSITIONAL_OR_KEYWORD][1:]
+                values = ["step" if name == "call" else "box" if one.name == "kind" else 0 for one in wanted]
                 self.assert_closed(lambda: getattr(one, name)(*values), what)
         self.assertGreater(tried, 100)
 
@@ -188,7 +188,8 @@ class Integers(unittest.TestCase):
             box = world.add_shape("box", half_extents=(1, 1, 1))
             if box <= numpy.iinfo(integer if integer is not int else "i8").max:
                 box = integer(box)
-            body = world.create_body(type=integer(dynamic), shape=box, user_data=integer(7), filter={"mask": integer(3)})
+            body = world.create_body(type=integer(dynamic), shape=box, user_data=integer(7),
+                                     filter={"mask": integer(3)})
             self.assertEqual((world.state(body).type, world.state(body).user_data), ("dynamic", 7), integer)
             self.assertEqual(world.call("create_hinge", {"a": numpy.uint64(body)}) >> 32 > 0, True)
             world.call("use_simd", integer(0))
@@ -293,12 +294,12 @@ class Exceptions(unittest.TestCase):
             self.assertEqual(peer.phase, "playing", what)
             common = set(games[0].hashes) & set(games[who].hashes)
             self.assertGreater(len(common), 150, what)
-            self.assertEqual([frame for frame in common if games[0].hashes[frame] != games[who].hashes[frame]], [], what)
+            self.assertEqual([n for n in common if games[0].hashes[n] != games[who].hashes[n]], [], what)
             self.assertFalse(kinds[who] & {"desync", "outvoted", "undecided", "bad_snapshot", "refused"}, what)
             stepping = set(games[who].raised) - {"confirmed"}
             self.assertEqual("misuse" in kinds[who], bool(stepping), (what, who, kinds[who]))
         self.assertEqual(isostep.verify(files[1]).outcome, "verified", what)
-        self.assertEqual(len(isostep.Replay(files[1])), len(games[0].hashes), "each confirmed frame is in the recording")
+        self.assertEqual(len(isostep.Replay(files[1])), len(games[0].hashes), what)
         return games
 
     def test_one_of_each_callback_is_told_and_the_match_goes_on(self):
@@ -316,7 +317,7 @@ class Exceptions(unittest.TestCase):
                 self.check(lambda who, what, n: what == where and n in (1, 2, 3, 50, 51, 52, 53, 90 + who), mode)
 
     def test_now_and_then_all_over_while_somebody_joins(self):
-        for seed in range(12):
+        for seed in range(6):
             mode = ("lockstep", "rollback")[seed % 2]
 
             def raises(who, what, n):

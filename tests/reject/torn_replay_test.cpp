@@ -19,7 +19,10 @@ Buffer long_replay(std::uint64_t frames, std::size_t size, bool finish) {
   bool ok = writer.begin(toy::header(), Buffer(40, 7), 1).ok();
   std::uint32_t noise = 1;
   for (std::uint64_t i = 0; i < frames; ++i) {
-    for (std::uint8_t& byte : input) byte = static_cast<std::uint8_t>(1 + (noise = noise * 1664525u + 1013904223u) % 255);
+    for (std::uint8_t& byte : input) {
+      noise = noise * 1664525u + 1013904223u;
+      byte = static_cast<std::uint8_t>(1 + noise % 255);
+    }
     ok = writer.frame(input, i).ok() && ok;
   }
   if (finish) ok = writer.finish().ok() && ok;

@@ -108,6 +108,32 @@ TEST(Caller, DroppedRequestsAreToldAndMadeGood) {
   }
 }
 
+/// Whatever turn of the host's is left before its requests were carried out, also that in which the state for a joiner
+/// was to be written: the joiner is in the match soon, by the right state.
+TEST(Caller, DroppedRequestsOfTheHostKeepNoJoinerOut) {
+  for (const SessionMode mode : {SessionMode::lockstep, SessionMode::rollback}) {
+    for (int left = 0; left < 60; ++left) {
+      SCOPED_TRACE(left);
+      SessionConfig config = config_of(2);
+      config.mode = mode;
+      config.history = 200;
+      VirtualMatch<Toy> match = toy_match(config);
+      match.run(kSecond, [] { return false; });
+      match.host().session.start(match.now());
+      ASSERT_TRUE(match.run_to(300, 20 * kSecond));
+      int turn = 0;
+      match.host().after_turn = [&] {
+        if (turn++ == left) static_cast<void>(match.host().session.advance(match.now() + kSecond / 60));
+      };
+      Machine<Toy>& joiner = match.add(profile("lan"));
+      ASSERT_TRUE(match.run(5 * kSecond, [&] { return joiner.session.phase() == SessionPhase::playing; }));
+      ASSERT_TRUE(match.run_to(match.host().end() + 60, 10 * kSecond));
+      EXPECT_FALSE(joiner.heard(SessionEvent::Kind::bad_snapshot) || joiner.heard(SessionEvent::Kind::refused));
+      for (std::size_t i = 0; i < 2; ++i) EXPECT_FALSE(match.machine(i).heard(SessionEvent::Kind::desync));
+    }
+  }
+}
+
 TEST(Caller, FramesAndPlayersThatAreNotThereHaveNeutralInputs) {
   VirtualMatch<Toy> match = toy_match(config_of(2));
   match.add(profile("lan"));

@@ -206,6 +206,8 @@ class SessionCore {
   virtual void plan(Time now) = 0;
   /// Requests were not carried out: states that were to be saved are missing.
   virtual void misused() {}
+  /// Among them a `capture`: there is no such snapshot.
+  virtual void capture_lost() {}
   /// A state's hash is known.
   virtual void hash_known(Frame state, std::uint64_t hash) = 0;
 
@@ -213,7 +215,12 @@ class SessionCore {
     actions_.push_back({kind, frame, as_confirmed});
     if (kind == RequestKind::save) ++unsaved_;
     if (kind == RequestKind::step) ++stats_.steps;
+    if (kind != RequestKind::capture) return;
+    portable_.clear();
+    is_capturing_ = true;
   }
+  /// The `capture` of this turn was not carried out yet: whoever waits for the snapshot goes on waiting.
+  bool awaits_capture() const { return is_capturing_ && portable_.empty(); }
   void tell(const SessionEvent& event);
   /// Frame `state - 1` is final, and `state` has this hash.
   void confirm(Frame state, std::uint64_t hash);
@@ -231,6 +238,7 @@ class SessionCore {
   std::vector<SessionAction> actions_;
   Frame told_state_ = kNoFrame;  // the newest that poll_confirmed was given
   int unsaved_ = 0;              // saves asked for and not reported
+  bool is_capturing_ = false;    // a capture was asked for in this turn
   BoundedQueue<SessionEvent> events_;
   BoundedQueue<Confirmed> confirmed_;
 };

@@ -52,6 +52,7 @@ class HostCore : public PeerCore {
   void before_steps(Time now) override;
   void before_frame(Time now) override;
   void after_steps() override { serve_snapshots(); }
+  void capture_lost() override;
   void observe_delay() override;
   /// Without a majority with us the others may have another host: what we step then may be in no match.
   Frame final_limit() const override { return is_backed_ ? PeerCore::final_limit() : hashes_.settled().frame; }

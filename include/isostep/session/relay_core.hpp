@@ -26,6 +26,7 @@ class RelayCore : public ClientCore {
   Frame window() const override { return -config_.broadcast_delay; }
   void before_steps(Time now) override;
   void after_steps() override { serve_snapshots(); }
+  void capture_lost() override;
 
  private:
   struct Leaf : PeerLink {

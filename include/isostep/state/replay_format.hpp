@@ -97,9 +97,9 @@ class ReplayWriter {
   Phase phase_;
   Error error_;
   HashStream digest_;
-  std::uint64_t frame_count_;  // with those of the open block
-  std::uint32_t block_cap_;     // frames that make a block
-  std::uint32_t block_frames_;  // in the open block
+  std::uint64_t frame_count_;               // with those of the open block
+  std::uint32_t block_cap_;                 // frames that make a block
+  std::uint32_t block_frames_;              // in the open block
   std::vector<std::uint8_t> block_inputs_;  // [u32 length, bytes] per frame
   std::vector<std::uint8_t> block_hashes_;  // u64 per frame
   std::vector<std::uint8_t> scratch_;

@@ -35,8 +35,8 @@ const std::set<std::string>& by_hand() {
   return names;
 }
 std::string view_class(const std::string& of) {
-  return "    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is\n"
-         "    /// disposed an exception.</summary>\n"
+  return "    /// <summary>What the library holds: valid until the next call that changes its owner; an exception\n"
+         "    /// where that is disposed.</summary>\n"
          "    public unsafe struct " +
          of + "View\n    {\n        private readonly Handle owner;\n        private readonly " + of +
          "* first;\n"
@@ -54,7 +54,7 @@ std::string view_class(const std::string& of) {
          "        public " +
          of +
          "* Pointer\n        {\n            get\n            {\n"
-         "                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);\n"
+         "                IsostepException.RequireAlive(owner);\n"
          "                return first;\n            }\n        }\n    }\n";
 }
 

@@ -19,6 +19,9 @@ SessionCore::SessionCore(const SessionConfig& config, const InputRules& rules)
 SessionCore::~SessionCore() = default;
 
 std::span<const SessionAction> SessionCore::advance(Time now) {
+  const bool is_lost = unsaved_ != 0 && awaits_capture();
+  is_capturing_ = false;
+  if (is_lost) capture_lost();
   if (unsaved_ != 0) {
     unsaved_ = 0;
     misused();

@@ -34,6 +34,7 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
     return Outgoing{peer, Channel::reliable, {}, true};
   }
   const bool sending = guest.stage == Guest::Stage::receives_snapshot;
+  if (sending && awaits_capture()) return std::nullopt;
   if (sending && portable_.empty()) {  // the game has no portable form
     unseat(guest);
     refuse(guest, "snapshot", "needed", "none");

@@ -36,6 +36,14 @@ void HostCore::serve_snapshots() {
   }
 }
 
+void HostCore::capture_lost() {
+  snapshot_ = HashReport{};
+  for (Guest& guest : guests()) {
+    if (guest.stage == Guest::Stage::receives_snapshot) guest.stage = Guest::Stage::needs_snapshot;
+    if (guest.repair.stage == RepairService::Stage::receives) guest.repair.stage = RepairService::Stage::needs;
+  }
+}
+
 bool HostCore::may_share_snapshot() {
   if (snapshot_.frame == kNoFrame) return false;
   // One of this second serves everybody: who comes again and again costs no more than that.

@@ -167,6 +167,7 @@ std::optional<Outgoing> HostCore::next_repair_message(Guest& guest, Time now) {
     return message();
   }
   const bool serves = guest.repair.stage == RepairService::Stage::receives;
+  if (guest.repair.must_offer && awaits_capture()) return std::nullopt;
   if (guest.repair.must_offer) {
     guest.repair.must_offer = false;
     const auto size = static_cast<std::uint32_t>(serves ? portable_.size() : 0);

@@ -12,10 +12,19 @@ constexpr Time kProbeEvery = kSecond / 4;    // a frame, to who has acknowledged
 }  // namespace
 
 void RelayCore::collect_snapshot() {
-  if (!is_captured_) return;
+  if (!is_captured_ || awaits_capture()) return;
   is_captured_ = false;
   snapshot_bytes_.swap(portable_);
   portable_.clear();
+}
+
+void RelayCore::capture_lost() {
+  is_captured_ = false;
+  for (Leaf& leaf : leaves_) {
+    const bool waits = leaf.stage == Leaf::Stage::receives_snapshot && leaf.start.frame == snapshot_.frame;
+    if (waits) leaf.stage = Leaf::Stage::needs_snapshot;
+  }
+  snapshot_ = HashReport{};
 }
 
 bool RelayCore::may_share_snapshot() const {
@@ -120,6 +129,7 @@ std::optional<Outgoing> RelayCore::next_message(Leaf& leaf, Time now) {
     return Outgoing{peer, Channel::reliable, {}, true};
   }
   const bool receives = leaf.stage == Stage::receives_snapshot;
+  if (receives && awaits_capture()) return std::nullopt;
   if (receives && snapshot_bytes_.empty()) {  // the game has no portable form
     refuse_leaf(leaf, "snapshot", "needed", "none");
     return next_message(leaf, now);

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kChunkHead = 12;  // type, length, raw length
 constexpr std::size_t kChunkTail = 4;   // checksum
-// What a power failure leaves of a file that grew: its length, and zeros where bytes were not written yet. Systems write
-// whole pages, in any order.
+// What a power failure leaves of a file that grew: its length, and zeros where bytes were not written yet. Systems
+// write whole pages, in any order.
 constexpr std::size_t kPage = 4096;  // [bytes]
 // [bytes] A shorter run of zeros before the end of a page may be an input's.
 constexpr std::size_t kLeastHole = 64;

@@ -95,8 +95,8 @@ class Replay(Handle):
                 yield Frame(world, number, recorded)
 
     def at(self, frames):
-        """The replay's own world after so many frames; 0 is the start. Going back costs at most SPACING frames at first.
-        When there is room for no more states every other one goes, and the spacing doubles."""
+        """The replay's own world after so many frames; 0 is the start. Going back costs at most SPACING frames at
+        first. When there is room for no more states every other one goes, and the spacing doubles."""
         if not 0 <= frames <= len(self):
             raise IndexError(f"the replay has {len(self)} frames, {frames} were asked for")
         if self._player is None or not self._player.is_open:

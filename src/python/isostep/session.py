@@ -101,9 +101,9 @@ class Session(Handle):
         self.call("add_local_input", player, data)
 
     def drive(self, now):
-        """A turn at the time `now` [us]: steps the game as often as it is due; the number of steps. What the game raises
-        ends the turn. The next one tells "misuse", steps again what was missed, from the newest final state, and the
-        match goes on."""
+        """A turn at the time `now` [us]: steps the game as often as it is due; the number of steps. What the game
+        raises ends the turn. The next one tells "misuse", steps again what was missed, from the newest final state, and
+        the match goes on."""
         self.call("advance", now)
         steps = 0
         while True:
@@ -146,8 +146,8 @@ class Session(Handle):
             yield out.peer, out.channel, ctypes.string_at(address, out.length) if out.length else b"", bool(out.close)
 
     def flush_recording(self, kind):
-        """What is new of the file of a recording, "match" or "world", with all final frames so far: appended to a file it
-        survives a crash. `call("record", kind, None)` begins one and `call("recorded", kind)` ends it: the whole."""
+        """What is new of the file of a recording, "match" or "world", with all final frames so far: appended to a file
+        it survives a crash. `call("record", kind, None)` begins one and `call("recorded", kind)` ends it: the whole."""
         return self.call("flush_recording", kind)
 
     @property

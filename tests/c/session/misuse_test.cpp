@@ -266,8 +266,7 @@ TEST_F(Alone, WithinATurnAllButSavingTheMatchMayBeDone) {
   while (request.kind != ISO_NOTHING) request = next_of(session);
   EXPECT_EQ(iso_session_inputs(session, nullptr), nullptr);
   EXPECT_EQ(next_of(session).kind, std::uint32_t{ISO_NOTHING});
-  while (poll_event(session).kind != ISO_EVENT_NONE) {
-  }
+  while (poll_event(session).kind != ISO_EVENT_NONE) {}
   EXPECT_EQ(iso_session_drive(session, now, nullptr), ISO_OK);
   EXPECT_EQ(poll_event(session).kind, std::uint32_t{ISO_EVENT_NONE}) << "nothing was left out";
 }

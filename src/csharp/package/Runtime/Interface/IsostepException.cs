@@ -43,6 +43,11 @@ namespace Isostep
         /// <summary>With the status that the library has for no object.</summary>
         internal static IsostepException Disposed(string what) => Of(Status.Null, "the " + what + " was disposed");
 
+        internal static void RequireAlive(Handle owner)
+        {
+            if (owner != null && owner.IsDisposed) throw Disposed(owner.GetType().Name);
+        }
+
         internal static unsafe IsostepException OfWorld(Status status, IntPtr world)
         {
             FaultReport report = FaultReport.Sized();

@@ -147,7 +147,7 @@ namespace Isostep
         {
             get
             {
-                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed("Session");
+                IsostepException.RequireAlive(owner);
                 return first;
             }
         }
