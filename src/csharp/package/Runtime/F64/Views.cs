@@ -4,8 +4,8 @@ using System;
 
 namespace Isostep.F64
 {
-    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
-    /// disposed an exception.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; an exception
+    /// where that is disposed.</summary>
     public unsafe struct BrokeView
     {
         private readonly Handle owner;
@@ -33,14 +33,14 @@ namespace Isostep.F64
         {
             get
             {
-                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                IsostepException.RequireAlive(owner);
                 return first;
             }
         }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
-    /// disposed an exception.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; an exception
+    /// where that is disposed.</summary>
     public unsafe struct ContactBeginView
     {
         private readonly Handle owner;
@@ -68,14 +68,14 @@ namespace Isostep.F64
         {
             get
             {
-                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                IsostepException.RequireAlive(owner);
                 return first;
             }
         }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
-    /// disposed an exception.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; an exception
+    /// where that is disposed.</summary>
     public unsafe struct ContactHitView
     {
         private readonly Handle owner;
@@ -103,14 +103,14 @@ namespace Isostep.F64
         {
             get
             {
-                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                IsostepException.RequireAlive(owner);
                 return first;
             }
         }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
-    /// disposed an exception.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; an exception
+    /// where that is disposed.</summary>
     public unsafe struct ContactPointView
     {
         private readonly Handle owner;
@@ -138,14 +138,14 @@ namespace Isostep.F64
         {
             get
             {
-                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                IsostepException.RequireAlive(owner);
                 return first;
             }
         }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
-    /// disposed an exception.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; an exception
+    /// where that is disposed.</summary>
     public unsafe struct JointBrokeView
     {
         private readonly Handle owner;
@@ -173,7 +173,7 @@ namespace Isostep.F64
         {
             get
             {
-                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                IsostepException.RequireAlive(owner);
                 return first;
             }
         }

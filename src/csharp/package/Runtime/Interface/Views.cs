@@ -4,8 +4,8 @@ using System;
 
 namespace Isostep
 {
-    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
-    /// disposed an exception.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; an exception
+    /// where that is disposed.</summary>
     public unsafe struct BodyIdView
     {
         private readonly Handle owner;
@@ -33,14 +33,14 @@ namespace Isostep
         {
             get
             {
-                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                IsostepException.RequireAlive(owner);
                 return first;
             }
         }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
-    /// disposed an exception.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; an exception
+    /// where that is disposed.</summary>
     public unsafe struct BodyPairView
     {
         private readonly Handle owner;
@@ -68,14 +68,14 @@ namespace Isostep
         {
             get
             {
-                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                IsostepException.RequireAlive(owner);
                 return first;
             }
         }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
-    /// disposed an exception.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; an exception
+    /// where that is disposed.</summary>
     public unsafe struct RenderPoseView
     {
         private readonly Handle owner;
@@ -103,14 +103,14 @@ namespace Isostep
         {
             get
             {
-                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                IsostepException.RequireAlive(owner);
                 return first;
             }
         }
     }
 
-    /// <summary>What the library holds: valid until the next call that changes its owner; of an owner that is
-    /// disposed an exception.</summary>
+    /// <summary>What the library holds: valid until the next call that changes its owner; an exception
+    /// where that is disposed.</summary>
     public unsafe struct SensorEventView
     {
         private readonly Handle owner;
@@ -138,7 +138,7 @@ namespace Isostep
         {
             get
             {
-                if (owner != null && owner.IsDisposed) throw IsostepException.Disposed(owner.GetType().Name);
+                IsostepException.RequireAlive(owner);
                 return first;
             }
         }
