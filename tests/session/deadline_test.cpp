@@ -202,6 +202,55 @@ TEST_P(Deadline, WhoFallsSilentHoldsNobodyUp) {
   expect_one_history(match, true);
 }
 
+// All hear of whom an input is replaced, and of many in a second once.
+TEST_P(Deadline, AllHearOfWhomInputsAreReplaced) {
+  HandMatch match(config_of(8), kGoodLine, bot());
+  match.pass(10 * kSecond);
+  const int seat = match.machine(kCheat).seat;
+  for (const Time outage : {0u, 1u, 2u}) {
+    int told[kMachines];
+    for (std::size_t i = 0; i < kMachines; ++i) told[i] = match.machine(i).count(SessionEvent::Kind::replaced, seat);
+    const std::uint32_t before = match.host().session.stats().players[seat].replaced;
+    match.network().set_silent(match.machine(kCheat).endpoint, true);
+    match.pass(kSecond + outage * kSecond / 2);
+    match.network().set_silent(match.machine(kCheat).endpoint, false);
+    match.pass(4 * kSecond);
+    ASSERT_GT(match.host().session.stats().players[seat].replaced, before);
+    for (std::size_t i = 0; i < kMachines; ++i) {
+      const int count = match.machine(i).count(SessionEvent::Kind::replaced, seat) - told[i];
+      EXPECT_GE(count, 1) << i;
+      EXPECT_LE(count, 3) << i;
+      EXPECT_EQ(match.machine(i).count(SessionEvent::Kind::replaced),
+                match.machine(i).count(SessionEvent::Kind::replaced, seat));
+    }
+  }
+  expect_one_history(match, true);
+}
+
+TEST_P(Deadline, WhoCannotBeInTimeWatchesAndComesBackOnABetterLine) {
+  SessionConfig config = config_of(8);
+  config.exclusion = 5 * kSecond;
+  config.delay = config.least_delay = config.most_delay = 4;  // does not adapt
+  HandMatch match(config, "latency=5", bot());
+  match.pass(10 * kSecond);
+  const int seat = match.machine(kCheat).seat;
+  match.network().set_profile(match.machine(kCheat).endpoint, profile("latency=120"));
+  match.pass(10 * kSecond);
+  for (const std::size_t i : {std::size_t{0}, kCheat})
+    EXPECT_TRUE(match.machine(i).heard(SessionEvent::Kind::too_far, seat) ||
+                match.machine(i).heard(SessionEvent::Kind::replaced, seat))
+        << i;
+  EXPECT_EQ(match.host().count(SessionEvent::Kind::left, seat), 1);
+  EXPECT_EQ(match.machine(kCheat).session.phase(), SessionPhase::watching);
+  const std::uint32_t lost = match.host().session.stats().players[seat].replaced;
+  match.pass(4 * kSecond);
+  EXPECT_EQ(match.host().session.stats().players[seat].replaced, lost);
+  match.network().set_profile(match.machine(kCheat).endpoint, profile("latency=5"));
+  match.pass(15 * kSecond);
+  EXPECT_EQ(match.machine(kCheat).session.phase(), SessionPhase::playing);
+  expect_one_history(match, true);
+}
+
 // A friend who watches is shown a frame when all inputs of it are there, or the cheat would ask the friend.
 TEST(DeadlineOfSpectators, NoInputIsShownBeforeAllAreThere) {
   for (const Frame deadline : {0, 8}) {

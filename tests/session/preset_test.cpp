@@ -65,6 +65,58 @@ TEST_P(Preset, KeepsWhatThePageSays) {
   expect_one_history(match);
 }
 
+/// A preset with a deadline, and the longest line on which it plays: the round trip of one player, the others have
+/// kUsual lines.
+struct Reach {
+  Genre genre;
+  int players;
+  int farthest;  // [ms]
+};
+constexpr Reach kReaches[] = {
+    {Genre::fighting, 2, 600}, {Genre::brawler, 4, 600}, {Genre::racing, 4, 600}, {Genre::strategy, 4, 450}};
+
+class PresetReach : public testing::TestWithParam<Reach> {
+ protected:
+  /// One player on a line of `trip` [ms] there and back, and what it lost in half a minute.
+  void play(int trip, const char* rest) {
+    const Reach& reach = GetParam();
+    SCOPED_TRACE("line of " + std::to_string(trip) + " ms" + rest);
+    ToyMatch match(preset(reach.genre, reach.players), kUsual);
+    Machine<Toy>& far = match.machine(1);
+    match.network().set_profile(far.endpoint, profile("latency=" + std::to_string(trip / 2) + rest));
+    match.pass(15 * kSecond);
+    const bool plays = trip <= reach.farthest;
+    const int seat = far.seat < 0 ? 1 : far.seat;
+    const Machine<Toy>* both[] = {&match.host(), &far};
+    for (const Machine<Toy>* machine : both) {
+      EXPECT_EQ(machine->session.stats().players[seat].replaced > 0,
+                machine->heard(SessionEvent::Kind::replaced, seat));
+      EXPECT_EQ(machine->heard(SessionEvent::Kind::too_far, seat), !plays);
+    }
+    const std::uint64_t before = replaced(match.host().session.stats());
+    PaceWatch<Toy> pace(match);
+    pace.watch(30 * kSecond);
+    EXPECT_EQ(replaced(match.host().session.stats()), before);
+    EXPECT_EQ(far.session.phase(), plays ? SessionPhase::playing : SessionPhase::watching);
+    EXPECT_EQ(match.host().heard(SessionEvent::Kind::left, seat), !plays);
+    EXPECT_LE(pace[1].most_delay, 30);
+    for (std::size_t i = 0; i < match.size(); ++i) {
+      if (i == 1) continue;
+      EXPECT_EQ(pace[i].gaps(50000), 0u) << i << " waits " << pace[i].worst();
+    }
+    expect_one_history(match, true);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Genres, PresetReach, testing::ValuesIn(kReaches));
+
+TEST_P(PresetReach, LosesNoInputOnItsLinesAndBeyondThemWatches) {
+  for (int trip = 0; trip <= 800; trip += 100) play(trip, "");
+}
+
+TEST_P(PresetReach, LosesNoInputOnBadLines) {
+  for (const int trip : {100, 200, 300, 400}) play(trip, ",jitter=40,loss=5");
+}
+
 TEST(Preset, IsAConfigurationThatASessionTakes) {
   for (const Genre genre : {Genre::fighting, Genre::brawler, Genre::racing, Genre::strategy, Genre::sandbox}) {
     for (int players = 2; players <= static_cast<int>(kMaxPlayers); ++players) {

@@ -130,6 +130,8 @@ class ClientCore : public PeerCore {
   void begin_at(const HashReport& start);
   void open(Frame first);
   void lean(Time now);
+  /// Do we play at all on such a line?
+  void judge_distance();
   /// Do the host's machine and enough others have the states that we have?
   bool is_vouched_for(Time now) const;
   void fail(SessionEvent::Kind kind, SessionPhase phase);
@@ -173,8 +175,10 @@ class ClientCore : public PeerCore {
   /// [frames] that we run behind the host, when our line is so much worse than the others' that they do not wait for
   /// it: their inputs are in time for who runs later.
   InputDelay lag_;
-  bool is_far_ = false;     // as the host says
-  bool knows_way_ = false;  // the delay was told how long the way is
+  bool is_far_ = false;        // as the host says
+  bool is_too_far_ = false;    // no delay covers our line
+  std::uint32_t figured_ = 0;  // players, a bit each, whose figures we know
+  bool knows_way_ = false;     // the delay was told how long the way is
 };
 
 }  // namespace isostep

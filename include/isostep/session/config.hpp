@@ -20,6 +20,7 @@ enum class SessionMode : std::uint8_t {
   replay      // plays a recorded match
 };
 
+inline constexpr Frame kMostDelay = 60;             // [frames] an input waits at most: a second
 inline constexpr std::size_t kCredentialCap = 256;  // [bytes] a signature of 64 and what it signs
 
 struct SessionConfig {
@@ -34,7 +35,7 @@ struct SessionConfig {
   Frame window = 8;       // rollback: frames stepped on guesses; sync test: frames rolled back
   Frame delay = 2;        // [frames] an input waits at first
   Frame least_delay = 0;  // it adapts between these; equal: it does not
-  Frame most_delay = 20;
+  Frame most_delay = 20;  // with a deadline up to half a second, where inputs would be replaced otherwise
   /// [frames] Host: an input that is late by so many is replaced by the guess, and nobody is sent what others do in a
   /// frame before the host has its own input of it: who waits to see it waits in vain. 0: none.
   Frame deadline = 0;

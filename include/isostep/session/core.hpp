@@ -55,6 +55,8 @@ struct SessionEvent {
     left,           // player is gone from frame on: as well
     waiting_for,    // players (a bit each) hold the match up, their inputs are missing; none: the host is silent
     resumed,        // it goes on
+    replaced,       // guesses count in place of player's inputs, too late for the deadline: once a second at most
+    too_far,        // no delay covers player's line under the deadline: it watches
     paused,         // from frame on, by player; 0xff: by the host's game
     unpaused,       // likewise
     speed_changed,  // likewise: `speed`

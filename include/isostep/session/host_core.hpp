@@ -76,6 +76,9 @@ class HostCore : public PeerCore {
     Frame replaced = 0, replaced_end = 0;  // inputs from .. until, of which its player does not know yet; 0: none
     bool is_late = false;                  // the newest input was replaced
     Frame late_end = 0;                    // of the inputs that came after they were replaced: what follows the newest
+    StallBudget replaced_for;              // time in which its inputs were replaced though it was heard
+    std::uint32_t replaced_told = 0;       // inputs, of stats().players
+    Time tells_replaced_at = 0;            // [us] not before
   };
   /// A client, on its way in.
   struct Guest : PeerLink {
@@ -99,6 +102,8 @@ class HostCore : public PeerCore {
     bool is_ready = false;    // asked to play
     Time too_slow_since = 0;  // [us]
     bool is_far = false;      // its line is worse than the others'
+    bool is_too_far = false;  // no delay covers it: it watches
+    Time covered_at = 0;      // [us] when one did
     // Our frame when it was last not sent all inputs of a player.
     Frame held_back[kMaxPlayers];
     Frame opens = kNoFrame;
@@ -124,6 +129,7 @@ class HostCore : public PeerCore {
     Time probe_every = kFirstProbe;     // [us] kept when it goes: its place may be taken by who is no better
   };
   static constexpr Time kFirstProbe = kSecond / 10;  // [us]
+  static constexpr Time kFreeStart = 5 * kSecond;    // [us] of a match, in which delays find out how long the lines are
 
   void begin(Time now);
   // --- a match that was saved, in host_resume.cpp ---
@@ -214,6 +220,8 @@ class HostCore : public PeerCore {
   /// All of its machine.
   void close_seat(int player);
   void close_seats(Guest& guest);
+  /// Likewise, and its players watch for `exclusion`.
+  void leave_out(Guest& guest, Time now);
   /// Its players' seats are free for who comes next.
   void unseat(Guest& guest);
   void drop(Guest& guest);
@@ -253,13 +261,17 @@ class HostCore : public PeerCore {
   /// [us] round trips beyond this are their players' own affair: who has a worse line runs later, and nobody waits.
   Time farthest_that_counts() const { return farthest_; }
   Time judge_farthest() const;
-  void judge_lines();
+  void judge_lines(Time now);
+  /// Who is farther than any delay covers loses all of its inputs, and watches.
+  void judge_distance(Guest& guest, Time now);
   /// All go as fast as the slowest machine can, if that is fast enough.
   void choose_pace(Time now);
   /// stats().players, and when they are told.
   void keep_figures(Time now);
   /// Inputs after the deadline: the guess is final.
   void replace_late(Time now);
+  void replace_next(int player, Frame due, Time now);
+  void tell_replaced(int player, Time now);
   /// All inputs of the slice came too late: by how much, its player has to know to send them earlier.
   void note_replaced(const InputSlice& slice, Time now);
   /// Inputs of others before this frame are shown to it.

@@ -7,30 +7,30 @@
 namespace isostep {
 
 /// What the others say about how early our inputs come decides: late ones raise the delay at once, early ones lower it
-/// slowly. A longer delay is felt by one player; a late input costs everybody a rollback or a wait.
+/// slowly. A longer delay is felt by one player; a late input costs everybody a rollback or a wait. Up to `most` inputs
+/// come when they are wanted; beyond it, up to `limit`, no later than they still count.
 class InputDelay {
  public:
   struct Settings {
     Frame start = 2, least = 0, most = 12;  // [frames]; least == most: fixed
     Frame wanted_slack = 0;                 // [frames] negative: a rollback of so many is welcome
+    Frame limit = most;                     // [frames] `most` or more
+    Frame latest_slack = wanted_slack;      // [frames] at most wanted_slack
   };
   explicit InputDelay(const Settings& settings) : settings_(settings), delay_(settings.start) {}
 
   Frame frames() const { return delay_; }
   /// An input will be on its way for so many frames: before anything was observed.
-  void expect(Frame way) {
-    const Frame wanted = way + settings_.wanted_slack;
-    if (wanted > delay_) delay_ = wanted < settings_.most ? wanted : settings_.most;
-  }
+  void expect(Frame way) { raise(way + settings_.wanted_slack, way + settings_.latest_slack); }
   /// Inputs will come so much later from now on.
   void grow(Frame by) {
-    delay_ = delay_ + by < settings_.most ? delay_ + by : settings_.most;
+    raise(delay_ + by, 0);
     disregard();
   }
   /// A frame takes `before` / `after` of the time that it took.
   void rescale(int before, int after) {
     const Frame same = (delay_ * after + before - 1) / before;
-    delay_ = same < settings_.least ? settings_.least : same > settings_.most ? settings_.most : same;
+    delay_ = same < settings_.least ? settings_.least : same > settings_.limit ? settings_.limit : same;
     disregard();
   }
   /// Somebody who may have needed the delay is gone: what is to spare soon is given up at once.
@@ -39,22 +39,29 @@ class InputDelay {
     reconsiders_ = true;
   }
   bool is_at_most() const { return delay_ >= settings_.most; }
+  Frame limit() const { return settings_.limit; }
+  /// No longer than `most` from now on: nobody replaces our inputs.
+  void keep_to_most() {
+    settings_.limit = settings_.most;
+    settings_.latest_slack = settings_.wanted_slack;
+    if (delay_ > settings_.most) delay_ = settings_.most;
+  }
   /// By how much the latest of our inputs within a second came early, over all peers; once a frame of time.
   void observe(Frame slack) {
     if (++observed_ <= 0) return;
     if (slack < worst_) worst_ = slack;
     if (observed_ < kPeriod) return;
-    const Frame spare = worst_ - settings_.wanted_slack;
-    calm_ = spare < kSpare ? 0 : calm_ + 1;
-    Frame wanted = delay_;
-    if (spare < 0) wanted -= spare;
-    if (calm_ >= kCalm) --wanted;
-    if (reconsiders_ && spare > 1) wanted = delay_ - spare + 1;
+    const Frame before = delay_, spare = worst_ - settings_.wanted_slack, room = worst_ - settings_.latest_slack;
+    // Beyond `most` the delay is no longer than it has to be.
+    const Frame excess = delay_ > settings_.most ? room : spare;
+    calm_ = excess < kSpare ? 0 : calm_ + 1;
+    raise(delay_ - spare, delay_ - room);
+    if (calm_ >= kCalm) --delay_;
+    if (reconsiders_ && excess > 1) delay_ = before - excess + 1;
+    if (delay_ < settings_.least) delay_ = settings_.least;
     reconsiders_ = false;
-    wanted = wanted < settings_.least ? settings_.least : wanted > settings_.most ? settings_.most : wanted;
-    observed_ = wanted == delay_ ? 0 : -kSettling;
-    if (wanted != delay_) calm_ = 0;
-    delay_ = wanted;
+    observed_ = delay_ == before ? 0 : -kSettling;
+    if (delay_ != before) calm_ = 0;
     worst_ = kNothing;
   }
   /// What is reported now and for some time speaks of something that is over.
@@ -70,6 +77,14 @@ class InputDelay {
   static constexpr Frame kSpare = 2;    // [frames] of spare that are left alone
   static constexpr Frame kCalm = 4;     // periods in a row with spare before the delay shrinks
   static constexpr Frame kNothing = 1 << 20;
+
+  /// To what is wanted, as far as `most`; to what is needed, as far as `limit`.
+  void raise(Frame wanted, Frame needed) {
+    if (wanted > settings_.most) wanted = settings_.most;
+    if (needed > settings_.limit) needed = settings_.limit;
+    if (needed > wanted) wanted = needed;
+    if (wanted > delay_) delay_ = wanted;
+  }
 
   Settings settings_;
   Frame delay_;

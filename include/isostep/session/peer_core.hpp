@@ -55,6 +55,11 @@ class PeerCore : public SessionCore {
   void plan(Time now) override;
   void hash_known(Frame state, std::uint64_t hash) override;
 
+  /// No delay covers such a line: a player's inputs come after the deadline whatever its machine does.
+  bool is_beyond(Time round_trip) const;
+  /// The same of a line of which that was said: a sixteenth less does not change it again.
+  bool is_still_beyond(Time round_trip) const { return is_beyond(round_trip + round_trip / 16); }
+  void tell_of(SessionEvent::Kind kind, int player);
   /// First frame of which some input is missing.
   Frame known_end() const;
   /// Everything up to here; goes on from there with the same state.

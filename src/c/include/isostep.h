@@ -2972,6 +2972,8 @@ enum {
   ISO_EVENT_LEFT,          /* player is gone from frame on: as well */
   ISO_EVENT_WAITING_FOR,   /* players hold the match up, their inputs are missing; none: the host is silent */
   ISO_EVENT_RESUMED,       /* it goes on */
+  ISO_EVENT_REPLACED,      /* guesses count for player's inputs, too late for the deadline: once a second at most */
+  ISO_EVENT_TOO_FAR,       /* no delay covers player's line under the deadline: it watches */
   ISO_EVENT_PAUSED,        /* from frame on, by player; ISO_NO_PLAYER: by the host's game */
   ISO_EVENT_UNPAUSED,      /* likewise */
   ISO_EVENT_SPEED_CHANGED, /* likewise: speed */

@@ -23,6 +23,11 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   if (header.figured < players()) {
     PlayerStats& figures = stats_.players[header.figured];
     const Frame early = figures.early;
+    const std::uint32_t one = 1u << header.figured;
+    if ((figured_ & one) != 0 && header.figures.replaced > figures.replaced) {
+      tell_of(SessionEvent::Kind::replaced, header.figured);
+    }
+    figured_ |= one;
     figures = header.figures;
     figures.early = early;
   }
@@ -42,14 +47,16 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   if (header.started && !runs_) {
     runs_ = true;
     clock_.start(now);
+    if (current() == 0) figured_ = ~0u;  // none is replaced yet
     SessionEvent event{.kind = SessionEvent::Kind::started};
     event.frame = current();
     tell(event);
   }
   if (runs_ && !knows_way_ && host_.round_trip > 0) {
     knows_way_ = true;
-    // To the host, and on to the others where there are any.
-    const Time way = welcome_.players > std::popcount(welcome_.hosted | own_) ? host_.round_trip : host_.round_trip / 2;
+    // To the host, and on to the others where there are any; with a deadline, what others do comes all the way back.
+    const bool is_two_hops = config_.deadline > 0 || welcome_.players > std::popcount(welcome_.hosted | own_);
+    const Time way = is_two_hops ? host_.round_trip : host_.round_trip / 2;
     delay_.expect(static_cast<Frame>(way / clock_.period()) + 1);
   }
   if (is_far_ && !header.is_far) lag_ = InputDelay(lag_settings(config_));
@@ -157,13 +164,22 @@ void ClientCore::before_steps(Time now) {
   } else if (phase_ == SessionPhase::playing) {
     phase_ = SessionPhase::watching;
   }
+  judge_distance();
   const bool is_near = frames_behind(now) <= kCaughtUp + config_.most_delay;
   if (is_near && near_since_ == 0) near_since_ = now;
   if (config_.mode == SessionMode::spectator) {
     if (is_near) phase_ = SessionPhase::watching;
-  } else if (!is_open_ && !asked_ready_ && is_near && pace_.stretch() <= kMostStretch && is_vouched_for(now)) {
+  } else if (!is_open_ && !asked_ready_ && !is_too_far_ && is_near && pace_.stretch() <= kMostStretch &&
+             is_vouched_for(now)) {
     asked_ready_ = must_ready_ = true;
   }
+}
+
+void ClientCore::judge_distance() {
+  const bool was_too_far = is_too_far_;
+  const Time trip = host_.round_trip;
+  is_too_far_ = player_ >= 0 && (was_too_far ? is_still_beyond(trip) : is_beyond(trip));
+  if (is_too_far_ && !was_too_far) tell_of(SessionEvent::Kind::too_far, player_);
 }
 
 bool ClientCore::propose(int player, const Proposal& proposal) {

@@ -65,7 +65,7 @@ const char* problem_of(const SessionConfig& config) {
   if (config.local_players < 0 || config.local_players > config.players) return "local_players: 0 to players";
   if (config.hz < 1 || config.hz > 1000) return "hz: 1 to 1000";
   if (config.window < 0 || config.window > 60) return "window: 0 to 60 frames";
-  if (config.least_delay < 0 || config.most_delay < config.least_delay || config.most_delay > 60) {
+  if (config.least_delay < 0 || config.most_delay < config.least_delay || config.most_delay > kMostDelay) {
     return "least_delay, most_delay: 0 to 60 frames, in order";
   }
   if (config.delay < config.least_delay || config.delay > config.most_delay) {

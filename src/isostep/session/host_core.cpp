@@ -5,8 +5,7 @@
 namespace isostep {
 namespace {
 
-constexpr Frame kMostAhead = 128;         // [frames] beyond ours that a client's input may lie
-constexpr Time kFreeStart = 5 * kSecond;  // [us] of a match, in which delays find out how long the lines are
+constexpr Frame kMostAhead = 128;  // [frames] beyond ours that a client's input may lie
 
 }  // namespace
 
@@ -199,7 +198,7 @@ void HostCore::tend_guests(Time now) {
   keep_roster();
   count_backers(now);
   tend_inquiry(now);
-  judge_lines();
+  judge_lines(now);
   choose_pace(now);
   keep_figures(now);
 }
@@ -235,11 +234,7 @@ void HostCore::charge(Time now) {
     if (is_local(p) || !seat.is_open || streams_[static_cast<std::size_t>(p)].end() > current()) continue;
     seat.lost.spend(passed, now);  // each in full: several who are silent at once cost the time of one
     if (seat.lost.spent(now) < config_.patience) continue;
-    const std::uint32_t machine = guests_[static_cast<std::size_t>(seat.link)].players;
-    close_seat(p);
-    for (int q = 0; q < players(); ++q) {
-      if ((machine >> q & 1) != 0) seats_[q].shut_until = now + config_.exclusion;
-    }
+    leave_out(guests_[static_cast<std::size_t>(seat.link)], now);
   }
 }
 

@@ -4,6 +4,13 @@
 
 namespace isostep {
 
+namespace {
+
+constexpr Time kTellReplaced = kSecond;  // [us] between two words on one player's inputs
+constexpr Time kIsHeard = kSecond / 5;   // [us] since its last word: its line is there, and slow
+
+}  // namespace
+
 void HostCore::replace_late(Time now) {
   if (config_.deadline == 0 || now < due_from_ || !is_backed_) return;
   const Frame due = current() + (is_blocked_ ? clock_.overdue(now) : 0);
@@ -14,16 +21,35 @@ void HostCore::replace_late(Time now) {
     if (is_local(p)) continue;
     Seat& seat = seats_[p];
     InputStream& stream = streams_[static_cast<std::size_t>(p)];
-    while (seat.is_open && due - stream.end() >= (seat.is_late ? patient : config_.deadline)) {
-      std::uint8_t buffer[kInputCap];
-      slack_[p].add(stream.end() - due < -127 ? -127 : stream.end() - due);
-      if (seat.replaced_end == 0) seat.replaced = stream.end();
-      stream.append({false, guess_next(stream, buffer)});
-      seat.replaced_end = stream.end();
-      seat.is_late = true;
-      ++stats_.players[p].replaced;
-    }
+    while (seat.is_open && due - stream.end() >= (seat.is_late ? patient : config_.deadline)) replace_next(p, due, now);
+    tell_replaced(p, now);
   }
+}
+
+void HostCore::replace_next(int player, Frame due, Time now) {
+  Seat& seat = seats_[player];
+  InputStream& stream = streams_[static_cast<std::size_t>(player)];
+  std::uint8_t buffer[kInputCap];
+  slack_[player].add(stream.end() - due < -127 ? -127 : stream.end() - due);
+  if (seat.replaced_end == 0) seat.replaced = stream.end();
+  stream.append({false, guess_next(stream, buffer)});
+  seat.replaced_end = stream.end();
+  seat.is_late = true;
+  ++stats_.players[player].replaced;
+  // Who is there and whose inputs do not count watches, as who holds all up; who is silent may come back.
+  Guest& guest = guests_[static_cast<std::size_t>(seat.link)];
+  if (now - began_ < kFreeStart || now - guest.heard > kIsHeard) return;
+  seat.replaced_for.spend(clock_.period(), now);
+  if (seat.replaced_for.spent(now) >= config_.patience) leave_out(guest, now);
+}
+
+void HostCore::tell_replaced(int player, Time now) {
+  Seat& seat = seats_[player];
+  const std::uint32_t count = stats_.players[player].replaced;
+  if (count == seat.replaced_told || now < seat.tells_replaced_at) return;
+  seat.replaced_told = count;
+  seat.tells_replaced_at = now + kTellReplaced;
+  tell_of(SessionEvent::Kind::replaced, player);
 }
 
 void HostCore::note_replaced(const InputSlice& slice, Time now) {

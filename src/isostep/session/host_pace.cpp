@@ -12,6 +12,7 @@ constexpr Frame kMostSpread = 8;        // [frames] more, of who comes in bursts
 constexpr int kCatchingUp = 16;         // [1/256 period] that a client adds to what it needs
 constexpr int kAsSlow = 8;              // [1/256 period] by which machines differ that are as slow
 constexpr Time kTooSlow = 2 * kSecond;  // [us] at less than the least pace, until a player watches
+constexpr Time kTooFar = 2 * kSecond;   // [us] on a line that no delay covers, likewise
 constexpr Time kAsGood = 2;             // [frames] by which round trips differ on lines that are as good
 
 }  // namespace
@@ -35,12 +36,25 @@ Time HostCore::judge_farthest() const {
   return trips[(count - 1) / 2] + kAsGood * clock_.period();
 }
 
-void HostCore::judge_lines() {
+void HostCore::judge_lines(Time now) {
   farthest_ = judge_farthest();
   for (Guest& guest : guests()) {
     // A period less on the way back, so that jitter does not change it again and again.
     guest.is_far = is_in_match(guest) && guest.round_trip > farthest_ - (guest.is_far ? clock_.period() : 0);
+    judge_distance(guest, now);
   }
+}
+
+void HostCore::judge_distance(Guest& guest, Time now) {
+  const bool is_covered = guest.is_too_far ? !is_still_beyond(guest.round_trip) : !is_beyond(guest.round_trip);
+  if (is_covered || guest.player < 0) {
+    guest.covered_at = now;
+    guest.is_too_far = false;
+  }
+  if (guest.is_too_far || now - guest.covered_at < kTooFar) return;
+  guest.is_too_far = true;
+  close_seats(guest);
+  tell_of(SessionEvent::Kind::too_far, guest.player);
 }
 
 Frame HostCore::slack_of(int player) const {

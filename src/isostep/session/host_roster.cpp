@@ -109,6 +109,8 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
     }
   }
   for (RecentLeast& slack : slack_) slack = RecentLeast{};
+  delay_.keep_to_most();  // no deadline replaces ours
+  for (int p = 0; p < players(); ++p) seats_[p].replaced_told = stats_.players[p].replaced;
   for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
   end_ballot();
   started_ = true;

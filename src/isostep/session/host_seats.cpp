@@ -105,7 +105,8 @@ void HostCore::go_live(Guest& guest, Frame start) {
 }
 
 void HostCore::open_seats(Guest& guest, Time now) {
-  if (!started_ || (guest.player >= 0 && now < seats_[guest.player].shut_until)) return;  // later
+  const bool is_shut = guest.player >= 0 && (now < seats_[guest.player].shut_until || guest.is_too_far);
+  if (!started_ || is_shut) return;  // later
   guest.is_ready = false;
   if (guest.player < 0 || seats_[guest.player].is_open) return;
   const Frame trip = static_cast<Frame>(2 * guest.round_trip / clock_.period());
@@ -135,6 +136,13 @@ void HostCore::close_seats(Guest& guest) {
     seat.replaced_end = 0;
     seat.is_late = false;
     if (started_) slack_[p] = RecentLeast{};
+  }
+}
+
+void HostCore::leave_out(Guest& guest, Time now) {
+  close_seats(guest);
+  for (int p = 0; p < players(); ++p) {
+    if (has(guest, p)) seats_[p].shut_until = now + config_.exclusion;
   }
 }
 

@@ -12,10 +12,25 @@ constexpr int kMostSteps = 6;       // while catching up
 constexpr Frame kSlackBucket = 30;  // [frames] of time
 constexpr Time kAsk = 1000;         // [us] until a caller that waits for the network should look again
 
+Frame window_of(const SessionConfig& config) { return config.mode == SessionMode::rollback ? config.window : 0; }
+
+/// [frames] an input waits at most. Who would lose its inputs to the deadline waits up to half a second for them.
+Frame longest_delay(const SessionConfig& config) {
+  const bool is_fixed = config.least_delay == config.most_delay;
+  const Frame half = config.hz / 2 < kMostDelay ? config.hz / 2 : kMostDelay;
+  return config.deadline == 0 || is_fixed || half < config.most_delay ? config.most_delay : half;
+}
+
 InputDelay::Settings delay_settings(const SessionConfig& config) {
-  InputDelay::Settings settings{config.delay, config.least_delay, config.most_delay, 0};
+  InputDelay::Settings settings{config.delay, config.least_delay, config.most_delay};
   // Half the window is a rollback that every frame affords; the other half is for what the network does at its worst.
-  if (config.mode == SessionMode::rollback) settings.wanted_slack = -(config.window / 2);
+  const Frame window = window_of(config);
+  settings.wanted_slack = -(window / 2);
+  settings.latest_slack = -window;
+  settings.limit = config.host ? config.most_delay : longest_delay(config);
+  // Who waits longer for what others do than the window steps without it falls behind until its inputs are replaced.
+  if (config.deadline > 0 && settings.latest_slack < -config.deadline) settings.latest_slack = -config.deadline;
+  if (settings.wanted_slack < settings.latest_slack) settings.wanted_slack = settings.latest_slack;
   return settings;
 }
 
@@ -62,6 +77,14 @@ Frame PeerCore::known_end() const {
 Frame PeerCore::final_limit() const {
   const Frame known = known_end();
   return known < current() ? known : current();
+}
+
+bool PeerCore::is_beyond(Time round_trip) const {
+  if (config_.deadline == 0) return false;
+  // Others' inputs of a frame come a whole round trip after ours of it are sent.
+  const Time delay = static_cast<Time>(longest_delay(config_)), window = static_cast<Time>(window_of(config_));
+  const Time deadline = static_cast<Time>(config_.deadline);
+  return round_trip > (delay + window) * clock_.period() || round_trip / 2 > (delay + deadline) * clock_.period();
 }
 
 bool PeerCore::may_step() const {

@@ -36,6 +36,13 @@ void PeerCore::go_at_pace_of(int player, int stretch) {
   tell(event);
 }
 
+void PeerCore::tell_of(SessionEvent::Kind kind, int player) {
+  SessionEvent event{.kind = kind};
+  event.player = static_cast<std::uint8_t>(player);
+  event.frame = current();
+  tell(event);
+}
+
 void PeerCore::stands_for(std::uint32_t players) {
   if (stands_ && players == waits_for_) return;
   stands_ = true;

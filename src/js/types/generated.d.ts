@@ -31,7 +31,7 @@ export type InputStatusName = 'confirmed' | 'predicted' | 'disconnected';
 export type RequestKindName = 'nothing' | 'step' | 'rolled_back' | 'restarted' | 'confirmed';
 export type ChannelName = 'datagram' | 'reliable';
 export type ProposalName = 'pause' | 'unpause' | 'speed' | 'kick' | 'other';
-export type EventKindName = 'none' | 'started' | 'joined' | 'left' | 'waiting_for' | 'resumed' | 'paused' | 'unpaused' | 'speed_changed' | 'asks_pause' | 'asks_unpause' | 'asks_speed' | 'vote' | 'vote_passed' | 'vote_failed' | 'slowed_by' | 'full_speed' | 'refused' | 'lost_host' | 'seeks_host' | 'new_host' | 'deposed' | 'desync' | 'outvoted' | 'undecided' | 'repaired' | 'bad_snapshot' | 'misuse' | 'unhashed';
+export type EventKindName = 'none' | 'started' | 'joined' | 'left' | 'waiting_for' | 'resumed' | 'replaced' | 'too_far' | 'paused' | 'unpaused' | 'speed_changed' | 'asks_pause' | 'asks_unpause' | 'asks_speed' | 'vote' | 'vote_passed' | 'vote_failed' | 'slowed_by' | 'full_speed' | 'refused' | 'lost_host' | 'seeks_host' | 'new_host' | 'deposed' | 'desync' | 'outvoted' | 'undecided' | 'repaired' | 'bad_snapshot' | 'misuse' | 'unhashed';
 export type PhaseName = 'waiting' | 'joining' | 'playing' | 'watching' | 'seeking' | 'lost' | 'refused' | 'over';
 export type RecordingName = 'match' | 'world';
 

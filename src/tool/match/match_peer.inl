@@ -34,6 +34,8 @@ inline const char* name_of(SessionEvent::Kind kind) {
     case SessionEvent::Kind::left: return "left";
     case SessionEvent::Kind::waiting_for: return "waiting";
     case SessionEvent::Kind::resumed: return "resumed";
+    case SessionEvent::Kind::replaced: return "inputs replaced";
+    case SessionEvent::Kind::too_far: return "too far away";
     case SessionEvent::Kind::paused: return "paused";
     case SessionEvent::Kind::unpaused: return "no longer paused";
     case SessionEvent::Kind::speed_changed: return "speed changed";

@@ -39,7 +39,7 @@ export const interfaceSchema = {
     request_kind: {nothing: 0, step: 1, rolled_back: 2, restarted: 3, confirmed: 4},
     channel: {datagram: 0, reliable: 1},
     proposal: {pause: 1, unpause: 2, speed: 3, kick: 4, other: 5},
-    event_kind: {none: 0, started: 1, joined: 2, left: 3, waiting_for: 4, resumed: 5, paused: 6, unpaused: 7, speed_changed: 8, asks_pause: 9, asks_unpause: 10, asks_speed: 11, vote: 12, vote_passed: 13, vote_failed: 14, slowed_by: 15, full_speed: 16, refused: 17, lost_host: 18, seeks_host: 19, new_host: 20, deposed: 21, desync: 22, outvoted: 23, undecided: 24, repaired: 25, bad_snapshot: 26, misuse: 27, unhashed: 28},
+    event_kind: {none: 0, started: 1, joined: 2, left: 3, waiting_for: 4, resumed: 5, replaced: 6, too_far: 7, paused: 8, unpaused: 9, speed_changed: 10, asks_pause: 11, asks_unpause: 12, asks_speed: 13, vote: 14, vote_passed: 15, vote_failed: 16, slowed_by: 17, full_speed: 18, refused: 19, lost_host: 20, seeks_host: 21, new_host: 22, deposed: 23, desync: 24, outvoted: 25, undecided: 26, repaired: 27, bad_snapshot: 28, misuse: 29, unhashed: 30},
     phase: {waiting: 0, joining: 1, playing: 2, watching: 3, seeking: 4, lost: 5, refused: 6, over: 7},
     recording: {match: 0, world: 1}
   },
