@@ -117,6 +117,23 @@ TEST_P(PresetReach, LosesNoInputOnBadLines) {
   for (const int trip : {100, 200, 300, 400}) play(trip, ",jitter=40,loss=5");
 }
 
+// After it all wait as long as before.
+TEST(Preset, ForgetsAHitchInTwentySeconds) {
+  for (const Time hitch : {200, 500, 900}) {
+    SCOPED_TRACE(hitch);
+    ToyMatch match(preset(Genre::strategy, 4), kUsual);
+    match.pass(20 * kSecond);
+    std::vector<Frame> before;
+    for (std::size_t i = 0; i < match.size(); ++i) before.push_back(match.machine(i).session.stats().delay);
+    match.hitch(1, hitch * 1000);
+    match.pass(20 * kSecond);
+    PaceWatch<Toy> pace(match);
+    pace.watch(40 * kSecond);
+    for (std::size_t i = 0; i < match.size(); ++i) EXPECT_LE(pace[i].most_delay, before[i]) << i;
+    expect_one_history(match, true);
+  }
+}
+
 TEST(Preset, IsAConfigurationThatASessionTakes) {
   for (const Genre genre : {Genre::fighting, Genre::brawler, Genre::racing, Genre::strategy, Genre::sandbox}) {
     for (int players = 2; players <= static_cast<int>(kMaxPlayers); ++players) {

@@ -83,10 +83,12 @@ bool HostCore::was_held_back(const Guest& guest, int player) const {
 }
 
 Frame HostCore::told_slack(const Guest& guest, int player) const {
-  const Frame slack = slack_of(player);
-  if (config_.deadline == 0 || slack == RecentLeast::kNothing) return slack;
-  // What others do in a frame is sent when its own input is here: that has to come earlier by the way back.
-  const Frame told = slack - static_cast<Frame>(guest.round_trip / 2 / clock_.period()) - 1;
+  const Frame slack = slack_of(player), here = slack_[player].value();
+  if (config_.deadline == 0 || here == RecentLeast::kNothing) return slack;
+  // What others do in a frame is sent when its own input is here: that has to come earlier by the way back. The others'
+  // words on it are of what came to them.
+  const Frame back = here - static_cast<Frame>(guest.round_trip / 2 / clock_.period()) - 1;
+  const Frame told = back < slack ? back : slack;
   return told < -127 ? -127 : told;
 }
 
