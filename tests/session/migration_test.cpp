@@ -54,6 +54,24 @@ INSTANTIATE_TEST_SUITE_P(Matches, Migration,
                          testing::Combine(testing::Values(4, 8),
                                           testing::Values(SessionMode::lockstep, SessionMode::rollback)));
 
+TEST_P(Migration, WhatWasToldBeforeIsNotToldAgain) {
+  match.pass(8 * kSecond);
+  for (int deaths = 1; deaths <= 2; ++deaths) {
+    kill(match, host_of(match));
+    ASSERT_TRUE(go_on(300, 20 * kSecond));
+    for (std::size_t i = 0; i < match.size(); ++i) {
+      if (!match.machine(i).plays) continue;
+      SCOPED_TRACE("machine " + std::to_string(i));
+      EXPECT_EQ(match.machine(i).count(Kind::started), 1);
+      for (int p = 0; p < players(); ++p) {
+        EXPECT_EQ(match.machine(i).count(Kind::joined, p), 1) << p;
+        EXPECT_LE(match.machine(i).count(Kind::left, p), 1) << p;
+      }
+    }
+    if (players() < 8) break;  // of three two are a majority, of two one is not
+  }
+}
+
 TEST_P(Migration, PlayGoesOnWithinThreeSecondsOfTheHostsDeath) {
   match.pass(8 * kSecond);
   std::vector<int> seats;

@@ -9,7 +9,7 @@ constexpr Time kBackWithin = 2 * kSecond;
 
 /// Connects whenever it is not, and does one thing.
 struct Stranger : hostile::Rogue {
-  enum class Way : std::uint8_t { silent, watches, plays, guesses };
+  enum class Way : std::uint8_t { silent, watches, plays, guesses, differs };
   Way way;
   Time stays;  // [us] a connection, by its own will
   Time since = 0;
@@ -26,6 +26,7 @@ struct Stranger : hostile::Rogue {
       Hello hello = hostile::hello_of(scene.config);
       hello.spectator = way == Way::watches;
       if (way == Way::guesses) hello.token = now * 0x9e3779b97f4a7c15u | 1u;
+      if (way == Way::differs) hello.identity.set("scene", "another", true);
       if (way != Way::silent) greet(hello);
     }
     if (is_connected && now - since > stays) {
@@ -150,6 +151,19 @@ TEST_P(Strangers, AsSpectatorsLeaveThePlacesOfPlayers) {
   scene.pass(kSecond);
   Player& next = scene.come(scene.as_spectator());
   EXPECT_TRUE(scene.match.run(2 * kSecond, [&] { return next.session.phase() == SessionPhase::watching; }));
+}
+
+// Each is counted; the game is told of some at once, and of one a second.
+TEST_P(Strangers, OfAnotherVersionDoNotFloodTheGameWithEvents) {
+  CrowdedMatch scene(config_of(2), 12, {Stranger::Way::differs});
+  scene.pass(20 * kSecond);
+  const std::uint64_t refused = scene.host().stats().refused;
+  EXPECT_GT(refused, 200u);
+  int told = 0;
+  for (const SessionEvent& event : scene.match.host().events) told += event.kind == Kind::refused ? 1 : 0;
+  EXPECT_GE(told, 20);
+  EXPECT_LE(told, 32 + 21);
+  EXPECT_EQ(scene.host().stats().events_lost, 0u);
 }
 
 TEST_P(Strangers, BeyondThePlacesOfASessionAreCountedAndNotServed) {

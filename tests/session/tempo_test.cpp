@@ -145,6 +145,25 @@ TEST_P(Asked, TheHostsGameHearsOfItOrGrantsIt) {
   }
 }
 
+TEST_P(Asked, AFloodOfAsksIsHeardOnceASecond) {
+  for (const bool grants : {false, true}) {
+    SessionConfig config = config_of(3, GetParam());
+    config.players_set_tempo = grants;
+    ToyMatch match(config, kGoodLine);
+    match.pass(3 * kSecond);
+    bool on = false;
+    match.run(10 * kSecond, [&] {
+      on = !on;
+      on ? match.machine(2).session.pause() : match.machine(2).session.unpause();
+      if (match.now() % 2000 == 0) match.machine(2).session.set_speed(on ? 5 : 9);
+      return false;
+    });
+    EXPECT_GE(match.host().events.size(), 5u);
+    EXPECT_LE(match.host().events.size(), 3u + 1 + 3 * 11) << "joined, started, then of each kind one a second";
+    EXPECT_EQ(match.host().session.stats().events_lost, 0u);
+  }
+}
+
 TEST_P(Asked, AMigrationKeepsThePause) {
   SessionConfig config = config_of(4, GetParam());
   config.migration = kSecond;

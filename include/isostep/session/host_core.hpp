@@ -94,9 +94,11 @@ class HostCore : public PeerCore {
     Address address;
     bool must_enroll = false;
     bool must_tell_ballot = false;
-    std::uint32_t enrolled = 0;  // the roster that it has
-    std::uint32_t players = 0;   // its seats, a bit each: they are taken, open and close together
-    int player = -1;             // the first of them; -1: a spectator
+    std::optional<Ask> asks_pause, asks_speed;  // the last of each that is not answered yet
+    Time may_ask_at = 0;                        // [us] others are answered then
+    std::uint32_t enrolled = 0;                 // the roster that it has
+    std::uint32_t players = 0;                  // its seats, a bit each: they are taken, open and close together
+    int player = -1;                            // the first of them; -1: a spectator
     bool must_welcome = false, must_open = false, must_close = false;
     int figures_left = 0;     // players whose figures it is told next, one with each datagram
     bool is_ready = false;    // asked to play
@@ -148,6 +150,9 @@ class HostCore : public PeerCore {
   Tempo latest_wish() const { return has_wish_ ? wished_ : announced(); }
   void grant_tempo();
   void take_ask(Guest& guest, Bytes message);
+  /// Who asks again and again is heard once a second.
+  void answer_asks(Guest& guest, Time now);
+  void answer(const Guest& guest, const Ask& ask);
   /// Once a frame of time, for what changes no faster: who is silent, lags, or is far away.
   void tend_guests(Time now);
   /// Those that a connection ever had: few, of many places.
@@ -294,6 +299,7 @@ class HostCore : public PeerCore {
   std::optional<Outgoing> next_message(Guest& guest, Time now);
   std::optional<Outgoing> next_datagram(Guest& guest, Time now);
   void refuse(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours);
+  void tell_refusal(const Refusal& refusal);
 
   std::uint32_t hosted_;  // players of this machine, a bit each
   bool started_ = false, must_start_ = false;
@@ -321,6 +327,7 @@ class HostCore : public PeerCore {
   std::uint32_t sequels_ = 0;
   Tempo wished_;
   bool has_wish_ = false;
+  Time refusals_until_ = 0;  // [us] when all those are over that were told, at one a second
   Time blocked_since_ = 0;
   Time charged_at_ = 0;         // [us]
   Time figures_at_ = 0;         // [us] when figures are told again

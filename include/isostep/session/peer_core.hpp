@@ -60,6 +60,8 @@ class PeerCore : public SessionCore {
   /// The same of a line of which that was said: a sixteenth less does not change it again.
   bool is_still_beyond(Time round_trip) const { return is_beyond(round_trip + round_trip / 16); }
   void tell_of(SessionEvent::Kind kind, int player);
+  /// The match runs: told once, whoever hosts it and however often we come back to it.
+  void tell_started();
   /// First frame of which some input is missing.
   Frame known_end() const;
   /// Everything up to here; goes on from there with the same state.
@@ -160,6 +162,7 @@ class PeerCore : public SessionCore {
   bool knows_tempo_ = false;
   bool stands_ = false;
   std::uint32_t waits_for_ = 0;
+  bool is_start_told_ = false;
   std::uint64_t outvoted_ = 0;  // machines, a bit each, as last told
   bool asked_start_ = false;
   bool is_misused_ = false;  // states are missing: from the newest final one once more

@@ -48,9 +48,7 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
     runs_ = true;
     clock_.start(now);
     if (current() == 0) figured_ = ~0u;  // none is replaced yet
-    SessionEvent event{.kind = SessionEvent::Kind::started};
-    event.frame = current();
-    tell(event);
+    tell_started();
   }
   if (runs_ && !knows_way_ && host_.round_trip > 0) {
     knows_way_ = true;
@@ -193,6 +191,7 @@ bool ClientCore::propose(int player, const Proposal& proposal) {
 bool ClientCore::vote(int player, bool yes) {
   if (player < 0 || player >= players() || !is_local(player) || !host_.is_connected || !ballot_.is_open()) return false;
   const std::uint32_t own = 1u << player;
+  if ((ballot_.voters & own) == 0) return false;
   if (votes_.number != ballot_.number) votes_ = {ballot_.number, 0, 0};
   votes_.yes = yes ? votes_.yes | own : votes_.yes & ~own;
   votes_.no = yes ? votes_.no & ~own : votes_.no | own;

@@ -241,7 +241,6 @@ void ClientCore::begin_at(const HashReport& start) {
     accepted_[p] = frame;
   }
   for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
-  for (bool& is_present : is_present_) is_present = false;
   clock_.forget_lean();
   lag_ = InputDelay(lag_settings(config_));
   is_far_ = knows_way_ = false;

@@ -44,8 +44,7 @@ void HostCore::begin(Time now) {
     if (seats_[p].is_taken && (is_local(p) || seats_[p].link >= 0)) seats_[p].is_open = true;
   }
   has_wish_ = wished_.speed != Tempo::kNormal;
-  SessionEvent event{.kind = SessionEvent::Kind::started, .frame = current()};
-  tell(event);
+  tell_started();
 }
 
 void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
@@ -193,6 +192,7 @@ void HostCore::tend_guests(Time now) {
       guest.opens = kNoFrame;
     }
     tend_repair(guest, now);
+    answer_asks(guest, now);
   }
   tend_ballot(now);
   keep_roster();

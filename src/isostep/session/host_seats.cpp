@@ -6,7 +6,8 @@
 namespace isostep {
 namespace {
 
-constexpr Frame kNotice = 30;  // [frames] between a seat's opening and its first frame
+constexpr Frame kNotice = 30;         // [frames] between a seat's opening and its first frame
+constexpr Time kRefusalsAtOnce = 32;  // all players of another version; of who comes again and again one a second
 
 }  // namespace
 
@@ -23,8 +24,14 @@ std::uint64_t HostCore::draw(Purpose purpose, std::uint64_t n) const {
 void HostCore::refuse(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours) {
   send_away(guest, key, theirs, ours);
   ++stats_.refused;
+  tell_refusal(guest.refusal);
+}
+
+void HostCore::tell_refusal(const Refusal& refusal) {
+  if (refusals_until_ > turn_at_ + kRefusalsAtOnce * kSecond) return;
+  refusals_until_ = (refusals_until_ > turn_at_ ? refusals_until_ : turn_at_) + kSecond;
   SessionEvent event{.kind = SessionEvent::Kind::refused};
-  event.field = guest.refusal;
+  event.field = refusal;
   tell(event);
 }
 

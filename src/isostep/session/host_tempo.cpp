@@ -3,6 +3,11 @@
 #include "isostep/session/host_core.hpp"
 
 namespace isostep {
+namespace {
+
+constexpr Time kOneAsk = kSecond;  // [us] of a guest: a pause is long, and its game shows each to somebody
+
+}  // namespace
 
 bool HostCore::wish_tempo(const Tempo& tempo) {
   // Peers count datagrams against their allowance: twice the match's rate goes through.
@@ -42,6 +47,19 @@ void HostCore::take_ask(Guest& guest, Bytes message) {
     return;
   }
   const Ask ask = read.value();
+  (ask.speed != 0 ? guest.asks_speed : guest.asks_pause) = ask;
+}
+
+void HostCore::answer_asks(Guest& guest, Time now) {
+  if (now < guest.may_ask_at || (!guest.asks_pause && !guest.asks_speed)) return;
+  guest.may_ask_at = now + kOneAsk;
+  if (is_in_match(guest) && guest.asks_pause) answer(guest, *guest.asks_pause);
+  if (is_in_match(guest) && guest.asks_speed) answer(guest, *guest.asks_speed);
+  guest.asks_pause.reset();
+  guest.asks_speed.reset();
+}
+
+void HostCore::answer(const Guest& guest, const Ask& ask) {
   Tempo tempo = latest_wish();
   tempo.by = static_cast<std::uint8_t>(guest.player);
   if (ask.speed != 0) tempo.speed = ask.speed;

@@ -43,6 +43,12 @@ void PeerCore::tell_of(SessionEvent::Kind kind, int player) {
   tell(event);
 }
 
+void PeerCore::tell_started() {
+  if (is_start_told_) return;
+  is_start_told_ = true;
+  tell_of(SessionEvent::Kind::started, 0xff);
+}
+
 void PeerCore::stands_for(std::uint32_t players) {
   if (stands_ && players == waits_for_) return;
   stands_ = true;
