@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "isostep/session/preset.hpp"
 #include "session/match_checks.hpp"
 #include "session/recorded_play.hpp"
 #include "session/toy_game.hpp"
@@ -38,6 +39,41 @@ struct JoinedMatch {
     }
   }
 };
+
+/// What a minute of a match takes on disk, its first state and header left out.
+struct Size {
+  Genre genre;
+  int players;
+  std::size_t bytes;  // what match_recorder.hpp says, and a tenth more
+};
+class RecordingSize : public testing::TestWithParam<Size> {};
+INSTANTIATE_TEST_SUITE_P(Genres, RecordingSize,
+                         testing::Values(Size{Genre::fighting, 2, 54000}, Size{Genre::brawler, 4, 56000},
+                                         Size{Genre::racing, 8, 61000}, Size{Genre::strategy, 8, 61000},
+                                         Size{Genre::sandbox, 4, 56000}));
+
+TEST_P(RecordingSize, IsWhatThePageSays) {
+  const SessionConfig config = preset(GetParam().genre, GetParam().players);
+  VirtualMatch<Toy> match(
+      config, [] { return std::make_unique<Toy>(); },
+      [](int player, Frame frame) { return toy_input(7, 0, (frame + 3 * player) / 4); });  // holds each for 20 frames
+  std::vector<std::uint8_t> file;
+  MachineRecorder<Toy> recorder(match.host(), file);
+  for (int p = 1; p < config.players; ++p) match.add(profile("latency=30,jitter=5,loss=0.5"));
+  ASSERT_TRUE(match.run_to(1200, 60 * kSecond));
+  const std::size_t before = file.size();
+  const Frame first = recorder.recorder.frames();
+  ASSERT_TRUE(match.run_to(1200 + 3600, 100 * kSecond));
+  const Frame frames = recorder.recorder.frames() - first;
+  ASSERT_TRUE(recorder.recorder.finish().ok());
+  const std::size_t minute = (file.size() - before) * 3600 / static_cast<std::size_t>(frames);
+  EXPECT_LE(minute, GetParam().bytes);
+  EXPECT_GE(minute, GetParam().bytes * 8 / 10) << "the page says more than it is";
+  const Played<Toy> played = play(config, file, Toy());
+  EXPECT_TRUE(played.events.empty());
+  ASSERT_EQ(played.hashes.size(), static_cast<std::size_t>(recorder.recorder.frames()));
+  for (std::size_t f = 0; f < played.hashes.size(); ++f) ASSERT_EQ(played.hashes[f], match.host().hashes[f]) << f;
+}
 
 class LateRecording : public testing::TestWithParam<SessionMode> {};
 INSTANTIATE_TEST_SUITE_P(Modes, LateRecording, testing::Values(SessionMode::lockstep, SessionMode::rollback));

@@ -8,11 +8,11 @@
 
 namespace isostep {
 
-/// One frame's inputs of all players, as a match recording holds them: a mask of who was absent, then for everybody
-/// else the size and the bytes.
-void write_match_frame(std::span<const InputEntry> inputs, std::vector<std::uint8_t>& out);
-/// Exactly `inputs.size()` players; false when the bytes are not such a frame.
-bool read_match_frame(Bytes bytes, std::span<InputEntry> inputs);
+/// The newest frame of all players, as a match recording holds it after the frame before: nothing where no input
+/// changed; else a mask of whose did, and of each of those its size and 1, or 0 for who is absent, and the bytes.
+void write_match_frame(std::span<const InputStream> inputs, std::vector<std::uint8_t>& out);
+/// Appends it to every player's inputs; false when the bytes are not such a frame: then some may be appended.
+bool read_match_frame(Bytes bytes, std::span<InputStream> inputs);
 
 class ReplayCore : public SessionCore {
  public:

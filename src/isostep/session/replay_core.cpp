@@ -6,30 +6,43 @@
 
 namespace isostep {
 
-void write_match_frame(std::span<const InputEntry> inputs, std::vector<std::uint8_t>& out) {
-  std::uint32_t mask = 0;
-  for (std::size_t p = 0; p < inputs.size(); ++p) mask |= (inputs[p].absent ? 1u : 0u) << p;
+void write_match_frame(std::span<const InputStream> inputs, std::vector<std::uint8_t>& out) {
+  std::uint32_t changed = 0;
+  for (std::size_t p = 0; p < inputs.size(); ++p) {
+    const InputStream& input = inputs[p];
+    const bool is_first = input.end() - input.begin() < 2;
+    changed |= (is_first || !input.repeats(input.end() - 1) ? 1u : 0u) << p;
+  }
   std::uint8_t bytes[kMaxPlayers / 8 + kMaxPlayers * (kInputCap + 2)];
   WireWriter writer(bytes, sizeof bytes);
-  for (std::size_t p = 0; p < inputs.size(); p += 8) writer.byte(static_cast<std::uint8_t>(mask >> p));
-  for (const InputEntry& input : inputs) {
-    if (input.absent) continue;
-    writer.number(static_cast<std::uint32_t>(input.bytes.size()));
+  for (std::size_t p = 0; p < inputs.size() && changed != 0; p += 8) {
+    writer.byte(static_cast<std::uint8_t>(changed >> p));
+  }
+  for (std::size_t p = 0; p < inputs.size(); ++p) {
+    if ((changed >> p & 1) == 0) continue;
+    const InputEntry input = inputs[p].last();
+    writer.number(input.absent ? 0 : static_cast<std::uint32_t>(input.bytes.size()) + 1);
     writer.raw(input.bytes);
   }
   out.assign(bytes, bytes + writer.size());
 }
 
-bool read_match_frame(Bytes bytes, std::span<InputEntry> inputs) {
+bool read_match_frame(Bytes bytes, std::span<InputStream> inputs) {
   WireReader reader(bytes);
-  std::uint64_t mask = 0;
-  for (std::size_t p = 0; p < inputs.size(); p += 8) mask |= std::uint64_t{reader.byte()} << p;
-  if (mask >> inputs.size() != 0) return false;
+  std::uint64_t changed = 0;
+  for (std::size_t p = 0; p < inputs.size() && !bytes.empty(); p += 8) changed |= std::uint64_t{reader.byte()} << p;
+  if (changed >> inputs.size() != 0) return false;
   for (std::size_t p = 0; p < inputs.size(); ++p) {
-    inputs[p] = {(mask >> p & 1) != 0, {}};
-    if (!inputs[p].absent) inputs[p].bytes = reader.raw(reader.number());
+    InputStream& input = inputs[p];
+    if ((changed >> p & 1) == 0) {
+      if (input.end() == input.begin() || !input.append(input.last())) return false;
+      continue;
+    }
+    const std::uint32_t size = reader.number();
+    const Bytes said = size == 0 ? Bytes{} : reader.raw(size - 1);
+    if (reader.failed() || !input.append({size == 0, said})) return false;
   }
-  return !reader.failed() && reader.remaining() == 0;
+  return reader.remaining() == 0;
 }
 
 ReplayCore::ReplayCore(const SessionConfig& config, const InputRules& rules, Bytes file)
@@ -102,12 +115,9 @@ void ReplayCore::plan(Time now) {
 }
 
 bool ReplayCore::read_frame(Frame frame) {
-  InputEntry inputs[kMaxPlayers];
-  const std::span<InputEntry> all(inputs, streams_.size());
-  if (!read_match_frame(file_.frame(static_cast<std::uint64_t>(frame - first_)).input, all)) return false;
-  for (std::size_t p = 0; p < streams_.size(); ++p) {
-    if (!inputs[p].absent && !rules_.valid(inputs[p].bytes)) return false;
-    if (!streams_[p].append(inputs[p])) return false;
+  if (!read_match_frame(file_.frame(static_cast<std::uint64_t>(frame - first_)).input, streams_)) return false;
+  for (const InputStream& stream : streams_) {
+    if (!stream.last().absent && !rules_.valid(stream.last().bytes)) return false;
   }
   return true;
 }
