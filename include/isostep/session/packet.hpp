@@ -12,7 +12,7 @@
 namespace isostep {
 
 /// Of the wire format of datagrams and messages; a peer of another is refused by name.
-inline constexpr std::uint16_t kSessionProtocol = 4;
+inline constexpr std::uint16_t kSessionProtocol = 5;
 /// Of one player in one datagram.
 inline constexpr Frame kSliceFrames = 128;
 
@@ -33,6 +33,7 @@ struct PacketHeader {
   bool is_far = false;           // host: the receiver's line is one for which the others do not wait
   std::uint8_t stretch = 0;      // [1/256 period] client: a frame takes it longer by so much; host: all frames are
   std::uint8_t slowest = 0xff;   // host: the player for whom they are; 0xff: the host's machine
+  std::uint8_t spares = 0;       // [frames] client: its rollbacks have to be shorter by so many, for it is too slow
   std::uint32_t waits_for = 0;   // host: players, a bit each, who hold the match up
   Tempo tempo;                   // host: as last announced
   Frame frame = 0;               // the sender's next to step

@@ -7,6 +7,7 @@
 #include "isostep/session/hash_log.hpp"
 #include "isostep/session/input_delay.hpp"
 #include "isostep/session/peer_link.hpp"
+#include "isostep/session/rollback_thrift.hpp"
 #include "isostep/session/step_pace.hpp"
 #include "isostep/session/verdict.hpp"
 
@@ -127,6 +128,7 @@ class PeerCore : public SessionCore {
   FrameClock clock_;
   StepPace pace_;
   InputDelay delay_;
+  RollbackThrift thrift_;
   RecentLeast slack_[kMaxPlayers];
   View views_[kMachines];
   std::vector<std::uint8_t> message_;
@@ -153,6 +155,8 @@ class PeerCore : public SessionCore {
   };
   Pending pending_[kMaxPlayers];
   Frame limit_ = 0;            // of what may be settled, as of the last plan
+  Frame stepped_again_ = 0;    // frames of the last turn
+  std::uint64_t fresh_ = 0;    // frames that were stepped for the first time
   Time next_observation_ = 0;  // [us] when observe_delay is called again
   Time last_turn_ = 0;         // [us] of plan
   Time forgiven_until_ = 0;    // [us] no other pause of ours is forgiven before

@@ -61,6 +61,7 @@ struct PeerLink {
   std::uint16_t newest_time = 0;        // and when [ms] by the peer's clock:
   int stretch = 0;                      // [1/256 period] by which its frames are longer,
   std::uint8_t slowest = 0xff;          // and for whom
+  Frame spares = 0;                     // [frames] by which its rollbacks have to be shorter
   std::uint32_t waits_for = 0;          // who holds the match up
 
   Allowance datagrams, messages;  // each of its own: a flood of the ones must not drown the others

@@ -44,6 +44,8 @@ class StepPace {
   int steps() const { return steps_; }
   /// The next turn should step twice, to find out what that costs.
   bool probes() const { return probes_; }
+  /// A step takes most of a period.
+  bool is_dear() const { return cost_ == Cost::dear; }
   /// [1/256 period] by which a frame takes this machine longer than a period; 0: it keeps up.
   int stretch() const { return stretch_; }
 

@@ -309,6 +309,7 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
   header.match = welcome_.match;
   header.started = runs_;
   header.stretch = static_cast<std::uint8_t>(needed_stretch());
+  header.spares = static_cast<std::uint8_t>(thrift_.frames());
   for (int p = 0; p < players(); ++p) {
     header.ack_mask |= 1u << p;
     header.ack[p] = is_own(p) && is_open_ ? accepted_[p] : streams_[static_cast<std::size_t>(p)].end();

@@ -15,6 +15,14 @@ constexpr Time kTooSlow = 2 * kSecond;  // [us] at less than the least pace, unt
 constexpr Time kTooFar = 2 * kSecond;   // [us] on a line that no delay covers, likewise
 constexpr Time kAsGood = 2;             // [frames] by which round trips differ on lines that are as good
 
+/// [frames] by which half of a round trip is longer when all go at full speed again: what comes in time in a match that
+/// is slow for its rollbacks comes late, and makes it slow, once it is not.
+Frame lengthened(Time round_trip, const FrameClock& clock) {
+  if (clock.period() == clock.nominal()) return 0;
+  const Time way = round_trip / 2;
+  return static_cast<Frame>((way + clock.nominal() - 1) / clock.nominal() - way / clock.period());
+}
+
 }  // namespace
 
 void HostCore::paused(Time now) {
@@ -59,20 +67,26 @@ void HostCore::judge_distance(Guest& guest, Time now) {
 
 Frame HostCore::slack_of(int player) const {
   const Frame here = is_local(player) ? delay_.frames() + 1 : slack_[player].value();
-  Frame least = is_local(player) ? RecentLeast::kNothing : here;
-  if (here == RecentLeast::kNothing || !reports_count_) return least;
+  const bool is_known = here != RecentLeast::kNothing;
+  const int link = seats_[player].link;
+  const Frame longer = link < 0 ? 0 : lengthened(guests_[static_cast<std::size_t>(link)].round_trip, clock_);
+  const Frame spared = thrift_.frames() > 0 ? thrift_.frames() + longer : 0;
+  Frame least = is_local(player) ? RecentLeast::kNothing : is_known ? here - spared : here;
+  if (!is_known || !reports_count_) return least;
   const Time farthest = farthest_that_counts();
   const Frame beyond = stats_.stretch > 0 ? kLateWhenSlow : kLateBeyond;
   for (const Guest& guest : guests()) {
     if (!is_in_match(guest) || has(guest, player) || (guest.reported_mask >> player & 1) == 0) continue;
-    if (was_held_back(guest, player)) continue;
+    if (was_held_back(guest, player) || guest.slack[player] == RecentLeast::kNothing) continue;
     // What was early here is not later there than the way explains and lines that lose as much as its own do, whatever
     // is said.
     const Time trip = guest.round_trip < farthest ? guest.round_trip : farthest;
     const Frame way = static_cast<Frame>(trip / 2 / clock_.period());
     const Frame spread = guest.is_far ? 0 : slack_[guest.player].spread();
     const Frame plausible = here - way - beyond - (spread < kMostSpread ? spread : kMostSpread);
-    const Frame said = guest.slack[player] < plausible ? plausible : guest.slack[player];
+    // Who has no time for rollbacks needs inputs earlier than it says that they come.
+    const Frame spares = guest.spares > 0 ? guest.spares + longer + lengthened(guest.round_trip, clock_) : 0;
+    const Frame said = (guest.slack[player] < plausible ? plausible : guest.slack[player]) - spares;
     if (said < least) least = said;
   }
   return least;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Layout: kind u8 | match u64 | number u16 | time u16 | flags varint | [echo u16] | [stretch u8, slowest u8]
-//         | [waits for varint] | frame varint | [tempo: number varint, frame difference, speed and pause u8, by u8]
+//         | [spares u8] | [waits for varint] | frame varint | [tempo: number varint, frame difference, speed and pause u8, by u8]
 //         | [report: frame difference, chain u64] | [passed on: player u8, frame difference, chain u64]
 //         | [figures: player u8, replaced, waited, round trip, jitter, loss varint]
 //         | ack mask varint | {difference to frame, slack i8}...
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint8_t kKind = 0xd1;
 constexpr std::uint32_t kHasEcho = 1, kStarted = 2, kHasReport = 4, kPassesOn = 8, kIsFar = 16, kIsSlow = 32,
-                        kWaits = 64, kHasTempo = 128, kHasFigures = 256, kKnownFlags = 511;
+                        kWaits = 64, kHasTempo = 128, kHasFigures = 256, kSpares = 512, kKnownFlags = 1023;
 constexpr std::uint8_t kRepeat = 0x00, kAbsentRun = 0x40, kLiteral = 0x80, kDelta = 0x81, kShortDelta = 0xc0;
 constexpr std::size_t kShortInput = 6;  // [bytes] whose mask fits the token
 constexpr Frame kRun = 64;
@@ -132,12 +132,13 @@ PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
   writer.number((header.has_echo ? kHasEcho : 0) | (header.started ? kStarted : 0) | (has_report ? kHasReport : 0) |
                 (passes_on ? kPassesOn : 0) | (header.is_far ? kIsFar : 0) | (header.stretch > 0 ? kIsSlow : 0) |
                 (header.waits_for != 0 ? kWaits : 0) | (header.tempo.number != 0 ? kHasTempo : 0) |
-                (tells_figures ? kHasFigures : 0));
+                (tells_figures ? kHasFigures : 0) | (header.spares > 0 ? kSpares : 0));
   if (header.has_echo) writer.fixed(header.echo);
   if (header.stretch > 0) {
     writer.byte(header.stretch);
     writer.byte(header.slowest);
   }
+  if (header.spares > 0) writer.byte(header.spares);
   if (header.waits_for != 0) writer.number(header.waits_for);
   writer.number(static_cast<std::uint32_t>(header.frame));
   if (header.tempo.number != 0) write_tempo(writer, header.frame, header.tempo);
@@ -218,6 +219,10 @@ Result<Packet> read_packet(Bytes bytes) {
     header.slowest = reader.byte();
     if (header.stretch == 0) return refuse("slow by nothing");
     if (header.slowest >= kMaxPlayers && header.slowest != 0xff) return refuse("slowed by no player");
+  }
+  if ((flags & kSpares) != 0) {
+    header.spares = reader.byte();
+    if (header.spares == 0) return refuse("spares nothing");
   }
   if ((flags & kWaits) != 0) {
     header.waits_for = reader.number();

@@ -42,7 +42,8 @@ PeerCore::PeerCore(const SessionConfig& config, const InputRules& rules)
       hashes_(config.history),
       clock_(config.hz),
       pace_(clock_.period()),
-      delay_(delay_settings(config)) {
+      delay_(delay_settings(config)),
+      thrift_(window_of(config) / 2) {
   message_.reserve(kReliableCap);
 }
 
@@ -96,6 +97,7 @@ void PeerCore::plan(Time now) {
   const bool was_away = is_after_pause(now);
   has_turned_ = true;
   last_turn_ = now;
+  stepped_again_ = 0;
   if (was_away && running()) paused(now);
   if (running()) follow_tempo(now);
   pace_.begin(now, running() && clock_.is_due(now), was_away || is_blocked_ || is_paused());
@@ -114,6 +116,8 @@ void PeerCore::plan(Time now) {
   // By the clock and not by frames: a match that waits at every one of them is what a longer delay is for.
   if (now >= next_observation_ && !is_paused()) {
     next_observation_ = now + clock_.period();
+    const bool is_too_slow = pace_.stretch() > 0 || (stats_.stretch > 0 && pace_.is_dear());
+    thrift_.observe(stats_.steps, fresh_, is_too_slow, now);
     observe_delay();
     for (int p = 0; p < players(); ++p) {
       slack_[p].tick(kSlackBucket);
@@ -140,7 +144,9 @@ void PeerCore::plan(Time now) {
     timeline_.step(streams_);
     act(RequestKind::step, frame);
     act(RequestKind::save, frame + 1);
-    if (!is_again) clock_.stepped(now);
+    if (is_again) continue;
+    clock_.stepped(now);
+    ++fresh_;
   }
   pace_.end(steps);
   after_steps();
@@ -153,6 +159,7 @@ void PeerCore::plan(Time now) {
 
 void PeerCore::roll_back(Frame to) {
   const Frame end = current();
+  stepped_again_ = end - to;
   const auto depth = static_cast<std::size_t>(end - to);
   ++stats_.rollbacks[depth < 64 ? depth : 64];
   timeline_.step_again(to, streams_);
@@ -293,6 +300,7 @@ void PeerCore::take_header(PeerLink& link, const PacketHeader& header, Time now)
     link.newest_time = header.time;
     link.stretch = header.stretch;
     link.slowest = header.slowest;
+    link.spares = header.spares < window_of(config_) / 2 ? header.spares : window_of(config_) / 2;
     link.waits_for = header.waits_for;
   }
   for (int p = 0; p < players(); ++p) {
