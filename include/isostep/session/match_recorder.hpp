@@ -8,9 +8,9 @@
 
 namespace isostep {
 
-/// An observer of drive(). A match is a state, the inputs since and every frame's hash: 45 kB a minute of two players and
-/// 65 kB of eight who change inputs of four bytes three times a second, 43 of them for hashes and lengths; played again by
-/// whoever has the game. (SessionRecorder records the world's commands instead, for whoever has not.)
+/// An observer of drive(). A match is a state, the inputs since and every frame's hash: 49 kB a minute of two players,
+/// 51 of four and 55 of eight who change inputs of four bytes three times a second; 43 of them are hashes and lengths.
+/// Whoever has the game plays it again. (SessionRecorder records the world's commands instead, for whoever has not.)
 ///
 /// The recording begins with the state before the first frame that is stepped: that of a late joiner is the snapshot
 /// which it was sent, and the header's `first_frame` its number. Where the session restarts from another snapshot the
