@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Layout: kind u8 | match u64 | number u16 | time u16 | flags varint | [echo u16] | [stretch u8, slowest u8]
-//         | [spares u8] | [waits for varint] | frame varint | [tempo: number varint, frame difference, speed and pause u8, by u8]
+//         | [spares u8]
+//         | [waits for varint] | frame varint | [tempo: number varint, frame difference, speed and pause u8, by u8]
 //         | [report: frame difference, chain u64] | [passed on: player u8, frame difference, chain u64]
 //         | [figures: player u8, replaced, waited, round trip, jitter, loss varint]
 //         | ack mask varint | {difference to frame, slack i8}...
