@@ -22,6 +22,7 @@ class ClientCore : public PeerCore {
   void receive(PeerId host, Channel channel, Bytes bytes, Time now) override;
   std::optional<Outgoing> poll_send(Time now) override;
   std::optional<Address> poll_connect() override;
+  bool go_on(Time now) override;
   std::unique_ptr<SessionCore> succeed(Time now) override;
   void restored(bool ok) override;
   bool resync() override;
@@ -66,10 +67,13 @@ class ClientCore : public PeerCore {
   bool has_begun() const { return runs_ || current() > 0; }
   std::uint64_t match() const { return welcome_.match; }
   std::uint32_t hosted() const { return welcome_.hosted; }
+  /// Inputs before this frame are final, as the host says; beyond kLastFrame: all that it says is.
+  Frame told_final() const { return told_final_; }
 
  private:
   static InputDelay::Settings lag_settings(const SessionConfig& config);
-  void lose(Time now);
+  /// `knocks`: it spoke until now, and may live.
+  void lose(Time now, bool knocks);
   void take_message(MessageKind kind, Bytes bytes, Time now);
   /// For the match, or on the way to another host; false: it is none of these, or damaged.
   bool take_failover(MessageKind kind, Bytes bytes, Time now);
@@ -78,12 +82,21 @@ class ClientCore : public PeerCore {
   void leave_host();
 
   // --- without a host, in client_failover.cpp ---
-  bool can_fail_over() const { return config_.migration > 0 && failover_.candidate_at(0) >= 0; }
-  int own_machine() const { return failover_.roster.machine_of(token_); }
-  void seek(Time now);
-  void begin_attempt(Time now);
+  bool can_fail_over() const {
+    return config_.migration > 0 && failover_.election.target(failover_.roster, own_machine()) >= 0;
+  }
+  /// Our place in the roster, as a voter.
+  int own_machine() const;
+  /// We could be the host: in the match, with states that are right.
+  bool may_stand() const;
+  void seek(Time now, bool knocks);
+  void begin_attempt();
   void seek_on(Time now);
   void stop_seeking();
+  void went(Caller& caller);
+  /// Whose machine it is, and whether it has a vote.
+  void recognise(Caller& caller, const Hello& hello);
+  void has_new_roster();
   void tend_callers(Time now);
   void take_call(PeerId peer, Channel channel, Bytes bytes, Time now);
   bool take_support(Caller& caller, MessageKind kind, Bytes bytes);
@@ -91,13 +104,14 @@ class ClientCore : public PeerCore {
   bool take_known(const InputSlice& slice, int machine);
   /// A player's machine knows all inputs that the host can have had of it, and its word counts more than another's; but
   /// with a deadline the host plays what none of them said.
-  bool owns_inputs() const { return config_.deadline == 0; }
+  bool owns_inputs() const { return failover_.roster.settings.deadline == 0; }
   /// Inputs of players who support us, and which only others know.
   void forget_untold();
   /// Where the inputs of `player` end that the host has made final, as far as we know.
   Frame final_end(int player) const {
     return is_local(player) ? accepted_[player] : streams_[static_cast<std::size_t>(player)].end();
   }
+  bool has_all_until(Frame end) const;
   /// Of the messages above, the next; nothing when there is none.
   std::optional<Outgoing> next_failover_message();
   std::optional<Outgoing> next_for_candidate();
@@ -115,7 +129,7 @@ class ClientCore : public PeerCore {
   void finish_repair(std::uint64_t hash);
   std::optional<Outgoing> next_repair_message();
 
-  void take_welcome(const Welcome& welcome);
+  void take_welcome(const Welcome& welcome, Time now);
   void take_piece(const Piece& piece);
   void take_packet(const Packet& packet, Time now);
   void take_inputs(const InputSlice& slice, Time now);
@@ -146,6 +160,7 @@ class ClientCore : public PeerCore {
   PeerLink host_;
   bool runs_ = false, is_greeted_ = false, must_greet_ = false, must_ready_ = false;
   std::vector<PeerId> hang_ups_;
+  std::vector<PeerId> farewells_;  // whose host we were: they are told, and their connections end
   Failover failover_;
   Repair repair_;
   Frame inquired_ = kNoFrame;  // the state of which the host asked for our hash chain
@@ -161,6 +176,8 @@ class ClientCore : public PeerCore {
   Frame opens_ = kNoFrame, opened_ = kNoFrame;  // the latter: as we were told before we could begin
   Frame accepted_[kMaxPlayers] = {};            // first frame of each of ours that the host lacks
   std::uint64_t token_ = 0;
+  Frame told_final_ = kLastFrame + 1;  // inputs before this frame are final, as the host says
+  bool keeps_inputs_ = false;          // we go on with the same host, so that what it said stays said
 
   Welcome welcome_;
   bool is_restoring_ = false;

@@ -159,6 +159,7 @@ class SessionCore {
   virtual bool resync() { return false; }
   /// Host: begins although seats are empty; their players are absent until somebody joins.
   virtual void start(Time) {}
+  virtual bool go_on(Time) { return false; }
 
   /// Host of a match that has begun: all of it but the state `start.frame`.
   virtual std::optional<SavedMatch> save_match() const { return std::nullopt; }

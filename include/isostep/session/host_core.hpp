@@ -8,6 +8,7 @@
 #include "isostep/session/peer_core.hpp"
 #include "isostep/session/repair.hpp"
 #include "isostep/session/stall_budget.hpp"
+#include "isostep/session/tenure.hpp"
 
 namespace isostep {
 
@@ -27,6 +28,7 @@ class HostCore : public PeerCore {
   std::optional<Outgoing> poll_send(Time now) override;
   std::unique_ptr<SessionCore> succeed(Time now) override;
   void start(Time) override { must_start_ = true; }
+  bool go_on(Time now) override;
   void restored(bool ok) override;
   std::optional<SavedMatch> save_match() const override;
   std::uint64_t token() const override { return own_token_; }
@@ -54,8 +56,11 @@ class HostCore : public PeerCore {
   void after_steps() override { serve_snapshots(); }
   void capture_lost() override;
   void observe_delay() override;
-  /// Without a majority with us the others may have another host: what we step then may be in no match.
-  Frame final_limit() const override { return is_backed_ ? PeerCore::final_limit() : hashes_.settled().frame; }
+  /// What a majority does not have may be otherwise in the match that goes on without us.
+  Frame final_limit() const override {
+    const Frame limit = PeerCore::final_limit();
+    return config_.migration > 0 && tenure_.final_end() < limit ? tenure_.final_end() : limit;
+  }
   void paused(Time now) override;
   void blocked(Time now) override;
   void unblocked(Time now) override;
@@ -66,6 +71,9 @@ class HostCore : public PeerCore {
     int link = -1;  // -1: its player is away
     std::uint64_t token = 0;
     std::uint64_t proof = 0;
+    std::uint64_t life = 0;  // of its player's process: see Roster
+    bool has_left = false;   // it hung up, and was not cut off
+    Time left_at = 0;        // [us]
     /// Of what its player came back with, while it may not have read the new one: the connection may end before.
     std::uint64_t former_proof = 0;
     bool is_kept = false;                  // it was played on, and its player knows a token: it is reserved for that
@@ -92,6 +100,7 @@ class HostCore : public PeerCore {
     bool is_shown = false;        // to the game
     std::vector<std::uint8_t> credential;
     Address address;
+    Time lease_from = 0;  // [us] when we said the newest that it has heard; 0: nothing
     bool must_enroll = false;
     bool must_tell_ballot = false;
     std::optional<Ask> asks_pause, asks_speed;  // the last of each that is not answered yet
@@ -161,10 +170,20 @@ class HostCore : public PeerCore {
   /// One roster after the other: the next when a majority has this one.
   void keep_roster();
   Roster drafted() const;
-  /// Us and those guests that `is_counted`, as places in the roster, a bit each.
-  template <class Predicate> std::uint64_t group(Predicate&& is_counted) const;
-  /// Is a majority with us? Without one nobody's absence is final, for the others may have another host.
-  void count_backers(Time now);
+  void replace_roster(const Roster& next);
+  /// Those who are with us are all of the match from now on.
+  void reform_roster(std::uint64_t group);
+  /// Its place in the roster, as a voter.
+  int voter_of(const Guest& guest) const;
+  /// Inputs before this frame are there.
+  Frame end_at(const Guest& guest) const;
+  /// What we know of all machines of the roster.
+  void look_at_followers(Time now);
+  /// Whose word on their time we have: how long they wait for us at least.
+  void renew_lease(Guest& guest, const PacketHeader& header, Time now);
+  std::uint64_t followers_here(Time now) const;
+  std::unique_ptr<SessionCore> retreat(Time now, bool is_outvoted);
+  MatchSettings settings() const;
 
   // --- among machines that differ, in host_verdict.cpp ---
   void tend_inquiry(Time now);
@@ -289,7 +308,7 @@ class HostCore : public PeerCore {
   /// How early `player`'s inputs reach all others, as far as that is the affair of its delay.
   Frame slack_of(int player) const;
   /// What the numbers that are drawn are for: those of one purpose tell nothing of another's.
-  enum class Purpose : std::uint64_t { match, token };
+  enum class Purpose : std::uint64_t { match, token, life };
   /// The n-th number for `purpose`, which only who knows the seed can compute. Never 0.
   std::uint64_t draw(Purpose purpose, std::uint64_t n) const;
   /// Inputs of absent players are final up to here.
@@ -305,8 +324,12 @@ class HostCore : public PeerCore {
   bool started_ = false, must_start_ = false;
   Roster roster_;
   std::uint64_t own_token_ = 0;  // with which our players come back to who follows us
-  bool is_backed_ = true;
-  Time backed_at_ = 0;  // [us]
+  std::uint64_t own_life_ = 0;
+  std::uint32_t first_term_ = 1;  // a match that was saved has had others
+  Tenure tenure_;
+  Follower followers_[kMaxPlayers + 1];  // by their places in the roster
+  bool is_over_ = false;                 // somebody knows of a later host
+  Roster inherited_;                     // that we took over: its members were let in before
   Inquiry inquiry_;
   Time steps_down_at_ = 0;  // [us] our states are wrong, and another machine is to be the host; 0: no
   Seat seats_[kMaxPlayers];
@@ -314,7 +337,7 @@ class HostCore : public PeerCore {
   std::size_t used_ = 0;                       // of them
   Time next_tending_ = 0;                      // [us]
   Time farthest_ = 0;                          // [us] see farthest_that_counts
-  std::uint64_t tokens_ = 0, applicants_ = 0;  // how many there were
+  std::uint64_t tokens_ = 0, lives_ = 0, applicants_ = 0;  // how many there were
   Time turn_at_ = 0;                           // [us]
   std::uint64_t match_;
   bool is_ballot_told_ = true;

@@ -34,7 +34,8 @@ enum class MessageKind : std::uint8_t {
   ask,
   propose,
   vote,
-  ballot
+  ballot,
+  farewell
 };
 
 /// What a player asks the host for: a pause or its end, or else a speed.
@@ -49,6 +50,8 @@ struct Application {
   int seat = -1;                   // this one and those after it, or none; -1: any
   int seats = 1;                   // so many, for as many players on one machine; of a spectator without meaning
   std::uint64_t token = 0;         // from an earlier welcome: the same player again; 0: a new one
+  std::uint64_t life = 0;          // likewise: the same process, which remembers the match; 0: it has just begun
+  std::uint32_t term = 0;          // the newest of a host that it followed or supported
   HashReport have;                 // a state that it holds with its history: frame 0, or where it was cut off
   HashReport partial{0, 0};        // of the snapshot of which it has the first bytes,
   std::uint32_t partial_size = 0;  // [bytes] so many; 0: of none
@@ -58,6 +61,7 @@ struct Application {
 struct Hello : Application {
   Bytes credential;  // for the host's game
   Address address;   // where the others reach it, when there is no host
+  Time migration = 0;  // [us] as its SessionConfig's: a match has one
   ReplayHeader identity;
 };
 
@@ -69,6 +73,9 @@ struct Welcome {
   std::uint8_t player = 0xff;  // the first of the client's; 0xff: a spectator
   std::uint32_t others = 0;    // its further players, a bit each
   std::uint64_t token = 0;
+  std::uint64_t life = 0;   // of the client's process, from now on
+  std::uint32_t term = 0;   // the host's; 0: the match does not go on without it
+  Frame term_start = 0;     // the end of all inputs that this host took over
   HashReport start;
   std::uint64_t hash = 0;           // of the state `start.frame`
   std::uint32_t snapshot_size = 0;  // [bytes]
@@ -102,16 +109,20 @@ void write_open(Frame first, std::vector<std::uint8_t>& out);
 void write_enrolled(std::uint32_t version, std::vector<std::uint8_t>& out);
 /// Of a machine that would follow the host.
 struct Candidate {
-  std::uint32_t version = 0;     // of its roster
+  std::uint32_t term = 0;        // for which it asks
+  std::uint32_t log_term = 0;    // of the host whose inputs it has
+  std::uint32_t roster_term = 0, version = 0;  // of its roster
   Frame ends[kMaxPlayers] = {};  // the first final input of each player that it lacks
 };
 void write_candidate(const Candidate& candidate, std::vector<std::uint8_t>& out);
 /// Some of the inputs that a candidate lacks, as a datagram carries them.
 void write_known(Bytes packet, std::vector<std::uint8_t>& out);
-/// It has all inputs that we know to be final, and may be the host of the machines in this version of the roster.
-void write_support(std::uint32_t version, std::vector<std::uint8_t>& out);
+/// It has all inputs that we know to be final, and may be the host of this term: no other is ours.
+void write_support(std::uint32_t term, std::vector<std::uint8_t>& out);
 /// The host is elsewhere.
 void write_redirect(const Address& address, std::vector<std::uint8_t>& out);
+/// We are the host no more: another of you is to follow us.
+void write_farewell(std::vector<std::uint8_t>& out);
 void write_ask(const Ask& ask, std::vector<std::uint8_t>& out);
 
 Result<MessageKind> message_kind(Bytes message);

@@ -20,6 +20,17 @@ using Address = ShortText<kAddressCap>;
 /// recognises its players, and they cannot pass for each other.
 std::uint64_t proof_of(std::uint64_t token);
 
+inline constexpr Frame kMostDeadline = 60;  // [frames] see SessionConfig::deadline
+
+/// What a match is played by, as its host's configuration says: who follows it goes on with these, whatever its own are.
+struct MatchSettings {
+  Frame deadline = 0;
+  Time silence = 0, patience = 0, exclusion = 0, reservation = 0;  // [us]
+  bool asks_admission = false, votes = false, players_set_tempo = false, repair = false;
+
+  friend bool operator==(const MatchSettings&, const MatchSettings&) = default;
+};
+
 /// The host tells it to all, so that they find each other once it is gone. Who may go on without it is decided by
 /// majorities, of the machines in the match now and of those before: while the one roster takes the place of the other
 /// no two groups apart from each other can both have one. Source: Ongaro, Ousterhout 2014, In search of an
@@ -28,24 +39,38 @@ struct Roster {
   struct Machine {
     std::uint32_t players = 0;  // a bit each; none: a host without players
     std::uint64_t proof = 0;    // of their token
+    /// Of its process, as the host numbered it: who starts again with the same token remembers nothing of what it said,
+    /// and is no voter of this roster.
+    std::uint64_t life = 0;
     bool is_in = false, was_in = false;
     Address address;  // empty: it cannot be the host
     /// Of the whole roster, by the host, with the players' token: so this machine knows what the host has said when it
     /// hears it of another. 0: the host does not know the token.
     std::uint64_t seal = 0;
   };
+  std::uint32_t term = 0;     // of the host that says it
   std::uint32_t version = 0;  // 0: there is none yet
+  MatchSettings settings;
   std::uint8_t host = 0;      // its place among the machines
   std::uint8_t count = 0;
   Machine machines[kMaxPlayers + 1];
 
   /// Whose token this is; -1: nobody's.
   int machine_of(std::uint64_t token) const;
+  /// Likewise, of a process that remembers: one that has a vote.
+  int voter_of(std::uint64_t token, std::uint64_t life) const;
+  bool is_newer_than(const Roster& other) const {
+    return term != other.term ? term > other.term : version > other.version;
+  }
+  /// All that are in or were, a bit each.
+  std::uint64_t voters() const;
   int machine_of_proof(std::uint64_t proof) const;
   int machine_with(int player) const;
   int count_in() const;
   /// More than half of those that are in, and of those that were, a bit each. The host makes a half a majority.
   bool is_majority(std::uint64_t machines) const;
+  /// A majority; or all that remember anything, where of the others it is known that they do not: `over`.
+  bool is_quorum(std::uint64_t machines, std::uint64_t over) const;
 };
 /// `scratch` is written over.
 std::uint64_t seal_of(const Roster& roster, std::uint64_t token, std::vector<std::uint8_t>& scratch);

@@ -13,7 +13,7 @@
 namespace isostep {
 
 /// Of the format; one of another is refused by name.
-inline constexpr std::uint16_t kSavedMatchVersion = 1;
+inline constexpr std::uint16_t kSavedMatchVersion = 2;
 
 struct SavedMatch {
   ReplayHeader identity;      // of the match, as SessionConfig's
@@ -23,6 +23,7 @@ struct SavedMatch {
   std::uint8_t speed = 0;     // [1/8 of the match's rate]
   std::uint64_t tokens = 0;   // that were given out: the next ones are others, even from the same seed
   std::uint32_t sequels = 0;  // times that the match was saved and gone on with
+  std::uint32_t term = 0;     // of its host: see AGREEMENT.md
   std::uint8_t players = 0;
   /// What the player of each seat can show, and nobody computes from this; 0: the seat is free, or the host's.
   std::uint64_t proofs[kMaxPlayers] = {};

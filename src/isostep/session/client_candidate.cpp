@@ -15,23 +15,17 @@ bool ClientCore::take_support(Caller& caller, MessageKind kind, Bytes bytes) {
     return is_good;
   }
   if (kind == MessageKind::support) {
-    const Result<std::uint32_t> version = read_support(bytes);
-    caller.supports = version && version.value() == failover_.roster.version;
-    return version.ok();
+    const Result<std::uint32_t> term = read_support(bytes);
+    if (term && caller.voter >= 0) failover_.election.supported(caller.voter, term.value());
+    return term.ok();
   }
   if (kind != MessageKind::roster) return false;
   // A newer one: whose place is where, and what a majority is, may be otherwise there.
   const Result<Roster> roster = read_roster(bytes);
-  if (!roster || roster.value().version <= failover_.roster.version) return roster.ok();
+  if (!roster || !roster.value().is_newer_than(failover_.roster)) return roster.ok();
   if (!is_sealed_for(roster.value(), token_, message_)) return false;
   failover_.roster = roster.value();
-  for (Caller& each : failover_.callers) {
-    if (each.hello.empty()) continue;
-    each.machine = failover_.roster.machine_of(read_hello(each.hello).value().token);
-    each.supports = false;
-    each.must_tell_roster = each.must_ask = each.machine >= 0;
-  }
-  failover_.is_candidate = own_machine() >= 0;
+  has_new_roster();
   return true;
 }
 
@@ -50,7 +44,8 @@ bool ClientCore::take_known(const InputSlice& slice, int machine) {
   InputEntry entry;
   for (Frame frame = slice.first; reader.next(entry); ++frame) {
     if (frame >= most || (!entry.absent && !rules_.valid(entry.bytes))) return false;
-    if (is_own && is_open_ && frame == accepted_[slice.player] && !owns_inputs()) {
+    // Others know better than we where the host went on without us.
+    if (is_own && is_open_ && frame == accepted_[slice.player] && (!owns_inputs() || entry.absent)) {
       take_own(slice.player, entry);
     }
     if (is_own && is_open_) continue;
@@ -68,7 +63,8 @@ bool ClientCore::take_known(const InputSlice& slice, int machine) {
 void ClientCore::forget_untold() {
   if (!owns_inputs()) return;
   for (const Caller& caller : failover_.callers) {
-    if (!caller.is_connected || !caller.supports) continue;
+    const bool supports = caller.voter >= 0 && (failover_.election.supporters() >> caller.voter & 1) != 0;
+    if (!caller.is_connected || !supports) continue;
     for (int p = 0; p < players(); ++p) {
       InputStream& stream = streams_[static_cast<std::size_t>(p)];
       const bool is_its = (failover_.roster.machines[caller.machine].players >> p & 1) != 0;

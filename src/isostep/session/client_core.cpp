@@ -34,6 +34,9 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   for (int p = 0; p < players() && is_open_; ++p) {
     if (is_own(p) && host_.acked[p] > accepted_[p]) accepted_[p] = host_.acked[p];
   }
+  // Later ones tell of more; and a host that follows another knows what that one made final.
+  if (header.final_end == kNoFrame) told_final_ = kLastFrame + 1;
+  else if (told_final_ > kLastFrame || header.final_end > told_final_) told_final_ = header.final_end;
   hear_tempo(header.tempo);
   if (runs_) {
     go_at_pace_of(host_.slowest, host_.stretch);
@@ -114,8 +117,16 @@ void ClientCore::cut_out() {
   is_open_ = asked_ready_ = false;
 }
 
+bool ClientCore::has_all_until(Frame end) const {
+  for (int p = 0; p < players(); ++p) {
+    if (final_end(p) < end) return false;
+  }
+  return true;
+}
+
 Frame ClientCore::final_limit() const {
   Frame limit = PeerCore::final_limit();
+  if (told_final_ < limit) limit = told_final_;
   for (int p = 0; p < players() && is_open_; ++p) {
     if (is_own(p) && accepted_[p] < limit) limit = accepted_[p];
   }
@@ -145,17 +156,20 @@ bool ClientCore::hurries(Time now) const {
 void ClientCore::before_steps(Time now) {
   stats_.peers = host_.is_connected ? 1 : 0;
   const Time silence = can_fail_over() && config_.migration < config_.silence ? config_.migration : config_.silence;
-  if (host_.is_connected && !failover_.seeks && now - host_.heard > silence) {
-    lose(now);
+  if (host_.is_connected && !failover_.seeks() && now - host_.heard > silence) {
+    lose(now, false);
     return;
   }
   tend_callers(now);
-  if (failover_.seeks) seek_on(now);
+  if (failover_.seeks()) seek_on(now);
   if (must_begin_) {
     must_begin_ = false;
     begin_at(welcome_.start);
   }
   if (!runs_ || is_restoring_) return;
+  if (failover_.election.log_term() < welcome_.term && has_all_until(welcome_.term_start)) {
+    failover_.election.has_log_of(welcome_.term);
+  }
   tend_repair(now);
   if (is_open_) {
     if (current() >= opens_) phase_ = SessionPhase::playing;
@@ -246,6 +260,13 @@ int ClientCore::needed_stretch() const {
 }
 
 std::optional<Outgoing> ClientCore::poll_send(Time now) {
+  if (!farewells_.empty()) {
+    const PeerId peer = farewells_.back();
+    farewells_.pop_back();
+    write_farewell(message_);
+    hang_up(peer);
+    return written(peer);
+  }
   if (!hang_ups_.empty()) {
     const PeerId peer = hang_ups_.back();
     hang_ups_.pop_back();
@@ -261,6 +282,9 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
     hello.seat = config_.seat;
     hello.seats = seats_wished();
     hello.token = token_;
+    hello.life = failover_.life;
+    hello.term = failover_.election.term();
+    hello.migration = config_.migration;
     hello.have = is_spoiled_ ? HashReport{0, 0} : hashes_.settled();
     if (partial_.frame != kNoFrame) {
       hello.partial = partial_;

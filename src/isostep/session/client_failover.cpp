@@ -8,9 +8,6 @@
 namespace isostep {
 namespace {
 
-constexpr Time kAttempt = kSecond;        // [us] for a candidate: two and a half round trips of the longest lines
-constexpr Time kForOthers = kSecond / 4;  // [us] that who has a majority waits for the rest of it
-constexpr Time kSearch = 10 * kSecond;    // [us] until nobody is left
 constexpr Time kGreeting = 2 * kSecond;   // [us] from the connection to the hello, as at a host
 constexpr Time kHold = kSecond * 3 / 10;  // [us] in which we should miss the host too, if it is gone
 
@@ -18,13 +15,18 @@ constexpr Time kHold = kSecond * 3 / 10;  // [us] in which we should miss the ho
 
 ClientCore::ClientCore(PeerCore&& host, Retreat&& retreat, Time now)
     : PeerCore(std::move(host)),
-      hang_ups_(std::move(retreat.guests)),
+      farewells_(std::move(retreat.guests)),
       token_(retreat.token),
       is_spoiled_(retreat.is_outvoted),
       lag_(lag_settings(config_)) {
   config_.host = false;
   failover_.roster = retreat.roster;
+  failover_.election = retreat.election;
+  failover_.life = retreat.life;
   failover_.callers.resize(static_cast<std::size_t>(config_.max_peers + config_.max_strangers));
+  for (int m = 0; m < retreat.roster.count; ++m) {
+    if ((retreat.over >> m & 1) != 0) failover_.election.is_over(m);
+  }
   if (retreat.players == 0) {
     config_.mode = SessionMode::spectator;
   } else {
@@ -34,69 +36,69 @@ ClientCore::ClientCore(PeerCore&& host, Retreat&& retreat, Time now)
     opens_ = 0;
     for (int p = 0; p < players(); ++p) accepted_[p] = streams_[static_cast<std::size_t>(p)].end();
   }
-  seek(now);
+  told_final_ = hashes_.settled().frame;
+  seek(now, false);
 }
 
-void ClientCore::seek(Time now) {
-  failover_.seeks = true;
-  failover_.since = now;
-  failover_.attempt = 0;
+int ClientCore::own_machine() const { return failover_.roster.voter_of(token_, failover_.life); }
+
+bool ClientCore::may_stand() const {
+  return is_open_ && !is_spoiled_ && !is_outvoted(static_cast<std::size_t>(player_));
+}
+
+void ClientCore::seek(Time now, bool knocks) {
+  failover_.election.begin(now, knocks && !failover_.roster.machines[failover_.roster.host].address.view().empty());
+  failover_.is_elected = false;
   fail(SessionEvent::Kind::seeks_host, SessionPhase::seeking);
-  begin_attempt(now);
+  begin_attempt();
 }
 
-void ClientCore::begin_attempt(Time now) {
-  const int machine = failover_.candidate_at(failover_.attempt);
-  const bool is_own = machine == own_machine();
-  failover_.until = now + kAttempt;
-  failover_.is_candidate = is_own && is_open_ && !is_outvoted(static_cast<std::size_t>(player_));
-  for (int p = 0; p < players(); ++p) failover_.ends[p] = failover_.told[p] = final_end(p);
-  failover_.elected_at = 0;
+void ClientCore::begin_attempt() {
+  const int machine = failover_.election.target(failover_.roster, own_machine());
   failover_.must_support = failover_.must_tell_roster = false;
-  failover_.must_connect = !is_own && machine >= 0;
+  failover_.must_connect = machine != own_machine() && machine >= 0;
   if (machine >= 0) failover_.target = failover_.roster.machines[machine].address;
-  for (Caller& caller : failover_.callers) {
-    caller.supports = false;
-    caller.must_tell_roster = caller.must_ask = failover_.is_candidate && caller.machine >= 0;
-  }
 }
 
 void ClientCore::seek_on(Time now) {
-  if (now - failover_.since > kSearch) {
-    failover_.seeks = failover_.is_candidate = failover_.must_connect = false;
-    leave_host();
-    fail(SessionEvent::Kind::lost_host, SessionPhase::lost);
-    return;
+  switch (failover_.election.turn(failover_.roster, own_machine(), may_stand(), now)) {
+    case Election::Step::waits: return;
+    case Election::Step::goes_on:
+      leave_host();
+      begin_attempt();
+      return;
+    case Election::Step::calls:
+      leave_host();
+      for (int p = 0; p < players(); ++p) failover_.ends[p] = failover_.told[p] = final_end(p);
+      for (Caller& caller : failover_.callers) {
+        caller.must_tell_roster = caller.must_ask = caller.is_connected && caller.machine >= 0;
+      }
+      return;
+    case Election::Step::wins: failover_.is_elected = true; return;
+    case Election::Step::gives_up:
+      failover_.must_connect = false;
+      leave_host();
+      fail(SessionEvent::Kind::lost_host, SessionPhase::lost);
+      return;
   }
-  if (failover_.is_candidate) {
-    const Roster& roster = failover_.roster;
-    std::uint64_t group = std::uint64_t{1} << own_machine(), all = 0;
-    for (const Caller& caller : failover_.callers) {
-      if (caller.is_connected && caller.supports) group |= std::uint64_t{1} << caller.machine;
-    }
-    for (int m = 0; m < roster.count; ++m) {
-      if (roster.machines[m].is_in && m != roster.host) all |= std::uint64_t{1} << m;
-    }
-    if (!roster.is_majority(group)) failover_.elected_at = 0;
-    else if (failover_.elected_at == 0) failover_.elected_at = now;
-    const bool waits = (group & all) != all && now - failover_.elected_at < kForOthers;
-    failover_.is_elected = failover_.elected_at != 0 && !waits;
-    if (failover_.elected_at != 0) return;
-  }
-  // The others come later than who notices first.
-  if (now < failover_.until + (failover_.is_candidate ? kAttempt / 2 : 0)) return;
-  leave_host();
-  ++failover_.attempt;
-  begin_attempt(now);
 }
 
 void ClientCore::stop_seeking() {
-  if (!failover_.seeks) return;
-  failover_.seeks = failover_.is_candidate = failover_.must_connect = false;
-  failover_.must_support = failover_.must_tell_roster = false;
+  if (!failover_.seeks()) return;
+  failover_.election.end();
+  failover_.must_connect = failover_.must_support = failover_.must_tell_roster = false;
   SessionEvent event{.kind = SessionEvent::Kind::new_host, .frame = welcome_.start.frame};
   if (welcome_.hosted != 0) event.player = static_cast<std::uint8_t>(std::countr_zero(welcome_.hosted));
   tell(event);
+}
+
+bool ClientCore::go_on(Time now) {
+  const bool is_member = config_.migration > 0 && own_machine() >= 0 && may_stand();
+  if (host_.is_connected && is_greeted_) return false;
+  if (!is_member) return false;
+  if (!failover_.seeks()) failover_.election.begin(now, false);
+  failover_.election.force();
+  return true;
 }
 
 std::optional<Address> ClientCore::poll_connect() {
@@ -106,9 +108,10 @@ std::optional<Address> ClientCore::poll_connect() {
 }
 
 std::unique_ptr<SessionCore> ClientCore::succeed(Time now) {
-  if (!failover_.seeks || !failover_.is_elected) return nullptr;
+  if (!failover_.seeks() || !failover_.is_elected) return nullptr;
   forget_untold();
-  Succession succession{failover_.roster, own_machine(), token_, std::move(failover_.callers)};
+  Succession succession{failover_.roster, own_machine(), token_, failover_.life, failover_.election,
+                        std::move(failover_.callers)};
   return std::make_unique<HostCore>(std::move(*this), std::move(succession), now);
 }
 
@@ -121,10 +124,35 @@ void ClientCore::accepted(PeerId peer, Time now) {
     return;
   }
   Caller& caller = failover_.callers[peer];
+  went(caller);
   caller = Caller{};
   caller.is_connected = true;
   caller.since = now;
   caller.messages.start(now);
+}
+
+void ClientCore::went(Caller& caller) {
+  caller.is_connected = false;
+  if (caller.voter >= 0) failover_.election.went(caller.voter);
+  caller.voter = -1;
+}
+
+void ClientCore::recognise(Caller& caller, const Hello& hello) {
+  Election& election = failover_.election;
+  caller.machine = failover_.roster.machine_of(hello.token);
+  caller.voter = failover_.roster.voter_of(hello.token, hello.life);
+  election.hear_term(hello.term);
+  if (caller.voter >= 0) election.came(caller.voter);
+  else if (caller.machine >= 0 && hello.life == 0) election.is_over(caller.machine);
+  caller.must_tell_roster = caller.must_ask = election.has_called() && caller.machine >= 0;
+}
+
+void ClientCore::has_new_roster() {
+  failover_.election.has_new_roster();
+  for (Caller& caller : failover_.callers) {
+    if (!caller.is_connected || caller.hello.empty()) continue;
+    recognise(caller, read_hello(caller.hello).value());
+  }
 }
 
 void ClientCore::tend_callers(Time now) {
@@ -133,10 +161,10 @@ void ClientCore::tend_callers(Time now) {
     if (!caller.is_connected) continue;
     if (caller.hello.empty()) {
       if (now - caller.since <= kGreeting) continue;
-      caller.is_connected = false;
+      went(caller);
       hang_up(static_cast<PeerId>(i));
       ++stats_.refused;
-    } else if (runs_ && !failover_.seeks && now - caller.since > kHold) {
+    } else if (runs_ && !failover_.seeks() && now - caller.since > kHold) {
       caller.must_redirect = true;
     }
   }
@@ -160,10 +188,9 @@ void ClientCore::take_call(PeerId peer, Channel channel, Bytes bytes, Time now) 
     if (const Result<Hello> hello = read_hello(bytes)) {
       good = true;
       caller->hello.assign(bytes.begin(), bytes.end());
-      caller->machine = failover_.roster.machine_of(hello.value().token);
-      caller->must_tell_roster = caller->must_ask = failover_.is_candidate && caller->machine >= 0;
+      recognise(*caller, hello.value());
     }
-  } else if (kind && failover_.is_candidate && caller->machine >= 0) {
+  } else if (kind && failover_.election.has_called() && caller->machine >= 0) {
     good = take_support(*caller, kind.value(), bytes);
   }
   if (!good) ++stats_.refused;
@@ -172,32 +199,43 @@ void ClientCore::take_call(PeerId peer, Channel channel, Bytes bytes, Time now) 
 // --- what is said ---
 
 bool ClientCore::take_failover(MessageKind kind, Bytes bytes, Time now) {
-  if (kind == MessageKind::roster && (is_greeted_ || failover_.seeks)) {
+  const bool seeks = failover_.seeks();
+  if (kind == MessageKind::roster && (is_greeted_ || seeks)) {
     const Result<Roster> roster = read_roster(bytes);
     if (!roster) return false;
     if (!is_greeted_ && !is_sealed_for(roster.value(), token_, message_)) return false;
-    const bool is_newer = roster.value().version > failover_.roster.version || (is_greeted_ && failover_.is_roster_old);
-    if (is_newer) failover_.roster = roster.value();
+    if (roster.value().is_newer_than(failover_.roster)) {
+      failover_.roster = roster.value();
+      has_new_roster();
+    }
     stats_.machines = failover_.roster.count_in();
-    if (is_greeted_) failover_.is_roster_old = false;
     failover_.must_enroll = is_greeted_;
     return true;
   }
-  if (kind == MessageKind::candidate && failover_.seeks) {
-    const Result<Candidate> candidate = read_candidate(bytes);
-    if (!candidate) return false;
-    failover_.candidate = candidate.value();
-    failover_.must_support = own_machine() >= 0;
-    failover_.must_tell_roster = candidate.value().version < failover_.roster.version;
+  if (kind == MessageKind::farewell && is_greeted_ && bytes.size() == 1) {
+    leave_host();
+    lose(now, false);
     return true;
   }
-  if (kind != MessageKind::redirect || !failover_.seeks) return false;
+  if (kind == MessageKind::candidate && seeks) {
+    const Result<Candidate> candidate = read_candidate(bytes);
+    if (!candidate) return false;
+    Roster theirs;
+    theirs.term = candidate.value().roster_term;
+    theirs.version = candidate.value().version;
+    failover_.candidate = candidate.value();
+    failover_.must_tell_roster = failover_.roster.is_newer_than(theirs);
+    failover_.must_support = !failover_.must_tell_roster && own_machine() >= 0 &&
+                             failover_.election.give_support(candidate.value());
+    return true;
+  }
+  if (kind != MessageKind::redirect || !seeks) return false;
   const Result<Address> address = read_redirect(bytes);
   if (!address) return false;
   leave_host();
   failover_.target = address.value();
   failover_.must_connect = !address.value().view().empty();
-  failover_.until = now + kAttempt;
+  failover_.election.was_sent_on(now);
   return true;
 }
 
@@ -212,7 +250,7 @@ std::optional<Outgoing> ClientCore::next_failover_message() {
     write_enrolled(failover_.roster.version, message_);
     return written(host_.peer);
   }
-  if (host_.is_connected && failover_.must_support) return next_for_candidate();
+  if (host_.is_connected && (failover_.must_support || failover_.must_tell_roster)) return next_for_candidate();
   return next_for_caller();
 }
 
@@ -245,7 +283,7 @@ std::optional<Outgoing> ClientCore::next_for_candidate() {
   }
   if (write_missing()) return written(host_.peer);
   failover_.must_support = false;
-  write_support(failover_.roster.version, message_);
+  write_support(failover_.candidate.term, message_);
   return written(host_.peer);
 }
 
@@ -254,7 +292,7 @@ std::optional<Outgoing> ClientCore::next_for_caller() {
     Caller& caller = failover_.callers[i];
     if (!caller.is_connected) continue;
     if (caller.must_redirect) {
-      caller.is_connected = false;
+      went(caller);
       hang_up(static_cast<PeerId>(i));
       write_redirect(failover_.roster.machines[failover_.roster.host].address, message_);
       return written(static_cast<PeerId>(i));
@@ -267,6 +305,9 @@ std::optional<Outgoing> ClientCore::next_for_caller() {
     if (!caller.must_ask) continue;
     caller.must_ask = false;
     Candidate candidate;
+    candidate.term = failover_.election.term();
+    candidate.log_term = failover_.election.log_term();
+    candidate.roster_term = failover_.roster.term;
     candidate.version = failover_.roster.version;
     for (int p = 0; p < players(); ++p) candidate.ends[p] = final_end(p);
     write_candidate(candidate, message_);

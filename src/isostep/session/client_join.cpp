@@ -15,7 +15,6 @@ constexpr Frame kBeforeBlock = 2;  // [frames] of a rollback window that are kep
 constexpr Frame kLagShare = 3;
 /// [us] for the other machines to vouch for our states: some reports of each, with losses on the longest lines.
 constexpr Time kVouching = 5 * kSecond;
-constexpr Time kBrokenOff = kSecond / 4;  // [us] until the next attempt, when a candidate ends the connection
 
 }  // namespace
 
@@ -48,10 +47,10 @@ void ClientCore::connected(PeerId host, Time now) {
 }
 
 void ClientCore::disconnected(PeerId peer, Time now) {
-  if (peer < failover_.callers.size()) failover_.callers[peer].is_connected = false;
+  if (peer < failover_.callers.size()) went(failover_.callers[peer]);
   if (!host_.is_connected || peer != host_.peer) return;
   host_.is_connected = false;
-  lose(now);
+  lose(now, now - host_.heard <= config_.migration / 2);
 }
 
 void ClientCore::leave_host() {
@@ -59,12 +58,13 @@ void ClientCore::leave_host() {
   host_.is_connected = false;
 }
 
-void ClientCore::lose(Time now) {
+void ClientCore::lose(Time now, bool knocks) {
   leave_host();
   runs_ = false;
-  if (failover_.seeks && failover_.until > now + kBrokenOff) failover_.until = now + kBrokenOff;
-  if (phase_ == SessionPhase::refused || failover_.seeks) return;
-  if (can_fail_over()) seek(now);
+  const bool seeks = failover_.seeks() && !failover_.election.has_given_up();
+  if (seeks) failover_.election.was_turned_away(now);
+  if (phase_ == SessionPhase::refused || seeks) return;
+  if (can_fail_over()) seek(now, knocks);
   else fail(SessionEvent::Kind::lost_host, SessionPhase::lost);
 }
 
@@ -107,7 +107,7 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
   if (kind == MessageKind::welcome) {
     if (const Result<Welcome> welcome = read_welcome(bytes)) {
       good = true;
-      take_welcome(welcome.value());
+      take_welcome(welcome.value(), now);
     }
   } else if (kind == MessageKind::refuse) {
     if (const Result<Refusal> refusal = read_refusal(bytes)) {
@@ -116,7 +116,8 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
       event.field = refusal.value();
       tell(event);
       phase_ = SessionPhase::refused;
-      runs_ = is_greeted_ = failover_.seeks = false;
+      runs_ = is_greeted_ = false;
+      failover_.election.end();
     }
   } else if (kind == MessageKind::piece && (is_restoring_ || repair_.stage == Repair::Stage::receives)) {
     if (const Result<Piece> piece = read_piece(bytes)) {
@@ -148,7 +149,7 @@ void ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
   }
 }
 
-void ClientCore::take_welcome(const Welcome& welcome) {
+void ClientCore::take_welcome(const Welcome& welcome, Time now) {
   // Without a snapshot we go on from the state that our greeting named, and from no other: others may be gone.
   const HashReport have = hashes_.settled();
   const bool has_start = welcome.start.frame == have.frame && welcome.start.chain == have.chain && !is_spoiled_;
@@ -158,12 +159,20 @@ void ClientCore::take_welcome(const Welcome& welcome) {
   const bool fits = (welcome.snapshot_from == 0 || goes_on) && welcome.players == players() &&
                     welcome.snapshot_size <= config_.snapshot_cap &&
                     std::popcount(welcome.seated()) == (config_.mode == SessionMode::spectator ? 0 : seats_wished());
+  if (welcome.term != 0 && !failover_.election.may_follow(welcome.term)) {
+    // We support another, or did: whoever is the host of an earlier term learns by our hello that it is over.
+    leave_host();
+    lose(now, false);
+    return;
+  }
   if (!fits || (welcome.snapshot_size == 0 && !has_start)) {
-    runs_ = is_greeted_ = is_restoring_ = must_begin_ = failover_.seeks = false;
+    runs_ = is_greeted_ = is_restoring_ = must_begin_ = false;
+    failover_.election.end();
     leave_host();
     fail(SessionEvent::Kind::refused, SessionPhase::refused);
     return;
   }
+  keeps_inputs_ = welcome.match == welcome_.match && welcome.snapshot_size == 0;
   welcome_ = welcome;
   is_greeted_ = true;
   runs_ = is_open_ = asked_ready_ = must_ready_ = false;
@@ -171,8 +180,10 @@ void ClientCore::take_welcome(const Welcome& welcome) {
   player_ = welcome.player == 0xff ? -1 : welcome.player;
   own_ = welcome.seated();
   token_ = welcome.token;
+  failover_.life = welcome.life;
+  failover_.election.follow(welcome.term);
+  told_final_ = welcome.term == 0 ? kLastFrame + 1 : welcome.start.frame;
   opened_ = kNoFrame;
-  failover_.is_roster_old = true;
   stop_seeking();
   phase_ = SessionPhase::joining;
   told_ = welcome.snapshot_from;
@@ -237,8 +248,10 @@ void ClientCore::begin_at(const HashReport& start) {
     // Behind a new host our own inputs stay what they were, from the first that it lacks on.
     const bool is_kept = is_own(p) && !is_restoring_ && stream.begin() <= frame && welcome_.opens != kNoFrame &&
                          stream.end() >= welcome_.opens;
-    if (!is_kept) stream.reset(frame);
-    accepted_[p] = frame;
+    const bool stays = keeps_inputs_ && stream.contains(frame) && (!is_own(p) || accepted_[p] > frame);
+    if (stays && is_own(p) && !is_kept) stream.truncate(accepted_[p]);
+    if (!stays && !is_kept) stream.reset(frame);
+    accepted_[p] = stays && !is_kept ? stream.end() : frame;
   }
   for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
   clock_.forget_lean();

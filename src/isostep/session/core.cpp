@@ -71,7 +71,7 @@ const char* problem_of(const SessionConfig& config) {
   if (config.delay < config.least_delay || config.delay > config.most_delay) {
     return "delay: from least_delay to most_delay";
   }
-  if (config.deadline < 0 || config.deadline > 60) return "deadline: 0 to 60 frames";
+  if (config.deadline < 0 || config.deadline > kMostDeadline) return "deadline: 0 to 60 frames";
   // A player who is cut off has stepped at most two windows and the host's delay beyond its last accepted input.
   if (config.kept < 2 * config.window + config.most_delay + 4 || config.kept > 4096) {
     return "kept: 2 * window + most_delay + 4 states or more, up to 4096";

@@ -182,6 +182,12 @@ void HostCore::take_seats(Guest& guest, std::uint32_t wanted) {
   // A host that follows another knows the tokens that the roster told of: where there may be one they stay the same.
   const bool keeps_token = own != 0 && config_.migration > 0;
   const std::uint64_t token = keeps_token ? guest.wish.token : draw(Purpose::token, tokens_++);
+  // A process that the former host numbered after its last roster is as good as a new one: both are voters later.
+  std::uint64_t life = 0;
+  for (int p = 0; p < players(); ++p) {
+    if ((own >> p & 1) != 0 && guest.wish.life != 0 && seats_[p].life == guest.wish.life) life = guest.wish.life;
+  }
+  if (life == 0) life = draw(Purpose::life, lives_++);
   for (int p = 0; p < players(); ++p) {
     const int link = seats_[p].link;
     const bool is_owner = (own >> p & 1) != 0;
@@ -198,6 +204,7 @@ void HostCore::take_seats(Guest& guest, std::uint32_t wanted) {
     seat.is_taken = true;
     seat.link = static_cast<int>(guest.peer);
     seat.token = token;
+    seat.life = life;
     seat.proof = proof_of(token);
     seat.former_proof = is_owner && !keeps_token ? proof_of(guest.wish.token) : 0;
     seat.is_kept = is_owner && is_kept;

@@ -16,6 +16,7 @@ HostCore::HostCore(const SessionConfig& config, const InputRules& rules)
       match_(draw(Purpose::match, 0)) {
   for (int p = 0; p < config.local_players; ++p) seats_[p].is_taken = seats_[p].is_open = true;
   for (std::size_t i = 0; i < guests_.size(); ++i) guests_[i].peer = static_cast<PeerId>(i);
+  own_life_ = draw(Purpose::life, lives_++);
   if (config.migration > 0) own_token_ = draw(Purpose::token, tokens_++);
 }
 
@@ -31,13 +32,24 @@ void HostCore::connected(PeerId peer, Time now) {
   guest.connect(now);
 }
 
-void HostCore::disconnected(PeerId peer, Time) {
-  if (peer < guests_.size() && guests_[peer].is_connected) drop(guests_[peer]);
+void HostCore::disconnected(PeerId peer, Time now) {
+  if (peer >= guests_.size() || !guests_[peer].is_connected) return;
+  Guest& guest = guests_[peer];
+  // Who hangs up while it hears us leaves; who has lost us looks for another host.
+  const bool leaves = guest.lease_from != 0 && now - guest.lease_from <= tenure_.lease();
+  const std::uint32_t its = guest.players;
+  drop(guest);
+  for (int p = 0; p < players(); ++p) {
+    if ((its >> p & 1) == 0) continue;
+    seats_[p].has_left = leaves;
+    seats_[p].left_at = now;
+  }
 }
 
 void HostCore::begin(Time now) {
   started_ = true;
   began_ = now;
+  tenure_.begin(first_term_, config_.migration, 0, hashes_.settled().frame, now);
   clock_.start(now);
   phase_ = hosted_ != 0 ? SessionPhase::playing : SessionPhase::watching;
   for (int p = 0; p < players(); ++p) {
@@ -68,6 +80,7 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
     if (now - guest.heard > config_.silence / 2) guest.back_at = now;
     guest.heard = now;
     guest.has_spoken = true;
+    renew_lease(guest, packet.header, now);
     take_packet(guest, packet, now);
     return;
   }
@@ -196,7 +209,6 @@ void HostCore::tend_guests(Time now) {
   }
   tend_ballot(now);
   keep_roster();
-  count_backers(now);
   tend_inquiry(now);
   judge_lines(now);
   choose_pace(now);
@@ -209,7 +221,7 @@ void HostCore::before_frame(Time now) {
 }
 
 void HostCore::fill_absent() {
-  if (!is_backed_) return;
+  if (!tenure_.is_backed()) return;
   for (int p = 0; p < players(); ++p) {
     if (is_guests(p) && !seats_[p].is_open) streams_[static_cast<std::size_t>(p)].append_absent_until(horizon());
   }
@@ -228,7 +240,7 @@ void HostCore::blocked(Time now) {
 void HostCore::charge(Time now) {
   const Time passed = now - charged_at_;
   charged_at_ = now;
-  if (now - began_ < kFreeStart || !is_backed_) return;
+  if (now - began_ < kFreeStart || !tenure_.is_backed()) return;
   for (int p = 0; p < players(); ++p) {
     Seat& seat = seats_[p];
     if (is_local(p) || !seat.is_open || streams_[static_cast<std::size_t>(p)].end() > current()) continue;

@@ -10,6 +10,7 @@ HostCore::HostCore(const SessionConfig& config, const InputRules& rules, SavedMa
   hosted_ = saved.hosted;
   tokens_ = saved.tokens;
   sequels_ = saved.sequels + 1;
+  first_term_ = saved.term + 1;
   match_ = draw(Purpose::match, sequels_);
   if (config.migration > 0) own_token_ = draw(Purpose::token, tokens_++);
   resumed_ = saved.start;
@@ -79,6 +80,7 @@ std::optional<SavedMatch> HostCore::save_match() const {
   saved.speed = announced().speed;
   saved.tokens = tokens_;
   saved.sequels = sequels_;
+  saved.term = tenure_.term();
   saved.players = static_cast<std::uint8_t>(players());
   for (int p = 0; p < players(); ++p) saved.proofs[p] = is_local(p) || !seats_[p].is_kept ? 0 : seats_[p].proof;
   return saved;

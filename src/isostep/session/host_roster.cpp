@@ -6,14 +6,12 @@
 namespace isostep {
 namespace {
 
-constexpr Time kDeposed = kSecond;  // [us] beyond `migration`, in which who was silent may be heard again
-
 bool same_machine(const Roster::Machine& a, const Roster::Machine& b) {
-  return a.players == b.players && a.proof == b.proof && a.is_in == b.is_in && a.was_in == b.was_in &&
+  return a.players == b.players && a.proof == b.proof && a.life == b.life && a.is_in == b.is_in && a.was_in == b.was_in &&
          a.address == b.address;
 }
 bool same_roster(const Roster& a, const Roster& b) {
-  if (a.count != b.count || a.host != b.host) return false;
+  if (a.term != b.term || a.count != b.count || a.host != b.host || a.settings != b.settings) return false;
   for (int m = 0; m < a.count; ++m) {
     if (!same_machine(a.machines[m], b.machines[m])) return false;
   }
@@ -24,9 +22,11 @@ bool same_roster(const Roster& a, const Roster& b) {
 
 Roster HostCore::drafted() const {
   Roster next;
+  next.term = tenure_.term();
   next.version = roster_.version + 1;
+  next.settings = settings();
   Roster::Machine& own = next.machines[next.count++];
-  own = {hosted_, proof_of(own_token_), true, true, config_.address};
+  own = {hosted_, proof_of(own_token_), own_life_, true, true, config_.address};
   for (int p = 0; p < players(); ++p) {
     const Seat& seat = seats_[p];
     const int before = roster_.machine_with(p);
@@ -39,29 +39,102 @@ Roster HostCore::drafted() const {
     Roster::Machine& machine = next.machines[next.count++];
     machine.players = 1u << p;
     machine.proof = seat.proof;
+    machine.life = seat.life;
+    const Roster::Machine& former = roster_.machines[before < 0 ? 0 : before];
+    const bool is_same = before >= 0 && former.proof == seat.proof && former.life == seat.life;
+    if (before >= 0 && !is_same && (former.is_in || former.was_in)) {
+      // Another process in its place: first it goes, then the other comes, each with a majority of who was there.
+      machine.proof = former.proof;
+      machine.life = former.life;
+      machine.was_in = former.is_in;
+      continue;
+    }
     const Guest* guest = seat.link < 0 ? nullptr : &guests_[static_cast<std::size_t>(seat.link)];
     machine.is_in = guest != nullptr && guest->stage == Guest::Stage::live;
-    machine.was_in = roster_.version == 0 ? machine.is_in : was_in;
+    machine.was_in = roster_.version == 0 ? machine.is_in : is_same && was_in;
     if (machine.is_in && seat.is_open) machine.address = guest->address;
   }
   return next;
 }
 
-template <class Predicate> std::uint64_t HostCore::group(Predicate&& is_counted) const {
-  std::uint64_t group = std::uint64_t{1} << roster_.host;
-  for (const Guest& guest : guests_) {
-    const int machine = guest.is_connected ? roster_.machine_with(guest.player) : -1;
-    if (machine >= 0 && is_counted(guest)) group |= std::uint64_t{1} << machine;
+MatchSettings HostCore::settings() const {
+  return {config_.deadline,    config_.silence, config_.patience, config_.exclusion,
+          config_.reservation, config_.asks_admission, config_.votes, config_.players_set_tempo,
+          config_.repair};
+}
+
+int HostCore::voter_of(const Guest& guest) const {
+  if (!guest.is_connected || guest.player < 0) return -1;
+  const Seat& seat = seats_[guest.player];
+  const int machine = roster_.machine_with(guest.player);
+  if (machine < 0) return -1;
+  const Roster::Machine& its = roster_.machines[machine];
+  return its.proof == seat.proof && its.life == seat.life ? machine : -1;
+}
+
+Frame HostCore::end_at(const Guest& guest) const {
+  Frame end = kLastFrame;
+  for (int p = 0; p < players(); ++p) {
+    // Its own inputs it has, but for those that were replaced and that it has not been told.
+    const bool is_its = has(guest, p) && seats_[p].is_open && seats_[p].replaced_end == 0;
+    const Frame its = is_its ? streams_[static_cast<std::size_t>(p)].end() : guest.acked[p];
+    if (its < end) end = its;
   }
-  return group;
+  return end;
+}
+
+void HostCore::look_at_followers(Time now) {
+  for (Follower& follower : followers_) follower = Follower{};
+  for (const Guest& guest : guests()) {
+    const int machine = voter_of(guest);
+    if (machine < 0 || guest.stage != Guest::Stage::live) continue;
+    followers_[machine].heard = guest.lease_from;
+    followers_[machine].has = end_at(guest);
+  }
+  for (int m = 0; m < roster_.count; ++m) {
+    const int player = first_of(roster_.machines[m].players);
+    if (m == roster_.host || player < 0) continue;
+    const Seat& seat = seats_[player];
+    const bool is_another = seat.link >= 0 && seat.life != roster_.machines[m].life;
+    // Who was cut off instead comes back before that, or is heard of as who looks for another host.
+    const bool has_left = seat.link < 0 && seat.has_left && now - seat.left_at >= config_.migration + kSecond;
+    followers_[m].is_over = is_another || has_left;
+  }
+}
+
+void HostCore::renew_lease(Guest& guest, const PacketHeader& header, Time now) {
+  if (!header.has_echo || header.waited == 255) return;
+  const auto said = static_cast<std::uint16_t>(header.echo - header.waited);
+  const auto age = static_cast<std::uint16_t>(static_cast<std::uint16_t>(now / 1000) - said);
+  if (age > 32767 || Time{age} * 1000 > now) return;
+  // The clock of datagrams ticks in milliseconds.
+  const Time from = now / 1000 * 1000 - Time{age} * 1000;
+  if (from > guest.lease_from) guest.lease_from = from;
+}
+
+std::uint64_t HostCore::followers_here(Time now) const {
+  std::uint64_t here = std::uint64_t{1} << roster_.host;
+  for (const Guest& guest : guests()) {
+    const int machine = voter_of(guest);
+    const bool is_here = guest.stage == Guest::Stage::live && now - guest.heard <= config_.migration;
+    if (machine >= 0 && is_here) here |= std::uint64_t{1} << machine;
+  }
+  return here;
 }
 
 void HostCore::keep_roster() {
   if (config_.migration == 0 || !started_) return;
-  const auto has_it = [&](const Guest& guest) { return guest.enrolled == roster_.version; };
-  if (roster_.version > 0 && !roster_.is_majority(group(has_it))) return;
+  std::uint64_t enrolled = std::uint64_t{1} << roster_.host;
+  for (const Guest& guest : guests()) {
+    const int machine = voter_of(guest);
+    if (machine >= 0 && guest.enrolled == roster_.version) enrolled |= std::uint64_t{1} << machine;
+  }
+  if (roster_.version > 0 && !tenure_.may_go_on_to_next(roster_, enrolled, followers_)) return;
   const Roster next = drafted();
-  if (same_roster(next, roster_)) return;
+  if (!same_roster(next, roster_)) replace_roster(next);
+}
+
+void HostCore::replace_roster(const Roster& next) {
   roster_ = next;
   for (int m = 0; m < roster_.count; ++m) {
     const int player = std::countr_zero(roster_.machines[m].players);
@@ -72,16 +145,41 @@ void HostCore::keep_roster() {
   for (Guest& guest : guests_) guest.must_enroll = guest.stage == Guest::Stage::live;
 }
 
-void HostCore::count_backers(Time now) {
-  const auto is_heard = [&](const Guest& guest) { return now - guest.heard <= config_.migration; };
-  is_backed_ = roster_.version == 0 || roster_.is_majority(group(is_heard));
-  if (is_backed_) backed_at_ = now;
+void HostCore::reform_roster(std::uint64_t group) {
+  Roster next = drafted();
+  for (int m = 0; m < next.count; ++m) {
+    Roster::Machine& machine = next.machines[m];
+    const int before = roster_.machine_with(first_of(machine.players));
+    const bool stays = m == next.host || (before >= 0 && (group >> before & 1) != 0);
+    machine.is_in = machine.was_in = stays;
+  }
+  replace_roster(next);
+}
+
+bool HostCore::go_on(Time now) {
+  if (roster_.version == 0 || tenure_.is_backed()) return false;
+  reform_roster(followers_here(now));
+  return true;
 }
 
 std::unique_ptr<SessionCore> HostCore::succeed(Time now) {
-  const bool steps_down = steps_down_at_ != 0 && now >= steps_down_at_;
-  if (!steps_down && (is_backed_ || now - backed_at_ <= config_.migration + kDeposed)) return nullptr;
-  Retreat retreat{roster_, hosted_, own_token_, {}, steps_down};
+  if (config_.migration == 0) return nullptr;
+  look_at_followers(now);
+  const std::span<const Follower> followers(followers_, roster_.count);
+  const bool is_outvoted = steps_down_at_ != 0 && now >= steps_down_at_;
+  const Tenure::Duty duty = started_ ? tenure_.turn(roster_, followers, known_end(), now) : Tenure::Duty::serves;
+  if (duty == Tenure::Duty::reforms) reform_roster(followers_here(now));
+  if (duty != Tenure::Duty::steps_down && !is_outvoted && !is_over_) return nullptr;
+  return retreat(now, is_outvoted);
+}
+
+std::unique_ptr<SessionCore> HostCore::retreat(Time now, bool is_outvoted) {
+  Retreat retreat{roster_, hosted_, own_token_, own_life_, {}, 0, {}, is_outvoted};
+  retreat.election.follow(tenure_.term());
+  retreat.election.has_log_of(tenure_.term());
+  for (int m = 0; m < roster_.count; ++m) {
+    if (followers_[m].is_over) retreat.over |= std::uint64_t{1} << m;
+  }
   for (const Guest& guest : guests_) {
     if (guest.is_connected) retreat.guests.push_back(guest.peer);
   }
@@ -96,15 +194,31 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
       guests_(static_cast<std::size_t>(config_.max_peers + config_.max_strangers)),
       match_(draw(Purpose::match, 0)) {
   config_.host = true;
-  roster_ = succession.roster;
+  const MatchSettings& its = succession.roster.settings;
+  config_.deadline = its.deadline;
+  config_.silence = its.silence;
+  config_.patience = its.patience;
+  config_.exclusion = its.exclusion;
+  config_.reservation = its.reservation;
+  config_.asks_admission = its.asks_admission;
+  config_.votes = its.votes;
+  config_.players_set_tempo = its.players_set_tempo;
+  config_.repair = its.repair;
+  inherited_ = roster_ = succession.roster;
   roster_.host = static_cast<std::uint8_t>(succession.machine);
+  roster_.term = succession.election.term();
   own_token_ = succession.token;
+  own_life_ = succession.life;
+  Frame end = 0;
+  for (const InputStream& stream : streams_) end = stream.end() > end ? stream.end() : end;
+  tenure_.begin(succession.election.term(), config_.migration, end, hashes_.settled().frame, now);
   for (std::size_t i = 0; i < guests_.size(); ++i) guests_[i].peer = static_cast<PeerId>(i);
   for (int m = 0; m < roster_.count; ++m) {
     for (int p = 0; p < players(); ++p) {
       if ((roster_.machines[m].players >> p & 1) == 0) continue;
       seats_[p].is_taken = seats_[p].is_kept = true;
       seats_[p].proof = roster_.machines[m].proof;
+      seats_[p].life = roster_.machines[m].life;
       seats_[p].is_open = is_local(p);
     }
   }
@@ -114,7 +228,7 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
   for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
   end_ballot();
   started_ = true;
-  began_ = turn_at_ = backed_at_ = now;
+  began_ = turn_at_ = now;
   clock_.forget_lean();
   clock_.start(now);
   go_at_pace_of(0xff, 0);
@@ -126,11 +240,13 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
     guests_[i].connect(now);
     used_ = i + 1;
     if (caller.hello.empty()) continue;
-    if (caller.supports) guests_[i].enrolled = roster_.version;
+    const bool supports = caller.voter >= 0 && (succession.election.supporters() >> caller.voter & 1) != 0;
+    if (supports) guests_[i].enrolled = roster_.version;
     greet(guests_[i], caller.hello);
-    if (guests_[i].stage == Guest::Stage::applies && caller.supports) let_in(guests_[i]);
+    if (supports) guests_[i].lease_from = succession.election.called_at();
     resume(guests_[i]);
   }
+  if (!succession.election.has_majority(succession.roster)) reform_roster(succession.election.supporters());
   SessionEvent event{.kind = SessionEvent::Kind::new_host, .player = static_cast<std::uint8_t>(local_player())};
   event.frame = current();
   tell(event);

@@ -41,6 +41,12 @@ bool HostCore::is_refused(Guest& guest, const Hello& hello) {
     refuse(guest, mismatch.key.view(), mismatch.in_file.view(), mismatch.here.view());
     return true;
   }
+  if (!hello.spectator && hello.migration != config_.migration) {
+    ShortText<kReplayValueCap> theirs, ours;
+    refuse(guest, "migration", theirs.append_number(hello.migration).view(),
+           ours.append_number(config_.migration).view());
+    return true;
+  }
   const bool is_start = hello.have.frame == 0 && hashes_.has_chain(0);
   if (!started_ && !is_resumed() && (!is_start || hello.have.chain != hashes_.chain(0))) {
     ShortText<kReplayValueCap> theirs, ours;
@@ -60,7 +66,11 @@ void HostCore::greet(Guest& guest, Bytes message) {
   if (is_refused(guest, hello)) return;
   guest.wish = hello;
   guest.address = hello.address;
-  if (!config_.asks_admission) {
+  // Nobody follows an earlier host than it has known: the others decide anew.
+  const int voter = roster_.voter_of(hello.token, hello.life);
+  is_over_ = is_over_ || (started_ && voter >= 0 && hello.term > tenure_.term());
+  const bool is_member = inherited_.voter_of(hello.token, hello.life) >= 0;
+  if (!config_.asks_admission || is_member) {
     let_in(guest);
     return;
   }

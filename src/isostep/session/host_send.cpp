@@ -49,6 +49,9 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
     welcome.player = guest.player < 0 ? 0xff : static_cast<std::uint8_t>(guest.player);
     welcome.others = guest.player < 0 ? 0 : guest.players & (guest.players - 1);  // without the first
     welcome.token = guest.player < 0 ? 0 : seats_[guest.player].token;
+    welcome.life = guest.player < 0 ? 0 : seats_[guest.player].life;
+    welcome.term = config_.migration > 0 ? (started_ ? tenure_.term() : first_term_) : 0;
+    welcome.term_start = config_.migration > 0 ? tenure_.start() : 0;
     welcome.start = sending ? snapshot_ : HashReport{guest.start, guest.start_chain};
     welcome.hash = sending ? snapshot_hash_ : 0;  // it has that state
     if (sending) {
@@ -96,6 +99,7 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
   header.slowest = static_cast<std::uint8_t>(slowest());
   header.waits_for = waits_for();
   header.tempo = announced();
+  if (config_.migration > 0) header.final_end = tenure_.final_end();
   // A closed seat acknowledges nothing: its frames are not the player's, who would take its own for accepted.
   for (int p = 0; p < players(); ++p) {
     Seat& seat = seats_[p];

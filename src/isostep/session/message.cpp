@@ -40,11 +40,14 @@ void write_hello(const Hello& hello, std::vector<std::uint8_t>& out) {
   writer.write(static_cast<std::int8_t>(hello.seat));
   writer.write(static_cast<std::uint8_t>(hello.seats));
   writer.write(hello.token);
+  writer.write(hello.life);
+  writer.write(hello.term);
   write_report(writer, hello.have);
   write_report(writer, hello.partial);
   writer.write(hello.partial_size);
   writer.write_bytes(hello.credential);
   writer.write_text(hello.address.view());
+  writer.write(hello.migration);
   writer.write_bytes(identity);
 }
 
@@ -65,11 +68,14 @@ Result<Hello> read_hello(Bytes message) {
     reader.fail(ErrorCode::invalid, "seats out of range");
   }
   reader.read(hello.token);
+  reader.read(hello.life);
+  reader.read(hello.term);
   hello.have = read_report(reader);
   hello.partial = read_report(reader);
   reader.read(hello.partial_size);
   hello.credential = reader.read_bytes(kCredentialCap);
   hello.address = read_address(reader);
+  reader.read(hello.migration);
   const Bytes identity = reader.read_bytes(kReplayHeadCap);
   const Result<Hello> whole = finish_message(reader, "hello", hello);
   if (!whole) return whole;
@@ -87,6 +93,9 @@ void write_welcome(const Welcome& welcome, std::vector<std::uint8_t>& out) {
   writer.write(welcome.player);
   writer.write(welcome.others);
   writer.write(welcome.token);
+  writer.write(welcome.life);
+  writer.write(welcome.term);
+  writer.write(welcome.term_start);
   write_report(writer, welcome.start);
   writer.write(welcome.hash);
   writer.write(welcome.snapshot_size);
@@ -103,6 +112,9 @@ Result<Welcome> read_welcome(Bytes message) {
   reader.read(welcome.player);
   reader.read(welcome.others);
   reader.read(welcome.token);
+  reader.read(welcome.life);
+  reader.read(welcome.term);
+  welcome.term_start = read_frame(reader);
   welcome.start = read_report(reader);
   reader.read(welcome.hash);
   reader.read(welcome.snapshot_size);
@@ -190,6 +202,9 @@ Result<std::uint32_t> read_enrolled(Bytes message) { return read_number(message,
 
 void write_candidate(const Candidate& candidate, std::vector<std::uint8_t>& out) {
   Writer writer = begin_message(MessageKind::candidate, out);
+  writer.write(candidate.term);
+  writer.write(candidate.log_term);
+  writer.write(candidate.roster_term);
   writer.write(candidate.version);
   writer.write(candidate.ends);
 }
@@ -197,6 +212,9 @@ void write_candidate(const Candidate& candidate, std::vector<std::uint8_t>& out)
 Result<Candidate> read_candidate(Bytes message) {
   Reader reader = after_kind(message);
   Candidate candidate;
+  reader.read(candidate.term);
+  reader.read(candidate.log_term);
+  reader.read(candidate.roster_term);
   reader.read(candidate.version);
   reader.read(candidate.ends);
   for (const Frame end : candidate.ends) {
@@ -212,8 +230,8 @@ void write_known(Bytes packet, std::vector<std::uint8_t>& out) {
 
 Result<Packet> read_known(Bytes message) { return read_packet(message.subspan(message.empty() ? 0 : 1)); }
 
-void write_support(std::uint32_t version, std::vector<std::uint8_t>& out) {
-  begin_message(MessageKind::support, out).write(version);
+void write_support(std::uint32_t term, std::vector<std::uint8_t>& out) {
+  begin_message(MessageKind::support, out).write(term);
 }
 
 Result<std::uint32_t> read_support(Bytes message) { return read_number(message, "support"); }
@@ -221,6 +239,8 @@ Result<std::uint32_t> read_support(Bytes message) { return read_number(message, 
 void write_redirect(const Address& address, std::vector<std::uint8_t>& out) {
   begin_message(MessageKind::redirect, out).write_text(address.view());
 }
+
+void write_farewell(std::vector<std::uint8_t>& out) { begin_message(MessageKind::farewell, out); }
 
 Result<Address> read_redirect(Bytes message) {
   Reader reader = after_kind(message);
@@ -244,7 +264,7 @@ Result<Ask> read_ask(Bytes message) {
 }
 
 Result<MessageKind> message_kind(Bytes message) {
-  constexpr auto kLast = static_cast<std::uint8_t>(MessageKind::ballot);
+  constexpr auto kLast = static_cast<std::uint8_t>(MessageKind::farewell);
   if (message.empty() || message.size() > kReliableCap || message[0] < 1 || message[0] > kLast) {
     return Error{ErrorCode::corrupt, "no message of a session", "message"};
   }

@@ -1,9 +1,9 @@
 // Datagrams: how they are laid out, and everything that is checked before one is believed.
 // SPDX-License-Identifier: MIT
 //
-// Layout: kind u8 | match u64 | number u16 | time u16 | flags varint | [echo u16] | [stretch u8, slowest u8]
-//         | [spares u8]
-//         | [waits for varint] | frame varint | [tempo: number varint, frame difference, speed and pause u8, by u8]
+// Layout: kind u8 | match u64 | number u16 | time u16 | flags varint | [echo u16, waited u8] | [stretch u8, slowest u8]
+//         | [spares u8] | [waits for varint] | frame varint | [final end: difference to frame]
+//         | [tempo: number varint, frame difference, speed and pause u8, by u8]
 //         | [report: frame difference, chain u64] | [passed on: player u8, frame difference, chain u64]
 //         | [figures: player u8, replaced, waited, round trip, jitter, loss varint]
 //         | ack mask varint | {difference to frame, slack i8}...
@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::uint8_t kKind = 0xd1;
 constexpr std::uint32_t kHasEcho = 1, kStarted = 2, kHasReport = 4, kPassesOn = 8, kIsFar = 16, kIsSlow = 32,
-                        kWaits = 64, kHasTempo = 128, kHasFigures = 256, kSpares = 512, kKnownFlags = 1023;
+                        kWaits = 64, kHasTempo = 128, kHasFigures = 256, kHasFinal = 512, kSpares = 1024,
+                        kKnownFlags = 2047;
 constexpr std::uint8_t kRepeat = 0x00, kAbsentRun = 0x40, kLiteral = 0x80, kDelta = 0x81, kShortDelta = 0xc0;
 constexpr std::size_t kShortInput = 6;  // [bytes] whose mask fits the token
 constexpr Frame kRun = 64;
@@ -133,8 +134,12 @@ PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
   writer.number((header.has_echo ? kHasEcho : 0) | (header.started ? kStarted : 0) | (has_report ? kHasReport : 0) |
                 (passes_on ? kPassesOn : 0) | (header.is_far ? kIsFar : 0) | (header.stretch > 0 ? kIsSlow : 0) |
                 (header.waits_for != 0 ? kWaits : 0) | (header.tempo.number != 0 ? kHasTempo : 0) |
-                (tells_figures ? kHasFigures : 0) | (header.spares > 0 ? kSpares : 0));
-  if (header.has_echo) writer.fixed(header.echo);
+                (tells_figures ? kHasFigures : 0) | (header.final_end != kNoFrame ? kHasFinal : 0) |
+                (header.spares > 0 ? kSpares : 0));
+  if (header.has_echo) {
+    writer.fixed(header.echo);
+    writer.byte(header.waited);
+  }
   if (header.stretch > 0) {
     writer.byte(header.stretch);
     writer.byte(header.slowest);
@@ -142,6 +147,7 @@ PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
   if (header.spares > 0) writer.byte(header.spares);
   if (header.waits_for != 0) writer.number(header.waits_for);
   writer.number(static_cast<std::uint32_t>(header.frame));
+  if (header.final_end != kNoFrame) writer.difference(header.final_end - header.frame);
   if (header.tempo.number != 0) write_tempo(writer, header.frame, header.tempo);
   if (has_report) write_report(writer, header.frame, header.report);
   if (passes_on) {
@@ -214,7 +220,10 @@ Result<Packet> read_packet(Bytes bytes) {
   header.has_echo = (flags & kHasEcho) != 0;
   header.started = (flags & kStarted) != 0;
   header.is_far = (flags & kIsFar) != 0;
-  if (header.has_echo) header.echo = reader.fixed<std::uint16_t>();
+  if (header.has_echo) {
+    header.echo = reader.fixed<std::uint16_t>();
+    header.waited = reader.byte();
+  }
   if ((flags & kIsSlow) != 0) {
     header.stretch = reader.byte();
     header.slowest = reader.byte();
@@ -232,6 +241,7 @@ Result<Packet> read_packet(Bytes bytes) {
   const std::uint32_t frame = reader.number();
   if (frame > static_cast<std::uint32_t>(kLastFrame)) return refuse("a frame beyond the last");
   header.frame = static_cast<Frame>(frame);
+  if ((flags & kHasFinal) != 0) header.final_end = read_frame_near(reader, header.frame);
   if ((flags & kHasTempo) != 0 && !read_tempo(reader, header.frame, header.tempo)) return refuse("no speed of a match");
   if ((flags & kHasReport) != 0) header.report = read_report(reader, header.frame);
   if ((flags & kPassesOn) != 0) {

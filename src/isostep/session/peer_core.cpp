@@ -324,7 +324,9 @@ Bytes PeerCore::compose(PeerLink& link, PacketHeader header, Time now, Frame mos
   header.number = link.datagrams_out++;
   header.time = static_cast<std::uint16_t>(now / 1000);
   header.has_echo = link.has_clock;
-  header.echo = static_cast<std::uint16_t>(link.clock + (now - link.clock_at) / 1000);
+  const Time waited = (now - link.clock_at) / 1000;
+  header.echo = static_cast<std::uint16_t>(link.clock + waited);
+  header.waited = static_cast<std::uint8_t>(waited < 255 ? waited : 255);
   header.frame = present();
   header.report = hashes_.settled();
   PacketWriter writer(header, buffer_);

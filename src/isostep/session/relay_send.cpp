@@ -163,6 +163,7 @@ std::optional<Outgoing> RelayCore::next_datagram(Leaf& leaf, Time now) {
   header.slowest = static_cast<std::uint8_t>(slowest());
   header.waits_for = waits_for();
   header.tempo = announced();
+  if (told_final() <= kLastFrame) header.final_end = told_final();
   if (leaf.figures_left > 0 && !receives) {
     header.figured = static_cast<std::uint8_t>(--leaf.figures_left);
     header.figures = stats_.players[header.figured];

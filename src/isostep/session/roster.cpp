@@ -20,6 +20,23 @@ std::uint64_t proof_of(std::uint64_t token) {
 
 int Roster::machine_of(std::uint64_t token) const { return token == 0 ? -1 : machine_of_proof(proof_of(token)); }
 
+int Roster::voter_of(std::uint64_t token, std::uint64_t life) const {
+  const int machine = machine_of(token);
+  return machine >= 0 && life != 0 && machines[machine].life == life ? machine : -1;
+}
+
+std::uint64_t Roster::voters() const {
+  std::uint64_t all = 0;
+  for (int m = 0; m < count; ++m) {
+    if (machines[m].is_in || machines[m].was_in) all |= std::uint64_t{1} << m;
+  }
+  return all;
+}
+
+bool Roster::is_quorum(std::uint64_t group, std::uint64_t over) const {
+  return is_majority(group) || (group != 0 && version > 0 && (voters() & ~(group | over)) == 0);
+}
+
 int Roster::machine_of_proof(std::uint64_t proof) const {
   int found = -1;
   for (int m = 0; m < count; ++m) {
@@ -66,13 +83,23 @@ Address read_address(Reader& reader) {
 namespace {
 /// All but the seals.
 void write_content(const Roster& roster, Writer& writer) {
+  writer.write(roster.term);
   writer.write(roster.version);
+  const MatchSettings& settings = roster.settings;
+  writer.write(settings.deadline);
+  for (const Time time : {settings.silence, settings.patience, settings.exclusion, settings.reservation}) {
+    writer.write(time);
+  }
+  for (const bool is_set : {settings.asks_admission, settings.votes, settings.players_set_tempo, settings.repair}) {
+    writer.write(is_set);
+  }
   writer.write(roster.host);
   writer.write(roster.count);
   for (int m = 0; m < roster.count; ++m) {
     const Roster::Machine& machine = roster.machines[m];
     writer.write(machine.players);
     writer.write(machine.proof);
+    writer.write(machine.life);
     writer.write(static_cast<std::uint8_t>((machine.is_in ? kIsIn : 0) | (machine.was_in ? kWasIn : 0)));
     writer.write_text(machine.address.view());
   }
@@ -102,10 +129,22 @@ void write_roster(const Roster& roster, std::vector<std::uint8_t>& out) {
 Result<Roster> read_roster(Bytes message) {
   Reader reader(message.subspan(message.empty() ? 0 : 1));
   Roster roster;
+  reader.read(roster.term);
   reader.read(roster.version);
+  MatchSettings& settings = roster.settings;
+  reader.read(settings.deadline);
+  for (Time* time : {&settings.silence, &settings.patience, &settings.exclusion, &settings.reservation}) {
+    reader.read(*time);
+  }
+  for (bool* is_set : {&settings.asks_admission, &settings.votes, &settings.players_set_tempo, &settings.repair}) {
+    reader.read(*is_set);
+  }
+  if (settings.deadline < 0 || settings.deadline > kMostDeadline) {
+    reader.fail(ErrorCode::invalid, "a deadline out of range");
+  }
   reader.read(roster.host);
   reader.read(roster.count);
-  if (roster.count > kMaxPlayers + 1 || roster.host >= roster.count || roster.version == 0) {
+  if (roster.count > kMaxPlayers + 1 || roster.host >= roster.count || roster.version == 0 || roster.term == 0) {
     reader.fail(ErrorCode::invalid, "machines out of range");
   }
   std::uint32_t seen = 0;
@@ -113,6 +152,7 @@ Result<Roster> read_roster(Bytes message) {
     Roster::Machine& machine = roster.machines[m];
     reader.read(machine.players);
     reader.read(machine.proof);
+    reader.read(machine.life);
     const auto flags = reader.read<std::uint8_t>();
     machine.address = read_address(reader);
     const bool is_known = flags <= (kIsIn | kWasIn);

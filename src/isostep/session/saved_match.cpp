@@ -22,6 +22,7 @@ Result<void> check(const SavedMatch& match) {
   if (match.players < 1 || match.players > kMaxPlayers) return fault(ErrorCode::invalid, "1 to 32", "players");
   if (std::uint64_t{match.hosted} >> match.players != 0) return fault(ErrorCode::invalid, "no such player", "hosted");
   if (!Tempo::is_speed(match.speed)) return fault(ErrorCode::invalid, "4 to 16", "speed");
+  if (match.term == 0 || match.term == ~std::uint32_t{0}) return fault(ErrorCode::invalid, "out of range", "term");
   for (int p = 0; p < match.players; ++p) {
     if ((match.hosted >> p & 1) != 0 && match.proofs[p] != 0) {
       return fault(ErrorCode::invalid, "a seat of the host's, and of a client's", "seats");
@@ -47,6 +48,7 @@ void write_saved_match(const SavedMatch& match, std::vector<std::uint8_t>& out) 
   writer.write(match.speed);
   writer.write(match.tokens);
   writer.write(match.sequels);
+  writer.write(match.term);
   writer.write(match.players);
   for (int p = 0; p < match.players; ++p) writer.write(match.proofs[p]);
   writer.write_bytes(match.state);
@@ -76,6 +78,7 @@ Result<SavedMatch> read_saved_match(Bytes bytes) {
   reader.read(match.speed);
   reader.read(match.tokens);
   reader.read(match.sequels);
+  reader.read(match.term);
   reader.read(match.players);
   for (std::size_t p = 0; p < match.players && p < kMaxPlayers; ++p) reader.read(match.proofs[p]);
   const Bytes state = reader.read_bytes(kStateCap);
