@@ -9,6 +9,7 @@
 #include "isostep/session/repair.hpp"
 #include "isostep/session/stall_budget.hpp"
 #include "isostep/session/tenure.hpp"
+#include "isostep/session/turn_rate.hpp"
 
 namespace isostep {
 
@@ -191,6 +192,8 @@ class HostCore : public PeerCore {
   void conclude_inquiry(Time now);
   /// Can the others go on without us, at one that is right?
   bool can_step_down(const Verdict& verdict) const;
+  /// Likewise at one that is not among these (machines as in a Verdict).
+  bool could_others(std::uint64_t unfit) const;
   bool take_repair(Guest& guest, MessageKind kind, Bytes bytes);
   bool take_statement(const Guest& guest, Bytes bytes);
   void tend_repair(Guest& guest, Time now);
@@ -290,6 +293,10 @@ class HostCore : public PeerCore {
   void judge_distance(Guest& guest, Time now);
   /// All go as fast as the slowest machine can, if that is fast enough.
   void choose_pace(Time now);
+  /// [1/256 period] by which frames last longer here.
+  int own_stretch() const { return turn_rate_.stretch() > pace_.stretch() ? turn_rate_.stretch() : pace_.stretch(); }
+  /// A host that is too slow to be a guest is too slow to be the host, where another can be.
+  void judge_own_pace(Time now);
   /// stats().players, and when they are told.
   void keep_figures(Time now);
   /// Inputs after the deadline: the guess is final.
@@ -330,8 +337,11 @@ class HostCore : public PeerCore {
   Follower followers_[kMaxPlayers + 1];  // by their places in the roster
   bool is_over_ = false;                 // somebody knows of a later host
   Roster inherited_;                     // that we took over: its members were let in before
+  TurnRate turn_rate_;
   Inquiry inquiry_;
-  Time steps_down_at_ = 0;  // [us] our states are wrong, and another machine is to be the host; 0: no
+  Time steps_down_at_ = 0;    // [us] our states are wrong, and another machine is to be the host; 0: no
+  Time own_slow_since_ = 0;   // [us] our steps are too dear
+  bool is_too_slow_ = false;  // for what the others can do
   Seat seats_[kMaxPlayers];
   std::vector<Guest> guests_;
   std::size_t used_ = 0;                       // of them

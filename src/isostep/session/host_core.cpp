@@ -159,6 +159,7 @@ Frame HostCore::sends_until(int player, const PeerLink& link) const {
 }
 
 void HostCore::before_steps(Time now) {
+  if (started_ && !is_paused()) turn_rate_.turn(now, pace_.most_steps(kDueSteps), clock_.nominal());
   if (!started_ && (all_are_here() || must_start_)) begin(now);
   if (!started_ && is_resumed()) serve_snapshots();
   if (now >= next_tending_) {

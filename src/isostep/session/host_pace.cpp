@@ -112,7 +112,7 @@ void HostCore::choose_pace(Time now) {
     return stretch > 0 && player == slowest() && stats_.stretch > 0 ? stretch + kAsSlow : stretch;
   };
   int whose = hosted_ == 0 ? 0xff : local_player();
-  int stretch = pace_.stretch(), most = weight(whose, stretch);
+  int stretch = own_stretch(), most = weight(whose, stretch);
   int needed = stretch;
   for (Guest& guest : guests()) {
     const bool is_too_slow = is_in_match(guest) && guest.stretch > kMostStretch + kCatchingUp;
@@ -126,6 +126,19 @@ void HostCore::choose_pace(Time now) {
     whose = guest.player;
   }
   go_at_pace_of(whose, needed);
+  judge_own_pace(now);
+}
+
+void HostCore::judge_own_pace(Time now) {
+  if (pace_.stretch() <= kMostStretch) own_slow_since_ = now;
+  const bool is_loop = turn_rate_.stretch() >= kMostStretch && now - turn_rate_.slow_since() >= kTooSlow;
+  if (!is_loop && now - own_slow_since_ < kTooSlow) return;
+  std::uint64_t unfit = 0;
+  for (const Guest& guest : guests()) {
+    const bool is_sound = is_in_match(guest) && guest.stretch < kMostStretch && acknowledges(guest, now);
+    if (guest.player >= 0 && !is_sound) unfit |= std::uint64_t{1} << guest.player;
+  }
+  is_too_slow_ = tenure_.is_backed() && could_others(unfit);
 }
 
 }  // namespace isostep

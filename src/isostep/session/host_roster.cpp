@@ -169,7 +169,7 @@ std::unique_ptr<SessionCore> HostCore::succeed(Time now) {
   const bool is_outvoted = steps_down_at_ != 0 && now >= steps_down_at_;
   const Tenure::Duty duty = started_ ? tenure_.turn(roster_, followers, known_end(), now) : Tenure::Duty::serves;
   if (duty == Tenure::Duty::reforms) reform_roster(followers_here(now));
-  if (duty != Tenure::Duty::steps_down && !is_outvoted && !is_over_) return nullptr;
+  if (duty != Tenure::Duty::steps_down && !is_outvoted && !is_over_ && !is_too_slow_) return nullptr;
   return retreat(now, is_outvoted);
 }
 

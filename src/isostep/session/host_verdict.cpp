@@ -69,14 +69,16 @@ void HostCore::conclude_inquiry(Time now) {
   if (is_ours && config_.repair && can_step_down(verdict)) steps_down_at_ = now + kFarewell;
 }
 
-bool HostCore::can_step_down(const Verdict& verdict) const {
+bool HostCore::can_step_down(const Verdict& verdict) const { return could_others(verdict.minority); }
+
+bool HostCore::could_others(std::uint64_t unfit) const {
   std::uint64_t others = 0;
   bool has_candidate = false;
   for (int m = 0; m < roster_.count; ++m) {
     const Roster::Machine& machine = roster_.machines[m];
     if (m == roster_.host || !machine.is_in || machine.players == 0) continue;
     others |= std::uint64_t{1} << m;
-    const bool is_right = (verdict.minority >> std::countr_zero(machine.players) & 1) == 0;
+    const bool is_right = (unfit >> std::countr_zero(machine.players) & 1) == 0;
     has_candidate = has_candidate || (is_right && !machine.address.view().empty());
   }
   return has_candidate && roster_.is_majority(others);

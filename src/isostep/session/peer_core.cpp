@@ -7,7 +7,6 @@
 namespace isostep {
 namespace {
 
-constexpr int kDueSteps = 2;        // in one advance: a caller that comes late is forgiven one frame
 constexpr int kMostSteps = 6;       // while catching up
 constexpr Frame kSlackBucket = 30;  // [frames] of time
 constexpr Time kAsk = 1000;         // [us] until a caller that waits for the network should look again

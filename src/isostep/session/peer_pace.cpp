@@ -13,7 +13,7 @@ constexpr Time kForgiven = 5 * kSecond;  // [us] who pauses more often than that
 }  // namespace
 
 bool PeerCore::is_after_pause(Time now) const {
-  const Time periods = kPausePeriods * clock_.period();
+  const Time periods = kPausePeriods * clock_.nominal();
   const Time steps = pace_.steps() > 1 ? static_cast<Time>(pace_.steps()) : 1;  // a turn of many takes its time
   const Time again = static_cast<Time>(stepped_again_) * clock_.period();       // and so does a rollback
   return has_turned_ && now - last_turn_ > steps * (periods > kPause ? periods : kPause) + again;
