@@ -87,7 +87,7 @@ class ClientCore : public PeerCore {
   }
   /// Our place in the roster, as a voter.
   int own_machine() const;
-  /// We could be the host: in the match, with states that are right.
+  /// We could be the host: we have a state of the match, and ours are right.
   bool may_stand() const;
   void seek(Time now, bool knocks);
   void begin_attempt();
@@ -117,6 +117,8 @@ class ClientCore : public PeerCore {
   std::optional<Outgoing> next_for_candidate();
   std::optional<Outgoing> next_for_caller();
   std::optional<Outgoing> written(PeerId to);
+  /// It lacks nothing that we know to be final, or only what we still have.
+  bool can_complete(const Candidate& candidate) const;
   /// For the candidate: into message_. False: it has all that we have.
   bool write_missing();
 

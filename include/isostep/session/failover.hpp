@@ -30,6 +30,7 @@ struct Failover {
   bool is_elected = false;
   // Candidate: where the inputs end that we have of the host, and those that the players' own machines told us since.
   Frame ends[kMaxPlayers] = {}, told[kMaxPlayers] = {};
+  bool has_asked = false;  // so what follows these ends is no host's word yet
   bool must_connect = false;
   Address target;
   std::vector<Caller> callers;  // by PeerId

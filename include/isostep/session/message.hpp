@@ -75,7 +75,7 @@ struct Welcome {
   std::uint64_t token = 0;
   std::uint64_t life = 0;   // of the client's process, from now on
   std::uint32_t term = 0;   // the host's; 0: the match does not go on without it
-  Frame term_start = 0;     // the end of all inputs that this host took over
+  Frame term_start = 0;     // before this frame the host took over all inputs
   HashReport start;
   std::uint64_t hash = 0;           // of the state `start.frame`
   std::uint32_t snapshot_size = 0;  // [bytes]
@@ -117,8 +117,12 @@ struct Candidate {
 void write_candidate(const Candidate& candidate, std::vector<std::uint8_t>& out);
 /// Some of the inputs that a candidate lacks, as a datagram carries them.
 void write_known(Bytes packet, std::vector<std::uint8_t>& out);
-/// It has all inputs that we know to be final, and may be the host of this term: no other is ours.
-void write_support(std::uint32_t term, std::vector<std::uint8_t>& out);
+/// It may be the host of this term, and no other: if it has all inputs that we know to be final, which end here.
+struct Support {
+  std::uint32_t term = 0;
+  Frame ends[kMaxPlayers] = {};
+};
+void write_support(const Support& support, std::vector<std::uint8_t>& out);
 /// The host is elsewhere.
 void write_redirect(const Address& address, std::vector<std::uint8_t>& out);
 /// We are the host no more: another of you is to follow us.
@@ -135,7 +139,7 @@ Result<Frame> read_open(Bytes message);
 Result<std::uint32_t> read_enrolled(Bytes message);
 Result<Candidate> read_candidate(Bytes message);
 Result<Packet> read_known(Bytes message);
-Result<std::uint32_t> read_support(Bytes message);
+Result<Support> read_support(Bytes message);
 Result<Address> read_redirect(Bytes message);
 Result<Ask> read_ask(Bytes message);
 

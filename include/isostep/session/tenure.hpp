@@ -29,7 +29,7 @@ class Tenure {
     steps_down  // the others may have another host, or soon will
   };
 
-  /// `start`: where all inputs end that we took over; `final_end`: of those that were final already.
+  /// `start`: before this frame we took over all inputs; `final_end`: of those that were final already.
   void begin(std::uint32_t term, Time patience, Frame start, Frame final_end, Time now);
   /// Once a turn, before anything is stepped. `followers`: by their places in the roster. `own_end`: of what we have.
   Duty turn(const Roster& roster, std::span<const Follower> followers, Frame own_end, Time now);

@@ -15,9 +15,13 @@ bool ClientCore::take_support(Caller& caller, MessageKind kind, Bytes bytes) {
     return is_good;
   }
   if (kind == MessageKind::support) {
-    const Result<std::uint32_t> term = read_support(bytes);
-    if (term && caller.voter >= 0) failover_.election.supported(caller.voter, term.value());
-    return term.ok();
+    const Result<Support> support = read_support(bytes);
+    if (!support) return false;
+    for (int p = 0; p < players(); ++p) {
+      if (streams_[static_cast<std::size_t>(p)].end() < support.value().ends[p]) return false;
+    }
+    if (caller.voter >= 0) failover_.election.supported(caller.voter, support.value().term);
+    return true;
   }
   if (kind != MessageKind::roster) return false;
   // A newer one: whose place is where, and what a majority is, may be otherwise there.

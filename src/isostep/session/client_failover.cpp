@@ -43,7 +43,8 @@ ClientCore::ClientCore(PeerCore&& host, Retreat&& retreat, Time now)
 int ClientCore::own_machine() const { return failover_.roster.voter_of(token_, failover_.life); }
 
 bool ClientCore::may_stand() const {
-  return is_open_ && !is_spoiled_ && !is_outvoted(static_cast<std::size_t>(player_));
+  const bool has_state = has_start_ && !is_restoring_ && !must_begin_ && !is_spoiled_;
+  return player_ >= 0 && has_state && !is_outvoted(static_cast<std::size_t>(player_));
 }
 
 void ClientCore::seek(Time now, bool knocks) {
@@ -69,6 +70,7 @@ void ClientCore::seek_on(Time now) {
       return;
     case Election::Step::calls:
       leave_host();
+      failover_.has_asked = true;
       for (int p = 0; p < players(); ++p) failover_.ends[p] = failover_.told[p] = final_end(p);
       for (Caller& caller : failover_.callers) {
         caller.must_tell_roster = caller.must_ask = caller.is_connected && caller.machine >= 0;
@@ -225,7 +227,7 @@ bool ClientCore::take_failover(MessageKind kind, Bytes bytes, Time now) {
     theirs.version = candidate.value().version;
     failover_.candidate = candidate.value();
     failover_.must_tell_roster = failover_.roster.is_newer_than(theirs);
-    failover_.must_support = !failover_.must_tell_roster && own_machine() >= 0 &&
+    failover_.must_support = !failover_.must_tell_roster && own_machine() >= 0 && can_complete(candidate.value()) &&
                              failover_.election.give_support(candidate.value());
     return true;
   }
@@ -254,6 +256,14 @@ std::optional<Outgoing> ClientCore::next_failover_message() {
   return next_for_caller();
 }
 
+bool ClientCore::can_complete(const Candidate& candidate) const {
+  for (int p = 0; p < players(); ++p) {
+    const bool lacks = candidate.ends[p] < final_end(p);
+    if (lacks && candidate.ends[p] < streams_[static_cast<std::size_t>(p)].begin()) return false;
+  }
+  return true;
+}
+
 bool ClientCore::write_missing() {
   PacketHeader header;
   header.frame = current();
@@ -263,7 +273,6 @@ bool ClientCore::write_missing() {
   for (int p = 0; p < players(); ++p) {
     const InputStream& stream = streams_[static_cast<std::size_t>(p)];
     Frame& end = failover_.candidate.ends[p];
-    if (end < stream.begin()) continue;  // it needs a snapshot, and cannot be the host for us
     const Frame left = (is_local(p) && owns_inputs() ? stream.end() : final_end(p)) - end,
                 most = left < kSliceFrames ? left : kSliceFrames;
     if (most <= 0) continue;
@@ -283,7 +292,10 @@ std::optional<Outgoing> ClientCore::next_for_candidate() {
   }
   if (write_missing()) return written(host_.peer);
   failover_.must_support = false;
-  write_support(failover_.candidate.term, message_);
+  Support support;
+  support.term = failover_.candidate.term;
+  for (int p = 0; p < players(); ++p) support.ends[p] = final_end(p);
+  write_support(support, message_);
   return written(host_.peer);
 }
 

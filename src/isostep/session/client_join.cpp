@@ -248,11 +248,13 @@ void ClientCore::begin_at(const HashReport& start) {
     // Behind a new host our own inputs stay what they were, from the first that it lacks on.
     const bool is_kept = is_own(p) && !is_restoring_ && stream.begin() <= frame && welcome_.opens != kNoFrame &&
                          stream.end() >= welcome_.opens;
+    if (failover_.has_asked && !is_own(p)) stream.truncate(failover_.ends[p]);
     const bool stays = keeps_inputs_ && stream.contains(frame) && (!is_own(p) || accepted_[p] > frame);
     if (stays && is_own(p) && !is_kept) stream.truncate(accepted_[p]);
     if (!stays && !is_kept) stream.reset(frame);
     accepted_[p] = stays && !is_kept ? stream.end() : frame;
   }
+  failover_.has_asked = false;
   for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
   clock_.forget_lean();
   lag_ = InputDelay(lag_settings(config_));

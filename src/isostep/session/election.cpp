@@ -77,6 +77,10 @@ Election::Step Election::turn(const Roster& roster, int own, bool may_stand, Tim
     supports_ = bit(own);
     return Step::calls;
   }
+  if (!may_stand || own < 0) {
+    called_ = 0;
+    return go_on(roster, own, now);
+  }
   const bool have_all = (came_ & ~supports_) == 0 || now - called_at_ >= kForOthers;
   if ((is_forced_ || roster.is_quorum(supports_, over_)) && have_all) return Step::wins;
   if (now - called_at_ < kAttempt) return Step::waits;

@@ -209,9 +209,8 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
   roster_.term = succession.election.term();
   own_token_ = succession.token;
   own_life_ = succession.life;
-  Frame end = 0;
-  for (const InputStream& stream : streams_) end = stream.end() > end ? stream.end() : end;
-  tenure_.begin(succession.election.term(), config_.migration, end, hashes_.settled().frame, now);
+  // What is final somewhere ends before that: we have all of it.
+  tenure_.begin(succession.election.term(), config_.migration, known_end(), hashes_.settled().frame, now);
   for (std::size_t i = 0; i < guests_.size(); ++i) guests_[i].peer = static_cast<PeerId>(i);
   for (int m = 0; m < roster_.count; ++m) {
     for (int p = 0; p < players(); ++p) {

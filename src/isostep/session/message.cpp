@@ -22,6 +22,13 @@ HashReport read_report(Reader& reader) {
   return report;
 }
 
+void read_ends(Reader& reader, Frame (&ends)[kMaxPlayers]) {
+  reader.read(ends);
+  for (const Frame end : ends) {
+    if (end < 0 || end > kLastFrame) reader.fail(ErrorCode::invalid, "a frame out of range");
+  }
+}
+
 Result<std::uint32_t> read_number(Bytes message, const char* what) {
   Reader reader = after_kind(message);
   const std::uint32_t number = reader.read<std::uint32_t>();
@@ -216,10 +223,7 @@ Result<Candidate> read_candidate(Bytes message) {
   reader.read(candidate.log_term);
   reader.read(candidate.roster_term);
   reader.read(candidate.version);
-  reader.read(candidate.ends);
-  for (const Frame end : candidate.ends) {
-    if (end < 0 || end > kLastFrame) reader.fail(ErrorCode::invalid, "a frame out of range");
-  }
+  read_ends(reader, candidate.ends);
   return finish_message(reader, "candidate", candidate);
 }
 
@@ -230,11 +234,19 @@ void write_known(Bytes packet, std::vector<std::uint8_t>& out) {
 
 Result<Packet> read_known(Bytes message) { return read_packet(message.subspan(message.empty() ? 0 : 1)); }
 
-void write_support(std::uint32_t term, std::vector<std::uint8_t>& out) {
-  begin_message(MessageKind::support, out).write(term);
+void write_support(const Support& support, std::vector<std::uint8_t>& out) {
+  Writer writer = begin_message(MessageKind::support, out);
+  writer.write(support.term);
+  writer.write(support.ends);
 }
 
-Result<std::uint32_t> read_support(Bytes message) { return read_number(message, "support"); }
+Result<Support> read_support(Bytes message) {
+  Reader reader = after_kind(message);
+  Support support;
+  reader.read(support.term);
+  read_ends(reader, support.ends);
+  return finish_message(reader, "support", support);
+}
 
 void write_redirect(const Address& address, std::vector<std::uint8_t>& out) {
   begin_message(MessageKind::redirect, out).write_text(address.view());

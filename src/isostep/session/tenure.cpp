@@ -29,7 +29,7 @@ std::uint64_t Tenure::group_with(const Roster& roster, std::span<const Follower>
 
 bool Tenure::may_go_on_to_next(const Roster& roster, std::uint64_t enrolled,
                                std::span<const Follower> followers) const {
-  return roster.is_majority(enrolled & group_with(roster, followers, final_end_));
+  return is_backed_ && roster.is_majority(enrolled & group_with(roster, followers, final_end_));
 }
 
 Tenure::Duty Tenure::turn(const Roster& roster, std::span<const Follower> followers, Frame own_end, Time now) {
@@ -64,7 +64,7 @@ Tenure::Duty Tenure::turn(const Roster& roster, std::span<const Follower> follow
     return Duty::serves;
   }
   if ((roster.voters() & ~(present | over)) == 0) return Duty::reforms;
-  return can_others && now - backed_at_ > patience_ + kDeposed ? Duty::steps_down : Duty::stands;
+  return now - backed_at_ > patience_ + kDeposed ? Duty::steps_down : Duty::stands;
 }
 
 }  // namespace isostep
