@@ -50,7 +50,7 @@ Roster HostCore::drafted() const {
       continue;
     }
     const Guest* guest = seat.link < 0 ? nullptr : &guests_[static_cast<std::size_t>(seat.link)];
-    machine.is_in = guest != nullptr && guest->stage == Guest::Stage::live;
+    machine.is_in = guest != nullptr && guest->stage == Guest::Stage::live && !guest->must_close;
     machine.was_in = roster_.version == 0 ? machine.is_in : is_same && was_in;
     if (machine.is_in && seat.is_open) machine.address = guest->address;
   }
@@ -158,7 +158,14 @@ void HostCore::reform_roster(std::uint64_t group) {
 
 bool HostCore::go_on(Time now) {
   if (roster_.version == 0 || tenure_.is_backed()) return false;
-  reform_roster(followers_here(now));
+  const std::uint64_t here = followers_here(now);
+  for (Guest& guest : guests()) {
+    const int machine = voter_of(guest);
+    if (machine < 0 || (here >> machine & 1) != 0) continue;
+    guest.must_close = true;  // it may come again, as one that was away
+    close_seats(guest);
+  }
+  reform_roster(here);
   return true;
 }
 
