@@ -13,6 +13,12 @@ SessionConfig migrating() {
   return config;
 }
 
+Support support_in(std::uint32_t term) {
+  Support support;
+  support.term = term;
+  return support;
+}
+
 /// The host's process has died, and the rogue is connected to the client that would follow it.
 struct Orphans : SeatedRogue {
   explicit Orphans(std::size_t alive) : SeatedRogue(migrating()) {
@@ -41,6 +47,7 @@ struct Orphans : SeatedRogue {
     }));
     Hello hello = hello_of(config);
     hello.token = token;
+    if (token == rogue.welcome.token) hello.life = rogue.welcome.life;
     one.greet(hello);
   }
   std::uint64_t refused() const { return candidate->session.stats().refused; }
@@ -59,8 +66,8 @@ struct Orphans : SeatedRogue {
 TEST(HostileMember, SupportsACandidateOnceAndNobodyElseMayAtAll) {
   Orphans scene(2);  // the candidate and the rogue, of five machines
   Buffer support, old;
-  write_support(scene.roster.version, support);
-  write_support(scene.roster.version - 1, old);
+  write_support(support_in(scene.roster.term + 1), support);
+  write_support(support_in(scene.roster.term), old);
   std::vector<std::unique_ptr<Rogue>> others;
   for (int n = 0; n < 4; ++n) {
     others.push_back(std::make_unique<Rogue>(scene.match, lan()));
@@ -71,6 +78,7 @@ TEST(HostileMember, SupportsACandidateOnceAndNobodyElseMayAtAll) {
     const std::uint64_t tokens[] = {scene.rogue.welcome.token, 0, 12345, scene.rogue.welcome.token};
     scene.join(*others.back(), tokens[n]);
     others.back()->say(Channel::reliable, support);
+    others.back()->say(Channel::reliable, old);
   }
   const std::uint64_t before = scene.refused();
   scene.rogue.say(Channel::reliable, support);
@@ -105,7 +113,7 @@ TEST(HostileMember, CannotChangeTheRoster) {
     scene.pass(50 * kMs);
     EXPECT_EQ(scene.refused(), before + 1);
   }
-  write_support(forged.version, support);
+  write_support(support_in(forged.term + 1), support);
   scene.rogue.say(Channel::reliable, support);
   scene.pass(3 * kSecond);
   EXPECT_FALSE(scene.candidate->session.config().host);
@@ -119,6 +127,10 @@ TEST(HostileMember, GivesNoInputsForOthersWhoAreThere) {
   const std::uint8_t word[2] = {77, 77};
   forged.reset(from > 40 ? from - 40 : 0);
   for (Frame f = forged.begin(); f < from + 2000; ++f) forged.append({false, word});
+  ASSERT_TRUE(scene.match.run(4 * kSecond, [&] {
+    scene.rogue.listen();
+    return scene.rogue.asked.has_value();
+  }));
   Buffer known, support;
   for (std::uint8_t p = 0; p < 5; ++p) {
     for (Frame first = forged.begin(); first < from + 1900; first += 100) {
@@ -130,7 +142,7 @@ TEST(HostileMember, GivesNoInputsForOthersWhoAreThere) {
       scene.rogue.say(Channel::reliable, known);
     }
   }
-  write_support(scene.roster.version, support);
+  write_support(support_in(scene.rogue.asked->term), support);
   scene.rogue.say(Channel::reliable, support);
   scene.pass(8 * kSecond);
   EXPECT_GT(scene.refused(), 0u);
@@ -163,7 +175,7 @@ TEST(HostileMember, WordsOfACandidateAndOfAHostAreHeardFromNobodyElse) {
   PacketHeader header;
   std::uint8_t buffer[kDatagramCap];
   write_known(PacketWriter(header, buffer).bytes(), known);
-  write_support(1, support);
+  write_support(support_in(1), support);
   write_redirect("99", redirect);
   // To the host that lives, and to a client that has one.
   const std::uint64_t before = scene.match.host().session.stats().refused;

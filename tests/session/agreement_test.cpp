@@ -25,7 +25,9 @@ TEST(Agreement, OfMatchesDrawnFromSeedsNoneHasTwoHistoriesAndAllGoOn) {
     const bool has_two = match.two_histories > 0;
     if (has_two && match.has_lost_memory()) ++without_memory;
     else if (has_two) ++histories;
-    const bool has_hosts = match.hosts() != 1, stands = !match.goes_on();
+    // Of whom a majority has forgotten the match it may stand: a machine that lives may know of another host.
+    const bool has_hosts = match.hosts() > 1 || (match.hosts() == 0 && !match.has_lost_memory());
+    const bool stands = !match.goes_on() && !match.has_lost_memory();
     hosts += has_hosts ? 1 : 0;
     stand += stands ? 1 : 0;
     if (!has_two && !has_hosts && !stands) continue;

@@ -47,8 +47,8 @@ class RandomMatch {
   Frame two_histories = 0;
   Frame first_of_them = kNoFrame;
   std::function<void(std::size_t)> on_watch;  // a machine has come, and its was_confirmed is set
-  /// Of machines with another's memory none is left who could know: a majority died, and came again as new processes.
-  bool has_lost_memory() const { return 2 * deaths_ >= config_.players; }
+  /// Perhaps nobody is left who knows what was final: a majority died, or the host of a roster of which it was one alone.
+  bool has_lost_memory() const { return 2 * deaths_ >= config_.players || has_lost_roster_; }
   bool goes_on() const { return goes_on_; }
   int hosts() {
     int count = 0;
@@ -155,6 +155,8 @@ class RandomMatch {
     return count;
   }
   void die(std::size_t i) {
+    const auto& session = match_.machine(i).session;
+    has_lost_roster_ = has_lost_roster_ || (session.config().host && session.stats().machines <= 2);
     match_.machine(i).plays = false;
     match_.network().set_silent(match_.machine(i).endpoint, true);
     dead_[i] = true;
@@ -257,7 +259,7 @@ class RandomMatch {
   std::vector<std::size_t> strangers_;
   std::string story_;
   int deaths_ = 0, migrations_ = 0;
-  bool goes_on_ = false;
+  bool goes_on_ = false, has_lost_roster_ = false;
 };
 
 }  // namespace isostep::test

@@ -162,7 +162,7 @@ class ClientCore : public PeerCore {
   PeerLink host_;
   bool runs_ = false, is_greeted_ = false, must_greet_ = false, must_ready_ = false;
   std::vector<PeerId> hang_ups_;
-  std::vector<PeerId> farewells_;  // whose host we were: they are told, and their connections end
+  std::vector<PeerId> farewells_;  // likewise, when they are told that we go: whose host we were, or who was ours
   Failover failover_;
   Repair repair_;
   Frame inquired_ = kNoFrame;  // the state of which the host asked for our hash chain

@@ -125,7 +125,7 @@ struct Support {
 void write_support(const Support& support, std::vector<std::uint8_t>& out);
 /// The host is elsewhere.
 void write_redirect(const Address& address, std::vector<std::uint8_t>& out);
-/// We are the host no more: another of you is to follow us.
+/// From a host: it is none any more, and another is to follow it. From a client: it looks for another host.
 void write_farewell(std::vector<std::uint8_t>& out);
 void write_ask(const Ask& ask, std::vector<std::uint8_t>& out);
 

@@ -54,7 +54,9 @@ void ClientCore::disconnected(PeerId peer, Time now) {
 }
 
 void ClientCore::leave_host() {
-  if (host_.is_connected) hang_up(host_.peer);
+  // A host is told that we do not leave the match: it would count on us as one of those who did.
+  if (host_.is_connected && is_greeted_) farewells_.push_back(host_.peer);
+  else if (host_.is_connected) hang_up(host_.peer);
   host_.is_connected = false;
 }
 

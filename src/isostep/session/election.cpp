@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/session/election.hpp"
 
+#include <bit>
+
 namespace isostep {
 namespace {
 
@@ -63,8 +65,10 @@ int Election::target(const Roster& roster, int own) const {
 Election::Step Election::turn(const Roster& roster, int own, bool may_stand, Time now) {
   if (!is_under_way_) return Step::waits;
   const std::uint64_t here = bit(own) | came_;
+  // Of two machines the host alone made frames final: the other never goes on without it.
+  const std::uint64_t over = own == roster.host || std::popcount(roster.voters()) > 2 ? over_ : 0;
   if (called_ == 0) {
-    const bool is_quorum = may_stand && own >= 0 && (is_forced_ || roster.is_quorum(here, over_));
+    const bool is_quorum = may_stand && own >= 0 && (is_forced_ || roster.is_quorum(here, over));
     if (!is_quorum) {
       quorum_at_ = 0;
       return go_on(roster, own, now);
@@ -82,7 +86,7 @@ Election::Step Election::turn(const Roster& roster, int own, bool may_stand, Tim
     return go_on(roster, own, now);
   }
   const bool have_all = (came_ & ~supports_) == 0 || now - called_at_ >= kForOthers;
-  if ((is_forced_ || roster.is_quorum(supports_, over_)) && have_all) return Step::wins;
+  if ((is_forced_ || roster.is_quorum(supports_, over)) && have_all) return Step::wins;
   if (now - called_at_ < kAttempt) return Step::waits;
   called_ = 0;
   quorum_at_ = 0;

@@ -91,6 +91,8 @@ void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
   } else if (kind == MessageKind::hello && guest.stage == Guest::Stage::connected) {
     guest.heard = now;
     greet(guest, bytes);
+  } else if (kind == MessageKind::farewell && bytes.size() == 1) {
+    guest.lease_from = 0;
   } else if (kind == MessageKind::progress && receives_snapshot(guest)) {
     take_progress(guest, bytes, now);
   } else if (kind == MessageKind::enrolled && guest.stage == Guest::Stage::live) {

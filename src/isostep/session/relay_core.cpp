@@ -110,6 +110,7 @@ void RelayCore::take_message(Leaf& leaf, Bytes bytes, Time now) {
     leaf.wants_state = true;
     return;
   }
+  if (kind == MessageKind::farewell) return;  // its connection ends
   ++stats_.refused;
 }
 

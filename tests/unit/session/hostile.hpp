@@ -5,6 +5,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -87,6 +88,7 @@ inline Match make_match(const SessionConfig& config, std::size_t ballast = 40000
 inline Hello hello_of(const SessionConfig& config) {
   Hello hello;
   hello.identity = config.identity;
+  hello.migration = config.migration;
   ShortText<kReplayValueCap> schema, players;
   hello.identity.set("input_schema", schema.append_hex(InputCodec<Pad>::schema()).view(), true);
   hello.identity.set("session_hz", "60", true);
@@ -108,6 +110,7 @@ struct Rogue {
   std::size_t pieces = 0;
   PeerId peer = 0;  // the other side of the connection that was made last
   Buffer roster;    // the message that told of the newest
+  std::optional<Candidate> asked;  // for its support, last
   Frame host_frame = 0;
   Frame ends[kMaxPlayers] = {};  // of the inputs that came last
   HashReport host_report;
@@ -148,6 +151,7 @@ struct Rogue {
         refusal = read_refusal(arrival->bytes).value();
       }
       if (kind.value() == MessageKind::piece) ++pieces;
+      if (kind.value() == MessageKind::candidate) asked = read_candidate(arrival->bytes).value();
       if (kind.value() == MessageKind::roster) roster.assign(arrival->bytes.begin(), arrival->bytes.end());
     }
   }

@@ -11,12 +11,16 @@ namespace {
 
 Roster of(int count) {
   Roster roster;
+  roster.term = 3;
   roster.version = 5;
+  roster.settings.deadline = 8;
+  roster.settings.votes = true;
   roster.count = static_cast<std::uint8_t>(count);
   for (int m = 0; m < count; ++m) {
     Roster::Machine& machine = roster.machines[m];
     machine.players = 1u << m;
     machine.proof = proof_of(100 + static_cast<std::uint64_t>(m));
+    machine.life = 7;
     machine.is_in = machine.was_in = true;
     machine.address.append("10.0.0.").append_number(static_cast<std::uint64_t>(m));
   }
@@ -62,6 +66,9 @@ TEST(Roster, ArrivesAsItWasSent) {
   const Result<Roster> read = read_roster(bytes);
   ASSERT_FALSE(!read);
   EXPECT_EQ(read.value().version, 5u);
+  EXPECT_EQ(read.value().term, 3u);
+  EXPECT_EQ(read.value().settings, roster.settings);
+  EXPECT_EQ(read.value().machines[3].life, 7u);
   EXPECT_EQ(read.value().count, roster.count);
   EXPECT_EQ(read.value().machines[3].proof, roster.machines[3].proof);
   EXPECT_EQ(read.value().machines[3].address.view(), "10.0.0.3");
@@ -88,6 +95,9 @@ TEST(Roster, IsSealedForEachOfWhoseTokenTheHostKnows) {
   };
   EXPECT_TRUE(holds([](Roster&) {}));
   EXPECT_FALSE(holds([](Roster& r) { ++r.version; }));
+  EXPECT_FALSE(holds([](Roster& r) { ++r.term; }));
+  EXPECT_FALSE(holds([](Roster& r) { r.settings.asks_admission = true; }));
+  EXPECT_FALSE(holds([](Roster& r) { ++r.machines[2].life; }));
   EXPECT_FALSE(holds([](Roster& r) { --r.count; }));
   EXPECT_FALSE(holds([](Roster& r) { r.machines[2].address = "10.0.0.9"; }));
   EXPECT_FALSE(holds([](Roster& r) { r.machines[2].is_in = false; }));
@@ -106,6 +116,8 @@ TEST(Roster, ThatCannotBeIsRefused) {
   };
   EXPECT_TRUE(reads([](Roster&) {}));
   EXPECT_FALSE(reads([](Roster& r) { r.version = 0; }));
+  EXPECT_FALSE(reads([](Roster& r) { r.term = 0; }));
+  EXPECT_FALSE(reads([](Roster& r) { r.settings.deadline = kMostDeadline + 1; }));
   EXPECT_FALSE(reads([](Roster& r) { r.host = 3; }));
   EXPECT_FALSE(reads([](Roster& r) { r.machines[1].players = 1; })) << "a player twice";
   EXPECT_FALSE(reads([](Roster& r) { r.machines[1].address = Address("a\nb"); }));
@@ -126,8 +138,15 @@ TEST(Roster, MessagesOfACandidateAreChecked) {
   EXPECT_EQ(read_redirect(bytes).value().view(), "host:1");
   bytes.back() = 7;
   EXPECT_FALSE(read_redirect(bytes).ok());
-  write_support(9, bytes);
-  EXPECT_EQ(read_support(bytes).value(), 9u);
+  Support support;
+  support.term = 9;
+  support.ends[2] = 70;
+  write_support(support, bytes);
+  EXPECT_EQ(read_support(bytes).value().term, 9u);
+  EXPECT_EQ(read_support(bytes).value().ends[2], 70);
+  support.ends[2] = -1;
+  write_support(support, bytes);
+  EXPECT_FALSE(read_support(bytes).ok());
   write_enrolled(9, bytes);
   EXPECT_EQ(read_enrolled(bytes).value(), 9u);
   bytes.pop_back();
