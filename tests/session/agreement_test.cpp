@@ -31,17 +31,19 @@ TEST(Agreement, OfMatchesDrawnFromSeedsNoneHasTwoHistoriesAndAllGoOn) {
     hosts += has_hosts ? 1 : 0;
     stand += stands ? 1 : 0;
     if (!has_two && !has_hosts && !stands) continue;
-    std::printf("match %llu: %d players, migration %.1f s, deadline %d, %s: %d frames in two ways from %d, %d hosts, %s; %s\n",
-                static_cast<unsigned long long>(seed), match.config().players,
-                static_cast<double>(match.config().migration) / 1e6, match.config().deadline,
-                match.config().mode == SessionMode::lockstep ? "lockstep" : "rollback", match.two_histories,
-                match.first_of_them, match.hosts(), stands ? "stands" : "goes on", match.story().c_str());
+    std::printf(
+        "match %llu: %d players, migration %.1f s, deadline %d, %s: %d frames in two ways from %d, %d hosts, %s; %s\n",
+        static_cast<unsigned long long>(seed), match.config().players,
+        static_cast<double>(match.config().migration) / 1e6, match.config().deadline,
+        match.config().mode == SessionMode::lockstep ? "lockstep" : "rollback", match.two_histories,
+        match.first_of_them, match.hosts(), stands ? "stands" : "goes on", match.story().c_str());
   }
-  std::printf("%llu matches, %llu new hosts: %llu with two histories (and %llu whose majority lost its memory), "
-              "%llu with other than one host, %llu that stand\n",
-              static_cast<unsigned long long>(matches), static_cast<unsigned long long>(migrations),
-              static_cast<unsigned long long>(histories), static_cast<unsigned long long>(without_memory),
-              static_cast<unsigned long long>(hosts), static_cast<unsigned long long>(stand));
+  std::printf(
+      "%llu matches, %llu new hosts: %llu with two histories (and %llu whose majority lost its memory), "
+      "%llu with other than one host, %llu that stand\n",
+      static_cast<unsigned long long>(matches), static_cast<unsigned long long>(migrations),
+      static_cast<unsigned long long>(histories), static_cast<unsigned long long>(without_memory),
+      static_cast<unsigned long long>(hosts), static_cast<unsigned long long>(stand));
   EXPECT_EQ(histories, 0u);
   EXPECT_EQ(hosts, 0u);
   EXPECT_EQ(stand, 0u);

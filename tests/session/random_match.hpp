@@ -52,7 +52,8 @@ class RandomMatch {
   bool goes_on() const { return goes_on_; }
   int hosts() {
     int count = 0;
-    for (std::size_t i = 0; i < match_.size(); ++i) count += lives(i) && match_.machine(i).session.config().host ? 1 : 0;
+    for (std::size_t i = 0; i < match_.size(); ++i)
+      count += lives(i) && match_.machine(i).session.config().host ? 1 : 0;
     return count;
   }
   int playing() {
@@ -81,8 +82,8 @@ class RandomMatch {
     return config;
   }
   const char* drawn_line() {
-    const char* const lines[] = {"lan", "wifi", "latency=30,jitter=5,loss=0.5", "reorder", "duplicate",
-                                 "latency=80,jitter=30,loss=2"};
+    const char* const lines[] = {"lan",     "wifi",      "latency=30,jitter=5,loss=0.5",
+                                 "reorder", "duplicate", "latency=80,jitter=30,loss=2"};
     return lines[random_.next() % std::size(lines)];
   }
   void watch(std::size_t i) {
@@ -218,7 +219,8 @@ class RandomMatch {
         tell("deaf", 0);
         for (std::size_t j = 1; j < match_.size(); ++j) {
           const char* const line = random_.next() % 2 == 0 ? "latency=30,down.loss=100" : "latency=30,up.loss=100";
-          if (lives(j)) match_.network().set_profile(match_.machine(j).endpoint, transport::parse_profile(line).value());
+          if (lives(j))
+            match_.network().set_profile(match_.machine(j).endpoint, transport::parse_profile(line).value());
         }
         break;
       case 8:

@@ -344,11 +344,11 @@ class HostCore : public PeerCore {
   bool is_too_slow_ = false;  // for what the others can do
   Seat seats_[kMaxPlayers];
   std::vector<Guest> guests_;
-  std::size_t used_ = 0;                       // of them
-  Time next_tending_ = 0;                      // [us]
-  Time farthest_ = 0;                          // [us] see farthest_that_counts
+  std::size_t used_ = 0;                                   // of them
+  Time next_tending_ = 0;                                  // [us]
+  Time farthest_ = 0;                                      // [us] see farthest_that_counts
   std::uint64_t tokens_ = 0, lives_ = 0, applicants_ = 0;  // how many there were
-  Time turn_at_ = 0;                           // [us]
+  Time turn_at_ = 0;                                       // [us]
   std::uint64_t match_;
   bool is_ballot_told_ = true;
   Time ballot_told_at_ = 0;                // [us]

@@ -59,8 +59,8 @@ struct Application {
 
 /// A client's first word.
 struct Hello : Application {
-  Bytes credential;  // for the host's game
-  Address address;   // where the others reach it, when there is no host
+  Bytes credential;    // for the host's game
+  Address address;     // where the others reach it, when there is no host
   Time migration = 0;  // [us] as its SessionConfig's: a match has one
   ReplayHeader identity;
 };
@@ -73,9 +73,9 @@ struct Welcome {
   std::uint8_t player = 0xff;  // the first of the client's; 0xff: a spectator
   std::uint32_t others = 0;    // its further players, a bit each
   std::uint64_t token = 0;
-  std::uint64_t life = 0;   // of the client's process, from now on
-  std::uint32_t term = 0;   // the host's; 0: the match does not go on without it
-  Frame term_start = 0;     // before this frame the host took over all inputs
+  std::uint64_t life = 0;  // of the client's process, from now on
+  std::uint32_t term = 0;  // the host's; 0: the match does not go on without it
+  Frame term_start = 0;    // before this frame the host took over all inputs
   HashReport start;
   std::uint64_t hash = 0;           // of the state `start.frame`
   std::uint32_t snapshot_size = 0;  // [bytes]
@@ -109,10 +109,10 @@ void write_open(Frame first, std::vector<std::uint8_t>& out);
 void write_enrolled(std::uint32_t version, std::vector<std::uint8_t>& out);
 /// Of a machine that would follow the host.
 struct Candidate {
-  std::uint32_t term = 0;        // for which it asks
-  std::uint32_t log_term = 0;    // of the host whose inputs it has
+  std::uint32_t term = 0;                      // for which it asks
+  std::uint32_t log_term = 0;                  // of the host whose inputs it has
   std::uint32_t roster_term = 0, version = 0;  // of its roster
-  Frame ends[kMaxPlayers] = {};  // the first final input of each player that it lacks
+  Frame ends[kMaxPlayers] = {};                // the first final input of each player that it lacks
 };
 void write_candidate(const Candidate& candidate, std::vector<std::uint8_t>& out);
 /// Some of the inputs that a candidate lacks, as a datagram carries them.

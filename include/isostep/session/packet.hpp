@@ -30,13 +30,13 @@ struct PacketHeader {
   std::uint16_t echo = 0;    // [ms] receiver's clock as the sender last heard it, plus what it waited since
   bool has_echo = false;
   std::uint8_t waited = 0;      // [ms] of the echo: what the sender waited; 255: so much, or more
-  bool started = false;          // the match runs
-  bool is_far = false;           // host: the receiver's line is one for which the others do not wait
-  std::uint8_t stretch = 0;      // [1/256 period] client: a frame takes it longer by so much; host: all frames are
-  std::uint8_t slowest = 0xff;   // host: the player for whom they are; 0xff: the host's machine
-  std::uint8_t spares = 0;       // [frames] client: its rollbacks have to be shorter by so many, for it is too slow
-  std::uint32_t waits_for = 0;   // host: players, a bit each, who hold the match up
-  Tempo tempo;                   // host: as last announced
+  bool started = false;         // the match runs
+  bool is_far = false;          // host: the receiver's line is one for which the others do not wait
+  std::uint8_t stretch = 0;     // [1/256 period] client: a frame takes it longer by so much; host: all frames are
+  std::uint8_t slowest = 0xff;  // host: the player for whom they are; 0xff: the host's machine
+  std::uint8_t spares = 0;      // [frames] client: its rollbacks have to be shorter by so many, for it is too slow
+  std::uint32_t waits_for = 0;  // host: players, a bit each, who hold the match up
+  Tempo tempo;                  // host: as last announced
   /// Host of a match that goes on without it: inputs before this frame cannot be otherwise any more, whoever is the
   /// host; kNoFrame: of another match, where all that it says is final.
   Frame final_end = kNoFrame;

@@ -99,7 +99,7 @@ class PeerCore : public SessionCore {
   void goes_on();
   /// As last told; 0: nobody.
   std::uint32_t waits_for() const { return stands_ ? waits_for_ : 0; }
-  static constexpr int kDueSteps = 2;                  // in one advance: a caller that comes late is forgiven one frame
+  static constexpr int kDueSteps = 2;                // in one advance: a caller that comes late is forgiven one frame
   static constexpr Time kTellBlocked = kSecond / 5;  // [us] before a wait is worth an event
   /// [1/256 period] 40 frames a second where there should be 60: who cannot do so many does not play.
   static constexpr int kMostStretch = 128;

@@ -51,7 +51,7 @@ struct Roster {
   std::uint32_t term = 0;     // of the host that says it
   std::uint32_t version = 0;  // 0: there is none yet
   MatchSettings settings;
-  std::uint8_t host = 0;      // its place among the machines
+  std::uint8_t host = 0;  // its place among the machines
   std::uint8_t count = 0;
   Machine machines[kMaxPlayers + 1];
 

@@ -55,9 +55,9 @@ class TurnRate {
   static constexpr int kLargest = 255;               // [1/256 period]
 
   bool has_turned_ = false;
-  Time last_ = 0;                                                               // [us] of the last turn
-  Time time_ = 0, frames_worth_ = 0, longest_ = 0, longests_worth_ = 0;         // [us] of this window
-  int late_ = 0, turns_ = 0;                                                    // likewise
+  Time last_ = 0;                                                        // [us] of the last turn
+  Time time_ = 0, frames_worth_ = 0, longest_ = 0, longests_worth_ = 0;  // [us] of this window
+  int late_ = 0, turns_ = 0;                                             // likewise
   int stretch_ = 0;
   Time slow_since_ = 0;  // [us]
 };

@@ -112,8 +112,8 @@ std::optional<Address> ClientCore::poll_connect() {
 std::unique_ptr<SessionCore> ClientCore::succeed(Time now) {
   if (!failover_.seeks() || !failover_.is_elected) return nullptr;
   forget_untold();
-  Succession succession{failover_.roster, own_machine(), token_, failover_.life, failover_.election,
-                        std::move(failover_.callers)};
+  Succession succession{failover_.roster, own_machine(),      token_,
+                        failover_.life,   failover_.election, std::move(failover_.callers)};
   return std::make_unique<HostCore>(std::move(*this), std::move(succession), now);
 }
 

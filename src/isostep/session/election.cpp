@@ -7,11 +7,11 @@
 namespace isostep {
 namespace {
 
-constexpr Time kAttempt = kSecond;          // [us] for a candidate: two and a half round trips of the longest lines
-constexpr Time kForOthers = kSecond / 4;    // [us] that who has a majority waits for the rest of it
-constexpr Time kSearch = 10 * kSecond;      // [us] until nobody is left
-constexpr Time kBrokenOff = kSecond / 4;    // [us] until the next attempt, when a candidate ends the connection
-constexpr Time kKnock = kSecond * 3 / 4;    // [us] for a host that lives to take us back: a round trip of long lines
+constexpr Time kAttempt = kSecond;        // [us] for a candidate: two and a half round trips of the longest lines
+constexpr Time kForOthers = kSecond / 4;  // [us] that who has a majority waits for the rest of it
+constexpr Time kSearch = 10 * kSecond;    // [us] until nobody is left
+constexpr Time kBrokenOff = kSecond / 4;  // [us] until the next attempt, when a candidate ends the connection
+constexpr Time kKnock = kSecond * 3 / 4;  // [us] for a host that lives to take us back: a round trip of long lines
 
 }  // namespace
 
@@ -52,7 +52,8 @@ int Election::target(const Roster& roster, int own) const {
   if (knocks_) return roster.host;
   std::uint32_t count = 0;
   for (int m = 0; m < roster.count; ++m) count += is_eligible(roster, m) ? 1 : 0;
-  const bool asks_host = own == roster.host || (roster.count > 0 && !roster.machines[roster.host].address.view().empty());
+  const bool asks_host =
+      own == roster.host || (roster.count > 0 && !roster.machines[roster.host].address.view().empty());
   const std::uint32_t all = count + (asks_host ? 1 : 0);
   if (all == 0) return -1;
   std::uint32_t n = attempt_ % all;

@@ -7,8 +7,8 @@ namespace isostep {
 namespace {
 
 bool same_machine(const Roster::Machine& a, const Roster::Machine& b) {
-  return a.players == b.players && a.proof == b.proof && a.life == b.life && a.is_in == b.is_in && a.was_in == b.was_in &&
-         a.address == b.address;
+  return a.players == b.players && a.proof == b.proof && a.life == b.life && a.is_in == b.is_in &&
+         a.was_in == b.was_in && a.address == b.address;
 }
 bool same_roster(const Roster& a, const Roster& b) {
   if (a.term != b.term || a.count != b.count || a.host != b.host || a.settings != b.settings) return false;
@@ -58,9 +58,8 @@ Roster HostCore::drafted() const {
 }
 
 MatchSettings HostCore::settings() const {
-  return {config_.deadline,    config_.silence, config_.patience, config_.exclusion,
-          config_.reservation, config_.asks_admission, config_.votes, config_.players_set_tempo,
-          config_.repair};
+  return {config_.deadline,       config_.silence, config_.patience,          config_.exclusion, config_.reservation,
+          config_.asks_admission, config_.votes,   config_.players_set_tempo, config_.repair};
 }
 
 int HostCore::voter_of(const Guest& guest) const {
