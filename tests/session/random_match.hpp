@@ -47,7 +47,7 @@ class RandomMatch {
   Frame two_histories = 0;
   Frame first_of_them = kNoFrame;
   std::function<void(std::size_t)> on_watch;  // a machine has come, and its was_confirmed is set
-  /// Perhaps nobody is left who knows what was final: a majority died, or the host of a roster of which it was one alone.
+  /// Perhaps nobody is left who knows what was final: a majority died, or a host that was one alone.
   bool has_lost_memory() const { return 2 * deaths_ >= config_.players || has_lost_roster_; }
   bool goes_on() const { return goes_on_; }
   int hosts() {

@@ -9,8 +9,8 @@
 namespace isostep {
 
 /// Raft's candidate and voter. All have the same roster, so they ask the same machines in the same order, each for a
-/// while, beginning with the lowest player and ending with the host that was lost. To whom a majority has come asks them
-/// for their support in a new term; each supports one machine in a term, and none in an earlier one.
+/// while, beginning with the lowest player and ending with the host that was lost. To whom a majority has come asks
+/// it for support in a new term; each supports one machine in a term, and none in an earlier one.
 class Election {
  public:
   enum class Step : std::uint8_t {
@@ -55,8 +55,9 @@ class Election {
   bool has_called() const { return called_ != 0; }
   Time called_at() const { return called_at_; }
   /// More than our own support makes us the host; false: by a game's word, or because nobody else remembers.
-  bool has_majority(const Roster& roster) const { return roster.is_majority(supports_); }
-  std::uint64_t supporters() const { return supports_; }
+  bool has_majority(const Roster& roster) const { return roster.is_majority(won_with_); }
+  /// With whom it was won; some may have gone since, and are bound to us all the same.
+  std::uint64_t supporters() const { return won_with_; }
 
   /// May this one be the host? If so we are bound to it.
   bool give_support(const Candidate& candidate);
@@ -75,7 +76,7 @@ class Election {
   bool is_under_way_ = false, has_given_up_ = false, is_forced_ = false, knocks_ = false;
   Time since_ = 0, until_ = 0;  // [us] of all of it; of this attempt
   std::uint32_t attempt_ = 0;
-  std::uint64_t came_ = 0, over_ = 0, supports_ = 0;  // machines, a bit each
+  std::uint64_t came_ = 0, over_ = 0, supports_ = 0, won_with_ = 0;  // machines, a bit each
   Time quorum_at_ = 0;                                // [us] when enough had come; 0: they have not
   std::uint32_t called_ = 0;                          // the term for which we ask; 0: we do not
   Time called_at_ = 0;                                // [us]

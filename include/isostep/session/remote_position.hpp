@@ -49,8 +49,8 @@ class RemotePosition {
     return std::int64_t{middle_.frame} * 256 +
            static_cast<std::int64_t>((since < kSecond ? since : kSecond) * 256 / period);
   }
-  /// Could a datagram that comes now say this? While little is known, anything could. A peer that steps more slowly than
-  /// it should is behind where it is supposed, but not behind where it was.
+  /// Could a datagram that comes now say this? While little is known, anything could. A peer that steps more slowly
+  /// than it should is behind where it is supposed, but not behind where it was.
   bool is_near(Frame frame, Time now, Time period) const {
     if (said_.count() < RecentMedian<Said>::kValues) return true;
     const std::int64_t off = std::int64_t{frame} * 256 - at(now, period);

@@ -22,7 +22,7 @@ std::uint64_t proof_of(std::uint64_t token);
 
 inline constexpr Frame kMostDeadline = 60;  // [frames] see SessionConfig::deadline
 
-/// What a match is played by, as its host's configuration says: who follows it goes on with these, whatever its own are.
+/// What a match is played by, as its host configures it: who follows it goes on with these, whatever its own are.
 struct MatchSettings {
   Frame deadline = 0;
   Time silence = 0, patience = 0, exclusion = 0, reservation = 0;  // [us]

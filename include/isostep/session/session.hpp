@@ -84,7 +84,7 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   bool resync() { return core_->resync(); }
   /// Host: begins although seats are empty.
   void start(Time now) { core_->start(latest(now)); }
-  /// With `migration`, where the match stands for lack of a majority, or its host is lost: it goes on with those who are
+  /// With `migration`, where the match stands for lack of a majority, or its host is lost: goes on with those who are
   /// here, at this machine. Whoever calls knows that the others play nowhere else, for nothing else keeps two matches
   /// from becoming of one. False: the match goes on without, or this machine has no part in it.
   bool go_on(Time now) { return core_->go_on(latest(now)); }

@@ -87,7 +87,10 @@ Election::Step Election::turn(const Roster& roster, int own, bool may_stand, Tim
     return go_on(roster, own, now);
   }
   const bool have_all = (came_ & ~supports_) == 0 || now - called_at_ >= kForOthers;
-  if ((is_forced_ || roster.is_quorum(supports_, over)) && have_all) return Step::wins;
+  if ((is_forced_ || roster.is_quorum(supports_, over)) && have_all) {
+    won_with_ = supports_;
+    return Step::wins;
+  }
   if (now - called_at_ < kAttempt) return Step::waits;
   called_ = 0;
   quorum_at_ = 0;
