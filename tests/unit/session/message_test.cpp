@@ -226,7 +226,7 @@ TEST(Message, UnknownKindsAndSizesAreNoMessages) {
   EXPECT_FALSE(message_kind({}).ok());
   for (unsigned kind = 0; kind < 256; ++kind) {
     EXPECT_EQ(message_kind(Buffer{static_cast<std::uint8_t>(kind)}).ok(),
-              kind >= 1 && kind <= static_cast<unsigned>(MessageKind::ballot))
+              kind >= 1 && kind <= static_cast<unsigned>(MessageKind::farewell))
         << kind;
   }
   Buffer bytes(kReliableCap, 1);

@@ -54,7 +54,7 @@ TEST(RemotePosition, WhatIsFarOffIsNotNearAndDoesNotMoveIt) {
     position.heard(frame, now, kPeriod);
   }
   const std::int64_t before = position.at(now, kPeriod);
-  for (const Frame forged : {Frame{0}, Frame{990}, Frame{1050}, kLastFrame}) {
+  for (const Frame forged : {Frame{0}, Frame{985}, Frame{1050}, kLastFrame}) {
     EXPECT_FALSE(position.is_near(forged, now, kPeriod)) << forged;
   }
   position.heard(kLastFrame, now, kPeriod);
