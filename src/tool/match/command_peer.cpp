@@ -12,7 +12,7 @@
 namespace isostep::tool {
 namespace {
 
-constexpr Time kGoodbye = 3 * kSecond;  // [us] in which a leaving client's last word may be repeated, on a line that loses words
+constexpr Time kGoodbye = 3 * kSecond;  // [us] a leaving client's last word may be lost, and is repeated
 constexpr Time kLongestSleep = 10000;  // [us]
 
 /// One line a frame: push_x push_z buttons aim. After the last line nothing is pressed.
