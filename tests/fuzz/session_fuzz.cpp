@@ -314,7 +314,7 @@ void attack_candidate(Script& script) {
   Roster roster;
   roster.version = 3;
   roster.count = 3;
-  for (std::uint8_t m = 0; m < 3; ++m) roster.machines[m] = {1u << m, proof_of(100u + m), true, true, "1", 0};
+  for (std::uint8_t m = 0; m < 3; ++m) roster.machines[m] = {1u << m, proof_of(100u + m), 1u + m, true, true, "1", 0};
   for (std::uint8_t m = 0; m < 3; ++m) roster.machines[m].seal = seal_of(roster, 100u + m, scratch);
   write_roster(roster, bytes);
   client.session.receive(0, Channel::reliable, bytes, now);
@@ -340,10 +340,13 @@ void attack_candidate(Script& script) {
         client.session.receive(peer, Channel::reliable, bytes, now);
         break;
       }
-      case 4:
-        write_support(2u + script.byte() % 3, bytes);
+      case 4: {
+        Support support;
+        support.term = 2u + script.byte() % 3;
+        write_support(support, bytes);
         client.session.receive(peer, Channel::reliable, bytes, now);
         break;
+      }
       case 5: {
         Roster other = roster;
         other.version = script.byte() % 8 + 1u;
