@@ -173,5 +173,43 @@ class Comparison(unittest.TestCase):
                 self.assertGreater(os.path.getsize(out), 10000)
 
 
+class Seeking(unittest.TestCase):
+    def test_a_long_replay_keeps_few_states(self):
+        world, body = support.crate(isostep, "q16")
+        tape, hashes = world.record("long"), [world.hash]
+        for frame in range(5000):
+            if frame % 200 == 0:
+                world.apply_impulse(body, (1, 3, 0))
+            world.step()
+            tape.end_frame()
+            hashes.append(world.hash)
+        data = tape.finish()
+
+        class Sparing(isostep.Replay):
+            SPACING, STATES = 3, 7
+
+        for most in (isostep.Replay.BYTES, 1 << 14, 1):
+            replay = Sparing(data)
+            replay.BYTES = most
+            for frames in [5000, 4999, 0, 1, 2500, 2499, 2501, 17] + [n * 2654435761 % 5001 for n in range(40)]:
+                self.assertEqual(replay.at(frames).hash, hashes[frames], frames)
+                self.assertLessEqual(len(replay._kept), 7)
+                taken = sum(state.size for state in replay._kept)
+                self.assertTrue(taken <= most or len(replay._kept) == 1, taken)
+        self.assertLessEqual(isostep.Replay.STATES, 128)
+
+    def test_memory_is_bounded_however_long_the_match(self):
+        world, _ = support.crate(isostep, "f32")
+        tape = world.record("long")
+        for _ in range(60):
+            tape.end_frame()  # pauses: frames without a step
+        for _ in range(20000):
+            tape.end_frame()
+        replay = isostep.Replay(tape.finish())
+        replay.at(len(replay))
+        self.assertLessEqual(len(replay._kept), isostep.Replay.STATES)
+        self.assertGreater(len(replay._kept), isostep.Replay.STATES // 2 - 1)
+
+
 if __name__ == "__main__":
     unittest.main()

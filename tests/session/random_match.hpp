@@ -43,7 +43,7 @@ class RandomMatch {
     goes_on_ = newest_ > before + 60;
   }
 
-  /// Frames that two machines were told of as final, and that were not the same.
+  /// Frames that two machines confirmed with different hashes.
   Frame two_histories = 0;
   Frame first_of_them = kNoFrame;
   std::function<void(std::size_t)> on_watch;  // a machine has come, and its was_confirmed is set

@@ -153,7 +153,7 @@ TEST_P(Strangers, AsSpectatorsLeaveThePlacesOfPlayers) {
   EXPECT_TRUE(scene.match.run(2 * kSecond, [&] { return next.session.phase() == SessionPhase::watching; }));
 }
 
-// Each is counted; the game is told of some at once, and of one a second.
+// The host counts each refusal; it reports 32 at once, then one a second.
 TEST_P(Strangers, OfAnotherVersionDoNotFloodTheGameWithEvents) {
   CrowdedMatch scene(config_of(2), 12, {Stranger::Way::differs});
   scene.pass(20 * kSecond);

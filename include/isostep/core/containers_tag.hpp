@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
+#include <cstddef>  // the standard library's own macros
 
 #include "isostep/scalar/platform.hpp"
 

@@ -101,7 +101,7 @@ template <class S> MassProperties<S> MassTensor<S>::properties() const {
     }
     const Quat<Unit<F>> axes = detail::principal_axes(relative);
     const Mat3<Unit<F>> principal = detail::seen_from(relative, axes);
-    // What rotating rounds off is no moment.
+    // The rotation leaves a rounding where there is no moment.
     const Unit<F> least = Unit<F>(0x1p-20);
     const auto kappa = [&](int i) {
       const Unit<F> value = principal.rows[i][i];

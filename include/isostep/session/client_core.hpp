@@ -94,7 +94,7 @@ class ClientCore : public PeerCore {
   void seek_on(Time now);
   void stop_seeking();
   void went(Caller& caller);
-  /// Whose machine it is, and whether it has a vote.
+  /// Finds the caller in the roster, and whether it has a vote.
   void recognise(Caller& caller, const Hello& hello);
   void has_new_roster();
   void tend_callers(Time now);

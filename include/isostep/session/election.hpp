@@ -33,7 +33,7 @@ class Election {
   /// The place in the roster of who is asked now; ours: we are, by the others. -1: nobody.
   int target(const Roster& roster, int own) const;
 
-  // Who came to us. `voter`: its place in the roster.
+  // Machines connect to us; `voter` is their place in the roster.
   void came(int voter) { came_ |= bit(voter); }
   void went(int voter) { came_ &= ~bit(voter), supports_ &= ~bit(voter); }
   /// The machine is there without its memory, or has left: it votes for nobody.
@@ -57,6 +57,7 @@ class Election {
   /// More than our own support makes us the host; false: by a game's word, or because nobody else remembers.
   bool has_majority(const Roster& roster) const { return roster.is_majority(won_with_); }
   /// With whom it was won; some may have gone since, and are bound to us all the same.
+  bool has_won_with(int voter) const { return (won_with_ & bit(voter)) != 0; }
   std::uint64_t supporters() const { return won_with_; }
 
   /// May this one be the host? If so we are bound to it.

@@ -96,7 +96,7 @@ template <LoggedEvent E> class EventLog {
     return true;
   }
 
-  /// What is new: retractions, then confirmed and predicted ones by frame and in the order they were told.
+  /// Returns what is new: retractions, then confirmed and predicted ones by frame and in the order of `tell`.
   ISO_INLINE std::optional<Notice<E>> poll() {
     if (changed_) settle();
     for (std::size_t i = 0; i < missing_.size(); ++i) {

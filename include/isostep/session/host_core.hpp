@@ -57,7 +57,7 @@ class HostCore : public PeerCore {
   void after_steps() override { serve_snapshots(); }
   void capture_lost() override;
   void observe_delay() override;
-  /// What a majority does not have may be otherwise in the match that goes on without us.
+  /// A frame that no majority has may be otherwise in the match that goes on without us.
   Frame final_limit() const override {
     const Frame limit = PeerCore::final_limit();
     return config_.migration > 0 && tenure_.final_end() < limit ? tenure_.final_end() : limit;
@@ -160,7 +160,7 @@ class HostCore : public PeerCore {
   Tempo latest_wish() const { return has_wish_ ? wished_ : announced(); }
   void grant_tempo();
   void take_ask(Guest& guest, Bytes message);
-  /// Who asks again and again is heard once a second.
+  /// The host answers a guest once a second.
   void answer_asks(Guest& guest, Time now);
   void answer(const Guest& guest, const Ask& ask);
   /// Once a frame of time, for what changes no faster: who is silent, lags, or is far away.
@@ -178,21 +178,20 @@ class HostCore : public PeerCore {
   int voter_of(const Guest& guest) const;
   /// Inputs before this frame are there.
   Frame end_at(const Guest& guest) const;
-  /// What we know of all machines of the roster.
+  /// Fills followers_ for each machine of the roster.
   void look_at_followers(Time now);
-  /// Whose word on their time we have: how long they wait for us at least.
+  /// The guest echoes when it heard us: it waits for us for a lease from then on.
   void renew_lease(Guest& guest, const PacketHeader& header, Time now);
+  /// Us and those voters that `is_counted`, as places in the roster, a bit each.
+  template <class Predicate> std::uint64_t group(const Predicate& is_counted) const;
   std::uint64_t followers_here(Time now) const;
   std::unique_ptr<SessionCore> retreat(Time now, bool is_outvoted);
-  MatchSettings settings() const;
 
   // --- among machines that differ, in host_verdict.cpp ---
   void tend_inquiry(Time now);
   void open_inquiry(Time now);
   void conclude_inquiry(Time now);
-  /// Can the others go on without us, at one that is right?
-  bool can_step_down(const Verdict& verdict) const;
-  /// Likewise at one that is not among these (machines as in a Verdict).
+  /// Can the others go on without us, at one that is not among these (machines as in a Verdict)?
   bool could_others(std::uint64_t unfit) const;
   bool take_repair(Guest& guest, MessageKind kind, Bytes bytes);
   bool take_statement(const Guest& guest, Bytes bytes);

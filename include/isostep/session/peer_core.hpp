@@ -60,7 +60,8 @@ class PeerCore : public SessionCore {
   bool is_beyond(Time round_trip) const;
   /// The same of a line of which that was said: a sixteenth less does not change it again.
   bool is_still_beyond(Time round_trip) const { return is_beyond(round_trip + round_trip / 16); }
-  void tell_of(SessionEvent::Kind kind, int player);
+  /// An event of now; 0xff: of no player.
+  void tell_of(SessionEvent::Kind kind, int player = 0xff);
   /// The match runs: told once, whoever hosts it and however often we come back to it.
   void tell_started();
   /// First frame of which some input is missing.

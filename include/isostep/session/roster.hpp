@@ -30,6 +30,18 @@ struct MatchSettings {
 
   friend bool operator==(const MatchSettings&, const MatchSettings&) = default;
 };
+/// Copies the members of MatchSettings, which SessionConfig has by the same names.
+template <class From, class To> void copy_match_settings(const From& from, To& to) {
+  to.deadline = from.deadline;
+  to.silence = from.silence;
+  to.patience = from.patience;
+  to.exclusion = from.exclusion;
+  to.reservation = from.reservation;
+  to.asks_admission = from.asks_admission;
+  to.votes = from.votes;
+  to.players_set_tempo = from.players_set_tempo;
+  to.repair = from.repair;
+}
 
 /// The host tells it to all, so that they find each other once it is gone. Who may go on without it is decided by
 /// majorities, of the machines in the match now and of those before: while the one roster takes the place of the other

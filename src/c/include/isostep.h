@@ -3132,7 +3132,7 @@ ISO_API iso_status iso_session_save_match(iso_session* session, void* bytes, siz
 /* Recordings of the confirmed frames, from the next frame stepped on. One of each kind at a time. */
 typedef uint32_t iso_recording;
 enum {
-  ISO_RECORD_MATCH, /* inputs and hashes: a few kilobytes a minute, for ISO_REPLAY by who has the game */
+  ISO_RECORD_MATCH, /* inputs and hashes: some 50 kB a minute, for ISO_REPLAY by who has the game */
   ISO_RECORD_WORLD  /* the world's commands and hashes: `isostep verify` plays it without the game. Of a game with a
                        world, to which nothing else records meanwhile */
 };

@@ -67,8 +67,7 @@ bool ClientCore::take_known(const InputSlice& slice, int machine) {
 void ClientCore::forget_untold() {
   if (!owns_inputs()) return;
   for (const Caller& caller : failover_.callers) {
-    const bool supports = caller.voter >= 0 && (failover_.election.supporters() >> caller.voter & 1) != 0;
-    if (!caller.is_connected || !supports) continue;
+    if (!caller.is_connected || !failover_.election.has_won_with(caller.voter)) continue;
     for (int p = 0; p < players(); ++p) {
       InputStream& stream = streams_[static_cast<std::size_t>(p)];
       const bool is_its = (failover_.roster.machines[caller.machine].players >> p & 1) != 0;

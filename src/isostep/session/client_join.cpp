@@ -72,9 +72,7 @@ void ClientCore::lose(Time now, bool knocks) {
 
 void ClientCore::fail(SessionEvent::Kind kind, SessionPhase phase) {
   phase_ = phase;
-  SessionEvent event{.kind = kind};
-  event.frame = current();
-  tell(event);
+  tell_of(kind);
 }
 
 void ClientCore::receive(PeerId host, Channel channel, Bytes bytes, Time now) {

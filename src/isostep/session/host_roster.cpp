@@ -24,7 +24,7 @@ Roster HostCore::drafted() const {
   Roster next;
   next.term = tenure_.term();
   next.version = roster_.version + 1;
-  next.settings = settings();
+  copy_match_settings(config_, next.settings);
   Roster::Machine& own = next.machines[next.count++];
   own = {hosted_, proof_of(own_token_), own_life_, true, true, config_.address};
   for (int p = 0; p < players(); ++p) {
@@ -55,11 +55,6 @@ Roster HostCore::drafted() const {
     if (machine.is_in && seat.is_open) machine.address = guest->address;
   }
   return next;
-}
-
-MatchSettings HostCore::settings() const {
-  return {config_.deadline,       config_.silence, config_.patience,          config_.exclusion, config_.reservation,
-          config_.asks_admission, config_.votes,   config_.players_set_tempo, config_.repair};
 }
 
 int HostCore::voter_of(const Guest& guest) const {
@@ -111,23 +106,23 @@ void HostCore::renew_lease(Guest& guest, const PacketHeader& header, Time now) {
   if (from > guest.lease_from) guest.lease_from = from;
 }
 
-std::uint64_t HostCore::followers_here(Time now) const {
-  std::uint64_t here = std::uint64_t{1} << roster_.host;
+template <class Predicate> std::uint64_t HostCore::group(const Predicate& is_counted) const {
+  std::uint64_t group = std::uint64_t{1} << roster_.host;
   for (const Guest& guest : guests()) {
     const int machine = voter_of(guest);
-    const bool is_here = guest.stage == Guest::Stage::live && now - guest.heard <= config_.migration;
-    if (machine >= 0 && is_here) here |= std::uint64_t{1} << machine;
+    if (machine >= 0 && is_counted(guest)) group |= std::uint64_t{1} << machine;
   }
-  return here;
+  return group;
+}
+
+std::uint64_t HostCore::followers_here(Time now) const {
+  return group(
+      [&](const Guest& guest) { return guest.stage == Guest::Stage::live && now - guest.heard <= config_.migration; });
 }
 
 void HostCore::keep_roster() {
   if (config_.migration == 0 || !started_) return;
-  std::uint64_t enrolled = std::uint64_t{1} << roster_.host;
-  for (const Guest& guest : guests()) {
-    const int machine = voter_of(guest);
-    if (machine >= 0 && guest.enrolled == roster_.version) enrolled |= std::uint64_t{1} << machine;
-  }
+  const std::uint64_t enrolled = group([&](const Guest& guest) { return guest.enrolled == roster_.version; });
   if (roster_.version > 0 && !tenure_.may_go_on_to_next(roster_, enrolled, followers_)) return;
   const Roster next = drafted();
   if (!same_roster(next, roster_)) replace_roster(next);
@@ -189,8 +184,7 @@ std::unique_ptr<SessionCore> HostCore::retreat(Time now, bool is_outvoted) {
   for (const Guest& guest : guests_) {
     if (guest.is_connected) retreat.guests.push_back(guest.peer);
   }
-  SessionEvent event{.kind = SessionEvent::Kind::deposed, .frame = current()};
-  tell(event);
+  tell_of(SessionEvent::Kind::deposed);
   return std::make_unique<ClientCore>(std::move(*this), std::move(retreat), now);
 }
 
@@ -200,16 +194,7 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
       guests_(static_cast<std::size_t>(config_.max_peers + config_.max_strangers)),
       match_(draw(Purpose::match, 0)) {
   config_.host = true;
-  const MatchSettings& its = succession.roster.settings;
-  config_.deadline = its.deadline;
-  config_.silence = its.silence;
-  config_.patience = its.patience;
-  config_.exclusion = its.exclusion;
-  config_.reservation = its.reservation;
-  config_.asks_admission = its.asks_admission;
-  config_.votes = its.votes;
-  config_.players_set_tempo = its.players_set_tempo;
-  config_.repair = its.repair;
+  copy_match_settings(succession.roster.settings, config_);
   inherited_ = roster_ = succession.roster;
   roster_.host = static_cast<std::uint8_t>(succession.machine);
   roster_.term = succession.election.term();
@@ -245,16 +230,14 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
     guests_[i].connect(now);
     used_ = i + 1;
     if (caller.hello.empty()) continue;
-    const bool supports = caller.voter >= 0 && (succession.election.supporters() >> caller.voter & 1) != 0;
+    const bool supports = succession.election.has_won_with(caller.voter);
     if (supports) guests_[i].enrolled = roster_.version;
     greet(guests_[i], caller.hello);
     if (supports) guests_[i].lease_from = succession.election.called_at();
     resume(guests_[i]);
   }
   if (!succession.election.has_majority(succession.roster)) reform_roster(succession.election.supporters());
-  SessionEvent event{.kind = SessionEvent::Kind::new_host, .player = static_cast<std::uint8_t>(local_player())};
-  event.frame = current();
-  tell(event);
+  tell_of(SessionEvent::Kind::new_host, local_player());
 }
 
 void HostCore::resume(Guest& guest) {

@@ -66,10 +66,8 @@ void HostCore::conclude_inquiry(Time now) {
   }
   const Verdict verdict = tell_verdict(inquiry_.statements);
   const bool is_ours = (verdict.minority >> kHostMachine & 1) != 0;
-  if (is_ours && config_.repair && can_step_down(verdict)) steps_down_at_ = now + kFarewell;
+  if (is_ours && config_.repair && could_others(verdict.minority)) steps_down_at_ = now + kFarewell;
 }
-
-bool HostCore::can_step_down(const Verdict& verdict) const { return could_others(verdict.minority); }
 
 bool HostCore::could_others(std::uint64_t unfit) const {
   std::uint64_t others = 0;

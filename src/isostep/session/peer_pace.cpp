@@ -31,10 +31,8 @@ void PeerCore::go_at_pace_of(int player, int stretch) {
   clock_.stretch(stretch);
   if (was_slow == is_slow && (!is_slow || player == slowest_)) return;
   slowest_ = player;
-  SessionEvent event{.kind = is_slow ? SessionEvent::Kind::slowed_by : SessionEvent::Kind::full_speed};
-  event.player = is_slow ? static_cast<std::uint8_t>(player) : 0xff;
-  event.frame = current();
-  tell(event);
+  if (is_slow) tell_of(SessionEvent::Kind::slowed_by, player);
+  else tell_of(SessionEvent::Kind::full_speed);
 }
 
 void PeerCore::tell_of(SessionEvent::Kind kind, int player) {
@@ -47,7 +45,7 @@ void PeerCore::tell_of(SessionEvent::Kind kind, int player) {
 void PeerCore::tell_started() {
   if (is_start_told_) return;
   is_start_told_ = true;
-  tell_of(SessionEvent::Kind::started, 0xff);
+  tell_of(SessionEvent::Kind::started);
 }
 
 void PeerCore::stands_for(std::uint32_t players) {
@@ -63,9 +61,7 @@ void PeerCore::stands_for(std::uint32_t players) {
 void PeerCore::goes_on() {
   if (!stands_) return;
   stands_ = false;
-  SessionEvent event{.kind = SessionEvent::Kind::resumed};
-  event.frame = current();
-  tell(event);
+  tell_of(SessionEvent::Kind::resumed);
 }
 
 void PeerCore::note_arrival(int player, Frame end, Time now) {

@@ -86,7 +86,7 @@ class Tape(Handle):
 
 
 class Events:
-    """What the last step told of, each an array of Python's own."""
+    """Events of the last step, each kind an array of Python's own."""
 
     NAMES = ("contact_begins", "contact_ends", "contact_points", "contact_hits", "sensor_begins", "sensor_ends",
              "broke_events", "joint_broke_events", "fell_asleep", "woke")

@@ -1,19 +1,13 @@
 // Whatever is rolled back, each happening is told once and ends once, and what is confirmed is what really happened.
 // SPDX-License-Identifier: MIT
-#include "isostep/session/event_log.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "event_log_ledger.hpp"
 #include "isostep/core/random.hpp"
-#include "isostep/state/concepts.hpp"
-#include "isostep/world/world.hpp"
 
 namespace isostep {
 namespace {
@@ -26,11 +20,6 @@ struct Hit {
 };
 using Log = EventLog<Hit>;
 
-template <class E> std::vector<Notice<E>> all_of(EventLog<E>& log) {
-  std::vector<Notice<E>> notices;
-  while (const auto notice = log.poll()) notices.push_back(*notice);
-  return notices;
-}
 /// "p7@3" is `who` 7 predicted in frame 3, c confirmed, r retracted; capitals where it is the first of its happening.
 std::string told(Log& log) {
   std::string text;
@@ -342,33 +331,6 @@ TEST(EventLog, WhatIsMissingIsBoundedByRetractingEarly) {
   EXPECT_EQ(log.lost().homeless, 0u);
 }
 
-/// The life of each happening, and what was confirmed, from the notices alone.
-template <class E> struct Ledger {
-  std::map<std::uint32_t, std::string> lives;  // p, c, r in the order told
-  std::vector<std::pair<Frame, E>> confirmed;
-  std::size_t played = 0, taken_back = 0, moved = 0;
-  std::map<std::uint32_t, Frame> seen;
-
-  void take(EventLog<E>& log) {
-    for (const Notice<E>& notice : all_of(log)) {
-      std::string& life = lives[notice.happening];
-      EXPECT_EQ(notice.first, life.empty());
-      life += "pcr"[static_cast<int>(notice.kind)];
-      played += notice.first;
-      taken_back += notice.kind == NoticeKind::retracted;
-      if (notice.first) seen[notice.happening] = notice.frame;
-      if (notice.kind != NoticeKind::confirmed) continue;
-      confirmed.push_back({notice.frame, notice.event});
-      moved += notice.frame != seen[notice.happening];
-    }
-  }
-  void expect_lives() const {
-    for (const auto& [happening, life] : lives) {
-      EXPECT_TRUE(life == "pc" || life == "pr" || life == "c") << happening << " was told as " << life;
-    }
-  }
-};
-
 std::vector<Hit> truth_of(Frame frame) {
   std::vector<Hit> hits;
   Pcg32 random = Pcg32::seeded(static_cast<std::uint64_t>(frame));
@@ -422,82 +384,6 @@ TEST(EventLog, AnyRollbacksConfirmWhatAStraightRunEmits) {
   EXPECT_GT(rollbacks, 50u);
   EXPECT_GT(ledger.taken_back, 20u);
   EXPECT_GT(ledger.moved, 20u);
-}
-
-// ---- a ball that a far-away player kicks, and the floor it hits
-
-struct Touch {
-  BodyId a, b;
-  float impulse;
-  friend bool operator==(const Touch& x, const Touch& y) { return x.a == y.a && x.b == y.b; }
-};
-
-struct Court {
-  World<float> world{{.gravity = {0, -10, 0}}};
-  BodyId ball;
-
-  Court() {
-    world.create({.shape = world.add_shape(HalfSpace<float>{{0, 1, 0}, 0})});
-    BodyDefinition<float> definition{.type = BodyType::dynamic, .shape = world.add_shape(Sphere{0.5})};
-    definition.position = {0, 2, 0};
-    definition.material.restitution = 0.6f;
-    ball = world.create(definition);
-  }
-  template <class Emit> void step(int kick, Emit&& emit) {
-    world.apply_impulse(ball, {0, static_cast<float>(kick) * world.mass(ball), 0});
-    world.step();
-    for (const ContactBegin<float>& touch : world.events().contact_begin) emit({touch.a, touch.b, touch.impulse});
-  }
-};
-/// Kicked up, left alone, pushed down, in turns that no frame rate divides.
-int kick_at(Frame frame) { return frame % 7 == 0 ? (frame / 7 * 5 + frame / 49) % 9 - 4 : 0; }
-
-TEST(EventLog, ABallThatIsRolledBackHitsTheFloorAsOftenAsInAStraightRun) {
-  constexpr Frame kFrames = 1500, kLate = 6;
-  std::vector<std::pair<Frame, Touch>> straight;
-  Court court;
-  for (Frame frame = 0; frame < kFrames; ++frame) {
-    court.step(kick_at(frame), [&](const Touch& touch) { straight.push_back({frame, touch}); });
-  }
-  ASSERT_GT(straight.size(), 20u);
-
-  // Kicks arrive kLate frames late and are predicted as none.
-  Court client;
-  EventLog<Touch> log;
-  Ledger<Touch> ledger;
-  std::array<Snapshot<World<float>>, kLate + 1> saved;
-  std::size_t emitted = 0;
-  const auto advance = [&](Frame frame, int kick) {
-    client.world.save(saved[static_cast<std::size_t>(frame) % saved.size()]);
-    log.before_step(frame);
-    client.step(kick, [&](const Touch& touch) { emitted += log.tell(touch); });
-    log.after_step(frame);
-  };
-  for (Frame frame = 0; frame < kFrames + kLate; ++frame) {
-    const Frame known = frame - kLate;
-    if (known >= 0 && kick_at(known) != 0) {
-      client.world.load(saved[static_cast<std::size_t>(known) % saved.size()]);
-      log.rolled_back(known);
-      for (Frame past = known; past < frame; ++past) advance(past, past == known ? kick_at(past) : 0);
-    }
-    advance(frame, 0);
-    if (known >= 0) log.confirmed(known, 0);
-    ledger.take(log);
-  }
-  log.finish();
-  ledger.take(log);
-  ledger.expect_lives();
-
-  ASSERT_EQ(ledger.confirmed.size(), straight.size());
-  for (std::size_t i = 0; i < straight.size(); ++i) {
-    EXPECT_EQ(ledger.confirmed[i].first, straight[i].first);
-    EXPECT_EQ(ledger.confirmed[i].second, straight[i].second);
-    EXPECT_EQ(ledger.confirmed[i].second.impulse, straight[i].second.impulse);
-  }
-  EXPECT_EQ(ledger.played, straight.size() + ledger.taken_back);
-  EXPECT_GT(emitted, ledger.played) << "no contact was stepped twice: the test shows nothing";
-  EXPECT_GT(ledger.moved, 0u) << "no contact moved: the test shows nothing";
-  EXPECT_GT(ledger.taken_back, 0u) << "no contact was foreseen wrongly: the test shows nothing";
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ struct Rogue {
   Frame opens = kNoFrame;
   std::size_t pieces = 0;
   PeerId peer = 0;                 // the other side of the connection that was made last
-  Buffer roster;                   // the message that told of the newest
+  Buffer roster;                   // the newest one's message
   std::optional<Candidate> asked;  // for its support, last
   Frame host_frame = 0;
   Frame ends[kMaxPlayers] = {};  // of the inputs that came last
