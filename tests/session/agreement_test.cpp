@@ -14,6 +14,19 @@ std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
   return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
 }
 
+/// What these fell by: half of a roster with its host and half with the host elected since (809); followers that gave
+/// up what was final before the new host had told it all (960, 1813); a host that is one again in a later term (1711);
+/// two who each take the other for gone (1082); and all asking the one whose log is too old (493).
+TEST(Agreement, MatchesThatFellOnceGoOnWithOneHistory) {
+  for (const std::uint64_t seed : {493, 809, 960, 1082, 1711, 1813}) {
+    RandomMatch match(seed);
+    match.play();
+    EXPECT_EQ(match.two_histories, 0) << seed << ": from frame " << match.first_of_them << "; " << match.story();
+    EXPECT_EQ(match.hosts(), 1) << seed << ": " << match.story();
+    EXPECT_TRUE(match.goes_on()) << seed << ": " << match.story();
+  }
+}
+
 TEST(Agreement, OfMatchesDrawnFromSeedsNoneHasTwoHistoriesAndAllGoOn) {
   constexpr std::uint64_t kSample = 24;  // some ten seconds
   const std::uint64_t matches = number_of("ISOSTEP_MATCHES", kSample), first = number_of("ISOSTEP_FIRST_MATCH", 1);

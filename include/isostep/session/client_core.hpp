@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/session/failover.hpp"
+#include "isostep/session/former_inputs.hpp"
 #include "isostep/session/peer_core.hpp"
 #include "isostep/session/repair.hpp"
 
@@ -99,7 +100,9 @@ class ClientCore : public PeerCore {
   void has_new_roster();
   void tend_callers(Time now);
   void take_call(PeerId peer, Channel channel, Bytes bytes, Time now);
-  bool take_support(Caller& caller, MessageKind kind, Bytes bytes);
+  bool take_support(Caller& caller, MessageKind kind, Bytes bytes, Time now);
+  /// Its log is of a later host than ours: we go there, and so do who asked us.
+  void yield_to(const Caller& caller, const Address& address, Time now);
   /// Inputs that we lack as a candidate, as this machine tells them; false: it cannot be.
   bool take_known(const InputSlice& slice, int machine);
   /// A player's machine knows all inputs that the host can have had of it, and its word counts more than another's; but
@@ -112,6 +115,8 @@ class ClientCore : public PeerCore {
     return is_local(player) ? accepted_[player] : streams_[static_cast<std::size_t>(player)].end();
   }
   bool has_all_until(Frame end) const;
+  /// What the host before told and this one did not, while it has not told all: another election is about that log.
+  void take_back_former();
   /// Of the messages above, the next; nothing when there is none.
   std::optional<Outgoing> next_failover_message();
   std::optional<Outgoing> next_for_candidate();
@@ -180,6 +185,7 @@ class ClientCore : public PeerCore {
   std::uint64_t token_ = 0;
   Frame told_final_ = kLastFrame + 1;  // inputs before this frame are final, as the host says
   bool keeps_inputs_ = false;          // we go on with the same host, so that what it said stays said
+  FormerInputs former_;
 
   Welcome welcome_;
   bool is_restoring_ = false;

@@ -28,7 +28,7 @@ class Election {
   bool has_given_up() const { return has_given_up_; }
   /// The connection to who is asked has ended: not for much longer, then.
   void was_turned_away(Time now);
-  /// We go where we were sent.
+  /// We go where we were sent, and ask nobody for support.
   void was_sent_on(Time now);
   /// The place in the roster of who is asked now; ours: we are, by the others. -1: nobody.
   int target(const Roster& roster, int own) const;

@@ -37,7 +37,9 @@ struct Failover {
 
   // To the candidate that we are connected to, once it has asked.
   bool must_support = false, must_tell_roster = false;
+  bool must_call_here = false;  // its log is of an earlier host than ours: it comes to us instead
   Candidate candidate;
+  Address better;  // where a candidate sends its callers: to the one that said so
 
   bool seeks() const { return election.is_under_way(); }
 };

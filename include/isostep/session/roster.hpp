@@ -64,6 +64,9 @@ struct Roster {
   std::uint32_t version = 0;  // 0: there is none yet
   MatchSettings settings;
   std::uint8_t host = 0;  // its place among the machines
+  /// The place of the host that made the roster: its vote makes a half of those that are in a majority; and that of the
+  /// one before, among those that were. A host that is elected takes over both as they are, until its own roster.
+  std::uint8_t casting = 0, was_casting = 0;
   std::uint8_t count = 0;
   Machine machines[kMaxPlayers + 1];
 
@@ -79,7 +82,7 @@ struct Roster {
   int machine_of_proof(std::uint64_t proof) const;
   int machine_with(int player) const;
   int count_in() const;
-  /// More than half of those that are in, and of those that were, a bit each. The host makes a half a majority.
+  /// More than half of those that are in, and of those that were, a bit each, or half with the casting vote.
   bool is_majority(std::uint64_t machines) const;
   /// A majority; or all that remember anything, where of the others it is known that they do not: `over`.
   bool is_quorum(std::uint64_t machines, std::uint64_t over) const;

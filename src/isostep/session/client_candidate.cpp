@@ -4,7 +4,7 @@
 
 namespace isostep {
 
-bool ClientCore::take_support(Caller& caller, MessageKind kind, Bytes bytes) {
+bool ClientCore::take_support(Caller& caller, MessageKind kind, Bytes bytes, Time now) {
   if (kind == MessageKind::known) {
     const Result<Packet> packet = read_known(bytes);
     if (!packet) return false;
@@ -23,14 +23,33 @@ bool ClientCore::take_support(Caller& caller, MessageKind kind, Bytes bytes) {
     if (caller.voter >= 0) failover_.election.supported(caller.voter, support.value().term);
     return true;
   }
+  if (kind == MessageKind::redirect) {
+    const Result<Address> address = read_redirect(bytes);
+    if (!address || address.value().view().empty()) return false;
+    yield_to(caller, address.value(), now);
+    return true;
+  }
   if (kind != MessageKind::roster) return false;
   // A newer one: whose place is where, and what a majority is, may be otherwise there.
   const Result<Roster> roster = read_roster(bytes);
   if (!roster || !roster.value().is_newer_than(failover_.roster)) return roster.ok();
-  if (!is_sealed_for(roster.value(), token_, message_)) return false;
+  if (!is_sealed_for(roster.value(), token_, message_)) {
+    // Whether it is true or not, this machine does not support us.
+    if (caller.voter >= 0) failover_.election.went(caller.voter);
+    return false;
+  }
   failover_.roster = roster.value();
   has_new_roster();
   return true;
+}
+
+void ClientCore::yield_to(const Caller& caller, const Address& address, Time now) {
+  failover_.better = address;
+  for (Caller& other : failover_.callers) other.must_redirect = other.is_connected && &other != &caller;
+  leave_host();
+  failover_.target = address;
+  failover_.must_connect = true;
+  failover_.election.was_sent_on(now);
 }
 
 bool ClientCore::take_known(const InputSlice& slice, int machine) {

@@ -124,6 +124,24 @@ bool ClientCore::has_all_until(Frame end) const {
   return true;
 }
 
+void ClientCore::take_back_former() {
+  if (!former_.are_kept()) return;
+  former_.are_given_back();
+  for (int p = 0; p < players(); ++p) {
+    InputStream& stream = streams_[static_cast<std::size_t>(p)];
+    const InputStream& former = former_.of(p);
+    for (Frame frame = final_end(p); former.contains(frame); ++frame) {
+      if (frame == stream.end()) {
+        stream.append(former.at(frame));
+      } else if (!same_input(stream.at(frame), former.at(frame))) {
+        stream.replace(frame, former.at(frame));
+        timeline_.recheck(p, frame);
+      }
+      if (is_local(p)) accepted_[p] = frame + 1;
+    }
+  }
+}
+
 Frame ClientCore::final_limit() const {
   Frame limit = PeerCore::final_limit();
   if (told_final_ < limit) limit = told_final_;
@@ -167,8 +185,11 @@ void ClientCore::before_steps(Time now) {
     begin_at(welcome_.start);
   }
   if (!runs_ || is_restoring_) return;
-  if (failover_.election.log_term() < welcome_.term && has_all_until(welcome_.term_start)) {
-    failover_.election.has_log_of(welcome_.term);
+  const bool is_of_host = failover_.election.log_term() == welcome_.term;
+  if (!is_of_host || former_.are_kept()) {
+    const bool has_all = has_all_until(is_of_host ? former_.end() : welcome_.term_start);
+    if (has_all) failover_.election.has_log_of(welcome_.term);
+    if (has_all) former_.forget();
   }
   tend_repair(now);
   if (is_open_) {

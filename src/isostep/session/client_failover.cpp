@@ -50,13 +50,14 @@ bool ClientCore::may_stand() const {
 void ClientCore::seek(Time now, bool knocks) {
   failover_.election.begin(now, knocks && !failover_.roster.machines[failover_.roster.host].address.view().empty());
   failover_.is_elected = false;
+  take_back_former();
   fail(SessionEvent::Kind::seeks_host, SessionPhase::seeking);
   begin_attempt();
 }
 
 void ClientCore::begin_attempt() {
   const int machine = failover_.election.target(failover_.roster, own_machine());
-  failover_.must_support = failover_.must_tell_roster = false;
+  failover_.must_support = failover_.must_tell_roster = failover_.must_call_here = false;
   failover_.must_connect = machine != own_machine() && machine >= 0;
   if (machine >= 0) failover_.target = failover_.roster.machines[machine].address;
 }
@@ -98,7 +99,10 @@ bool ClientCore::go_on(Time now) {
   const bool is_member = config_.migration > 0 && own_machine() >= 0 && may_stand();
   if (host_.is_connected && is_greeted_) return false;
   if (!is_member) return false;
-  if (!failover_.seeks()) failover_.election.begin(now, false);
+  if (!failover_.seeks()) {
+    failover_.election.begin(now, false);
+    take_back_former();
+  }
   failover_.election.force();
   return true;
 }
@@ -192,8 +196,10 @@ void ClientCore::take_call(PeerId peer, Channel channel, Bytes bytes, Time now) 
       caller->hello.assign(bytes.begin(), bytes.end());
       recognise(*caller, hello.value());
     }
+  } else if (kind && kind.value() == MessageKind::farewell) {
+    good = bytes.size() == 1;  // its connection ends
   } else if (kind && failover_.election.has_called() && caller->machine >= 0) {
-    good = take_support(*caller, kind.value(), bytes);
+    good = take_support(*caller, kind.value(), bytes, now);
   }
   if (!good) ++stats_.refused;
 }
@@ -227,6 +233,8 @@ bool ClientCore::take_failover(MessageKind kind, Bytes bytes, Time now) {
     theirs.version = candidate.value().version;
     failover_.candidate = candidate.value();
     failover_.must_tell_roster = failover_.roster.is_newer_than(theirs);
+    failover_.must_call_here = own_machine() >= 0 && may_stand() && !config_.address.view().empty() &&
+                               candidate.value().log_term < failover_.election.log_term();
     failover_.must_support = !failover_.must_tell_roster && own_machine() >= 0 && can_complete(candidate.value()) &&
                              failover_.election.give_support(candidate.value());
     return true;
@@ -252,7 +260,8 @@ std::optional<Outgoing> ClientCore::next_failover_message() {
     write_enrolled(failover_.roster.version, message_);
     return written(host_.peer);
   }
-  if (host_.is_connected && (failover_.must_support || failover_.must_tell_roster)) return next_for_candidate();
+  const bool answers = failover_.must_support || failover_.must_tell_roster || failover_.must_call_here;
+  if (host_.is_connected && answers) return next_for_candidate();
   return next_for_caller();
 }
 
@@ -290,6 +299,11 @@ std::optional<Outgoing> ClientCore::next_for_candidate() {
     write_roster(failover_.roster, message_);
     return written(host_.peer);
   }
+  if (failover_.must_call_here) {
+    failover_.must_call_here = false;
+    write_redirect(config_.address, message_);
+    return written(host_.peer);
+  }
   if (write_missing()) return written(host_.peer);
   failover_.must_support = false;
   Support support;
@@ -306,7 +320,8 @@ std::optional<Outgoing> ClientCore::next_for_caller() {
     if (caller.must_redirect) {
       went(caller);
       hang_up(static_cast<PeerId>(i));
-      write_redirect(failover_.roster.machines[failover_.roster.host].address, message_);
+      const bool is_led = !failover_.seeks();
+      write_redirect(is_led ? failover_.roster.machines[failover_.roster.host].address : failover_.better, message_);
       return written(static_cast<PeerId>(i));
     }
     if (caller.must_tell_roster) {

@@ -54,8 +54,9 @@ void ClientCore::disconnected(PeerId peer, Time now) {
 }
 
 void ClientCore::leave_host() {
-  // A host is told that we do not leave the match: it would count on us as one of those who did.
-  if (host_.is_connected && is_greeted_) farewells_.push_back(host_.peer);
+  // A host is told that we do not leave the match: it would count on us as one of those who did. So is a candidate that
+  // we may have made the host.
+  if (host_.is_connected && (is_greeted_ || failover_.seeks())) farewells_.push_back(host_.peer);
   else if (host_.is_connected) hang_up(host_.peer);
   host_.is_connected = false;
 }
@@ -172,7 +173,9 @@ void ClientCore::take_welcome(const Welcome& welcome, Time now) {
     fail(SessionEvent::Kind::refused, SessionPhase::refused);
     return;
   }
-  keeps_inputs_ = welcome.match == welcome_.match && welcome.snapshot_size == 0;
+  // A machine that is the host again, in a later term, says other things than in the one before.
+  const bool is_same_host = welcome.match == welcome_.match && welcome.term == welcome_.term;
+  keeps_inputs_ = is_same_host && welcome.snapshot_size == 0 && !former_.are_back();
   welcome_ = welcome;
   is_greeted_ = true;
   runs_ = is_open_ = asked_ready_ = must_ready_ = false;
@@ -234,6 +237,11 @@ void ClientCore::hash_known(Frame state, std::uint64_t hash) {
 
 void ClientCore::begin_at(const HashReport& start) {
   const Frame frame = start.frame;
+  if (failover_.election.log_term() != 0 && !keeps_inputs_ && !former_.are_kept()) {
+    Frame ends[kMaxPlayers] = {};
+    for (int p = 0; p < players(); ++p) ends[p] = failover_.has_asked && !is_own(p) ? failover_.ends[p] : final_end(p);
+    former_.keep(streams_, ends);
+  }
   if (is_restoring_) {
     act(RequestKind::restore, frame);
     timeline_.restart(frame);

@@ -35,7 +35,11 @@ void Election::was_turned_away(Time now) {
   if (is_under_way_ && until_ > now + kBrokenOff) until_ = now + kBrokenOff;
 }
 
-void Election::was_sent_on(Time now) { until_ = now + kAttempt; }
+void Election::was_sent_on(Time now) {
+  until_ = now + kAttempt;
+  called_ = 0;
+  quorum_at_ = 0;
+}
 
 void Election::has_new_roster() {
   came_ = over_ = supports_ = 0;
@@ -66,8 +70,8 @@ int Election::target(const Roster& roster, int own) const {
 Election::Step Election::turn(const Roster& roster, int own, bool may_stand, Time now) {
   if (!is_under_way_) return Step::waits;
   const std::uint64_t here = bit(own) | came_;
-  // Of two machines the host alone made frames final: the other never goes on without it.
-  const std::uint64_t over = own == roster.host || std::popcount(roster.voters()) > 2 ? over_ : 0;
+  // Of two machines the one with the casting vote alone made frames final: the other never goes on without it.
+  const std::uint64_t over = own == roster.casting || std::popcount(roster.voters()) > 2 ? over_ : 0;
   if (called_ == 0) {
     const bool is_quorum = may_stand && own >= 0 && (is_forced_ || roster.is_quorum(here, over));
     if (!is_quorum) {

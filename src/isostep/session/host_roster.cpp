@@ -6,12 +6,15 @@
 namespace isostep {
 namespace {
 
+constexpr std::uint8_t kNoCasting = 0xff;  // who had it is not among the machines
+
 bool same_machine(const Roster::Machine& a, const Roster::Machine& b) {
   return a.players == b.players && a.proof == b.proof && a.life == b.life && a.is_in == b.is_in &&
          a.was_in == b.was_in && a.address == b.address;
 }
 bool same_roster(const Roster& a, const Roster& b) {
   if (a.term != b.term || a.count != b.count || a.host != b.host || a.settings != b.settings) return false;
+  if (a.casting != b.casting || a.was_casting != b.was_casting) return false;
   for (int m = 0; m < a.count; ++m) {
     if (!same_machine(a.machines[m], b.machines[m])) return false;
   }
@@ -54,6 +57,10 @@ Roster HostCore::drafted() const {
     machine.was_in = roster_.version == 0 ? machine.is_in : is_same && was_in;
     if (machine.is_in && seat.is_open) machine.address = guest->address;
   }
+  const std::uint64_t caster = roster_.version == 0 ? own.proof : roster_.machines[roster_.casting].proof;
+  const int before = caster == 0 ? -1 : next.machine_of_proof(caster);
+  next.casting = next.host;
+  next.was_casting = before < 0 ? kNoCasting : static_cast<std::uint8_t>(before);
   return next;
 }
 
@@ -147,6 +154,7 @@ void HostCore::reform_roster(std::uint64_t group) {
     const bool stays = m == next.host || (before >= 0 && (group >> before & 1) != 0);
     machine.is_in = machine.was_in = stays;
   }
+  next.casting = next.was_casting = next.host;
   replace_roster(next);
 }
 

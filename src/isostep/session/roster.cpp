@@ -59,17 +59,17 @@ int Roster::count_in() const {
 }
 
 bool Roster::is_majority(std::uint64_t group) const {
-  const auto has_most = [&](bool Machine::*counts) {
+  const auto has_most = [&](bool Machine::*counts, std::uint8_t casting) {
     int all = 0, here = 0;
     for (int m = 0; m < count; ++m) {
       if (!(machines[m].*counts)) continue;
       ++all;
       here += static_cast<int>(group >> m & 1);
     }
-    const bool has_host = (group >> host & 1) != 0 && machines[host].*counts;
-    return 2 * here > all || (2 * here == all && has_host);
+    const bool has_cast = casting < count && (group >> casting & 1) != 0 && machines[casting].*counts;
+    return 2 * here > all || (2 * here == all && has_cast);
   };
-  return count > 0 && has_most(&Machine::is_in) && has_most(&Machine::was_in);
+  return count > 0 && has_most(&Machine::is_in, casting) && has_most(&Machine::was_in, was_casting);
 }
 
 Address read_address(Reader& reader) {
@@ -93,8 +93,7 @@ void write_content(const Roster& roster, Writer& writer) {
   for (const bool is_set : {settings.asks_admission, settings.votes, settings.players_set_tempo, settings.repair}) {
     writer.write(is_set);
   }
-  writer.write(roster.host);
-  writer.write(roster.count);
+  for (const std::uint8_t place : {roster.host, roster.casting, roster.was_casting, roster.count}) writer.write(place);
   for (int m = 0; m < roster.count; ++m) {
     const Roster::Machine& machine = roster.machines[m];
     writer.write(machine.players);
@@ -142,8 +141,7 @@ Result<Roster> read_roster(Bytes message) {
   if (settings.deadline < 0 || settings.deadline > kMostDeadline) {
     reader.fail(ErrorCode::invalid, "a deadline out of range");
   }
-  reader.read(roster.host);
-  reader.read(roster.count);
+  for (std::uint8_t* place : {&roster.host, &roster.casting, &roster.was_casting, &roster.count}) reader.read(*place);
   if (roster.count > kMaxPlayers + 1 || roster.host >= roster.count || roster.version == 0 || roster.term == 0) {
     reader.fail(ErrorCode::invalid, "machines out of range");
   }

@@ -59,6 +59,33 @@ TEST(Roster, OfTwoGroupsApartAtMostOneIsAMajority) {
   EXPECT_TRUE(of(4).is_majority(0b1110));
 }
 
+/// Whoever is elected by a roster is the host, and its vote casts none before a roster of its own has a majority.
+TEST(Roster, AMajorityOfARosterAndOneOfTheNextHaveAMachineInCommon) {
+  constexpr int kCount = 4;
+  constexpr std::uint32_t kAll = (1u << kCount) - 1;
+  for (std::uint32_t in = 1; in <= kAll; ++in) {
+    for (std::uint32_t now_in = 1; now_in <= kAll; ++now_in) {
+      for (std::uint8_t maker = 0; maker < kCount; ++maker) {
+        Roster first = of(kCount), next = of(kCount);
+        first.casting = first.was_casting = first.host = 1;
+        next.casting = next.host = maker;
+        next.was_casting = first.casting;
+        for (int m = 0; m < kCount; ++m) {
+          first.machines[m].is_in = first.machines[m].was_in = next.machines[m].was_in = (in >> m & 1) != 0;
+          next.machines[m].is_in = (now_in >> m & 1) != 0;
+        }
+        Roster elected = first;
+        elected.host = maker;
+        for (std::uint32_t group = 0; group <= kAll; ++group) {
+          const std::uint32_t others = kAll & ~group;
+          EXPECT_FALSE(first.is_majority(group) && elected.is_majority(others)) << in << " " << group;
+          EXPECT_FALSE(first.is_majority(group) && next.is_majority(others)) << in << " " << now_in << " " << group;
+        }
+      }
+    }
+  }
+}
+
 TEST(Roster, ArrivesAsItWasSent) {
   const Roster roster = of(9 < kMaxPlayers + 1 ? 9 : 8);
   std::vector<std::uint8_t> bytes;
@@ -119,6 +146,7 @@ TEST(Roster, ThatCannotBeIsRefused) {
   EXPECT_FALSE(reads([](Roster& r) { r.term = 0; }));
   EXPECT_FALSE(reads([](Roster& r) { r.settings.deadline = kMostDeadline + 1; }));
   EXPECT_FALSE(reads([](Roster& r) { r.host = 3; }));
+  EXPECT_TRUE(reads([](Roster& r) { r.was_casting = 0xff; })) << "it is not among the machines any more";
   EXPECT_FALSE(reads([](Roster& r) { r.machines[1].players = 1; })) << "a player twice";
   EXPECT_FALSE(reads([](Roster& r) { r.machines[1].address = Address("a\nb"); }));
 }
