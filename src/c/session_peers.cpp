@@ -96,6 +96,11 @@ iso_status iso_session_start(iso_session* session, uint64_t now) {
 iso_status iso_session_resync(iso_session* session) {
   return ask_session(session, ISO_C_CALL, kNow, [](CSession& one) { return one.resync(); });
 }
+iso_status iso_session_go_on(iso_session* session, uint64_t now) {
+  return ask_session(session, ISO_C_CALL,
+                     "a match with migration that stands without a majority or its host, and a part in it",
+                     [&](CSession& one) { return one.go_on(now); });
+}
 iso_status iso_session_pause(iso_session* session) {
   return ask_session(session, ISO_C_CALL, kNow, [](CSession& one) { return one.pause(); });
 }

@@ -3093,6 +3093,10 @@ ISO_API iso_status iso_session_get_player_stats(const iso_session* session, int3
 ISO_API iso_status iso_session_start(iso_session* session, uint64_t now);
 /* client: takes a state of the host's, keeps its seat */
 ISO_API iso_status iso_session_resync(iso_session* session);
+/* With migration, where the match stands for lack of a majority, or its host is lost: goes on with those who are here, at
+   this machine. Whoever calls knows that the others play nowhere else: nothing else keeps two matches from becoming of
+   one. ISO_REFUSED: the match goes on without, or this machine has no part in it. */
+ISO_API iso_status iso_session_go_on(iso_session* session, uint64_t now);
 /* The match stands still, or goes on, on all machines before the same frame. A client's is a request to the host. */
 ISO_API iso_status iso_session_pause(iso_session* session);
 ISO_API iso_status iso_session_unpause(iso_session* session);

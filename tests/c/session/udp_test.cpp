@@ -56,6 +56,71 @@ TEST(CUdp, TwoPlayTheSameMatch) {
   EXPECT_EQ(iso_udp_destroy(host_port), ISO_NOT_ALIVE);
 }
 
+/// A machine over UDP whose packets have a key; 0: none.
+struct Keyed {
+  Tally tally;
+  iso_udp* port = nullptr;
+  iso_session* session = nullptr;
+
+  Keyed(std::uint8_t key, const Keyed* host) {
+    iso_udp_settings settings;
+    EXPECT_EQ(iso_udp_settings_init(&settings), ISO_OK);
+    for (const std::uint8_t byte : settings.key) EXPECT_EQ(byte, 0);
+    if (key != 0) settings.key[15] = key;
+    char problem[160] = "";
+    const iso_status opened =
+        host == nullptr
+            ? iso_udp_listen(0, &settings, &port, problem, sizeof problem)
+            : iso_udp_connect("127.0.0.1", iso_udp_port(host->port), &settings, &port, problem, sizeof problem);
+    EXPECT_EQ(opened, ISO_OK) << problem;
+    iso_session_config config = tally_config(ISO_ROLLBACK);
+    config.host = host == nullptr;
+    config.seed = host == nullptr ? 3 : 0;
+    const iso_game game = tally.describe(false);
+    EXPECT_EQ(iso_session_create(&config, &game, nullptr, 0, &session), ISO_OK) << iso_last_error();
+  }
+  Keyed(const Keyed&) = delete;
+  ~Keyed() {
+    EXPECT_EQ(iso_udp_destroy(port), ISO_OK);
+    EXPECT_EQ(iso_session_destroy(session), ISO_OK);
+  }
+  void turn(std::uint64_t now) {
+    const std::uint8_t what = 1;
+    EXPECT_EQ(iso_udp_deliver(port, session, now), ISO_OK);
+    iso_session_add_local_input(session, iso_session_local_player(session), &what, 1);
+    EXPECT_EQ(iso_session_drive(session, now, nullptr), ISO_OK);
+    EXPECT_EQ(iso_udp_dispatch(port, session, now), ISO_OK);
+  }
+  iso_udp_statistics statistics() const {
+    iso_udp_statistics statistics{};
+    statistics.size = sizeof statistics;
+    EXPECT_EQ(iso_udp_get_statistics(port, &statistics), ISO_OK);
+    return statistics;
+  }
+};
+
+TEST(CUdp, WhoHasAnotherKeyOrNoneIsNoPeer) {
+  for (const std::uint8_t key : {7, 0}) {
+    Keyed host(key, nullptr), stranger(9, &host), keyless(key == 0 ? 8 : 0, &host), client(key, &host);
+    std::uint64_t now = 0;
+    for (; client.tally.hashes.size() < 100 || stranger.statistics().packets_sent < 3; now += 1000) {
+      ASSERT_LT(now, 600000000u);
+      for (Keyed* one : {&host, &stranger, &keyless, &client}) one->turn(now);
+      ASSERT_EQ(iso_udp_wait(client.port, 1000), ISO_OK);
+    }
+    for (Keyed* one : {&stranger, &keyless}) {
+      EXPECT_EQ(iso_session_phase(one->session), ISO_WAITING) << int{key};
+      EXPECT_TRUE(one->tally.hashes.empty());
+      EXPECT_EQ(one->statistics().packets_received, 0u) << "who lacks the key is not answered";
+    }
+    EXPECT_GE(host.statistics().implausible, 4u);
+    iso_session_stats stats{};
+    stats.size = sizeof stats;
+    ASSERT_EQ(iso_session_get_stats(host.session, &stats), ISO_OK);
+    EXPECT_EQ(stats.peers, 1);
+  }
+}
+
 TEST(CUdp, WhatCannotBeOpenedSaysWhy) {
   iso_udp* port = nullptr;
   char problem[160] = "";

@@ -637,6 +637,13 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_session_resync(IntPtr session);
 
+        /// <summary>With migration, where the match stands for lack of a majority, or its host is lost: goes on with
+        /// those who are here, at this machine. Whoever calls knows that the others play nowhere else: nothing else
+        /// keeps two matches from becoming of one. ISO_REFUSED: the match goes on without, or this machine has no part
+        /// in it.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_session_go_on(IntPtr session, ulong now);
+
         /// <summary>The match stands still, or goes on, on all machines before the same frame. A client's is a request
         /// to the host.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]

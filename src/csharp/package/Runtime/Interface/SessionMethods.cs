@@ -106,6 +106,15 @@ namespace Isostep
             Check(Native.iso_session_resync(Pointer));
         }
 
+        /// <summary>With migration, where the match stands for lack of a majority, or its host is lost: goes on with
+        /// those who are here, at this machine. Whoever calls knows that the others play nowhere else: nothing else
+        /// keeps two matches from becoming of one. ISO_REFUSED: the match goes on without, or this machine has no part
+        /// in it.</summary>
+        public void GoOn(ulong now)
+        {
+            Check(Native.iso_session_go_on(Pointer, now));
+        }
+
         /// <summary>The match stands still, or goes on, on all machines before the same frame. A client's is a request
         /// to the host.</summary>
         public void Pause()
