@@ -111,6 +111,7 @@ class Writer {
       comment(member);
       return line("public Float" + count + " " + name + ";");
     }
+    if (member.kind == "u8" && made_.sized) return write_bytes(member, name, hidden);
     comment(member);
     if (is_plain) return line("public fixed " + type + " " + name + "[" + count + "];");
     for (int i = 0; i < member.count; ++i) line("public " + type + " " + name + std::to_string(i) + ";");
@@ -125,7 +126,26 @@ class Writer {
     line("    if ((uint)index >= " + count + ") throw new ArgumentOutOfRangeException(\"index\");");
     line("    fixed (" + type + "* first = &" + name + "0) first[index] = value;");
     line("}");
-    (void)hidden;
+  }
+
+  /// Bytes of which another member says how many count, or that all count.
+  void write_bytes(const Member& member, const std::string& name, const std::string& hidden) {
+    bool has_size = false;
+    for (const Member& other : made_.members) has_size = has_size || other.name == member.name + "_size";
+    const std::string count = std::to_string(member.count);
+    line("private fixed byte " + hidden + "[" + count + "];");
+    comment(member);
+    line("public byte[] " + name);
+    line("{");
+    line("    get { fixed (byte* at = " + hidden + ") return NativeText.Copy(at, (UIntPtr)" +
+         (has_size ? "Math.Min(" + name + "Size, " + count + "u)" : count) + "); }");
+    line("    set");
+    line("    {");
+    line("        fixed (byte* at = " + hidden + ")");
+    line("            " + (has_size ? name + "Size = " : "") + "NativeText.Put(value, at, " + (has_size ? "0" : count) +
+         ", " + count + ", \"" + name + "\");");
+    line("    }");
+    line("}");
   }
 
   void write_size(const std::string& name) {

@@ -42,6 +42,16 @@ namespace Isostep
             return result;
         }
 
+        /// <summary>Into `most` bytes, zeros behind them; how many. Null is none.</summary>
+        internal static uint Put(byte[] bytes, byte* to, int least, int most, string name)
+        {
+            int size = bytes == null ? 0 : bytes.Length;
+            if (size < least || size > most)
+                throw new ArgumentException((least == most ? "" : least + " to ") + most + " bytes", name);
+            for (int i = 0; i < most; ++i) to[i] = i < size ? bytes[i] : (byte)0;
+            return (uint)size;
+        }
+
         internal static UIntPtr Length(Array array) => (UIntPtr)(array == null ? 0 : array.Length);
     }
 }

@@ -525,8 +525,17 @@ namespace Isostep
         public int Seat;
         /// <summary>[bytes]</summary>
         public uint CredentialSize;
+        private fixed byte credential[256];
         /// <summary>Client: for the host's game</summary>
-        public fixed byte Credential[256];
+        public byte[] Credential
+        {
+            get { fixed (byte* at = credential) return NativeText.Copy(at, (UIntPtr)Math.Min(CredentialSize, 256u)); }
+            set
+            {
+                fixed (byte* at = credential)
+                    CredentialSize = NativeText.Put(value, at, 0, 256, "Credential");
+            }
+        }
         private fixed byte address[72];
         /// <summary>Where the others' transports reach ours, at most 64 characters: iso_session_poll_connect</summary>
         public string Address
@@ -558,8 +567,17 @@ namespace Isostep
         public Predictor Predictor;
         /// <summary>[bytes] input_least to input_cap</summary>
         public uint NeutralSize;
+        private fixed byte neutral[512];
         /// <summary>What is played for who is not there</summary>
-        public fixed byte Neutral[512];
+        public byte[] Neutral
+        {
+            get { fixed (byte* at = neutral) return NativeText.Copy(at, (UIntPtr)Math.Min(NeutralSize, 512u)); }
+            set
+            {
+                fixed (byte* at = neutral)
+                    NeutralSize = NativeText.Put(value, at, 0, 512, "Neutral");
+            }
+        }
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static SessionConfig Sized()
@@ -819,7 +837,16 @@ namespace Isostep
         /// <summary>[bytes]</summary>
         public uint CredentialSize;
         private fixed byte reserved2[4];
-        public fixed byte Credential[256];
+        private fixed byte credential[256];
+        public byte[] Credential
+        {
+            get { fixed (byte* at = credential) return NativeText.Copy(at, (UIntPtr)Math.Min(CredentialSize, 256u)); }
+            set
+            {
+                fixed (byte* at = credential)
+                    CredentialSize = NativeText.Put(value, at, 0, 256, "Credential");
+            }
+        }
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static Applicant Sized()
@@ -854,9 +881,18 @@ namespace Isostep
             get { fixed (byte* at = bindAddress) return NativeText.Read(at, 72); }
             set { fixed (byte* at = bindAddress) NativeText.Write(value, at, 72, "BindAddress"); }
         }
+        private fixed byte key[16];
         /// <summary>Random bytes that all machines of the match have and nobody else; all zeros: there is
         /// none</summary>
-        public fixed byte Key[16];
+        public byte[] Key
+        {
+            get { fixed (byte* at = key) return NativeText.Copy(at, (UIntPtr)16); }
+            set
+            {
+                fixed (byte* at = key)
+                    NativeText.Put(value, at, 16, 16, "Key");
+            }
+        }
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static UdpSettings Sized()

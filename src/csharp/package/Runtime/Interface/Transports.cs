@@ -17,29 +17,35 @@ namespace Isostep
         protected override void Destroy(IntPtr handle) => IsostepException.Check(Native.iso_network_destroy(handle));
     }
 
-    /// <summary>UDP, by ENet, in a library of its own: libisostep_udp. Not secret.</summary>
+    /// <summary>UDP, by ENet, in a library of its own: libisostep_udp. Not secret; UdpSettings.Key keeps out who lacks
+    /// it.</summary>
     public sealed unsafe partial class UdpTransport : Handle
     {
         private UdpTransport(IntPtr made) { Pointer = made; }
 
         /// <summary>Accepts connections; port 0 lets the system choose, see Port.</summary>
-        public static UdpTransport Listen(ushort port)
+        public static UdpTransport Listen(ushort port) => Listen(port, UdpSettings.Default);
+
+        public static UdpTransport Listen(ushort port, UdpSettings settings)
         {
             IntPtr made;
             byte[] problem = new byte[256];
             fixed (byte* at = problem)
-                Check(Native.iso_udp_listen(port, null, &made, at, NativeText.Length(problem)), problem);
+                Check(Native.iso_udp_listen(port, &settings, &made, at, NativeText.Length(problem)), problem);
             return new UdpTransport(made);
         }
 
         /// <summary>Connects to one host. A name is looked up at once, which may block.</summary>
-        public static UdpTransport Connect(string address, ushort port)
+        public static UdpTransport Connect(string address, ushort port) => Connect(address, port, UdpSettings.Default);
+
+        public static UdpTransport Connect(string address, ushort port, UdpSettings settings)
         {
             IntPtr made;
             byte[] problem = new byte[256];
             fixed (byte* at = problem)
             fixed (byte* addressAt = NativeText.Bytes(address))
-                Check(Native.iso_udp_connect(addressAt, port, null, &made, at, NativeText.Length(problem)), problem);
+                Check(Native.iso_udp_connect(addressAt, port, &settings, &made, at, NativeText.Length(problem)),
+                    problem);
             return new UdpTransport(made);
         }
 
