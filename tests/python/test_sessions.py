@@ -152,5 +152,78 @@ class Matches(unittest.TestCase):
             session.drive(0)
 
 
+class Summing(isostep.Game):
+    """No world: a sum of all inputs."""
+
+    def __init__(self):
+        super().__init__(block_size=8)
+        self.finals = 0
+
+    def step(self, inputs):
+        total = struct.unpack_from("<q", self.state)[0]
+        struct.pack_into("<q", self.state, 0, (3 * total + 1 + sum(one.bytes[0] for one in inputs)) % 2**62)
+
+    def confirmed(self, frame, hash):
+        self.finals += 1
+
+
+class Standing:
+    """Machines with migration, whose host is machine 0; those that are silent take no turns."""
+
+    def __init__(self, mode, machines):
+        self.now, self.silent = 0, set()
+        self.network = isostep.Network(5)
+        self.peers = [isostep.Session(Summing(), mode=mode, host=n == 0, players=machines, seed=3 + n, name="sum",
+                                      input_text="what", migration=1_000_000, address=str(n)) for n in range(machines)]
+        for _ in range(1, machines):
+            self.network.add_client("latency=20")
+
+    def go_away(self, who):
+        self.silent.add(who)
+        self.network.call("set_silent", who, True)
+
+    def play(self, seconds):
+        end = self.now + seconds * 1_000_000
+        while self.now < end:
+            self.network.call("advance_to", self.now)
+            for who, peer in enumerate(self.peers):
+                if who in self.silent:
+                    continue
+                self.network.call("deliver", who, peer, self.now)
+                player = peer.call("local_player")
+                if peer.phase == "playing" and player >= 0:
+                    peer.add_input(player, bytes([peer.current // 7 % 3]))
+                peer.drive(self.now)
+                self.network.call("dispatch", who, peer, self.now)
+            self.now += 4000
+
+
+class GoOn(unittest.TestCase):
+    def check(self, mode, machines, left):
+        match = Standing(mode, machines)
+        peer = match.peers[left]
+        match.play(6)
+        self.assertGreater(peer.game.finals, 200)
+        with self.assertRaises(isostep.Error, msg="all are here"):
+            peer.go_on(match.now)
+        for who in set(range(machines)) - {left}:
+            match.go_away(who)
+        match.play(4)
+        stood = peer.game.finals
+        match.play(20)
+        self.assertEqual(peer.game.finals, stood, "the others may play elsewhere")
+        peer.go_on(match.now)
+        match.play(5)
+        self.assertGreater(peer.game.finals, stood + 200)
+        with self.assertRaises(isostep.Error, msg="it goes on"):
+            peer.go_on(match.now)
+
+    def test_a_match_that_stands_goes_on_with_those_who_are_here(self):
+        for mode in ("lockstep", "rollback"):
+            for machines, left in ((2, 1), (3, 0)):
+                with self.subTest(mode=mode, machines=machines):
+                    self.check(mode, machines, left)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -145,6 +145,12 @@ class Session(Handle):
                 return
             yield out.peer, out.channel, ctypes.string_at(address, out.length) if out.length else b"", bool(out.close)
 
+    def go_on(self, now):
+        """With `migration`, where the match stands for lack of a majority, or its host is lost: goes on with those who
+        are here, at this machine. Whoever calls knows that the others play nowhere else: nothing else keeps two matches
+        from becoming of one. Error: the match goes on without, or this machine has no part in it."""
+        self.call("go_on", now)
+
     def flush_recording(self, kind):
         """What is new of the file of a recording, "match" or "world", with all final frames so far: appended to a file
         it survives a crash. `call("record", kind, None)` begins one and `call("recorded", kind)` ends it: the whole."""
