@@ -1,12 +1,15 @@
-// The native half of transports_test.mjs: the host of the game over UDP. Its argument is the number of frames.
+// The native half of transports_test.mjs: the host of the game over UDP. Its arguments are the number of frames, and
+// EnetSettings::key in 32 digits or none.
 // SPDX-License-Identifier: MIT
 //
 // Prints the input's schema and its port, then frame and hash of each final frame up to FRAMES; ends with its input.
 #include <poll.h>
 
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 #include "match/pucks.hpp"
 #include "transport/enet_transport.hpp"
@@ -29,12 +32,22 @@ bool input_has_ended() {
   pollfd input{0, POLLIN, 0};
   return ::poll(&input, 1, 0) > 0;
 }
+bool read_key(std::string_view digits, iso::transport::PacketKey& key) {
+  if (digits.size() != 2 * key.size()) return false;
+  for (std::size_t i = 0; i < key.size(); ++i) {
+    const char* const at = digits.data() + 2 * i;
+    if (std::from_chars(at, at + 2, key[i], 16).ptr != at + 2) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
 int main(int count, char** words) {
-  if (count != 2) return 64;
-  auto opened = iso::transport::EnetTransport::listen(0, {.timeout = 60 * iso::kSecond});
+  if (count != 2 && count != 3) return 64;
+  iso::transport::EnetSettings settings{.timeout = 60 * iso::kSecond};
+  if (count == 3 && !read_key(words[2], settings.key)) return 64;
+  auto opened = iso::transport::EnetTransport::listen(0, settings);
   if (!opened) return 1;
   iso::transport::EnetTransport& transport = opened.value();
   Game game;

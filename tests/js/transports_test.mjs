@@ -7,10 +7,11 @@
 import {spawn} from 'node:child_process';
 import {createInterface} from 'node:readline';
 
-import {check, done, equal, packaged} from './checks.mjs';
+import {check, done, equal, packaged, throws} from './checks.mjs';
 import {createPucks, kConfig, pushOf} from './pucks.mjs';
 
 const kFrames = 200;
+const kKey = Uint8Array.from({length: 16}, (_, i) => 3 + 17 * i);
 const [, , , program, scalar] = process.argv;
 const {deliver, dispatch, load} = await packaged('isostep');
 const {WebSocketTransport} = await packaged('isostep/websocket');
@@ -105,11 +106,15 @@ async function dataChannels() {
 }
 
 /** The native host prints its schema and port, then final hashes, and ends after its frames. */
-async function native(connect, what) {
-  const host = spawn(program, [String(kFrames)], {stdio: ['pipe', 'pipe', 'inherit']});
+async function native(connect, what, key) {
+  const words = key === undefined ? [] : [Buffer.from(key).toString('hex')];
+  const host = spawn(program, [String(kFrames), ...words], {stdio: ['pipe', 'pipe', 'inherit']});
   const lines = createInterface({input: host.stdout})[Symbol.asyncIterator]();
   const [schema, port] = (await lines.next()).value.split(' ');
-  const {transport, close} = await connect(`127.0.0.1:${port}`);
+  const address = `127.0.0.1:${port}`;
+  const strangers = [{key: kKey.map(byte => byte ^ 1)}, ...(key === undefined ? [] : [{}])]
+    .map(options => EnetTransport.connect(address, options));
+  const {transport, close} = await connect(address, key);
   let ended = false;
   const there = new Map();
   const reading = (async () => {
@@ -121,17 +126,23 @@ async function native(connect, what) {
   })();
   const here = await play(transport, {inputSchema: BigInt(schema)}, session => ended && session.confirmed >= kFrames);
   compare(here, there, what);
+  for (const stranger of strangers) {
+    for (let arrival; (arrival = stranger.receive()) !== null;) {
+      check(arrival.kind === 'disconnected', `${what}: who lacks the key hears ${arrival.kind}`);
+    }
+    stranger.close();
+  }
   host.stdin.end();
   await reading;
   close();
 }
-const direct = async address => {
-  const transport = EnetTransport.connect(address);
+const direct = async (address, key) => {
+  const transport = EnetTransport.connect(address, {key});
   return {transport, close: () => transport.close()};
 };
-const bridged = async address => {
+const bridged = async (address, key) => {
   const server = await serverOf();
-  const between = bridge(WebSocketTransport.listen(server), address);
+  const between = bridge(WebSocketTransport.listen(server), address, {key});
   const transport = WebSocketTransport.connect(addressOf(server), {WebSocket});
   return {transport, close() {
     transport.close();
@@ -144,5 +155,8 @@ await webSockets();
 await dataChannels();
 await native(direct, 'UDP');
 await native(bridged, 'WebSocket and bridge');
+await native(direct, 'UDP with a key', kKey);
+await native(bridged, 'bridge with a key', kKey);
+throws(() => EnetTransport.connect('127.0.0.1:9', {key: kKey.slice(1)}), {message: /15 bytes/}, 'a key that is none');
 check(iso.memorySize > 0, 'the engine lives');
-done(`${kFrames} frames each over WebSockets, data channels, UDP, and by the bridge are equal on both sides`);
+done(`${kFrames} frames each over WebSockets, data channels, UDP, and by the bridge are equal on both sides, with keys too`);

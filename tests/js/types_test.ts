@@ -33,8 +33,10 @@ export async function uses() {
   const session = iso.createSession({preset: 'fighting', players: 2, name: 'game', neutral: Uint8Array.of(0)}, game);
   const transport = WebSocketTransport.listen(new WebSocketServer({port: 1}));
   deliver(transport, session, 0);
-  dispatch(EnetTransport.connect('127.0.0.1:1'), session, 0);
-  bridge(transport, '127.0.0.1:1').close();
+  dispatch(EnetTransport.connect('127.0.0.1:1', {key: new Uint8Array(16)}), session, 0);
+  bridge(transport, '127.0.0.1:1', {key: new Uint8Array(16)}).close();
+  const goesOn: boolean = session.goOn(0);
+  if (goesOn) bridge(transport, '127.0.0.1:1').close();
   await connectBySocket(new RTCPeerConnection(), new WebSocket('ws://127.0.0.1:1'), true);
   new DataChannelTransport().attach(new RTCPeerConnection(), false);
   session.receive(0, Channel.reliable, new Uint8Array(), 0);

@@ -191,6 +191,12 @@ export class Session extends Handle {
 
   start(now) { return this.#try('iso_session_start', time(now)); }
   resync() { return this.#try('iso_session_resync'); }
+  /**
+   * With `migration`, where the match stands for lack of a majority, or its host is lost: goes on with those who are
+   * here, at this machine. Whoever calls knows that the others play nowhere else: nothing else keeps two matches from
+   * becoming of one.
+   */
+  goOn(now) { return this.#try('iso_session_go_on', time(now)); }
   pause() { return this.#try('iso_session_pause'); }
   unpause() { return this.#try('iso_session_unpause'); }
   /** [1/8 of the match's rate] 4 to 16. */

@@ -333,6 +333,8 @@ export interface Session extends Owned {
 
   start(now: number): boolean;
   resync(): boolean;
+  /** With `migration`: a match that stands goes on with those who are here, if the others play nowhere else. */
+  goOn(now: number): boolean;
   pause(): boolean;
   unpause(): boolean;
   setSpeed(eighths: number): boolean;

@@ -84,5 +84,7 @@ export class EnetTransport implements Transport {
   close(): void;
 }
 
-/** In Node alone: clients of `listener` play with the native host at `address`, each by a connection of its own. */
-export function bridge(listener: WebSocketTransport | DataChannelTransport, address: string): {close(): void};
+/** In Node alone: clients of `listener` play with the native host at `address`, each by a connection of its own. key:
+ * the host's EnetSettings::key, 16 bytes. */
+export function bridge(listener: WebSocketTransport | DataChannelTransport, address: string,
+  options?: {key?: Uint8Array}): {close(): void};

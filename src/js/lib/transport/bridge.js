@@ -9,11 +9,11 @@ import {EnetTransport} from './enet.js';
 
 /**
  * Passes messages between the clients of `listener`, a WebSocketTransport or DataChannelTransport that others connect
- * to, and the native host at "127.0.0.1:41873". Ends with close(). The host lets so many peers come from one address:
- * EnetSettings::max_peers_an_address, 16 unless told.
+ * to, and the native host at "127.0.0.1:41873". Ends with close(). key: the host's EnetSettings::key, 16 bytes. The host
+ * lets so many peers come from one address: EnetSettings::max_peers_an_address, 16 unless told.
  */
-export function bridge(listener, address) {
-  const host = new EnetTransport({maxPeers: listener.arrivals.maxPeers});
+export function bridge(listener, address, {key} = {}) {
+  const host = new EnetTransport({maxPeers: listener.arrivals.maxPeers, key});
   const there = new Map(), here = new Map();  // peers of one side by those of the other
   const early = new Map();  // reliable messages of clients whose connection there is not yet open
   const part = (client, peer) => {
