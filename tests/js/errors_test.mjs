@@ -56,7 +56,8 @@ for (const scalar of scalars) {
   throws(() => iso.createHull([[0, 0, 0], [1, 0, 0]]), {}, `${scalar}: a hull of two points`);
   throws(() => iso.createHeightField({columns: 2, rows: 2, pitch: 1, heights: [1]}),
     {field: 'heights'}, `${scalar}: a field`);
-  equal(iso.verifyReplay(new Uint8Array(10)).outcome, 'corrupt', `${scalar}: rubbish as a replay`);
+  equal(iso.verifyReplay(new Uint8Array(10).fill(7)).outcome, 'corrupt', `${scalar}: rubbish as a replay`);
+  equal(iso.verifyReplay(new Uint8Array(10)).outcome, 'truncated', `${scalar}: zeros, as a power failure leaves them`);
 
   // Sessions and states.
   const game = createPucks(iso);

@@ -159,4 +159,4 @@ await native(direct, 'UDP with a key', kKey);
 await native(bridged, 'bridge with a key', kKey);
 throws(() => EnetTransport.connect('127.0.0.1:9', {key: kKey.slice(1)}), {message: /15 bytes/}, 'a key that is none');
 check(iso.memorySize > 0, 'the engine lives');
-done(`${kFrames} frames each over WebSockets, data channels, UDP, and by the bridge are equal on both sides, with keys too`);
+done(`${kFrames} frames each over WebSockets, data channels, UDP, and bridge are equal on both sides, keyed too`);

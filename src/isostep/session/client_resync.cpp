@@ -93,7 +93,7 @@ void ClientCore::tend_repair(Time now) {
 }
 
 void ClientCore::finish_repair(std::uint64_t hash) {
-  const HashReport start = repair_.offer.start;
+  const HashReport& start = repair_.offer.start;
   if (hash != repair_.offer.hash) {
     restored(false);
     return;

@@ -68,10 +68,9 @@ struct Keyed {
     for (const std::uint8_t byte : settings.key) EXPECT_EQ(byte, 0);
     if (key != 0) settings.key[15] = key;
     char problem[160] = "";
-    const iso_status opened =
-        host == nullptr
-            ? iso_udp_listen(0, &settings, &port, problem, sizeof problem)
-            : iso_udp_connect("127.0.0.1", iso_udp_port(host->port), &settings, &port, problem, sizeof problem);
+    const iso_status opened = host == nullptr ? iso_udp_listen(0, &settings, &port, problem, sizeof problem)
+                                              : iso_udp_connect("127.0.0.1", iso_udp_port(host->port), &settings, &port,
+                                                                problem, sizeof problem);
     EXPECT_EQ(opened, ISO_OK) << problem;
     iso_session_config config = tally_config(ISO_ROLLBACK);
     config.host = host == nullptr;
