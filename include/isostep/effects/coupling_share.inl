@@ -10,7 +10,7 @@ namespace isostep {
 
 namespace detail {
 /// Rounds over a body's touches.
-inline constexpr int kRounds = 6;
+inline constexpr int kShareRounds = 6;
 /// [m/s] errors below are left to the particles.
 template <class S> inline constexpr S kGoodSpeed = S(0.001);
 /// [1] of the number of touches on a body: see share.
@@ -124,7 +124,7 @@ template <class S> void ParticleCoupling<S>::solve(Met& met, Motion& motion, boo
     give(touching, motion, touching.missing, answer, gives);
   }
   if (together == 1 && met.first_touch == met.last_touch) return;
-  for (int round = 0; round < detail::kRounds; ++round) {
+  for (int round = 0; round < detail::kShareRounds; ++round) {
     S most = S(0);
     for (std::uint32_t i = met.first_touch; i != kNone; i = touching_[i].next) {
       Touching& touching = touching_[i];

@@ -188,21 +188,22 @@ void RelayCore::before_steps(Time now) {
 }
 
 void RelayCore::tend(Leaf& leaf, Time now) {
-  using Stage = Leaf::Stage;
-  if (leaf.stage == Stage::applies || leaf.stage == Stage::needs_snapshot) leaf.heard = now;  // it waits for us
+  using LeafStage = Leaf::Stage;
+  if (leaf.stage == LeafStage::applies || leaf.stage == LeafStage::needs_snapshot) leaf.heard = now;  // it waits for us
   if (now - leaf.heard > config_.silence) leaf.must_close = true;
   if (!is_settled_in()) return;
-  if (leaf.stage == Stage::applies) let_in(leaf);
-  if (leaf.stage != Stage::live && leaf.stage != Stage::receives_snapshot && leaf.stage != Stage::needs_snapshot)
+  if (leaf.stage == LeafStage::applies) let_in(leaf);
+  if (leaf.stage != LeafStage::live && leaf.stage != LeafStage::receives_snapshot &&
+      leaf.stage != LeafStage::needs_snapshot)
     return;
   if (leaf.match != match()) leaf.must_close = true;  // we serve another match now: it greets again
   bool lags = false;                                  // inputs that it lacks have fallen out of the log
   for (int p = 0; p < players(); ++p) {
-    const Frame lacks = leaf.stage == Stage::live ? leaf.acked[p] : leaf.start.frame;
+    const Frame lacks = leaf.stage == LeafStage::live ? leaf.acked[p] : leaf.start.frame;
     lags = lags || lacks < streams_[static_cast<std::size_t>(p)].begin();
   }
-  if (leaf.stage == Stage::needs_snapshot) return;
-  if (leaf.stage == Stage::receives_snapshot) {
+  if (leaf.stage == LeafStage::needs_snapshot) return;
+  if (leaf.stage == LeafStage::receives_snapshot) {
     leaf.must_close = leaf.must_close || lags;
     return;
   }

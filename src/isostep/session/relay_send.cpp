@@ -117,8 +117,8 @@ void RelayCore::write_welcome_of(Leaf& leaf) {
 }
 
 std::optional<Outgoing> RelayCore::next_message(Leaf& leaf, Time now) {
-  using Stage = Leaf::Stage;
-  if (leaf.stage == Stage::refused && !leaf.must_close) {
+  using LeafStage = Leaf::Stage;
+  if (leaf.stage == LeafStage::refused && !leaf.must_close) {
     leaf.must_close = true;
     write_refusal(leaf.refusal, message_);
     return message_to(leaf);
@@ -128,13 +128,13 @@ std::optional<Outgoing> RelayCore::next_message(Leaf& leaf, Time now) {
     clear(leaf);
     return Outgoing{peer, Channel::reliable, {}, true};
   }
-  const bool receives = leaf.stage == Stage::receives_snapshot;
+  const bool receives = leaf.stage == LeafStage::receives_snapshot;
   if (receives && awaits_capture()) return std::nullopt;
   if (receives && snapshot_bytes_.empty()) {  // the game has no portable form
     refuse_leaf(leaf, "snapshot", "needed", "none");
     return next_message(leaf, now);
   }
-  if (leaf.must_welcome && (receives || leaf.stage == Stage::live)) {
+  if (leaf.must_welcome && (receives || leaf.stage == LeafStage::live)) {
     write_welcome_of(leaf);
     return message_to(leaf);
   }
