@@ -1,9 +1,27 @@
 # cmake -DTOOL= -DREPLAYS= -P portable.cmake: every scene of the goldens, in its scalar, is saved, loaded, written and
-# rebuilt early, halfway and late, and goes on as it would have.
+# rebuilt early, halfway and late, and goes on as it would have. Without ISOSTEP_WHOLE=1 a scene is tried in one scalar,
+# each scene in the next.
 file(STRINGS ${REPLAYS}/goldens.txt goldens)
 list(LENGTH goldens count)
 if(count LESS 100)
   message(FATAL_ERROR "${count} goldens")
+endif()
+if(NOT "$ENV{ISOSTEP_WHOLE}" STREQUAL "1")
+  set(sample "")
+  list(TRANSFORM goldens REPLACE " .*" "" OUTPUT_VARIABLE scenes)
+  list(REMOVE_DUPLICATES scenes)
+  set(turn 0)
+  foreach(scene ${scenes})
+    set(its ${goldens})
+    list(FILTER its INCLUDE REGEX "^${scene} ")
+    list(LENGTH its scalars)
+    math(EXPR at "${turn} % ${scalars}")
+    list(GET its ${at} golden)
+    list(APPEND sample "${golden}")
+    math(EXPR turn "${turn} + 1")
+  endforeach()
+  set(goldens ${sample})
+  list(LENGTH goldens count)
 endif()
 foreach(golden ${goldens})
   string(REGEX MATCH "^([^ ]+) ([^ ]+) ([0-9]+) " parts ${golden})

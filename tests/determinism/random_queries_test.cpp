@@ -3,13 +3,15 @@
 #include "examples/thread_pool.hpp"
 #include "random/questions.hpp"
 #include "random/world.hpp"
+#include "sample.hpp"
 
 namespace isostep::test {
 namespace {
 
 template <class S> class RandomWorldAnswers : public ::testing::Test {
  protected:
-  static constexpr std::uint64_t kFrames = 90, kSeeds = 18, kEvery = 9;
+  static constexpr std::uint64_t kFrames = 90, kEvery = 9;
+  const std::uint64_t kSeeds = sampled(18u, 6u);
 
   /// The world that was never interrupted is asked too: a question must not change what follows.
   struct Life {

@@ -4,6 +4,7 @@
 #include "determinism/solver_cases.hpp"
 #include "examples/thread_pool.hpp"
 #include "random/world.hpp"
+#include "sample.hpp"
 
 namespace isostep::test {
 namespace {
@@ -12,7 +13,8 @@ template <class Case> class RandomWorldFutures : public ::testing::Test {
  protected:
   using Scalar = std::tuple_element_t<0, Case>;
   static constexpr SolverName kSolver = std::tuple_element_t<1, Case>::value;
-  static constexpr std::uint64_t kFrames = 90, kSeeds = kSolver == SolverName::direct ? 3 : 8;
+  static constexpr std::uint64_t kFrames = 90;
+  const std::uint64_t kSeeds = kSolver == SolverName::direct ? sampled(3u, 1u) : sampled(8u, 3u);
 
   static std::uint64_t play(World<Scalar>& w, std::uint64_t seed, std::uint64_t frame) {
     RandomWorld<Scalar>::command(w, seed, frame);

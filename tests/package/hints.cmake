@@ -16,10 +16,15 @@ function(expect_one_error text)
   endif()
 endfunction()
 
-# An older standard, whichever header comes first.
+# An older standard, whichever header comes first; in a sample, every fourth.
 file(GLOB_RECURSE headers RELATIVE ${SOURCE}/include ${SOURCE}/include/*.hpp)
 file(GLOB_RECURSE scalar_headers RELATIVE ${SOURCE}/scalar/include ${SOURCE}/scalar/include/*.hpp)
+set(turn 0)
 foreach(header ${headers} ${scalar_headers})
+  math(EXPR turn "(${turn} + 1) % 4")
+  if(NOT turn EQUAL 0 AND NOT "$ENV{ISOSTEP_WHOLE}" STREQUAL "1")
+    continue()
+  endif()
   if(header MATCHES "eigen|lanes_(sse2|avx|neon|wasm)")  # which begin with a library's or a processor's own
     continue()
   endif()

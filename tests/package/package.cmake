@@ -23,6 +23,9 @@ else()
   list(APPEND options -DISOSTEP_SOURCE=${SOURCE} -DISOSTEP_SCALARS=Q32_32 -DISOSTEP_SIMD=OFF -DISOSTEP_TRANSPORT=ON
     -DISOSTEP_THREADS=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_FLAGS=-O0)
 endif()
+if("$ENV{ISOSTEP_WHOLE}" STREQUAL "1")
+  list(APPEND options -DOWN_SCALAR=ON)  # which instantiates the engine once more
+endif()
 run(${CMAKE_COMMAND} -S ${SOURCE}/tests/package/game -B ${WORK}/build ${options})
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
 
@@ -33,7 +36,7 @@ run(${WORK}/build/own_workers)
 if(EXISTS ${WORK}/build/own_seal)
   run(${WORK}/build/own_seal)
 endif()
-if(MODE STREQUAL "installed")
+if(MODE STREQUAL "installed" AND "$ENV{ISOSTEP_WHOLE}" STREQUAL "1")
   run(${WORK}/build/own_scalar)
   message("${output}")
 endif()

@@ -9,9 +9,12 @@
 #include "isostep/core/random.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/world/world.hpp"
+#include "sample.hpp"
 
 namespace isostep {
 namespace {
+
+using test::sampled;
 
 using TrappingQ16 = Fixed<std::int32_t, 16, Overflow::trap>;
 using TrappingQ32 = Fixed<std::int64_t, 32, Overflow::trap>;
@@ -77,11 +80,11 @@ TYPED_TEST(RangeContract, APileOfEveryShapeSettles) {
   this->floor();
   const ShapeId shapes[3] = {this->world.add_shape(Box{{0.25, 0.375, 0.5}}), this->world.add_shape(Sphere{0.25}),
                              this->world.add_shape(Capsule{0.25, 0.25})};
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0, bodies = sampled(60, 24); i < bodies; ++i) {
     const S x = S(i % 4) * S(0.75) + S(i % 3) * S(0.0625), z = S(i / 4 % 4) * S(0.75);
     this->add(shapes[i % 3], {x, S(1 + i / 16), z}, S(1 + i % 5));
   }
-  this->step(240);
+  this->step(sampled(240, 120));
 }
 
 TYPED_TEST(RangeContract, MassesAtTheRatioLimitPress) {
@@ -238,7 +241,7 @@ TYPED_TEST(RangeContract, DrivesOfEveryAxisCarryLoad) {
     EXPECT_TRUE(this->world.create(six_axis(joint))) << describe(this->world.fault());
     last = body;
   }
-  for (int i = 0; i < 120; ++i) this->world.step();
+  for (int i = 0, frames = sampled(120, 60); i < frames; ++i) this->world.step();
   EXPECT_GT(abs(this->world.center_of_mass(last).y - S(10)), S(0.1));  // it falls, or such motors throw it
 }
 

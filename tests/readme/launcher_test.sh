@@ -34,6 +34,20 @@ for command in $commands --version; do
   esac
 done
 
+# Tests take samples; with --full they are told to try the whole.
+mkdir "$dir/bin"
+printf '#!/bin/sh\n' >"$dir/bin/cmake"
+printf '#!/bin/sh\necho "whole: ${ISOSTEP_WHOLE:-no}"\n' >"$dir/bin/ctest"
+chmod +x "$dir/bin/cmake" "$dir/bin/ctest"
+for word in no 1; do
+  full=$([ "$word" = no ] || echo --full)
+  # shellcheck disable=SC2086
+  said=$(unset ISOSTEP_WHOLE; PATH="$dir/bin:$PATH" ISOSTEP_BUILD_DIR="$dir/tests" "$launcher" test $full 2>"$dir/err")
+  status=$?
+  [ "$status" = 69 ] && continue  # a compiler or a library that --full asks for is missing here
+  [ "$said" = "whole: $word" ] || fail "test $full ends with $status and says '$said'"
+done
+
 # What was not printed was not said: help as well.
 [ -c /dev/full ] || exit 0
 for word in --help --version scenes; do

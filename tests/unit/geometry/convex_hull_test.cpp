@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "sample.hpp"
 #include "unit/geometry/hull_recipes.hpp"
 
 namespace isostep::test {
@@ -138,7 +139,8 @@ std::vector<GridPoint> scattered(std::mt19937& random, int count, std::uint32_t 
 TEST(ConvexHull, is_what_all_planes_through_three_points_say) {
   std::mt19937 random(1);
   int hulls = 0, merged = 0, inside = 0;
-  for (int trial = 0; trial < 3000; ++trial) {
+  const int trials = sampled(3000, 750);
+  for (int trial = 0; trial < trials; ++trial) {
     const std::vector<GridPoint> points = scattered(random, 4 + trial % 24, 2 + static_cast<std::uint32_t>(trial % 7));
     const Faces expected = brute_force(points);
     const Result<ConvexHull> hull = convex_hull(points);
@@ -150,9 +152,9 @@ TEST(ConvexHull, is_what_all_planes_through_three_points_say) {
     inside += hull.value().vertices.size() < points.size() ? 1 : 0;
     for (const Face& face : expected) merged += face.size() > 3 ? 1 : 0;
   }
-  EXPECT_GT(hulls, 2500);
-  EXPECT_GT(merged, 2000);
-  EXPECT_GT(inside, 1000);
+  EXPECT_GT(hulls, trials * 5 / 6);
+  EXPECT_GT(merged, trials * 2 / 3);
+  EXPECT_GT(inside, trials / 3);
 }
 
 TEST(ConvexHull, depends_on_the_set_of_points_alone) {

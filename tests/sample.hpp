@@ -1,0 +1,18 @@
+// How much of a sweep a test tries: a sample, or the whole where the environment says ISOSTEP_WHOLE=1, as
+// `./isostep test --full` does. A sample has fewer seeds, frames or rows, and the same bounds.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdlib>
+#include <string_view>
+
+namespace isostep::test {
+
+inline bool wants_whole() {
+  const char* text = std::getenv("ISOSTEP_WHOLE");
+  return text != nullptr && std::string_view(text) == "1";
+}
+
+template <class T> T sampled(T whole, T sample) { return wants_whole() ? whole : sample; }
+
+}  // namespace isostep::test
