@@ -67,7 +67,7 @@ void parse(Bytes bytes) {
   if (const Result<Repaired> read = read_repaired(bytes)) require(read.value().after >= 0);
   if (const Result<Roster> read = read_roster(bytes)) {
     const Roster& roster = read.value();
-    require(roster.count <= kMaxPlayers + 1 && roster.host < roster.count && roster.version > 0);
+    require(roster.count <= kMaxPlayers + 1 && roster.host < roster.count && roster.casting < roster.count && roster.version > 0);
     Buffer again;
     write_roster(roster, again);
     require(again.size() == bytes.size());
@@ -352,6 +352,8 @@ void attack_candidate(Script& script) {
         other.version = script.byte() % 8 + 1u;
         other.count = static_cast<std::uint8_t>(1 + script.byte() % 3);
         other.host = 0;
+        other.casting = script.byte() % 4;
+        other.was_casting = script.byte() % 2 == 0 ? Roster::kNoCasting : script.byte() % 4;
         if (script.byte() < 128) other.machines[1].seal = seal_of(other, 101, scratch);
         write_roster(other, bytes);
         client.session.receive(peer, Channel::reliable, bytes, now);

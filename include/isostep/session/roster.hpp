@@ -67,6 +67,7 @@ struct Roster {
   /// The place of the host that made the roster: its vote makes a half of those that are in a majority; and that of the
   /// one before, among those that were. A host that is elected takes over both as they are, until its own roster.
   std::uint8_t casting = 0, was_casting = 0;
+  static constexpr std::uint8_t kNoCasting = 0xff;  // was_casting: it is not among the machines any more
   std::uint8_t count = 0;
   Machine machines[kMaxPlayers + 1];
 

@@ -6,8 +6,6 @@
 namespace isostep {
 namespace {
 
-constexpr std::uint8_t kNoCasting = 0xff;  // who had it is not among the machines
-
 bool same_machine(const Roster::Machine& a, const Roster::Machine& b) {
   return a.players == b.players && a.proof == b.proof && a.life == b.life && a.is_in == b.is_in &&
          a.was_in == b.was_in && a.address == b.address;
@@ -60,7 +58,7 @@ Roster HostCore::drafted() const {
   const std::uint64_t caster = roster_.version == 0 ? own.proof : roster_.machines[roster_.casting].proof;
   const int before = caster == 0 ? -1 : next.machine_of_proof(caster);
   next.casting = next.host;
-  next.was_casting = before < 0 ? kNoCasting : static_cast<std::uint8_t>(before);
+  next.was_casting = before < 0 ? Roster::kNoCasting : static_cast<std::uint8_t>(before);
   return next;
 }
 

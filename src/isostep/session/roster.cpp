@@ -142,7 +142,9 @@ Result<Roster> read_roster(Bytes message) {
     reader.fail(ErrorCode::invalid, "a deadline out of range");
   }
   for (std::uint8_t* place : {&roster.host, &roster.casting, &roster.was_casting, &roster.count}) reader.read(*place);
-  if (roster.count > kMaxPlayers + 1 || roster.host >= roster.count || roster.version == 0 || roster.term == 0) {
+  const bool was_there = roster.was_casting < roster.count || roster.was_casting == Roster::kNoCasting;
+  const bool are_there = roster.host < roster.count && roster.casting < roster.count && was_there;
+  if (roster.count > kMaxPlayers + 1 || !are_there || roster.version == 0 || roster.term == 0) {
     reader.fail(ErrorCode::invalid, "machines out of range");
   }
   std::uint32_t seen = 0;

@@ -146,7 +146,9 @@ TEST(Roster, ThatCannotBeIsRefused) {
   EXPECT_FALSE(reads([](Roster& r) { r.term = 0; }));
   EXPECT_FALSE(reads([](Roster& r) { r.settings.deadline = kMostDeadline + 1; }));
   EXPECT_FALSE(reads([](Roster& r) { r.host = 3; }));
-  EXPECT_TRUE(reads([](Roster& r) { r.was_casting = 0xff; })) << "it is not among the machines any more";
+  EXPECT_FALSE(reads([](Roster& r) { r.casting = 3; }));
+  EXPECT_FALSE(reads([](Roster& r) { r.was_casting = 3; }));
+  EXPECT_TRUE(reads([](Roster& r) { r.was_casting = Roster::kNoCasting; }));
   EXPECT_FALSE(reads([](Roster& r) { r.machines[1].players = 1; })) << "a player twice";
   EXPECT_FALSE(reads([](Roster& r) { r.machines[1].address = Address("a\nb"); }));
 }
