@@ -67,7 +67,8 @@ void parse(Bytes bytes) {
   if (const Result<Repaired> read = read_repaired(bytes)) require(read.value().after >= 0);
   if (const Result<Roster> read = read_roster(bytes)) {
     const Roster& roster = read.value();
-    require(roster.count <= kMaxPlayers + 1 && roster.host < roster.count && roster.casting < roster.count && roster.version > 0);
+    require(roster.count <= kMaxPlayers + 1 && roster.version > 0);
+    require(roster.host < roster.count && roster.casting < roster.count);
     Buffer again;
     write_roster(roster, again);
     require(again.size() == bytes.size());
