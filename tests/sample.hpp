@@ -1,5 +1,5 @@
-// How much of a sweep a test tries: a sample, or the whole where the environment says ISOSTEP_WHOLE=1, as
-// `./isostep test --full` does. A sample has fewer seeds, frames or rows, and the same bounds.
+// A test tries a sample of a sweep, or the whole where the environment says ISOSTEP_WHOLE=1, as `./isostep test --full`
+// does. A sample has fewer seeds, frames or rows, and the same bounds.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -97,7 +97,7 @@ bool is_excepted(const File& file, const std::string& line) {
   });
 }
 
-/// Whether one of the texts, which '|' parts, is in the line.
+/// The line has one of the texts, which '|' parts.
 bool has_sign(const std::string& line, std::string_view signs) {
   while (!signs.empty()) {
     const std::size_t end = std::min(signs.find('|'), signs.size());

@@ -103,6 +103,8 @@ class ClientCore : public PeerCore {
   bool take_support(Caller& caller, MessageKind kind, Bytes bytes, Time now);
   /// Its log is of a later host than ours: we go there, and so do who asked us.
   void yield_to(const Caller& caller, const Address& address, Time now);
+  /// We ask there next; an empty address is nobody's.
+  void go_to(const Address& address, Time now);
   /// Inputs that we lack as a candidate, as this machine tells them; false: it cannot be.
   bool take_known(const InputSlice& slice, int machine);
   /// A player's machine knows all inputs that the host can have had of it, and its word counts more than another's; but
@@ -115,7 +117,7 @@ class ClientCore : public PeerCore {
     return is_local(player) ? accepted_[player] : streams_[static_cast<std::size_t>(player)].end();
   }
   bool has_all_until(Frame end) const;
-  /// What the host before told and this one did not, while it has not told all: another election is about that log.
+  /// Another election is about the log of the host before, while this one has not told all: its inputs are ours again.
   void take_back_former();
   /// Of the messages above, the next; nothing when there is none.
   std::optional<Outgoing> next_failover_message();

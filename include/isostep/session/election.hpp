@@ -72,6 +72,7 @@ class Election {
   static std::uint64_t bit(int machine) { return machine < 0 ? 0 : std::uint64_t{1} << machine; }
   static bool is_eligible(const Roster& roster, int machine);
   Step go_on(const Roster& roster, int own, Time now);
+  void withdraw() { called_ = 0, quorum_at_ = 0; }
 
   std::uint32_t promised_ = 0, log_term_ = 0, heard_ = 0;
   bool is_under_way_ = false, has_given_up_ = false, is_forced_ = false, knocks_ = false;

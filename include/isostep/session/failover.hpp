@@ -40,6 +40,7 @@ struct Failover {
   bool must_call_here = false;  // its log is of an earlier host than ours: it comes to us instead
   Candidate candidate;
   Address better;  // where a candidate sends its callers: to the one that said so
+  void answer_nothing() { must_support = must_tell_roster = must_call_here = false; }
 
   bool seeks() const { return election.is_under_way(); }
 };

@@ -34,7 +34,7 @@ bool ClientCore::take_support(Caller& caller, MessageKind kind, Bytes bytes, Tim
   const Result<Roster> roster = read_roster(bytes);
   if (!roster || !roster.value().is_newer_than(failover_.roster)) return roster.ok();
   if (!is_sealed_for(roster.value(), token_, message_)) {
-    // Whether it is true or not, this machine does not support us.
+    // This machine does not support us, whether its roster is true or not.
     if (caller.voter >= 0) failover_.election.went(caller.voter);
     return false;
   }
@@ -46,10 +46,7 @@ bool ClientCore::take_support(Caller& caller, MessageKind kind, Bytes bytes, Tim
 void ClientCore::yield_to(const Caller& caller, const Address& address, Time now) {
   failover_.better = address;
   for (Caller& other : failover_.callers) other.must_redirect = other.is_connected && &other != &caller;
-  leave_host();
-  failover_.target = address;
-  failover_.must_connect = true;
-  failover_.election.was_sent_on(now);
+  go_to(address, now);
 }
 
 bool ClientCore::take_known(const InputSlice& slice, int machine) {

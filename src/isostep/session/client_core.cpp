@@ -186,10 +186,10 @@ void ClientCore::before_steps(Time now) {
   }
   if (!runs_ || is_restoring_) return;
   const bool is_of_host = failover_.election.log_term() == welcome_.term;
-  if (!is_of_host || former_.are_kept()) {
-    const bool has_all = has_all_until(is_of_host ? former_.end() : welcome_.term_start);
-    if (has_all) failover_.election.has_log_of(welcome_.term);
-    if (has_all) former_.forget();
+  const Frame needed = is_of_host ? former_.end() : welcome_.term_start;
+  if ((!is_of_host || former_.are_kept()) && has_all_until(needed)) {
+    failover_.election.has_log_of(welcome_.term);
+    former_.forget();
   }
   tend_repair(now);
   if (is_open_) {

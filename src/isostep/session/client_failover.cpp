@@ -57,7 +57,7 @@ void ClientCore::seek(Time now, bool knocks) {
 
 void ClientCore::begin_attempt() {
   const int machine = failover_.election.target(failover_.roster, own_machine());
-  failover_.must_support = failover_.must_tell_roster = failover_.must_call_here = false;
+  failover_.answer_nothing();
   failover_.must_connect = machine != own_machine() && machine >= 0;
   if (machine >= 0) failover_.target = failover_.roster.machines[machine].address;
 }
@@ -89,7 +89,8 @@ void ClientCore::seek_on(Time now) {
 void ClientCore::stop_seeking() {
   if (!failover_.seeks()) return;
   failover_.election.end();
-  failover_.must_connect = failover_.must_support = failover_.must_tell_roster = false;
+  failover_.must_connect = false;
+  failover_.answer_nothing();
   SessionEvent event{.kind = SessionEvent::Kind::new_host, .frame = welcome_.start.frame};
   if (welcome_.hosted != 0) event.player = static_cast<std::uint8_t>(std::countr_zero(welcome_.hosted));
   tell(event);
@@ -242,11 +243,15 @@ bool ClientCore::take_failover(MessageKind kind, Bytes bytes, Time now) {
   if (kind != MessageKind::redirect || !seeks) return false;
   const Result<Address> address = read_redirect(bytes);
   if (!address) return false;
-  leave_host();
-  failover_.target = address.value();
-  failover_.must_connect = !address.value().view().empty();
-  failover_.election.was_sent_on(now);
+  go_to(address.value(), now);
   return true;
+}
+
+void ClientCore::go_to(const Address& address, Time now) {
+  leave_host();
+  failover_.target = address;
+  failover_.must_connect = !address.view().empty();
+  failover_.election.was_sent_on(now);
 }
 
 std::optional<Outgoing> ClientCore::written(PeerId to) {
@@ -320,8 +325,8 @@ std::optional<Outgoing> ClientCore::next_for_caller() {
     if (caller.must_redirect) {
       went(caller);
       hang_up(static_cast<PeerId>(i));
-      const bool is_led = !failover_.seeks();
-      write_redirect(is_led ? failover_.roster.machines[failover_.roster.host].address : failover_.better, message_);
+      const Roster::Machine& host = failover_.roster.machines[failover_.roster.host];
+      write_redirect(failover_.seeks() ? failover_.better : host.address, message_);
       return written(static_cast<PeerId>(i));
     }
     if (caller.must_tell_roster) {

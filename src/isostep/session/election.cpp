@@ -27,8 +27,7 @@ void Election::end() {
   is_under_way_ = has_given_up_ = is_forced_ = knocks_ = false;
   attempt_ = 0;
   supports_ = 0;
-  quorum_at_ = 0;
-  called_ = 0;
+  withdraw();
 }
 
 void Election::was_turned_away(Time now) {
@@ -37,14 +36,12 @@ void Election::was_turned_away(Time now) {
 
 void Election::was_sent_on(Time now) {
   until_ = now + kAttempt;
-  called_ = 0;
-  quorum_at_ = 0;
+  withdraw();
 }
 
 void Election::has_new_roster() {
   came_ = over_ = supports_ = 0;
-  quorum_at_ = 0;
-  called_ = 0;
+  withdraw();
 }
 
 bool Election::is_eligible(const Roster& roster, int machine) {
@@ -70,7 +67,7 @@ int Election::target(const Roster& roster, int own) const {
 Election::Step Election::turn(const Roster& roster, int own, bool may_stand, Time now) {
   if (!is_under_way_) return Step::waits;
   const std::uint64_t here = bit(own) | came_;
-  // Of two machines the one with the casting vote alone made frames final: the other never goes on without it.
+  // One of two machines has the casting vote and made frames final alone: the other never goes on without it.
   const std::uint64_t over = own == roster.casting || std::popcount(roster.voters()) > 2 ? over_ : 0;
   if (called_ == 0) {
     const bool is_quorum = may_stand && own >= 0 && (is_forced_ || roster.is_quorum(here, over));
@@ -96,8 +93,7 @@ Election::Step Election::turn(const Roster& roster, int own, bool may_stand, Tim
     return Step::wins;
   }
   if (now - called_at_ < kAttempt) return Step::waits;
-  called_ = 0;
-  quorum_at_ = 0;
+  withdraw();
   return go_on(roster, own, now);
 }
 

@@ -56,9 +56,9 @@ Roster HostCore::drafted() const {
     if (machine.is_in && seat.is_open) machine.address = guest->address;
   }
   const std::uint64_t caster = roster_.version == 0 ? own.proof : roster_.machines[roster_.casting].proof;
-  const int before = caster == 0 ? -1 : next.machine_of_proof(caster);
+  const int caster_now = caster == 0 ? -1 : next.machine_of_proof(caster);
   next.casting = next.host;
-  next.was_casting = before < 0 ? Roster::kNoCasting : static_cast<std::uint8_t>(before);
+  next.was_casting = caster_now < 0 ? Roster::kNoCasting : static_cast<std::uint8_t>(caster_now);
   return next;
 }
 

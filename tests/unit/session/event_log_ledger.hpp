@@ -1,4 +1,4 @@
-// What an event log told, kept by happening.
+// Ledger keeps what an event log told, by happening.
 // SPDX-License-Identifier: MIT
 #pragma once
 

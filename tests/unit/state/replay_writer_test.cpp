@@ -1,4 +1,4 @@
-// What a replay writer does with sinks, crashes, blocks and calls out of order.
+// A replay writer meets sinks, crashes, blocks and calls out of order.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
