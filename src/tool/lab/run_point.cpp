@@ -42,10 +42,9 @@ template <class Run> class Watch {
   }
 
   LabResult run(const Cancel& cancel) {
-    const double begin = thread_milliseconds();
     for (int frame = 0; frame < limits_.frames; ++frame) {
       if (cancel()) throw Cancelled{};
-      if (is_slow(frame, thread_milliseconds() - begin)) {
+      if (is_slow(frame)) {
         result_.state = kSlow;
         result_.reason =
             "given up after " + std::to_string(frame) + " of " + std::to_string(limits_.frames) + " frames";
@@ -60,17 +59,20 @@ template <class Run> class Watch {
 
  private:
   /// Steps become dearer while bodies come together; cheaper only when they fall asleep. So without sleep a run that
-  /// has used a quarter of its time and would need twice all of it is hopeless.
-  bool is_slow(int frame, double spent) const {
+  /// has used a quarter of its time and would need twice all of it is hopeless. Only steps count, as in the result's
+  /// mean: a run given up at a limit stands for every later one with that limit.
+  bool is_slow(int frame) const {
     const double limit = 1000 * limits_.limit;
-    if (spent > limit) return true;
-    return !subject_.scene.allow_sleep && spent > limit / 4 && spent * limits_.frames > 2 * limit * frame;
+    if (spent_ > limit) return true;
+    return !subject_.scene.allow_sleep && spent_ > limit / 4 && spent_ * limits_.frames > 2 * limit * frame;
   }
   void step() {
     run_.prepare();
     const double before = thread_milliseconds();
     const bool mended = run_.step();
-    ms_.push_back((thread_milliseconds() - before) * result_.point.hz / 60);
+    const double taken = thread_milliseconds() - before;
+    spent_ += taken;
+    ms_.push_back(taken * result_.point.hz / 60);
     result_.faults += mended ? 1 : 0;
   }
   void observe(int frame) {
@@ -116,7 +118,8 @@ template <class Run> class Watch {
   std::unique_ptr<scenes::Judge> judge_;
   LabResult result_;
   scenes::Energy start_;
-  double gain_ = 0;  // [J]
+  double gain_ = 0;   // [J]
+  double spent_ = 0;  // [ms] CPU time of all steps
   std::vector<double> ms_, unrest_;
 };
 
