@@ -112,9 +112,11 @@ class ClientCore : public PeerCore {
   bool owns_inputs() const { return failover_.roster.settings.deadline == 0; }
   /// Inputs of players who support us, and which only others know.
   void forget_untold();
+  /// Its stream goes on beyond what a host has told of it: also before we have begun where a welcome said.
+  bool is_told_by_us(int player) const { return is_own(player) && (is_open_ || is_restoring_ || must_begin_); }
   /// Where the inputs of `player` end that the host has made final, as far as we know.
   Frame final_end(int player) const {
-    return is_local(player) ? accepted_[player] : streams_[static_cast<std::size_t>(player)].end();
+    return is_told_by_us(player) ? accepted_[player] : streams_[static_cast<std::size_t>(player)].end();
   }
   bool has_all_until(Frame end) const;
   /// Another election is about the log of the host before, while this one has not told all: its inputs are ours again.

@@ -137,7 +137,7 @@ void ClientCore::take_back_former() {
         stream.replace(frame, former.at(frame));
         timeline_.recheck(p, frame);
       }
-      if (is_local(p)) accepted_[p] = frame + 1;
+      if (is_told_by_us(p)) accepted_[p] = frame + 1;
     }
   }
 }

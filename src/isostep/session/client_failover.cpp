@@ -63,6 +63,12 @@ void ClientCore::begin_attempt() {
 }
 
 void ClientCore::seek_on(Time now) {
+  // The game sent us to a machine that is no host and does not become one: it is to find another.
+  const bool is_stuck = failover_.election.has_given_up() && host_.is_connected && now - host_.heard > kGreeting;
+  if (is_stuck) {
+    leave_host();
+    fail(SessionEvent::Kind::lost_host, SessionPhase::lost);
+  }
   switch (failover_.election.turn(failover_.roster, own_machine(), may_stand(), now)) {
     case Election::Step::waits: return;
     case Election::Step::goes_on:
@@ -287,7 +293,7 @@ bool ClientCore::write_missing() {
   for (int p = 0; p < players(); ++p) {
     const InputStream& stream = streams_[static_cast<std::size_t>(p)];
     Frame& end = failover_.candidate.ends[p];
-    const Frame left = (is_local(p) && owns_inputs() ? stream.end() : final_end(p)) - end,
+    const Frame left = (is_told_by_us(p) && owns_inputs() ? stream.end() : final_end(p)) - end,
                 most = left < kSliceFrames ? left : kSliceFrames;
     if (most <= 0) continue;
     const Frame count = writer.add_slice(static_cast<std::uint8_t>(p), stream, end, most);

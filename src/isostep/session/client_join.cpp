@@ -176,6 +176,12 @@ void ClientCore::take_welcome(const Welcome& welcome, Time now) {
   // A machine that is the host again, in a later term, says other things than in the one before.
   const bool is_same_host = welcome.match == welcome_.match && welcome.term == welcome_.term;
   keeps_inputs_ = is_same_host && welcome.snapshot_size == 0 && !former_.are_back();
+  // Where our own inputs end that are accepted is known as long as the seats are open.
+  if (failover_.election.log_term() != 0 && !keeps_inputs_ && !former_.are_kept()) {
+    Frame ends[kMaxPlayers] = {};
+    for (int p = 0; p < players(); ++p) ends[p] = failover_.has_asked && !is_own(p) ? failover_.ends[p] : final_end(p);
+    former_.keep(streams_, ends);
+  }
   welcome_ = welcome;
   is_greeted_ = true;
   runs_ = is_open_ = asked_ready_ = must_ready_ = false;
@@ -237,11 +243,6 @@ void ClientCore::hash_known(Frame state, std::uint64_t hash) {
 
 void ClientCore::begin_at(const HashReport& start) {
   const Frame frame = start.frame;
-  if (failover_.election.log_term() != 0 && !keeps_inputs_ && !former_.are_kept()) {
-    Frame ends[kMaxPlayers] = {};
-    for (int p = 0; p < players(); ++p) ends[p] = failover_.has_asked && !is_own(p) ? failover_.ends[p] : final_end(p);
-    former_.keep(streams_, ends);
-  }
   if (is_restoring_) {
     act(RequestKind::restore, frame);
     timeline_.restart(frame);
