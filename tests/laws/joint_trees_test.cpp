@@ -77,7 +77,7 @@ template <class S> class JointTreeLaws : public ::testing::Test {
   }
 
  private:
-  static int seeds_of_kind(bool single) { return single ? sampled(48, 16) : sampled(12, 4); }
+  static int seeds_of_kind(bool single) { return single ? sampled(48, 12) : sampled(12, 3); }
 
   static bool is_known(const JointTreeTrial& trial, int seed) {
     if (!std::is_same_v<S, Q16_16> || trial.single || trial.solver == SolverName::direct) return false;

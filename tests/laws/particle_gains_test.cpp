@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "laws/particle_laws.hpp"
+#include "sample.hpp"
 
 namespace isostep::test {
 namespace {
@@ -137,7 +138,7 @@ TYPED_TEST(ParticleGains, a_spring_that_presses_makes_no_bounce_higher) {
           };
           const double start = energy();
           double most = start;
-          for (int step = 0; step < 3600; ++step) {
+          for (int step = 0, steps = sampled(3600, 900); step < steps; ++step) {
             w.step();
             most = std::max(most, energy());
           }
@@ -157,6 +158,7 @@ TYPED_TEST(ParticleGains, overlap_at_rest_becomes_no_motion) {
     if (way.stepping == Stepping::time_division) continue;  // a fixed sub-step is as good: nothing moves
     for (const int substeps : {1, 4, 16}) {
       for (const double apart : {0.0, 0.1}) {
+        if (!wants_whole() && (substeps == 4) == (apart == 0.0)) continue;
         ParticleWorld<S> w(settings_of<S>(way, Integrator::semi_implicit_euler, 0, 60, substeps));
         const ParticleMaterialId ball = w.add(grain_of<S>(0.1, 0, 0, true));
         for (int i = 0; i < 100; ++i)

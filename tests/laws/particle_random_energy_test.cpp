@@ -12,7 +12,7 @@ template <class S> class RandomParticleEnergy : public ::testing::Test {};
 TYPED_TEST_SUITE(RandomParticleEnergy, AllScalars);
 
 TYPED_TEST(RandomParticleEnergy, is_never_above_what_was_put_in) {
-  expect_no_gain<RandomParticleWorld<TypeParam>>(asked("ISOSTEP_PARTICLE_WORLDS", sampled(320u, 80u)),
+  expect_no_gain<RandomParticleWorld<TypeParam>>(asked("ISOSTEP_PARTICLE_WORLDS", sampled(320u, 40u)),
                                                  [](const auto&, bool changed) { return changed; });
 }
 

@@ -8,6 +8,7 @@
 #include "isostep/geometry/content.hpp"
 #include "isostep/geometry/mass_properties.hpp"
 #include "isostep/geometry/validate.hpp"
+#include "sample.hpp"
 #include "scenes/hull_points.hpp"
 #include "unit/geometry/hull_recipes.hpp"
 #include "unit/geometry/oracle.hpp"
@@ -101,12 +102,13 @@ TYPED_TEST(HullShape, its_box_holds_its_vertices_and_touches_them) {
 
 TYPED_TEST(HullShape, rays_enter_where_the_faces_are) {
   using S = TypeParam;
+  const int rays = sampled(40, 12);  // of each hull
   int hits = 0, misses = 0;
   for (int n = 0; n < 40; ++n) {
     this->take(n);
     const Transform<S> place = Transform<S>::of(this->child_.pose);
     const Transform<double> exact = oracle::real(place);
-    for (int k = 0; k < 40; ++k) {
+    for (int k = 0; k < rays; ++k) {
       const D3 aim = to_world(exact, this->exact_->centre) + this->random_.point(0.5);
       const D3 origin = aim + this->random_.direction() * 6.0, translation = (aim - origin) * 2.0;
       RayHit<S> hit;
@@ -123,8 +125,8 @@ TYPED_TEST(HullShape, rays_enter_where_the_faces_are) {
       EXPECT_LT(dot(real(hit.normal), translation), 0);
     }
   }
-  EXPECT_GT(hits, 300);
-  EXPECT_GT(misses, 100);
+  EXPECT_GT(hits, rays * 300 / 40);
+  EXPECT_GT(misses, rays * 100 / 40);
 }
 
 TYPED_TEST(HullShape, the_closest_point_lies_on_the_surface_at_the_distance_told) {

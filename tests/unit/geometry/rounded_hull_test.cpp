@@ -12,6 +12,7 @@
 #include "isostep/geometry/content.hpp"
 #include "isostep/geometry/mass_properties.hpp"
 #include "isostep/geometry/validate.hpp"
+#include "sample.hpp"
 #include "scenes/hull_points.hpp"
 #include "scenes/nearest_point.hpp"
 #include "unit/geometry/hull_recipes.hpp"
@@ -80,11 +81,12 @@ TYPED_TEST(RoundedHull, its_box_and_its_ball_are_wider_by_the_radius) {
 
 TYPED_TEST(RoundedHull, rays_enter_where_the_core_is_a_radius_away) {
   using S = TypeParam;
+  const int rays = sampled(60, 20);  // of each hull
   int hits = 0, misses = 0, inside = 0;
   for (int n = 0; n < 40; ++n) {
     this->take(n);
     const Transform<double> exact = oracle::real(this->place());
-    for (int k = 0; k < 60; ++k) {
+    for (int k = 0; k < rays; ++k) {
       const double start = k % 10 == 0 ? 0.5 : 6.0;
       const D3 aim = to_world(exact, this->exact_->centre) + this->random_.point(0.9);
       const D3 origin = aim + this->random_.direction() * start, translation = (aim - origin) * 2.0;
@@ -110,9 +112,9 @@ TYPED_TEST(RoundedHull, rays_enter_where_the_core_is_a_radius_away) {
       EXPECT_LT(dot(real(hit.normal), translation), 0);
     }
   }
-  EXPECT_GT(hits, 800);
-  EXPECT_GT(misses, 200);
-  EXPECT_GT(inside, 20);
+  EXPECT_GT(hits, rays * 800 / 60);
+  EXPECT_GT(misses, rays * 200 / 60);
+  EXPECT_GT(inside, rays * 20 / 60);
 }
 
 TYPED_TEST(RoundedHull, the_closest_point_lies_on_the_surface_at_the_distance_told) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "isostep/collision/narrowphase/box_tolerance.hpp"
+#include "sample.hpp"
 #include "unit/collision/narrowphase/pair_laws.hpp"
 #include "unit/collision/narrowphase/support_oracle.hpp"
 
@@ -241,7 +242,8 @@ TEST_P(EveryPair, keeps_the_laws_of_manifolds_in_every_scalar) {
   const bool surface_first = is_surface(type_a);
   Tally tallies[4];
   Random random(static_cast<std::uint64_t>(GetParam()) + 100);
-  for (int n = 0; n < kPairs; ++n) {
+  const int pairs = sampled(kPairs, kPairs / 4);
+  for (int n = 0; n < pairs; ++n) {
     const Case c = some_case(random, surface_first ? type_b : type_a, surface_first ? type_a : type_b, n);
     PairLaws<float>(c, tallies[0], n).check();
     PairLaws<double>(c, tallies[1], n).check();
@@ -252,8 +254,8 @@ TEST_P(EveryPair, keeps_the_laws_of_manifolds_in_every_scalar) {
   report(tallies[1], type_a, type_b, "double");
   report(tallies[2], type_a, type_b, "Q16.16");
   report(tallies[3], type_a, type_b, "Q32.32");
-  EXPECT_GT(tallies[1].touching, kPairs / 3);
-  EXPECT_GT(tallies[1].apart, kPairs / 10);
+  EXPECT_GT(tallies[1].touching, pairs / 3);
+  EXPECT_GT(tallies[1].apart, pairs / 10);
 }
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryPair, testing::Range(0, kShapeTypes* kShapeTypes));
 
