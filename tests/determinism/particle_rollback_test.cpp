@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "determinism/particle_mess.hpp"
+#include "sample.hpp"
 
 namespace isostep::test {
 namespace {
@@ -21,6 +22,10 @@ TYPED_TEST(ParticleRollback, from_every_frame_of_a_hail_of_commands_ten_frames_c
     typename ParticleWorld<S>::Snapshot snapshot;
     ParticleActivity activity;
     for (std::uint64_t frame = 0; frame < 100; ++frame) {
+      if (!wants_whole() && frame % 4 != 0) {  // a sample goes back from every fourth
+        play(w, frame, &activity);
+        continue;
+      }
       w.save(snapshot);
       const std::uint64_t saved = w.hash();
       const std::vector<std::uint64_t> first = play_on(w, frame, 10);

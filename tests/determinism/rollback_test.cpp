@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "determinism/mess.hpp"
+#include "sample.hpp"
 
 namespace isostep::test {
 namespace {
@@ -26,6 +27,10 @@ TYPED_TEST(Rollback, from_every_frame_of_a_hail_of_commands_ten_frames_come_out_
   typename World<S>::Snapshot snapshot;
   Activity activity;
   for (std::uint64_t frame = 0; frame < 600; ++frame) {
+    if (!wants_whole() && frame % 4 != 0) {  // a sample goes back from every fourth
+      play(w, frame, &activity);
+      continue;
+    }
     w.save(snapshot);
     const std::uint64_t saved = w.hash();
     const std::vector<std::uint64_t> first = this->play_on(w, frame, 10);

@@ -106,8 +106,8 @@ template <class S> class IdleSettings : public ::testing::Test {
 };
 TYPED_TEST_SUITE(IdleSettings, AllScalars);
 
-TYPED_TEST(IdleSettings, have_no_say_in_soft_step) { this->have_no_say(SolverName::soft_step, kTrees, 12); }
-TYPED_TEST(IdleSettings, have_no_say_in_pgs) { this->have_no_say(SolverName::pgs, kTrees, 12); }
+TYPED_TEST(IdleSettings, have_no_say_in_soft_step) { this->have_no_say(SolverName::soft_step, kTrees, 6); }
+TYPED_TEST(IdleSettings, have_no_say_in_pgs) { this->have_no_say(SolverName::pgs, kTrees, 6); }
 TYPED_TEST(IdleSettings, have_no_say_in_direct) { this->have_no_say(SolverName::direct, kTreesOfDirect, 3); }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "isostep/state/concepts.hpp"
 #include "random/articulation.hpp"
+#include "sample.hpp"
 
 namespace isostep::test {
 namespace {
@@ -14,7 +15,7 @@ static_assert(Rollbackable<Articulation<Q32_32>> && PortableState<Articulation<Q
 
 template <class S> class RandomArticulations : public ::testing::Test {
  protected:
-  static constexpr unsigned kTrees = 40;
+  const unsigned kTrees = sampled(40u, 12u);
 
   /// The largest share of the most kinetic energy that energy ever rose by above what it was at first.
   static double gain(const TreeOptions& options, unsigned seed, double fast, int frames) {

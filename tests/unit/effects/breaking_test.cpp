@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/effects/fracture/breaking.hpp"
 
+#include "sample.hpp"
 #include "unit/effects/fractured.hpp"
 #include "unit/effects/totals.hpp"
 
@@ -174,7 +175,7 @@ TYPED_TEST(Breakables, marks_and_pieces_are_state) {
   const std::vector<std::uint8_t> portable = bytes_of(this->world_);
   std::vector<std::uint64_t> hashes;
   std::uint32_t broken = 0;
-  for (int i = 0; i < 90; ++i) {
+  for (int i = 0, frames = sampled(90, 30); i < frames; ++i) {
     broken += break_bodies(this->world_).broken;
     this->world_.step();
     hashes.push_back(this->world_.hash());
@@ -202,7 +203,8 @@ TYPED_TEST(Breakables, bad_numbers_are_named) {
     EXPECT_STREQ(this->world_.fault().field, field);
     EXPECT_EQ(this->world_.fault().fault, fault) << field;
   };
-  refused("body", [](Breakable<S>& b) { b.body = {}; }, Fault::null_id);
+  refused(
+      "body", [](Breakable<S>& b) { b.body = {}; }, Fault::null_id);
   refused("impulse", [](Breakable<S>& b) { b.impulse = S(-1); });
   refused("pattern", [](Breakable<S>& b) { b.pattern = static_cast<BreakPattern>(4); });
   refused("most_pieces", [](Breakable<S>& b) { b.most_pieces = 7; });
@@ -211,7 +213,8 @@ TYPED_TEST(Breakables, bad_numbers_are_named) {
   refused("grain", [](Breakable<S>& b) { b.grain = Vec3<Unit<S>>::zero(); });
   refused("small_mass", [](Breakable<S>& b) { b.small_mass = S(-1); });
   refused("broken_by", [](Breakable<S>& b) { b.broken_by = S(-1); });
-  refused("hit_point", [](Breakable<S>& b) { b.hit_point.x = highest<S>(); }, Fault::out_of_range);
+  refused(
+      "hit_point", [](Breakable<S>& b) { b.hit_point.x = highest<S>(); }, Fault::out_of_range);
   refused("hit_direction", [](Breakable<S>& b) { b.hit_direction.x = Unit<S>(0.5); });
   EXPECT_TRUE(this->world_.state().force_records->untouched());
   this->make_breakable(body, 1);
