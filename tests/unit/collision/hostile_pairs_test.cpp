@@ -71,7 +71,7 @@ constexpr KnownFlaw kKnownFlaws[] = {
 int known(Flaw flaw, int a, int b) {
   for (const KnownFlaw& k : kKnownFlaws) {
     const bool here = ((k.a & bit(a)) != 0 && (k.b & bit(b)) != 0) || ((k.a & bit(b)) != 0 && (k.b & bit(a)) != 0);
-    if (k.flaw == flaw && here) return k.most;
+    if (k.flaw == flaw && here) return known_in_quarter(k.most);
   }
   return 0;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/geometry/shape_type.hpp"
+#include "sample.hpp"
 
 namespace isostep::test {
 
@@ -76,7 +77,7 @@ inline constexpr Known kKnown[] = {
 inline int known(Law law, ShapeType a, ShapeType b) {
   for (const Known& k : kKnown) {
     const bool here = ((k.a & bit(a)) != 0 && (k.b & bit(b)) != 0) || ((k.a & bit(b)) != 0 && (k.b & bit(a)) != 0);
-    if (k.law == law && here) return k.most;
+    if (k.law == law && here) return known_in_quarter(k.most);
   }
   return 0;
 }
