@@ -59,14 +59,14 @@ int Roster::count_in() const {
 }
 
 bool Roster::is_majority(std::uint64_t group) const {
-  const auto has_most = [&](bool Machine::*counts, std::uint8_t casting) {
+  const auto has_most = [&](bool Machine::*counts, std::uint8_t decides) {
     int all = 0, here = 0;
     for (int m = 0; m < count; ++m) {
       if (!(machines[m].*counts)) continue;
       ++all;
       here += static_cast<int>(group >> m & 1);
     }
-    const bool has_cast = casting < count && (group >> casting & 1) != 0 && machines[casting].*counts;
+    const bool has_cast = decides < count && (group >> decides & 1) != 0 && machines[decides].*counts;
     return 2 * here > all || (2 * here == all && has_cast);
   };
   return count > 0 && has_most(&Machine::is_in, casting) && has_most(&Machine::was_in, was_casting);
