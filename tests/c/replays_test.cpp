@@ -126,7 +126,9 @@ TEST(CReplays, WhatIsFlushedIsThereAfterACrash) {
   for (std::uint64_t frames = 1; frames <= 130; ++frames) {
     game.step(1);
     ASSERT_EQ(iso_tape_end_frame(tape), ISO_OK);
-    if (frames % 13 == 0) ASSERT_EQ(iso_tape_flush(tape), ISO_OK);
+    if (frames % 13 == 0) {
+      ASSERT_EQ(iso_tape_flush(tape), ISO_OK);
+    }
     const void* bytes = nullptr;
     std::size_t size = 0;
     ASSERT_EQ(iso_tape_bytes(tape, &bytes, &size), ISO_OK);

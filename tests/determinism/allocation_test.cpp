@@ -147,13 +147,13 @@ TYPED_TEST(Allocation, AWarmSessionIsKeptAndRecordedWithoutAny) {
       recorder.confirmed(frame, 0);
     }
   };
-  play(0, 70);
+  play(0, 190);
   const std::size_t before = written;
   const Count count;
-  play(70, 190);
+  play(190, 310);
   EXPECT_EQ(count.so_far(), 0u);
   EXPECT_GT(written, before);
-  EXPECT_EQ(recorder.frames(), 190);
+  EXPECT_EQ(recorder.frames(), 310);
 }
 
 }  // namespace

@@ -74,6 +74,30 @@ TYPED_TEST(BulletsThatMeet, a_cube_head_on_at_every_phase_do_not_end_behind_it) 
   }
 }
 
+/// In the frame of what turns a bullet goes along a bow: taken for straight, it passes the blade of a fan.
+TYPED_TEST(BulletsThatMeet, what_a_motor_turns_touch) {
+  using S = TypeParam;
+  for (int i = 0; i < 160; ++i) {
+    World<S> w(settings<S>(0));
+    const double speed = i % 2 == 0 ? 40 : std::is_same_v<S, Q16_16> ? 50 : 200;
+    const double spin = this->kSpin * (1 + i % 3) / 3;
+    BodyDefinition<S> d = moving<S>(add_ball(w, 0.0625), {-10 - i * speed / 60 / 160, 0.015625, 0}, {speed, 0, 0});
+    d.bullet = true;
+    d.mass = S(1);
+    w.create(d);
+    d = moving<S>(i % 4 < 2 ? add_box(w, 0.15, 0.15, 0.15) : add_ball(w, 0.15), {0, 0, 0});
+    d.type = BodyType::kinematic;
+    d.angular_velocity = vec<S>(0, spin, 0);
+    w.create(d);
+    bool touched = false;
+    for (int step = 0; step < 20 / speed * 60 + 8; ++step) {
+      w.step();
+      touched = touched || !w.events().contact_begin.empty();
+    }
+    EXPECT_TRUE(touched) << i << ": " << speed << " m/s, " << spin << " rad/s";
+  }
+}
+
 /// A bullet that a plate carries along does not go through the wall behind it.
 TYPED_TEST(BulletsThatMeet, a_plate_in_front_of_a_wall_are_not_pressed_through_it) {
   using S = TypeParam;

@@ -160,6 +160,7 @@ template <class S> class ContinuousCollision {
   void stop_at_what_is_fixed(std::uint32_t index, const Pose<S>& from);
   Cut first_impact(Mover& mover, bool moving);
   Pose<S> way_of(const Mover& mover, Unit<S> fraction) const;
+  Pose<S> pose_on(const Path& path, Vec3<S> centre, Unit<S> fraction) const;
   CoreMotion<S> motion_in(const Path& path, Piece piece, Vec3<S> centre) const;
   Cut sweep(const Mover& mover) const;
   bool find_touch(Mover& mover) const;

@@ -52,7 +52,7 @@ template <class S> struct Scene {
   After<S> step(Simd simd, std::size_t pieces) {
     const StepContext<S> c = context(body_kernels<S>(simd));
     BodyRows<S> rows;
-    rows.gather(c, kRate);
+    rows.gather(c, kRate, true);
     After<S> after;
     const auto each = [&](const auto& act) {
       for (std::size_t k = 0; k < pieces; ++k) act(states.size() * k / pieces, states.size() * (k + 1) / pieces);
@@ -135,7 +135,7 @@ TYPED_TEST(BodyRowsOf, EveryWidthAndEveryPieceGiveTheBitsOfOneLane) {
     for (const std::uint8_t was : one.cut) cut += was;
     followed += expected.followed;
     BodyRows<S> begun;
-    begun.gather(Scene<S>(start).context(nullptr), kRate);
+    begun.gather(Scene<S>(start).context(nullptr), kRate, true);
     for (std::size_t i = 1; i <= count; ++i)
       renewed += begun.rows().mass[i].kappa.rows[0] == expected.mass[i].kappa.rows[0] ? 0u : 1u;
     for (const Simd simd : {Simd::best, Simd::sse2, Simd::avx2, Simd::avx512, Simd::neon, Simd::wasm}) {

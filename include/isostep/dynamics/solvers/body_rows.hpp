@@ -19,7 +19,8 @@ namespace isostep {
 template <class S> class BodyRows {
  public:
   /// Once a step: velocities and masses of context.states, no displacement. Sub-steps take 1 / rate seconds.
-  void gather(const StepContext<S>& context, std::int32_t rate);
+  /// `binds_joints`: energy_bound.hpp.
+  void gather(const StepContext<S>& context, std::int32_t rate, bool binds_joints);
 
   /// Before the velocities of a sub-step.
   ISO_INLINE void renew_forces(const StepContext<S>& context) const {
@@ -49,6 +50,9 @@ template <class S> class BodyRows {
 
   /// Velocities back into context.states, after integration.
   void store(const StepContext<S>& context, std::size_t first, std::size_t end) const;
+  /// Then, of all of them at once.
+  ISO_INLINE bool has_bound() const { return bound_.any(); }
+  ISO_INLINE void hold_energy(const StepContext<S>& context) const { bound_.hold(context, rows_); }
 
   /// See rigid_solver.hpp.
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage);

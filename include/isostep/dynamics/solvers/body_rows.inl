@@ -40,7 +40,7 @@ template <class S> ISO_INLINE Pace pace_of(Velocity<S> angular_speed, std::int32
 
 }  // namespace detail
 
-template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::int32_t rate) {
+template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::int32_t rate, bool binds_joints) {
   const std::size_t count = context.states.size();
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
   rate_ = rate;
@@ -53,7 +53,7 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::
   flights_.resize(count);
   turns_.resize(count);
   left_.resize(count);
-  bound_.find(context, count);
+  bound_.begin(context, h, binds_joints);
   const Velocity<S> fast = angular_speed_to_renew<S>(context.hz, true);
   began_with_followed_ = false;
   rows_.velocity[0] = MotionRow<Velocity<S>>::zero();
@@ -72,7 +72,6 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::
     SolverMass<S>& mass = rows_.mass[i + 1];
     if (body.type != BodyType::dynamic) {
       mass = rows_.mass[0];
-      bound_.release(i);
       continue;
     }
     mass.mass = body.mass;
@@ -86,7 +85,6 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::
     const bool rapid = spins && rapid_angular_speed<S>(context.hz) < max_abs(state.angular_velocity);
     mass.kappa = detail::world_kappa(body, rapid ? axes_in_the_middle(context, i) : axes);
     if (detail::turns_freely(body)) gather_turn(state, body, axes, i);
-    if (bound_.binds(i)) bound_.begin(i, state, body, axes);
   }
 }
 
@@ -136,6 +134,7 @@ template <class S> BodyRun<S> BodyRows<S>::run_of(const StepContext<S>& context,
 
 template <class S>
 void BodyRows<S>::integrate_velocities(const StepContext<S>& context, std::size_t first, std::size_t end) {
+  if (!context.accelerations.empty()) bound_.add_work(context, rows_, first, end);
   const std::size_t left = context.body_kernels->integrate_velocities(run_of(context, first, end));
   for (std::size_t k = first; k < first + left; ++k) finish_velocity(context, left_[k] / 2, left_[k] % 2 == 0);
 }
@@ -232,16 +231,13 @@ template <class S> void BodyRows<S>::store(const StepContext<S>& context, std::s
     BodyState<S>& state = context.states[i];
     MotionRow<V> row = rows_.velocity[i + 1];
     const BodyProperties<S>& body = context.properties[i];
-    const bool turns = (kinds_[i] & body_kind::kTurns) != 0 && rapid < max_abs(row.angular), binds = bound_.binds(i);
-    const bool spins = (turns || binds) && (body.flags & body_flag::kSpins) != 0;
-    const Mat3<Unit<S>> axes = spins ? detail::world_axes(state.orientation, body) : Mat3<Unit<S>>{};
-    if (turns) {
+    if ((kinds_[i] & body_kind::kTurns) != 0 && rapid < max_abs(row.angular)) {
+      const Mat3<Unit<S>> axes = detail::world_axes(state.orientation, body);
       const BodyTurn<S>& turn = turns_[i];
       const Pace pace = detail::pace_of<S>(max_abs(row.angular), context.hz, rate_);
       row.angular = FreeTurn<S>{axes, turn.inertia, turn.euler, h}.settle(row.angular, turn.known, pace);
       detail::hold_locks(body.flags, row);
     }
-    if (binds) bound_.hold(context, i, rows_.displacement[i + 1].linear, axes, row);
     state.velocity = row.linear;
     state.angular_velocity = row.angular;
   }

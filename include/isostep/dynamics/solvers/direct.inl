@@ -13,7 +13,7 @@ namespace isostep {
 
 template <class S> void DirectSolver<S>::colour_constraints(const StepContext<S>& context) {
   rate_ = integration_rate(SolverName::direct, context.hz, context.substeps);
-  bodies_.gather(context, rate_);
+  bodies_.gather(context, rate_, true);
   impacts_.begin(context, bodies_.rows());
   joints_.prepare(context, bodies_.rows());
   find_islands(context);
@@ -238,6 +238,7 @@ template <class S> void DirectSolver<S>::store_impulses(const StepContext<S>& co
   }
   impacts_.store(context);
   bodies_.store(context, 0, bodies_.count());
+  bodies_.hold_energy(context);
   joints_.store(context);
 }
 

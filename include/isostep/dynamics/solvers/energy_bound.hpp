@@ -1,4 +1,4 @@
-// EnergyBound<S>: a body that touches only what stands still leaves a step with no more energy than it had.
+// EnergyBound<S>: what nothing drives leaves a step with no more energy than it had.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,45 +12,66 @@
 
 namespace isostep {
 
-/// Ground that stands still does no work. Contacts are found once a step, and what rolls on an edge has left its arms,
-/// its normal's lever and its axes of inertia behind when the step ends: it sinks along the old ones and is pushed up
-/// along the new, for nothing. A barrel on its rim made twelve times its energy of that in forty seconds, a can that
-/// rocked a tenth more in twenty, whatever the sub-steps. So what a step made is taken from the motion as a whole:
-/// velocity and turning by one factor, which neither lifts a point off what it touches nor lets it slip.
-/// Bodies with joints, with forces but gravity, on what moves, on belts and with restitution are left alone: there
-/// energy comes and goes.
+/// Contacts and joints do no work but what they take. Contacts are found once a step, and what rolls on an edge has
+/// left its arms, its normal's lever and its axes of inertia behind when the step ends: it sinks along the old ones and
+/// is pushed up along the new, for nothing. A barrel on its rim made twelve times its energy of that in forty seconds,
+/// a can that rocked a tenth more in twenty, whatever the sub-steps. So what a step made is taken from the motion as a
+/// whole: velocities and turns by one factor, which neither lifts a point off what it touches nor lets it slip, nor
+/// opens a joint.
+/// A group is what contacts and joints tie, up to kMost bodies: more hide what one of them makes. It lies on or hangs
+/// from what stands still: of any other the factor would take momentum. Groups with motors, springs or drives, on what
+/// moves, on belts, and of scaled masses are left alone: there energy comes and goes. What forces give counts as
+/// theirs.
+/// What joints hold swings by semi-implicit Euler, which keeps T / 2 - g x + h g v / 2 and not the energy: that is what
+/// is bound there, or each swing would lose what the energy goes up and down by. What falls freely keeps its energy.
+/// A solver that closes joints' errors by speeds that stay (pgs) needs what it makes: joints leave its groups alone.
 /// Symbols: v = velocity, u = angular velocity about the principal axes, each times the axis' radius of gyration
-///          [m/s], T = v^2 + u^2 [m^2/s^2] twice the kinetic energy by mass, x = part of T that is too much.
+///          [m/s], T = sum of (m / M) (v^2 + u^2) [m^2/s^2] twice the kinetic energy by the group's mass M or more,
+///          x = part of T that is too much, g = gravity [m/s^2], h = a sub-step [s].
 template <class S> class EnergyBound {
   using V = Velocity<S>;
 
  public:
-  using Energy = SumOf<V, V>;  // [m^2/s^2]
-
-  /// Finds the bodies that are bound; `bodies` of them are awake.
-  void find(const StepContext<S>& context, std::size_t bodies);
-  ISO_INLINE void release(std::size_t body) { kinds_[body + 1] = kFree; }
-  ISO_INLINE bool binds(std::size_t body) const { return kinds_[body + 1] == kTouches; }
-
-  /// Call it as the step begins. `axes`: principal axes in the world, of bodies that are kSpins.
-  void begin(std::size_t body, const BodyState<S>& state, const BodyProperties<S>& properties,
-             const Mat3<Unit<S>>& axes);
-  /// Call it as the step ends. `displacement` [m] of the centre since.
-  void hold(const StepContext<S>& context, std::size_t body, Vec3<V> displacement, const Mat3<Unit<S>>& axes,
-            MotionRow<V>& row) const;
+  /// Finds the groups that are bound, and what they begin with. `h` [s] is a sub-step; `binds_joints`: see above.
+  void begin(const StepContext<S>& context, Step<S> h, bool binds_joints);
+  ISO_INLINE bool any() const { return !groups_.empty(); }
+  /// Before the velocities of a sub-step: what forces are to give bodies first..end-1.
+  void add_work(const StepContext<S>& context, const SolverBodies<S>& rows, std::size_t first, std::size_t end);
+  /// Call it as the step ends, of velocities in context.states.
+  void hold(const StepContext<S>& context, const SolverBodies<S>& rows) const;
 
  private:
-  static constexpr std::uint8_t kTouches = 1, kFree = 2;
+  using Energy = SumOf<V, V>;  // [m^2/s^2]
+  static constexpr std::uint32_t kMost = 64;
+  static constexpr std::uint8_t kNothing = 0, kFree = 1, kStands = 2, kHangs = 4;
   struct Motion {
     Vec3<V> v, u;
   };
+  struct Group {
+    std::uint32_t first, end;  // in members_
+    bool hangs;                // joints hold it
+  };
 
-  static Motion motion_of(Vec3<V> velocity, Vec3<V> angular_velocity, const BodyProperties<S>& body,
-                          const Mat3<Unit<S>>& axes);
+  void tie(const StepContext<S>& context, std::uint32_t a, std::uint32_t b, std::uint8_t kind);
+  std::uint32_t leader_of(std::uint32_t row);
+  void find_groups(const StepContext<S>& context);
+  void weigh(const StepContext<S>& context, Group group);
+  void hold_group(const StepContext<S>& context, const SolverBodies<S>& rows, Group group) const;
+  Vec3<V> gravity_of(const StepContext<S>& context, std::size_t body) const;
+  Energy lag_of(const StepContext<S>& context, std::size_t body) const;
+  Motion motion_of(const StepContext<S>& context, std::size_t body, Vec3<V> velocity, Vec3<V> angular_velocity) const;
   static ISO_INLINE Energy energy_of(const Motion& m) { return dot_sum(m.v, m.v) + dot_sum(m.u, m.u); }
 
-  std::vector<std::uint8_t> kinds_;  // by row of the bodies
-  std::vector<Energy> begin_;        // of each body that is bound
+  // By row of the bodies:
+  std::vector<std::uint8_t> kinds_;
+  std::vector<std::uint32_t> leaders_, sizes_;  // lowest row of its group, or of one on the way to it
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> members_;  // bodies, group by group
+  // By body:
+  std::vector<V> weights_;       // [1] the root of its share of the group's mass, or less; 0: not bound
+  std::vector<Energy> allowed_;  // of its share
+  std::vector<Vec3<V>> begin_;   // [m/s] velocities as the step began
+  Step<S> h_ = Step<S>(0);       // [s] a sub-step
 };
 
 #define ISO_EXTERN_ENERGY_BOUND(S) extern template class EnergyBound<S>;

@@ -91,6 +91,7 @@ template <class S> class Sequential {
     add_joint_impulses,
     store,
     store_bodies,
+    hold_energy,
   };
   struct Stage {
     Work work;

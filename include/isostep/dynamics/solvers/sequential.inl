@@ -42,7 +42,7 @@ void Sequential<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t buck
 template <class S> void Sequential<S>::colour_constraints(const StepContext<S>& context) {
   constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * detail::kDepths * kContactVariants;
   schedule_ = schedule_of_(context);
-  bodies_.gather(context, schedule_.rate);
+  bodies_.gather(context, schedule_.rate, schedule_.relaxes);
   impacts_.begin(context, bodies_.rows());
   joints_.prepare(context, bodies_.rows());
   const std::size_t count = context.contacts.size();

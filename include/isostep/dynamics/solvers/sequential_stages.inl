@@ -56,6 +56,7 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     case Work::begin_contacts: solver.carry(job.context); return solver.forget_impulses(job.context);
     case Work::follow: return solver.follow(job.context);
     case Work::respond: return solver.respond(job.context);
+    case Work::hold_energy: return solver.bodies_.hold_energy(job.context);
     case Work::relieve: return solver.relieve(job.context);
     case Work::add_joint_impulses: return solver.joints_.add_impulses(job.context);
     case Work::bounce: return solver.impacts_.bounce(job.context, solver.bodies_);
@@ -142,6 +143,7 @@ template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& cont
 template <class S> void Sequential<S>::store_impulses(const StepContext<S>& context) {
   add_stages(Work::store, all_);
   add_stage(Work::store_bodies, body_pieces_);
+  if (bodies_.has_bound()) add_stage(Work::hold_energy, 1);
   run(context);
   impacts_.store(context);
   joints_.store(context);

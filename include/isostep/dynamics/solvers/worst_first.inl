@@ -11,7 +11,7 @@
 namespace isostep {
 
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::colour_constraints(const StepContext<S>& context) {
-  bodies_.gather(context, integration_rate(SolverName::worst_first, context.hz, context.substeps));
+  bodies_.gather(context, integration_rate(SolverName::worst_first, context.hz, context.substeps), true);
   joints_.prepare(context, bodies_.rows());
   impacts_.begin(context, bodies_.rows());
   const SolverBodies<S>& bodies = bodies_.rows();
@@ -314,6 +314,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::store_impulse
   }
   impacts_.store(context);
   bodies_.store(context, 0, bodies_.count());
+  bodies_.hold_energy(context);
   joints_.store(context);
 }
 
