@@ -15,7 +15,7 @@ inline bool wants_whole() {
 
 template <class T> T sampled(T whole, T sample) { return wants_whole() ? whole : sample; }
 
-/// How many known faults a quarter of a sweep may meet, of `most` in the whole: half, for few scatter.
+/// A quarter of a sweep may meet half of the `most` known faults of the whole: few scatter.
 inline int known_in_quarter(int most) { return sampled(most, (most + 1) / 2); }
 
 }  // namespace isostep::test

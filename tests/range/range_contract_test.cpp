@@ -80,7 +80,7 @@ TYPED_TEST(RangeContract, APileOfEveryShapeSettles) {
   this->floor();
   const ShapeId shapes[3] = {this->world.add_shape(Box{{0.25, 0.375, 0.5}}), this->world.add_shape(Sphere{0.25}),
                              this->world.add_shape(Capsule{0.25, 0.25})};
-  for (int i = 0, bodies = sampled(60, 24); i < bodies; ++i) {
+  for (int i = 0, count = sampled(60, 24); i < count; ++i) {
     const S x = S(i % 4) * S(0.75) + S(i % 3) * S(0.0625), z = S(i / 4 % 4) * S(0.75);
     this->add(shapes[i % 3], {x, S(1 + i / 16), z}, S(1 + i % 5));
   }

@@ -112,7 +112,7 @@ class ClientCore : public PeerCore {
   bool owns_inputs() const { return failover_.roster.settings.deadline == 0; }
   /// Inputs of players who support us, and which only others know.
   void forget_untold();
-  /// Its stream goes on beyond what a host has told of it: also before we have begun where a welcome said.
+  /// This machine writes the player's stream: the seat is ours and open, or opens once we begin.
   bool is_told_by_us(int player) const { return is_own(player) && (is_open_ || is_restoring_ || must_begin_); }
   /// Where the inputs of `player` end that the host has made final, as far as we know.
   Frame final_end(int player) const {

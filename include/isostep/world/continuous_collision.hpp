@@ -153,8 +153,6 @@ template <class S> class ContinuousCollision {
   bool is_passed(const Mover& mover, const PlacedShape<S>& part, const Pose<S>& there, const PlacedShape<S>& obstacle,
                  const Obstacle& body, Unit<S> fraction) const;
   // continuous_collision.inl
-  bool ends_deep(const PlacedShape<S>& part, const CoreMotion<S>& motion, const PlacedShape<S>& obstacle,
-                 const Obstacle& body) const;
   void cut(Mover& mover, bool moving);
   void cut_bullet(Mover& mover);
   void stop_at_what_is_fixed(std::uint32_t index, const Pose<S>& from);
@@ -164,15 +162,18 @@ template <class S> class ContinuousCollision {
   CoreMotion<S> motion_in(const Path& path, Piece piece, Vec3<S> centre) const;
   Cut sweep(const Mover& mover) const;
   bool find_touch(Mover& mover) const;
-  template <class Visit>
-  void visit_parts(const Mover& mover, const CoreMotion<S>& motion, const Obstacle& obstacle, const Visit& visit) const;
   void put_at(std::uint32_t index, const Pose<S>& pose);
   void place(std::uint32_t index);
   void stop_middle(BodyState<S>& state, const Cut& cut, bool moving) const;
   void find_obstacles(const Mover& mover, bool moving);
+  // continuous_sweeps.inl
   void sweep_against(const Mover& mover, std::uint32_t slot, Cut& cut) const;
   void sweep_against_moving(const Mover& mover, std::uint32_t slot, std::size_t index, Cut& cut) const;
   void sweep_against_kinematic(const Mover& mover, std::uint32_t slot, std::size_t index, Cut& cut) const;
+  template <class Visit>
+  void visit_parts(const Mover& mover, const CoreMotion<S>& motion, const Obstacle& obstacle, const Visit& visit) const;
+  bool ends_deep(const PlacedShape<S>& part, const CoreMotion<S>& motion, const PlacedShape<S>& obstacle,
+                 const Obstacle& body) const;
   void sweep_piece(const Mover& mover, Piece piece, const CoreMotion<S>& motion, const Obstacle& obstacle,
                    Cut& cut) const;
   // continuous_joined.inl

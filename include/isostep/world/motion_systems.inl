@@ -8,6 +8,7 @@
 #include "isostep/world/continuous_joined.inl"
 #include "isostep/world/continuous_movers.inl"
 #include "isostep/world/continuous_rules.inl"
+#include "isostep/world/continuous_sweeps.inl"
 #include "isostep/world/joined_bodies.inl"
 #include "isostep/world/move_targets.inl"
 #include "isostep/world/render_poses.inl"

@@ -176,7 +176,7 @@ void ClientCore::take_welcome(const Welcome& welcome, Time now) {
   // A machine that is the host again, in a later term, says other things than in the one before.
   const bool is_same_host = welcome.match == welcome_.match && welcome.term == welcome_.term;
   keeps_inputs_ = is_same_host && welcome.snapshot_size == 0 && !former_.are_back();
-  // Where our own inputs end that are accepted is known as long as the seats are open.
+  // We know how many of our own inputs were accepted as long as our seats are open.
   if (failover_.election.log_term() != 0 && !keeps_inputs_ && !former_.are_kept()) {
     Frame ends[kMaxPlayers] = {};
     for (int p = 0; p < players(); ++p) ends[p] = failover_.has_asked && !is_own(p) ? failover_.ends[p] : final_end(p);

@@ -29,7 +29,7 @@ TEST(Trials, HaveNamesOfTheirOwn) {
   EXPECT_EQ(find_trial("S1"), nullptr);
 }
 
-/// Gravity, a spin or an overlap: after ten steps something has a speed, or bears what would else fall.
+/// Gravity, a spin or an overlap: ten steps move something, or it bears what would else fall.
 TEST(Trials, BuildInDoubleAndDoSomething) {
   for (const Trial& trial : trials()) {
     const Scene scene = *find_scene(trial.name);
@@ -37,15 +37,18 @@ TEST(Trials, BuildInDoubleAndDoSomething) {
     build(scene, world);
     TrialRun run(trial, scene);
     run.see(world);
+    const Sight start = sight_of(world, 0);
     for (int i = 0; i < 10; ++i) {
       before_step(scene.script, world);
       run.see(world, world.step());
     }
     const Sight sight = sight_of(world, 0);
-    bool moves = world.counts().points > 0 || world.counts().joints > 0;
-    for (const BodySight& body : sight.bodies) {
-      moves = moves || (body.dynamic &&
-                        dot(body.velocity, body.velocity) + dot(body.angular_velocity, body.angular_velocity) > 0);
+    bool moves = world.counts().points > 0;
+    for (std::size_t i = 0; i < sight.bodies.size(); ++i) {
+      const BodySight& body = sight.bodies[i];
+      const bool is_there = body.centre == start.bodies[i].centre && body.orientation == start.bodies[i].orientation;
+      const double speeds = dot(body.velocity, body.velocity) + dot(body.angular_velocity, body.angular_velocity);
+      moves = moves || (body.dynamic && (speeds > 0 || !is_there));
     }
     EXPECT_TRUE(moves) << trial.name;
     EXPECT_FALSE(run.over()) << trial.name;

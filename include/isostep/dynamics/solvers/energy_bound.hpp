@@ -22,9 +22,10 @@ namespace isostep {
 /// from what stands still: of any other the factor would take momentum. Groups with motors, springs or drives, on what
 /// moves, on belts, and of scaled masses are left alone: there energy comes and goes. What forces give counts as
 /// theirs.
-/// What joints hold swings by semi-implicit Euler, which keeps T / 2 - g x + h g v / 2 and not the energy: that is what
-/// is bound there, or each swing would lose what the energy goes up and down by. What falls freely keeps its energy.
-/// A solver that closes joints' errors by speeds that stay (pgs) needs what it makes: joints leave its groups alone.
+/// Semi-implicit Euler keeps T / 2 - g x + h g v / 2 of what joints hold, and not its energy. The bound holds for that
+/// quantity there: by the energy each swing would lose what the energy goes up and down by. A free fall keeps its
+/// energy. A solver that closes joints' errors by speeds that stay (pgs) needs what it makes: its groups with joints
+/// are left alone.
 /// Symbols: v = velocity, u = angular velocity about the principal axes, each times the axis' radius of gyration
 ///          [m/s], T = sum of (m / M) (v^2 + u^2) [m^2/s^2] twice the kinetic energy by the group's mass M or more,
 ///          x = part of T that is too much, g = gravity [m/s^2], h = a sub-step [s].
@@ -64,10 +65,12 @@ template <class S> class EnergyBound {
 
   // By row of the bodies:
   std::vector<std::uint8_t> kinds_;
-  std::vector<std::uint32_t> leaders_, sizes_;  // lowest row of its group, or of one on the way to it
+  std::vector<std::uint32_t> leaders_;  // the lowest row of its group, or one on the way to it
+  std::vector<std::uint32_t> sizes_;    // of a leader: of its group; then the group's place in groups_ and 1, 0: none
   std::vector<Group> groups_;
   std::vector<std::uint32_t> members_;  // bodies, group by group
   // By body:
+  std::vector<Vec3<S>> radii_;   // [m] of gyration, principal axes; 0: it does not turn
   std::vector<V> weights_;       // [1] the root of its share of the group's mass, or less; 0: not bound
   std::vector<Energy> allowed_;  // of its share
   std::vector<Vec3<V>> begin_;   // [m/s] velocities as the step began

@@ -35,7 +35,7 @@ template <class S> void EnergyBound<S>::begin(const StepContext<S>& context, Ste
   for (const Group group : groups_) weigh(context, group);
 }
 
-/// What stands still does no work; what else is not dynamic drives.
+/// Bodies that stand still do no work; all others that are not dynamic drive.
 template <class S>
 void EnergyBound<S>::tie(const StepContext<S>& context, std::uint32_t a, std::uint32_t b, std::uint8_t kind) {
   bool is_one = true;
@@ -88,6 +88,7 @@ template <class S> void EnergyBound<S>::find_groups(const StepContext<S>& contex
     const std::uint32_t group = sizes_[leaders_[row]];
     if (group != 0) members_[groups_[group - 1].end++] = row - 1;
   }
+  radii_.resize(rows - 1);
   allowed_.resize(rows - 1);
   begin_.resize(rows - 1);
 }
@@ -103,6 +104,9 @@ template <class S> void EnergyBound<S>::weigh(const StepContext<S>& context, Gro
     const std::uint32_t body = members_[i];
     const S mass = context.properties[body].mass;
     weights_[body] = mass < heaviest ? part * convert<V>(sqrt(divide_to<Unit<S>>(mass, heaviest))) : part;
+    const auto radius = [](S kappa) { return S(0) < kappa ? divide_to<S>(S(1), sqrt(kappa)) : S(0); };
+    const Vec3<S> kappa = context.properties[body].kappa;
+    radii_[body] = {radius(kappa.x), radius(kappa.y), radius(kappa.z)};
     const BodyState<S>& state = context.states[body];
     allowed_[body] = energy_of(motion_of(context, body, state.velocity, state.angular_velocity));
     begin_[body] = state.velocity;
@@ -186,10 +190,9 @@ typename EnergyBound<S>::Motion EnergyBound<S>::motion_of(const StepContext<S>& 
   Vec3<V> w = angular_velocity;
   if ((properties.flags & body_flag::kSpins) != 0)
     w = transposed_times(detail::world_axes(context.states[body].orientation, properties), w);
-  const auto along = [](S kappa, V speed) ISO_INLINE_LAMBDA {
-    return S(0) < kappa ? saturate_to<V>(product(divide_to<S>(S(1), sqrt(kappa)), speed)) : V(0);
-  };
-  const Vec3<V> u = {along(properties.kappa.x, w.x), along(properties.kappa.y, w.y), along(properties.kappa.z, w.z)};
+  const auto along = [](S radius, V speed) ISO_INLINE_LAMBDA { return saturate_to<V>(product(radius, speed)); };
+  const Vec3<S> radii = radii_[body];
+  const Vec3<V> u = {along(radii.x, w.x), along(radii.y, w.y), along(radii.z, w.z)};
   return {held_within(velocity, most) * weight, held_within(u, most) * weight};
 }
 
