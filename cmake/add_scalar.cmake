@@ -19,7 +19,7 @@ function(isostep_add_scalar target scalar)
   endif()
   file(CONFIGURE OUTPUT ${file} @ONLY CONTENT [[
 // The engine for @scalar@.
-@include@#include "isostep/world/instantiate.inl"
+@include@#include "isostep/instantiate/engine.inl"
 ISO_INSTANTIATE_ENGINE(@scalar@)
 ]])
   target_sources(${target} PRIVATE ${file})

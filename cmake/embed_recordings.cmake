@@ -18,7 +18,7 @@ foreach(scalar IN LISTS SCALARS)
     math(EXPR count "${count} + 1")
   endforeach()
 endforeach()
-file(WRITE ${OUT} "// Written by the build from replays/selfcheck.\n#include \"isostep/world/selfcheck.hpp\"\n\n"
+file(WRITE ${OUT} "// Written by the build from replays/selfcheck.\n#include \"isostep/replay/selfcheck.hpp\"\n\n"
   "namespace isostep {\nnamespace {\n\n${arrays}constexpr SelfcheckRecording kRecordings[] = {\n${rows}    {nullptr, nullptr, {}}};\n\n"
   "}  // namespace\n\nstd::span<const SelfcheckRecording> detail::selfcheck_recordings() { return {kRecordings, ${count}}; }\n\n"
   "}  // namespace isostep\n")

@@ -45,13 +45,17 @@ template <class S, class Structure> class Measured {
     row_.bytes = static_cast<double>(bytes_in_use() - before) / row_.count;
     const double boxes = 1e6 / row_.count, questions = 1e6 / kQuestions;
     row_.build = boxes * median_milliseconds(
-        rounds_, [&] { structure_.clear(); }, [&] { insert_all(); });
-    row_.update = boxes * median_milliseconds(rounds_, [&] { move_all(); }, [&] { update_all(); });
-    row_.find = boxes * median_milliseconds(rounds_, [] {}, [&] { all_pairs(structure_, pairs_); });
+                             rounds_, [&] { structure_.clear(); }, [&] { insert_all(); });
+    row_.update = boxes * median_milliseconds(
+                              rounds_, [&] { move_all(); }, [&] { update_all(); });
+    row_.find = boxes * median_milliseconds(
+                            rounds_, [] {}, [&] { all_pairs(structure_, pairs_); });
     row_.pairs = pairs_.keys.size();
     const Ways<S> ways = ways_in(boxes_);
-    row_.query = questions * median_milliseconds(rounds_, [] {}, [&] { ask_boxes(ways); });
-    row_.ray = questions * median_milliseconds(rounds_, [] {}, [&] { ask_rays(ways); });
+    row_.query = questions * median_milliseconds(
+                                 rounds_, [] {}, [&] { ask_boxes(ways); });
+    row_.ray = questions * median_milliseconds(
+                               rounds_, [] {}, [&] { ask_rays(ways); });
     return row_;
   }
   /// What keeps the compiler from leaving questions out.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "isostep/world/stages.hpp"
+#include "isostep/store/stages.hpp"
 
 namespace isostep::bench {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "crowds.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "scale.hpp"
 #include "scene_bench/clock.hpp"
 #include "scenes/build.hpp"

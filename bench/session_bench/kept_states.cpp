@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "isostep/world/frame_history.hpp"
+#include "isostep/replay/frame_history.hpp"
 #include "parts.hpp"
 #include "scene_bench/clock.hpp"
 #include "scenes/build.hpp"

@@ -61,8 +61,7 @@ std::uint32_t size_at(const std::uint8_t* sized) {
   return size;
 }
 
-template <class S>
-iso_status get_states(const iso_world* world, const iso_body* bodies, std::size_t count, void* out) {
+template <class S> iso_status get_states(const iso_world* world, const iso_body* bodies, std::size_t count, void* out) {
   constexpr const char* kCall = "bodies_get_states";
   return in_world<S>(world, kCall, Access::reads, [&](auto& of) {
     if (count == 0) return kOk;

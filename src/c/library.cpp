@@ -3,7 +3,7 @@
 #include "convert.hpp"
 #include "isostep/core/scalars.hpp"
 #include "isostep/core/version.hpp"
-#include "isostep/world/selfcheck.hpp"
+#include "isostep/replay/selfcheck.hpp"
 #include "layout/abi.hpp"
 
 using namespace isostep;

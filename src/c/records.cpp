@@ -1,6 +1,6 @@
 // Records that are registered with a world: every kind is added, set, read and removed in one way.
 // SPDX-License-Identifier: MIT
-#include "isostep/effects/fracture/breaking.hpp"
+#include "isostep/fracture/breaking.hpp"
 #include "objects.hpp"
 
 using namespace isostep;

@@ -1,8 +1,8 @@
 // Recordings that are read: what they are, whether they come out here, and their frames.
 // SPDX-License-Identifier: MIT
 #include "isostep/core/scalars.hpp"
-#include "isostep/world/recorder.hpp"
-#include "isostep/world/replay_check.hpp"
+#include "isostep/replay/recorder.hpp"
+#include "isostep/replay/replay_check.hpp"
 #include "objects.hpp"
 
 using namespace isostep;

@@ -20,14 +20,15 @@ template <std::size_t N> bool ends(const char (&text)[N], std::size_t most) {
 constexpr std::size_t kMostBlock = 256u << 20;  // [bytes] a state that is saved every frame is much smaller
 
 /// Numbers that C and C++ have alike: an entry is a field that is copied as it is.
-#define ISO_SESSION_FIELDS(X)                                                                                   \
-  X(players)                                                                                                    \
-  X(local_players)                                                                                              \
-  X(hz)                                                                                                         \
-  X(window)                                                                                                     \
-  X(delay) X(least_delay) X(most_delay) X(deadline) X(silence) X(patience) X(exclusion) X(kept) X(history)      \
-      X(most_replayed) X(max_peers) X(max_strangers) X(snapshot_cap) X(most_packets) X(broadcast_delay) X(seed) \
-          X(migration) X(reservation) X(token) X(seat)
+#define ISO_SESSION_FIELDS(X)                                                                                      \
+  X(players)                                                                                                       \
+  X(local_players)                                                                                                 \
+  X(hz)                                                                                                            \
+  X(window)                                                                                                        \
+  X(delay)                                                                                                         \
+  X(least_delay) X(most_delay) X(deadline) X(silence) X(patience) X(exclusion) X(kept) X(history) X(most_replayed) \
+      X(max_peers) X(max_strangers) X(snapshot_cap) X(most_packets) X(broadcast_delay) X(seed) X(migration)        \
+          X(reservation) X(token) X(seat)
 #define ISO_SESSION_FLAGS(X) X(host) X(relays) X(repair) X(asks_admission) X(votes) X(players_set_tempo)
 
 void from_session_config(const SessionConfig& from, iso_session_config& to) {

@@ -161,8 +161,9 @@ iso_status iso_session_get_stats(const iso_session* session, iso_session_stats* 
     ISO_COPY(waits)
     ISO_COPY(datagrams_out)
     ISO_COPY(datagrams_in)
-    ISO_COPY(bytes_out) ISO_COPY(bytes_in) ISO_COPY(refused) ISO_COPY(flooded) ISO_COPY(put_out) ISO_COPY(events_lost)
-        ISO_COPY(round_trip) ISO_COPY(peers) ISO_COPY(machines) ISO_COPY(jitter) ISO_COPY(loss) ISO_COPY(stretch)
+    ISO_COPY(bytes_out)
+    ISO_COPY(bytes_in) ISO_COPY(refused) ISO_COPY(flooded) ISO_COPY(put_out) ISO_COPY(events_lost) ISO_COPY(round_trip)
+        ISO_COPY(peers) ISO_COPY(machines) ISO_COPY(jitter) ISO_COPY(loss) ISO_COPY(stretch)
 #undef ISO_COPY
   });
 }

@@ -5,9 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "isostep/replay/session_recorder.hpp"
 #include "isostep/state/replay_format.hpp"
-#include "isostep/world/session_recorder.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "isostep/world/world.hpp"
 #include "objects.hpp"
 

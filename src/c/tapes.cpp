@@ -1,6 +1,6 @@
 // Recordings that grow: a world's commands, steps and hashes as the bytes of a replay.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/recorder.hpp"
+#include "isostep/replay/recorder.hpp"
 #include "objects.hpp"
 
 using namespace isostep;

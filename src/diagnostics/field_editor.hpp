@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
+#include "isostep/replay/world_kinds.hpp"
 #include "isostep/state/fields.hpp"
-#include "isostep/world/world_kinds.hpp"
 
 namespace isostep {
 

@@ -5,9 +5,9 @@
 #include "diagnostics/fault_injection.hpp"
 #include "isostep/core/number_text.hpp"
 #include "isostep/core/simd_choice.hpp"
+#include "isostep/replay/world_kinds.hpp"
 #include "isostep/state/command_log.hpp"
 #include "isostep/state/replay_format.hpp"
-#include "isostep/world/world_kinds.hpp"
 
 namespace isostep {
 namespace {

@@ -1,8 +1,9 @@
 // Particles: a cloth hung by two corners, a ball thrown into it, and the same twelve frames played twice.
 // SPDX-License-Identifier: MIT
+#include "isostep/particles/bodies/cloth.hpp"
+
 #include <cstdio>
 
-#include "isostep/particles/bodies/cloth.hpp"
 #include "isostep/state/concepts.hpp"
 
 namespace iso = isostep;

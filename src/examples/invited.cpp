@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
+#include "isostep/replay/recorder.hpp"
 #include "isostep/session/session.hpp"
-#include "isostep/world/recorder.hpp"
 #include "transport/pump.hpp"
 #include "transport/simulated_network.hpp"
 

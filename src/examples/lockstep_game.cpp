@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 
+#include "isostep/replay/recorder.hpp"
 #include "isostep/session/session.hpp"
 #include "isostep/state/composite.hpp"
-#include "isostep/world/recorder.hpp"
 #include "transport/pump.hpp"
 #include "transport/simulated_network.hpp"
 

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <utility>
 
+#include "isostep/replay/recorder.hpp"
 #include "isostep/session/session.hpp"
 #include "isostep/state/composite.hpp"
-#include "isostep/world/recorder.hpp"
 #include "sealed/sealed_transport.hpp"
 #include "transport/enet_transport.hpp"
 #include "transport/pump.hpp"

@@ -1,6 +1,6 @@
 // What a game asks at start: does the engine compute on this machine as it does on every other?
 // SPDX-License-Identifier: MIT
-#include "isostep/world/selfcheck.hpp"
+#include "isostep/replay/selfcheck.hpp"
 
 #include <cstdio>
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "isostep/world/replay_check.hpp"
+#include "isostep/replay/replay_check.hpp"
 
 namespace isostep::prover {
 

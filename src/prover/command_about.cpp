@@ -8,9 +8,9 @@
 #include "isostep/core/short_text.hpp"
 #include "isostep/core/simd_choice.hpp"
 #include "isostep/core/version.hpp"
+#include "isostep/replay/selfcheck.hpp"
+#include "isostep/replay/world_kinds.hpp"
 #include "isostep/scalar/environment.hpp"
-#include "isostep/world/selfcheck.hpp"
-#include "isostep/world/world_kinds.hpp"
 #include "streams.hpp"
 
 namespace isostep::prover {

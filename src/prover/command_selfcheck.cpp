@@ -1,7 +1,7 @@
 // isostep_prover selfcheck: the library's self-check as one line.
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
-#include "isostep/world/selfcheck.hpp"
+#include "isostep/replay/selfcheck.hpp"
 #include "streams.hpp"
 
 namespace isostep::prover {

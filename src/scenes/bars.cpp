@@ -134,8 +134,8 @@ class OwnFigure : public Judge {
 
 const char* name_of(Measure measure) {
   constexpr const char* kNames[] = {
-      "height of the top", "drift",         "furthest way",  "stretch",          "bodies outside", "worst overlap",
-      "mean overlap",      "unrest",        "worst joint",   "joint at the end", "limits passed",  "limits at the end",
+      "height of the top", "drift",         "furthest way",  "stretch",          "bodies outside",  "worst overlap",
+      "mean overlap",      "unrest",        "worst joint",   "joint at the end", "limits passed",   "limits at the end",
       "energy lost",       "energy gained", "time to sleep", "step asleep",      "bullets through", "bumps"};
   return kNames[static_cast<int>(measure)];
 }
@@ -151,8 +151,8 @@ std::vector<Bar> bars_of(std::string_view scene, bool small) {
 
 int count_outside(std::string_view scene, const std::vector<BodySight>& bodies) {
   int outside = 0;
-  const bool pit = starts_with(scene, "S4") || starts_with(scene, "S10") || scene == "S5" || scene == "S7" ||
-                   scene == "S20";
+  const bool pit =
+      starts_with(scene, "S4") || starts_with(scene, "S10") || scene == "S5" || scene == "S7" || scene == "S20";
   const bool drum = scene == "S9", floor = !drum && !starts_with(scene, "S6");
   if (starts_with(scene, "S13")) return 0;  // where they come back to is free
   const bool hills = is_on_hills(scene);
@@ -195,9 +195,9 @@ Measure own_measure(std::string_view scene) {
 }
 
 bool is_benchmark(std::string_view scene) {
-  constexpr std::string_view kScenes[] = {"S1", "S1x5", "S1x10", "S1s", "S2", "S3", "S4", "S4s",
-                                          "S5", "S6",   "S6v",   "S7",  "S8", "S9", "S10", "S11",
-                                          "S12", "S13", "S13m", "S13d", "S15", "S15h", "S16", "S16h", "S20"};
+  constexpr std::string_view kScenes[] = {"S1",   "S1x5", "S1x10", "S1s",  "S2",  "S3",   "S4",  "S4s", "S5",
+                                          "S6",   "S6v",  "S7",    "S8",   "S9",  "S10",  "S11", "S12", "S13",
+                                          "S13m", "S13d", "S15",   "S15h", "S16", "S16h", "S20"};
   return std::find(std::begin(kScenes), std::end(kScenes), scene) != std::end(kScenes);
 }
 

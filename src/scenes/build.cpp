@@ -205,9 +205,9 @@ template <class S> Settings<S> settings_of(const Scene& scene) {
   }
   if (const World<S> probe(settings); probe.fault() != Fault::none) {
     const bool threshold = probe.settings().restitution_threshold != settings.restitution_threshold;
-    throw SceneError(threshold ? "/restitution_threshold" : "/gravity",
-                     std::string(threshold ? "below 0, or " : "") + "beyond the greatest speed of " +
-                         ScalarTraits<S>::kName);
+    throw SceneError(
+        threshold ? "/restitution_threshold" : "/gravity",
+        std::string(threshold ? "below 0, or " : "") + "beyond the greatest speed of " + ScalarTraits<S>::kName);
   }
   return settings;
 }

@@ -3,13 +3,13 @@
 #include "cars.hpp"
 
 #include "build.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "shapes.hpp"
 
 namespace isostep::scenes {
 namespace {
 
-constexpr double kPitch = 12;      // [m]
+constexpr double kPitch = 12;       // [m]
 constexpr double kMostSteer = 0.3;  // [rad]
 
 }  // namespace

@@ -17,14 +17,14 @@ BlobRef hull_of_part(const ScenePart& part, const std::string& place);
 
 /// A hull in double, from its exact faces: judges do not ask the engine that they judge.
 struct SolidHull {
-  std::vector<Vec3<double>> vertices;                     // [m]
-  std::vector<Vec3<double>> normals;                      // [1] outward, of each face
-  std::vector<std::array<Vec3<double>, 2>> edges;         // [m] their ends
-  std::vector<std::array<Vec3<double>, 3>> triangles;     // [m] of the faces
-  double volume;                                          // [m^3]
-  Vec3<double> centre;                                    // [m] of mass
-  Mat3<double> moments;                                   // [m^2] means of x x^T about the centre
-  double inner_radius;                                    // [m] from the centre to the nearest face
+  std::vector<Vec3<double>> vertices;                  // [m]
+  std::vector<Vec3<double>> normals;                   // [1] outward, of each face
+  std::vector<std::array<Vec3<double>, 2>> edges;      // [m] their ends
+  std::vector<std::array<Vec3<double>, 3>> triangles;  // [m] of the faces
+  double volume;                                       // [m^3]
+  Vec3<double> centre;                                 // [m] of mass
+  Mat3<double> moments;                                // [m^2] means of x x^T about the centre
+  double inner_radius;                                 // [m] from the centre to the nearest face
 };
 /// Of a hull's blob.
 std::shared_ptr<const SolidHull> solid_hull(const Blob& blob);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/scalar/environment.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "match.hpp"
 
 namespace isostep::scenes {

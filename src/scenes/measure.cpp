@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "distance.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 
 namespace isostep::scenes {
 namespace {

@@ -65,8 +65,8 @@ template <std::size_t N>
 void ObjectReader::numbers(const JsonNode& node, const std::string& place, std::array<Number, N>& to) {
   if (node.kind != JsonKind::array) wrong_kind(place, JsonKind::array, node.kind);
   if (node.items.size() != N) {
-    throw SceneError(place, "expected " + std::to_string(N) + " numbers, found " + std::to_string(node.items.size()) +
-                                " items");
+    throw SceneError(
+        place, "expected " + std::to_string(N) + " numbers, found " + std::to_string(node.items.size()) + " items");
   }
   for (std::size_t i = 0; i < N; ++i) {
     const JsonNode& item = node.items[i];

@@ -147,7 +147,7 @@ struct Scene {
   Vector gravity = {0, -10, 0};  // [m/s^2]
   bool allow_sleep = true;
   Number restitution_threshold = 0.25;  // [m/s] as in Settings
-  int hz = 60, substeps = 8;  // as in Settings
+  int hz = 60, substeps = 8;            // as in Settings
   SolverName solver = SolverName::soft_step;
   BroadPhaseName broad_phase = {};  // the world's own; it changes no bit
   Projection projection = Projection::nonlinear;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 
 namespace isostep::scenes {
 

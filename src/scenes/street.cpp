@@ -4,7 +4,7 @@
 
 #include "build.hpp"
 #include "cars.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "levels/level.hpp"
 #include "shapes.hpp"
 

@@ -10,9 +10,9 @@
 namespace isostep::scenes {
 namespace {
 
-constexpr int kGroundPlaces = 101;    // of heights along a side
-constexpr double kApart = 0.5;  // [m]
-constexpr double kGroundHalf = 25;    // [m] of the side
+constexpr int kGroundPlaces = 101;  // of heights along a side
+constexpr double kApart = 0.5;      // [m]
+constexpr double kGroundHalf = 25;  // [m] of the side
 
 double on_grid(double metres) { return std::floor(1024 * metres + 0.5) / 1024; }
 double place(int i) { return kApart * i - kGroundHalf; }
@@ -133,8 +133,8 @@ Scene thin_bodies(bool field) {
   const Point halves[] = {{0.3, 0.0098, 0.2}, {0.0098, 0.25, 0.0098}, {0.0049, 0.0195, 0.0049}};
   for (int n = 0; n < 300; ++n) {
     const Point half = halves[n % 3];
-    scene.bodies.push_back(body_of(box_part({on_grid(half.x), on_grid(half.y), on_grid(half.z)}),
-                                   place_above(n, 1.5, 4 + n / 100)));
+    scene.bodies.push_back(
+        body_of(box_part({on_grid(half.x), on_grid(half.y), on_grid(half.z)}), place_above(n, 1.5, 4 + n / 100)));
     scene.bodies.back().orientation = drawn_orientation(draws);
     scene.bodies.back().velocity = {0, -10, 0};
   }

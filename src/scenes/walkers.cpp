@@ -3,7 +3,7 @@
 #include "walkers.hpp"
 
 #include "build.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "named.hpp"
 #include "shapes.hpp"
 

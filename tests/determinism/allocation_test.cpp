@@ -3,8 +3,8 @@
 
 #include "determinism/allocation_count.hpp"
 #include "determinism/solver_scene.hpp"
-#include "isostep/world/session_recorder.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/replay/session_recorder.hpp"
+#include "isostep/store/state.hpp"
 
 namespace isostep::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "determinism/allocation_count.hpp"
 #include "determinism/solver_scene.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 
 namespace isostep::test {
 namespace {

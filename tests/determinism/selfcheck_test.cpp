@@ -1,6 +1,6 @@
 // The self-check finds this build sound, and names the recording, scalar, lanes and frame of whatever is not.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/selfcheck.hpp"
+#include "isostep/replay/selfcheck.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 #include "isostep/core/scalars.hpp"
 #include "isostep/core/simd_choice.hpp"
 #include "isostep/particles/settings.hpp"
+#include "isostep/replay/world_kinds.hpp"
 #include "isostep/state/replay_format.hpp"
-#include "isostep/world/world_kinds.hpp"
 
 namespace isostep {
 namespace {

@@ -7,8 +7,8 @@
 #include "determinism/solver_cases.hpp"
 #include "determinism/solver_scene.hpp"
 #include "examples/thread_pool.hpp"
+#include "isostep/replay/recorder.hpp"
 #include "isostep/state/verify.hpp"
-#include "isostep/world/recorder.hpp"
 #include "scenes/measure.hpp"
 
 namespace isostep::test {

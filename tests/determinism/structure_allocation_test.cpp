@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 #include "determinism/allocation_count.hpp"
+#include "isostep/articulation/articulation.hpp"
 #include "isostep/collision/broadphase/broad_phases.hpp"
 #include "isostep/core/random.hpp"
-#include "isostep/effects/articulation/articulation.hpp"
 #include "isostep/state/concepts.hpp"
 
 namespace isostep::test {

@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "../unit/state/recording.hpp"
-#include "isostep/world/desync_bundle.hpp"
+#include "isostep/replay/desync_bundle.hpp"
 
 namespace {
 

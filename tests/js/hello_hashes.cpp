@@ -30,8 +30,11 @@ template <class S> struct Play {
     frames(120);
     world.load(frame);
     frames(120);
-    world.create({.type = iso::dynamic, .shape = crate, .position = {3, 2, 0},
-                  .material = {.friction = S(0.5), .restitution = S(0.25)}, .filter = {2, 3}});
+    world.create({.type = iso::dynamic,
+                  .shape = crate,
+                  .position = {3, 2, 0},
+                  .material = {.friction = S(0.5), .restitution = S(0.25)},
+                  .filter = {2, 3}});
     for (int i = 0; i < 120; ++i) {
       frames(1);
       for (const auto& touch : world.events().contact_begin) hardest = iso::max(hardest, touch.impulse);

@@ -1,7 +1,6 @@
 // The demonstrations of the book run by their scripts: each against the law that it shows, in every scalar.
 // SPDX-License-Identifier: MIT
 #include "scenes/book/book.hpp"
-
 #include "scenes/build.hpp"
 #include "scenes/named.hpp"
 #include "scenes/script.hpp"
@@ -126,8 +125,7 @@ TYPED_TEST(BookScenes, a_charge_throws_all_rubble_outwards) {
   std::vector<double> before;
   for (std::size_t i = 1; i < this->bodies_.size(); ++i) before.push_back(length(this->centre(i)));
   this->run_to(scenes::kBlastBegins + 60);
-  for (std::size_t i = 1; i < this->bodies_.size(); ++i)
-    EXPECT_GT(length(this->centre(i)), before[i - 1] + 0.5) << i;
+  for (std::size_t i = 1; i < this->bodies_.size(); ++i) EXPECT_GT(length(this->centre(i)), before[i - 1] + 0.5) << i;
 }
 
 TYPED_TEST(BookScenes, a_blast_among_500_rolls_back_through_its_middle) {

@@ -34,8 +34,7 @@ template <class S> BodyId add_floor(World<S>& w, const Material<S>& material) {
   d.material = material;
   return w.create(d);
 }
-template <class S>
-BodyId add_slab(World<S>& w, const Material<S>& material, D3 velocity = {0, 0, 0}, double yaw = 0) {
+template <class S> BodyId add_slab(World<S>& w, const Material<S>& material, D3 velocity = {0, 0, 0}, double yaw = 0) {
   BodyDefinition<S> d = moving<S>(add_box(w, 0.5, 0.125, 0.5), {0, 0.125, 0}, velocity);
   d.orientation = turn<S>({0, 1, 0}, yaw);
   d.material = material;
@@ -110,9 +109,7 @@ TYPED_TEST(FrictionLaws, a_sledge_runs_along_its_runners_and_holds_across_them) 
           const Quat<Unit<S>> q = turn<S>({0, 1, 0}, yaw);
           const BodyId id = add_slab(w, material<S>(kMu, 0, f), rotated<S>(q, own), yaw);
           run(w, 4);  // until the contact bears the weight
-          const auto seen = [&] {
-            return rotated<S>(turn<S>({0, 1, 0}, -yaw), real(w.velocity(id)));
-          };
+          const auto seen = [&] { return rotated<S>(turn<S>({0, 1, 0}, -yaw), real(w.velocity(id))); };
           const D3 before = seen();
           run(w, static_cast<int>(60 * kSeconds));
           const D3 lost = before - seen(), expected = before - slowed(before, f, kMu * kG, kSeconds);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "isostep/geometry/baked/surface_blob.hpp"
-#include "isostep/world/state_validator.hpp"
+#include "isostep/store/state_validator.hpp"
 #include "laws/exact_rollback.hpp"
 
 namespace isostep::test {

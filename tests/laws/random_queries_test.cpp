@@ -113,15 +113,14 @@ TYPED_TEST(RandomQueryLaws, a_batch_answers_as_one_by_one) {
     ASSERT_TRUE(w.cast_shapes(q.casts, of_casts));
     for (std::size_t i = 0; i < q.rays.size(); ++i) {
       RayCastHit<S> alone[3] = {};
-      hits += w.cast_ray_all(q.rays[i].origin, q.rays[i].translation, std::span<RayCastHit<S>>(alone),
-                             q.rays[i].filter);
+      hits +=
+          w.cast_ray_all(q.rays[i].origin, q.rays[i].translation, std::span<RayCastHit<S>>(alone), q.rays[i].filter);
       for (std::size_t k = 0; k < 3; ++k) expect_same(of_rays[3 * i + k], alone[k], seed);
     }
     for (std::size_t i = 0; i < q.casts.size(); ++i) {
       const ShapeCast<S>& cast = q.casts[i];
       ShapeCastHit<S> alone[2] = {};
-      hits += w.cast_shape_all(cast.shape, cast.pose, cast.translation, std::span<ShapeCastHit<S>>(alone),
-                               cast.filter);
+      hits += w.cast_shape_all(cast.shape, cast.pose, cast.translation, std::span<ShapeCastHit<S>>(alone), cast.filter);
       for (std::size_t k = 0; k < 2; ++k) expect_same(of_casts[2 * i + k], alone[k], seed);
     }
   });

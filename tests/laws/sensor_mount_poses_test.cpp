@@ -1,7 +1,7 @@
 // Laws of SensorMount: where the sensor is, that its carrier never knows, that it is all state; and what is refused.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/state_validator.hpp"
+#include "isostep/store/state_validator.hpp"
 #include "laws/mounted_world.hpp"
 
 namespace isostep::test {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "isostep/world/state_validator.hpp"
+#include "isostep/store/state_validator.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {

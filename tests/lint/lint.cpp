@@ -82,13 +82,13 @@ const Exception kExceptions[] = {
     {"geometry/limits.hpp", "0x1p", "the published limits of float itself"},
     {"particles/limits.hpp", "0x1p", "likewise"},
     {"math/eigen.hpp", "floating_point", "Eigen knows float and double by their own names"},
-    {"world/render_poses.inl", "1.0f", "the interpolation for drawing, which is in float for every scalar"},
+    {"systems/motion/render_poses.inl", "1.0f", "the interpolation for drawing, which is in float for every scalar"},
     {"session/core.hpp", "virtual", "a session is never copied, hashed or rolled back"},
     {"session/peer_core.hpp", "virtual", "a session is never copied, hashed or rolled back"},
-    {"world/debug_draw.hpp", "virtual", "what draws is outside of worlds: never copied, hashed or rolled back"},
+    {"draw/debug_draw.hpp", "virtual", "what draws is outside of worlds: never copied, hashed or rolled back"},
     {".cpp", "<algorithm>", "min, max and all_of leave no order open; those that do are banned by name"},
     {"_text.cpp", "<cstdio>", "snprintf, into memory of its own"},
-    {"world/instantiate.inl", "kIsFixed", "floating formats are not added by users: a message, not a case"},
+    {"instantiate/engine.inl", "kIsFixed", "floating formats are not added by users: a message, not a case"},
 };
 
 bool is_excepted(const File& file, const std::string& line) {

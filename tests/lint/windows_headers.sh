@@ -57,7 +57,7 @@ ours >clang.cpp
 { echo '#define NOMINMAX'; echo '#include <windows.h>'; ours; } >after_windows.cpp
 # As isostep_add_scalar() compiles it.
 { echo '#define ISOSTEP_OWN_SCALARS'
-  echo '#include "isostep/world/instantiate.inl"'
+  echo '#include "isostep/instantiate/engine.inl"'
   echo 'ISO_INSTANTIATE_ENGINE(isostep::Fixed<std::int64_t, 40>)'; } >engine.cpp
 echo 'static_assert(sizeof(long) == 8);' >control.cpp
 

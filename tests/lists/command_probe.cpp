@@ -6,15 +6,15 @@
 
 #include "isostep/collision/broadphase/pairs.inl"
 #include "isostep/collision/broadphase/tree.inl"
-#include "isostep/dynamics/forces/force_list.inl"
+#include "isostep/dynamics/records/force_list.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/validate.inl"
-#include "isostep/world/contact_systems.inl"
+#include "isostep/instantiate/contact_systems.inl"
+#include "isostep/instantiate/event_systems.inl"
+#include "isostep/instantiate/executing_commands.inl"
+#include "isostep/instantiate/island_systems.inl"
+#include "isostep/instantiate/motion_systems.inl"
 #include "isostep/world/engine_step.inl"
-#include "isostep/world/event_systems.inl"
-#include "isostep/world/executing_commands.inl"
-#include "isostep/world/island_systems.inl"
-#include "isostep/world/motion_systems.inl"
 #include "isostep/world/world.inl"
 
 namespace isostep {

@@ -12,16 +12,16 @@ constexpr char kProgram[] = "tests/lists/command_probe.cpp";
 class CommandList : public ListProbe {
  protected:
   void add_to_list() {
-    edit("include/isostep/world/command.hpp", "  X(set_joint, SetJoint<S>, bool, S)",
+    edit("include/isostep/commands/command.hpp", "  X(set_joint, SetJoint<S>, bool, S)",
          "  X(set_joint, SetJoint<S>, bool, S) X(probe, Probe, bool, S)");
   }
   void add_record() {
     copy("tests/lists/probe_command.hpp", "include/isostep/world/probe_command.hpp");
-    edit("include/isostep/world/command.hpp", "#include \"isostep/world/definitions.hpp\"",
-         "#include \"isostep/world/definitions.hpp\"\n#include \"isostep/world/probe_command.hpp\"");
+    edit("include/isostep/commands/command.hpp", "#include \"isostep/store/definitions.hpp\"",
+         "#include \"isostep/store/definitions.hpp\"\n#include \"isostep/world/probe_command.hpp\"");
   }
   void add_body() {
-    edit("include/isostep/world/execute_bodies.inl",
+    edit("include/isostep/commands/execute_bodies.inl",
          "template <class S> bool CommandExecutor<S>::execute(const SetGravity<S>&",
          "template <class S> bool CommandExecutor<S>::execute(const Probe& command) {\n"
          "  if (command.tick < state_.tick) return journal_.refuse({Fault::bad_argument, \"\", \"tick\", \"no past "
@@ -33,7 +33,7 @@ class CommandList : public ListProbe {
 
 TEST_F(CommandList, without_its_record_it_does_not_compile) {
   add_to_list();
-  EXPECT_THAT(errors_of("isostep/world/command.hpp"), HasSubstr("Probe"));
+  EXPECT_THAT(errors_of("isostep/commands/command.hpp"), HasSubstr("Probe"));
 }
 
 TEST_F(CommandList, a_record_that_cannot_be_written_does_not_compile) {

@@ -7,7 +7,7 @@
 #include "isostep/dynamics/joints/joint_alone.inl"
 #include "isostep/geometry/validate.inl"
 #include "isostep/scalar/math.inl"
-#include "isostep/world/checks.hpp"
+#include "isostep/store/checks.hpp"
 
 using namespace isostep;
 

@@ -27,7 +27,7 @@
 #include <string>
 
 #include "client_process.hpp"
-#include "isostep/world/session_recorder.hpp"
+#include "isostep/replay/session_recorder.hpp"
 #include "pucks.hpp"
 #include "transport/pump.hpp"
 #include "transport/simulated_network.hpp"

@@ -7,9 +7,9 @@
 
 #include <vector>
 
+#include "isostep/replay/recorder.hpp"
 #include "isostep/session/session.hpp"
 #include "isostep/state/composite.hpp"
-#include "isostep/world/recorder.hpp"
 
 namespace isostep::test {
 

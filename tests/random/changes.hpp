@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "isostep/effects/fracture/breaking.hpp"
+#include "isostep/fracture/breaking.hpp"
 #include "random/bodies.hpp"
 #include "random/forces.hpp"
 #include "random/mechanisms.hpp"

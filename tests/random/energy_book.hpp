@@ -43,8 +43,7 @@ template <class S> class EnergyBook {
     }
     for (const JointId id : w.joints()) {
       const JointProperties<S>& p = *w.joint(id);
-      if ((p.flags & joint_flag::kMotor) != 0)
-        motors_.push_back({id, p, driven_place(w, p)});
+      if ((p.flags & joint_flag::kMotor) != 0) motors_.push_back({id, p, driven_place(w, p)});
     }
   }
   void after_step(const World<S>& w) {

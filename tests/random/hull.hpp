@@ -11,10 +11,8 @@ namespace isostep::test {
 /// Of up to fifteen points in a box of half extents `half`. Four of them are the corners of a tetrahedron: it is never
 /// flat. `source` has below(n) and point(reach).
 template <class Source> BlobRef draw_hull(Source& source, D3 half) {
-  std::vector<D3> points = {{half.x, half.y, half.z},
-                            {-half.x, -half.y, half.z},
-                            {-half.x, half.y, -half.z},
-                            {half.x, -half.y, -half.z}};
+  std::vector<D3> points = {
+      {half.x, half.y, half.z}, {-half.x, -half.y, half.z}, {-half.x, half.y, -half.z}, {half.x, -half.y, -half.z}};
   for (std::uint32_t more = 4 + source.below(8); more > 0; --more) {
     const D3 at = source.point(1);
     points.push_back({half.x * at.x, half.y * at.y, half.z * at.z});

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/forces/force_zone.hpp"
+#include "isostep/dynamics/records/force_zone.hpp"
 #include "random/dice.hpp"
 #include "unit/world/worlds.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "isostep/effects/articulation/articulation.inl"
+#include "isostep/articulation/articulation.inl"
 #include "random/articulation.hpp"
 
 namespace isostep {

@@ -133,8 +133,7 @@ TEST(Caller, AStepOfTheHostThatThrowsKeepsNoJoinerOut) {
       while (!plays() && match.now() < until) {
         try {
           match.run(until - match.now(), plays);
-        } catch (const Thrown&) {
-        }
+        } catch (const Thrown&) {}
       }
       ASSERT_TRUE(plays());
       ASSERT_GE(steps, nth);

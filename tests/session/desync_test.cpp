@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "isostep/world/desync_bundle.hpp"
+#include "isostep/replay/desync_bundle.hpp"
 #include "scenes/match.hpp"
 #include "session/altered_packet.hpp"
 #include "session/match_checks.hpp"

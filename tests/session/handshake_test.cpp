@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "isostep/replay/recorder.hpp"
 #include "isostep/session/message.hpp"
-#include "isostep/world/recorder.hpp"
 #include "session/match_checks.hpp"
 #include "session/toy_game.hpp"
 

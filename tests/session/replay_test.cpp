@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "isostep/world/recorder.hpp"
+#include "isostep/replay/recorder.hpp"
 #include "scenes/match.hpp"
 #include "session/match_checks.hpp"
 #include "session/recorded_play.hpp"

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "isostep/replay/recorder.hpp"
 #include "isostep/state/composite.hpp"
-#include "isostep/world/recorder.hpp"
 #include "random/asked.hpp"
 #include "scenes/build.hpp"
 #include "scenes/named.hpp"

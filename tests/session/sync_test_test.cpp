@@ -5,7 +5,7 @@
 #include <map>
 
 #include "isostep/state/composite.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "sample.hpp"
 #include "scenes/match.hpp"
 #include "session/match_checks.hpp"

@@ -10,7 +10,7 @@
 #include "isostep/core/registry.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/dynamics/contact.hpp"
-#include "isostep/dynamics/surface_velocity.hpp"
+#include "isostep/dynamics/records/surface_velocity.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/math/mat3.hpp"
 

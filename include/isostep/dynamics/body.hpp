@@ -58,9 +58,9 @@ template <class S> struct BodyState {
 /// that stand in the world's table of pairs (material_pair.hpp) have what the table says. contact_friction.hpp: which
 /// coefficient of friction a contact has in a step.
 template <class S> struct Material {
-  S friction = S(0.6);                            // [1] Coulomb, of what slides: the dynamic coefficient
-  S restitution = S(0);                           // [1] 0..1, of what meets at Settings::restitution_threshold or more
-  S rolling_resistance = S(0);                    // [m] lever arm of the normal force that resists rolling
+  S friction = S(0.6);          // [1] Coulomb, of what slides: the dynamic coefficient
+  S restitution = S(0);         // [1] 0..1, of what meets at Settings::restitution_threshold or more
+  S rolling_resistance = S(0);  // [m] lever arm of the normal force that resists rolling
   /// [m] Radius of the least patch: friction resists spinning about a contact's normal as if it acted so far from the
   /// middle of its points, or as far as these lie. It slows balls of 1 m and 10 cm in radius by 0.1 and 12 rad/s^2.
   S spin_resistance = S(1.0 / 128);

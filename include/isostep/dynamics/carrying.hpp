@@ -46,9 +46,9 @@ template <class S> struct Carried {
   std::uint32_t contact;
   std::uint32_t rider;  // row of SolverBodies
   Carrier<S> carrier;
-  Vec3<S> place;  // [m] d
-  Vec3<S> belt;   // [m/s] of the material and the belts
-  bool on_b;      // the carrier is b
+  Vec3<S> place;                   // [m] d
+  Vec3<S> belt;                    // [m/s] of the material and the belts
+  bool on_b;                       // the carrier is b
   Vec3<V> spin = Vec3<V>::zero();  // [rad/s] of b's surface against a's, besides the bodies' own
 
   ISO_INLINE bool spins() const { return !(spin == Vec3<V>::zero()); }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/material_pair.hpp"
+#include "isostep/dynamics/records/material_pair.hpp"
 
 namespace isostep {
 

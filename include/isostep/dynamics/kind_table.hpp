@@ -8,9 +8,9 @@
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/core/registry.hpp"
 #include "isostep/core/stable_sort.hpp"
-#include "isostep/dynamics/kind_ghost.hpp"
-#include "isostep/dynamics/kind_response.hpp"
-#include "isostep/dynamics/material_pair.hpp"
+#include "isostep/dynamics/records/kind_ghost.hpp"
+#include "isostep/dynamics/records/kind_response.hpp"
+#include "isostep/dynamics/records/material_pair.hpp"
 
 namespace isostep {
 

@@ -10,11 +10,11 @@ namespace isostep::detail {
 template <class S> struct WheelRow {
   using U = Unit<S>;
   using V = Velocity<S>;
-  Vec3<U> way;                 // [1]
-  Vec3<S> turn, ground_turn;   // [m] arm x way
-  Vec3<S> spun, ground_spun;   // [1/m] angular velocity by a unit of impulse
-  S share;                     // [1] the ground's change of velocity, to the body's
-  S give;                      // [1] change of `speed` by a unit of impulse: 1 or more
+  Vec3<U> way;                // [1]
+  Vec3<S> turn, ground_turn;  // [m] arm x way
+  Vec3<S> spun, ground_spun;  // [1/m] angular velocity by a unit of impulse
+  S share;                    // [1] the ground's change of velocity, to the body's
+  S give;                     // [1] change of `speed` by a unit of impulse: 1 or more
 
   /// On a ground that stands still; what is said of its motion is not read.
   ISO_INLINE void set(Vec3<U> direction, const SolverMass<S>& body, Vec3<S> arm) {

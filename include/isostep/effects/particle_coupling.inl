@@ -9,7 +9,7 @@
 #include "isostep/particles/limits.hpp"
 #include "isostep/particles/particle_state.hpp"
 #include "isostep/scalar/environment.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 
 namespace isostep {
 
@@ -131,9 +131,8 @@ template <class S> std::uint32_t ParticleCoupling<S>::meet(const World<S>& bodie
   met.part_count = static_cast<std::uint32_t>(view.children.size());
   const Transform<S> placed = Transform<S>::of(view.pose);
   for (const Child<S>& child : view.children)
-    parts_.push_back(
-        {child.pose.is_identity() ? placed : compose(placed, Transform<S>::of(child.pose)),
-         view.contents.view(child.primitive)});
+    parts_.push_back({child.pose.is_identity() ? placed : compose(placed, Transform<S>::of(child.pose)),
+                      view.contents.view(child.primitive)});
   met_.push_back(met);
   met_of_slot_[body.slot] = static_cast<std::uint32_t>(met_.size());
   return met_of_slot_[body.slot] - 1;

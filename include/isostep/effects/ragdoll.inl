@@ -4,7 +4,7 @@
 
 #include "isostep/effects/ragdoll.hpp"
 #include "isostep/scalar/environment.hpp"
-#include "isostep/world/checks.hpp"
+#include "isostep/store/checks.hpp"
 
 namespace isostep {
 

@@ -20,7 +20,7 @@ template <class S> void find_contents(std::span<const BlobRef> blobs, std::vecto
   for (std::size_t i = 0; i < blobs.size(); ++i) out[i] = blobs[i] == nullptr ? nullptr : content_of<S>(*blobs[i]);
 }
 
-#define ISO_CONTENT_OF(extern, S)                        \
+#define ISO_CONTENT_OF(extern, S)                         \
   extern template const void* content_of<S>(const Blob&); \
   extern template void find_contents<S>(std::span<const BlobRef>, std::vector<const void*>&);
 #define ISO_EXTERN(S) ISO_CONTENT_OF(extern, S)

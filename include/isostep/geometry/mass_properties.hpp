@@ -52,8 +52,7 @@ template <class S> ISO_INLINE constexpr MassProperties<S> with_mass(MassProperti
   return properties;
 }
 
-#define ISO_EXTERN(S) \
-  extern template MassProperties<S> mass_properties<S>(std::span<const Child<S>>, S, Contents<S>);
+#define ISO_EXTERN(S) extern template MassProperties<S> mass_properties<S>(std::span<const Child<S>>, S, Contents<S>);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN
 

@@ -70,14 +70,14 @@ concept HasInertiaTensor = requires(Shape<S> shape, S s) {
   { shape.centre_of_mass() } -> std::same_as<Vec3<S>>;  // [m]
   { shape.relative_inertia(s) } -> std::same_as<Mat3<Unit<S>>>;
 };
-#define ISO_COMPLETE(name, Shape)                                                                                     \
-  static_assert(ShapeOf<Shape, float>, "a shape's file lacks a member");                                              \
-  static_assert(Shape<float>::kHasBlob ? MadeOfBlob<Shape, float> : MadeOfPrimitive<Shape, float>,                    \
-                "a shape's file lacks `of`, Content or fault_of");                                                    \
-  static_assert(Shape<float>::kPrincipal ? HasPrincipalInertia<Shape, float> : HasInertiaTensor<Shape, float>,        \
-                "a shape's file lacks kappa, centre_of_mass or relative_inertia");                                    \
-  static_assert(!Shape<float>::kBounded || Solid<Shape, float>,                                                       \
-                "the file of a shape that moves lacks inner_radius or visit_core");                                   \
+#define ISO_COMPLETE(name, Shape)                                                                              \
+  static_assert(ShapeOf<Shape, float>, "a shape's file lacks a member");                                       \
+  static_assert(Shape<float>::kHasBlob ? MadeOfBlob<Shape, float> : MadeOfPrimitive<Shape, float>,             \
+                "a shape's file lacks `of`, Content or fault_of");                                             \
+  static_assert(Shape<float>::kPrincipal ? HasPrincipalInertia<Shape, float> : HasInertiaTensor<Shape, float>, \
+                "a shape's file lacks kappa, centre_of_mass or relative_inertia");                             \
+  static_assert(!Shape<float>::kBounded || Solid<Shape, float>,                                                \
+                "the file of a shape that moves lacks inner_radius or visit_core");                            \
   static_assert(Shape<float>::kType == ShapeType::name, "a shape's kType is not its own");
 ISO_FOR_EACH_SHAPE(ISO_COMPLETE)
 #undef ISO_COMPLETE
@@ -127,6 +127,8 @@ ISO_INLINE constexpr bool is_bounded(ShapeType type) {
   template <class S> ISO_INLINE constexpr Primitive<S> primitive_of(const Shape<S>& shape) { return shape.primitive(); }
 ISO_FOR_EACH_SHAPE(ISO_PRIMITIVE_OF)
 #undef ISO_PRIMITIVE_OF
+
+inline constexpr std::uint32_t kMaxChildren = 1u << 16;  // parts of one shape
 
 /// One part of a body's shape: a primitive at a pose in the body's frame.
 template <class S> struct Child {

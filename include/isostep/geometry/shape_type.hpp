@@ -8,8 +8,10 @@
 #include "isostep/scalar/platform.hpp"
 
 /// ISO_FOR_EACH_SHAPE(X) expands X(name, Shape): the name in ShapeType and in scene files, and the class.
-#define ISO_FOR_EACH_SHAPE(X) X(sphere, Sphere) X(box, Box) X(capsule, Capsule) X(half_space, HalfSpace) \
-  X(hull, Hull) X(mesh, Mesh) X(height_field, HeightField) X(cylinder, Cylinder) X(cone, Cone)
+#define ISO_FOR_EACH_SHAPE(X)                                                                                       \
+  X(sphere, Sphere)                                                                                                 \
+  X(box, Box) X(capsule, Capsule) X(half_space, HalfSpace) X(hull, Hull) X(mesh, Mesh) X(height_field, HeightField) \
+      X(cylinder, Cylinder) X(cone, Cone)
 
 namespace isostep {
 

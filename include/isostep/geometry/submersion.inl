@@ -94,9 +94,8 @@ ScaledPart<Unit<S>> part_below(const Polyhedron<S>& solid, Vec3<S> middle, Vec3<
     return Vec3<U>{divide_to<U>(arm.x, unit.x), divide_to<U>(arm.y, unit.y), divide_to<U>(arm.z, unit.z)};
   };
   for (std::uint32_t face = 0; face < solid.faces.size(); ++face) {
-    solid.visit_fan(face, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-      faces.add(scaled(i), scaled(j), scaled(k));
-    });
+    solid.visit_fan(
+        face, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) { faces.add(scaled(i), scaled(j), scaled(k)); });
   }
   return faces.part(filled * U(6.0 / 64));
 }
@@ -106,10 +105,12 @@ ScaledPart<Unit<S>> part_below(const Polyhedron<S>& solid, Vec3<S> middle, Vec3<
 /// Half of ten nodes of Gauss-Legendre over the angle from 0 to pi whose cosine leads from one end of a piece to the
 /// other; the other half mirrors them. Ends where a slice just touches the plane are smooth in that angle.
 template <class U> struct SliceNode { U place, weight; };  // [1] of half the piece's length; of its length
-template <class U> inline constexpr SliceNode<U> kSliceNodes[5] = {
-    {U(0.00083987118299022612), U(0.0021456516964593734)}, {U(0.022379117526759251), U(0.024693503938838946)},
-    {U(0.12414049822996021), U(0.083035178187506997)},    {U(0.37060385196736745), U(0.1643390861013877)},
-    {U(0.76827432930154904), U(0.22578658007580693)}};
+template <class U>
+inline constexpr SliceNode<U> kSliceNodes[5] = {{U(0.00083987118299022612), U(0.0021456516964593734)},
+                                                {U(0.022379117526759251), U(0.024693503938838946)},
+                                                {U(0.12414049822996021), U(0.083035178187506997)},
+                                                {U(0.37060385196736745), U(0.1643390861013877)},
+                                                {U(0.76827432930154904), U(0.22578658007580693)}};
 
 /// A round solid along z from -1 to 1, its widest radius 1, cut by sine x + cosine z < offset, offset up to 1.5.
 template <class S> class CutSlices {
@@ -281,8 +282,7 @@ template <class S> Submersion<S> submersion_of(const Capsule<S>& c, Vec3<Unit<S>
 }
 /// What does not move.
 template <class S, class Shape>
-  requires(!Shape::kBounded)
-Submersion<S> submersion_of(const Shape&, Vec3<Unit<S>>, S) {
+requires(!Shape::kBounded) Submersion<S> submersion_of(const Shape&, Vec3<Unit<S>>, S) {
   return {Unit<S>(0), Vec3<S>::zero()};
 }
 

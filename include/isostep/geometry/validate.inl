@@ -42,12 +42,12 @@ namespace detail {
 /// Of a part with NaN or infinity.
 template <class S> const char* field_not_finite(const Child<S>& child) {
   const Primitive<S>& p = child.primitive;
-  return !is_finite(p.half)              ? "primitive.half"
-         : !is_finite(p.radius)          ? "primitive.radius"
-         : !is_finite(p.normal)          ? "primitive.normal"
-         : !is_finite(p.offset)          ? "primitive.offset"
+  return !is_finite(p.half)                ? "primitive.half"
+         : !is_finite(p.radius)            ? "primitive.radius"
+         : !is_finite(p.normal)            ? "primitive.normal"
+         : !is_finite(p.offset)            ? "primitive.offset"
          : !is_finite(child.pose.position) ? "pose.position"
-                                         : "pose.orientation";
+                                           : "pose.orientation";
 }
 /// Of a part whose type does not use it.
 template <class S> const char* field_unused(const Primitive<S>& p) {
@@ -106,8 +106,7 @@ template <class S> ShapeFault fault_of_child(const Child<S>& child, const Blob* 
 }
 }  // namespace detail
 
-template <class S>
-ShapeFaultPlace find_fault(std::span<const Child<S>> children, std::span<const BlobRef> blobs) {
+template <class S> ShapeFaultPlace find_fault(std::span<const Child<S>> children, std::span<const BlobRef> blobs) {
   if (children.empty()) return {ShapeFault::no_children, 0, ""};
   std::uint64_t leaves = 0;
   for (std::uint32_t i = 0; i < children.size(); ++i) {

@@ -30,7 +30,7 @@ template <class S> ISO_INLINE constexpr Affine<S> affine_of(const Transform<S>& 
 template <class S> S determinant(const Mat3<S>& m);
 
 template <class M> struct Inverse {
-  M inverse;    // the identity where there is none
+  M inverse;  // the identity where there is none
   bool exists;
 };
 /// Rows of any length are brought to length 1 first, so that sizes cost no digits. None: three rows in a plane, to some

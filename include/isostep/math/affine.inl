@@ -3,8 +3,8 @@
 #pragma once
 
 #include "isostep/math/affine.hpp"
-#include "isostep/scalar/environment.hpp"
 #include "isostep/math/rotations.inl"
+#include "isostep/scalar/environment.hpp"
 
 namespace isostep {
 namespace detail {

@@ -19,12 +19,12 @@ template <class S> S turn_towards(S from, S to, S most);
 template <class S> S to_degrees(S radians);
 template <class S> S to_radians(S degrees);
 
-#define ISO_ANGLES_OF(KEYWORD, S)                      \
-  KEYWORD template S wrap_angle(S);                    \
-  KEYWORD template S angle_difference(S, S);           \
-  KEYWORD template S lerp_angle<S>(S, S, Unit<S>);     \
-  KEYWORD template S turn_towards(S, S, S);            \
-  KEYWORD template S to_degrees(S);                    \
+#define ISO_ANGLES_OF(KEYWORD, S)                  \
+  KEYWORD template S wrap_angle(S);                \
+  KEYWORD template S angle_difference(S, S);       \
+  KEYWORD template S lerp_angle<S>(S, S, Unit<S>); \
+  KEYWORD template S turn_towards(S, S, S);        \
+  KEYWORD template S to_degrees(S);                \
   KEYWORD template S to_radians(S);
 #define ISO_EXTERN_ANGLES(S) ISO_ANGLES_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN_ANGLES)

@@ -38,19 +38,19 @@ template <class S> Vec3<S> catmull_rom(Vec3<S> a, Vec3<S> b, Vec3<S> c, Vec3<S> 
 template <class S> S bezier(S a, S b, S c, S d, Unit<S> t);
 template <class S> Vec3<S> bezier(Vec3<S> a, Vec3<S> b, Vec3<S> c, Vec3<S> d, Unit<S> t);
 
-#define ISO_CUBICS_OF(KEYWORD, S, T)                           \
-  KEYWORD template T lerp(T, T, Unit<S>);                      \
-  KEYWORD template T hermite(T, T, T, T, Unit<S>);             \
-  KEYWORD template T hermite_slope(T, T, T, T, Unit<S>);       \
-  KEYWORD template T catmull_rom(T, T, T, T, Unit<S>);         \
+#define ISO_CUBICS_OF(KEYWORD, S, T)                     \
+  KEYWORD template T lerp(T, T, Unit<S>);                \
+  KEYWORD template T hermite(T, T, T, T, Unit<S>);       \
+  KEYWORD template T hermite_slope(T, T, T, T, Unit<S>); \
+  KEYWORD template T catmull_rom(T, T, T, T, Unit<S>);   \
   KEYWORD template T bezier(T, T, T, T, Unit<S>);
-#define ISO_CURVES_OF(KEYWORD, S)                              \
-  ISO_CUBICS_OF(KEYWORD, S, S)                                 \
-  ISO_CUBICS_OF(KEYWORD, S, Vec3<S>)                           \
-  KEYWORD template Unit<S> inverse_lerp<S>(S, S, S);           \
+#define ISO_CURVES_OF(KEYWORD, S)                    \
+  ISO_CUBICS_OF(KEYWORD, S, S)                       \
+  ISO_CUBICS_OF(KEYWORD, S, Vec3<S>)                 \
+  KEYWORD template Unit<S> inverse_lerp<S>(S, S, S); \
   KEYWORD template S polynomial(std::span<const S>, S);
-#define ISO_UNIT_CURVES_OF(KEYWORD, U)  \
-  KEYWORD template U smooth_step(U);    \
+#define ISO_UNIT_CURVES_OF(KEYWORD, U) \
+  KEYWORD template U smooth_step(U);   \
   KEYWORD template U smoother_step(U);
 #define ISO_EXTERN_CURVES(S) ISO_CURVES_OF(extern, S) ISO_UNIT_CURVES_OF(extern, Unit<S>)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN_CURVES)

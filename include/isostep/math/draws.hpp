@@ -35,11 +35,11 @@ template <class T, RandomSource R> ISO_INLINE constexpr void shuffle(T* things, 
   }
 }
 
-#define ISO_DRAWS_BY(KEYWORD, S, R)                           \
-  KEYWORD template S random_normal<S>(R&);                    \
-  KEYWORD template Vec3<Unit<S>> random_direction<S>(R&);     \
-  KEYWORD template Vec3<S> random_in_ball(R&, S);             \
-  KEYWORD template Vec3<S> random_in_disc(R&, S);             \
+#define ISO_DRAWS_BY(KEYWORD, S, R)                             \
+  KEYWORD template S random_normal<S>(R&);                      \
+  KEYWORD template Vec3<Unit<S>> random_direction<S>(R&);       \
+  KEYWORD template Vec3<S> random_in_ball(R&, S);               \
+  KEYWORD template Vec3<S> random_in_disc(R&, S);               \
   KEYWORD template Vec3<S> random_in_box(R&, Vec3<S>, Vec3<S>); \
   KEYWORD template Quat<Unit<S>> random_rotation<S>(R&);
 #define ISO_DRAWS_OF(KEYWORD, S) ISO_DRAWS_BY(KEYWORD, S, Lcg) ISO_DRAWS_BY(KEYWORD, S, Pcg32)

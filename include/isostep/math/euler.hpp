@@ -27,7 +27,7 @@ template <class S> Quat<Unit<S>> rotation_of(EulerOrder order, S first, S second
 ///          efficient method, PLoS ONE 17(11), e0276302, for three different axes.
 template <class S> EulerAngles<S> euler_angles_of(EulerOrder order, Quat<Unit<S>> q);
 
-#define ISO_EULER_OF(KEYWORD, S)                                  \
+#define ISO_EULER_OF(KEYWORD, S)                                   \
   KEYWORD template Quat<Unit<S>> rotation_of(EulerOrder, S, S, S); \
   KEYWORD template EulerAngles<S> euler_angles_of<S>(EulerOrder, Quat<Unit<S>>);
 #define ISO_EXTERN_EULER(S) ISO_EULER_OF(extern, S)

@@ -40,8 +40,8 @@ template <class S> ISO_INLINE constexpr Transform<S> other_hand(const Transform<
   return {other_hand(t.position), other_hand(t.rotation)};
 }
 
-#define ISO_FRAMES_OF(KEYWORD, S)                              \
-  KEYWORD template Basis<Unit<S>> basis_of(Vec3<S>, Vec3<S>);  \
+#define ISO_FRAMES_OF(KEYWORD, S)                             \
+  KEYWORD template Basis<Unit<S>> basis_of(Vec3<S>, Vec3<S>); \
   KEYWORD template Mat3<S> change_of_basis<S>(const Mat3<Unit<S>>&, const Mat3<S>&);
 #define ISO_EXTERN_FRAMES(S) ISO_FRAMES_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN_FRAMES)

@@ -19,9 +19,9 @@ template <class S> Unit<S> gradient_noise(Vec3<S> p, std::uint32_t seed);
 /// over 2: within [-1, 1]. At most 8 octaves: more are not added.
 template <class S> Unit<S> fractal_noise(Vec3<S> p, std::uint32_t seed, int octaves);
 
-#define ISO_NOISE_OF(KEYWORD, S)                                    \
-  KEYWORD template Unit<S> value_noise(Vec3<S>, std::uint32_t);     \
-  KEYWORD template Unit<S> gradient_noise(Vec3<S>, std::uint32_t);  \
+#define ISO_NOISE_OF(KEYWORD, S)                                   \
+  KEYWORD template Unit<S> value_noise(Vec3<S>, std::uint32_t);    \
+  KEYWORD template Unit<S> gradient_noise(Vec3<S>, std::uint32_t); \
   KEYWORD template Unit<S> fractal_noise(Vec3<S>, std::uint32_t, int);
 #define ISO_EXTERN_NOISE(S) ISO_NOISE_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN_NOISE)

@@ -45,17 +45,17 @@ template <class U> struct SwingTwist { Quat<U> swing, twist; };
 /// A swing by half a turn leaves the twist open: it is none then.
 template <class U> SwingTwist<U> swing_twist_of(Quat<U> q, Vec3<U> axis);
 
-#define ISO_ROTATIONS_OF(KEYWORD, S)                                             \
-  KEYWORD template AxisAngle<S> axis_angle_of<S>(Quat<Unit<S>>);                 \
-  KEYWORD template Vec3<S> rotation_vector_of<S>(Quat<Unit<S>>);                 \
-  KEYWORD template Quat<Unit<S>> rotation_by(Vec3<S>);                           \
-  KEYWORD template Quat<Unit<S>> look_rotation(Vec3<S>, Vec3<S>);                \
+#define ISO_ROTATIONS_OF(KEYWORD, S)                              \
+  KEYWORD template AxisAngle<S> axis_angle_of<S>(Quat<Unit<S>>);  \
+  KEYWORD template Vec3<S> rotation_vector_of<S>(Quat<Unit<S>>);  \
+  KEYWORD template Quat<Unit<S>> rotation_by(Vec3<S>);            \
+  KEYWORD template Quat<Unit<S>> look_rotation(Vec3<S>, Vec3<S>); \
   KEYWORD template S angle_between<S>(Quat<Unit<S>>, Quat<Unit<S>>);
-#define ISO_UNIT_ROTATIONS_OF(KEYWORD, U)                         \
-  KEYWORD template Quat<U> to_quaternion(const Mat3<U>&);         \
-  KEYWORD template Quat<U> rotation_between(Vec3<U>, Vec3<U>);    \
-  KEYWORD template Quat<U> slerp(Quat<U>, Quat<U>, U);            \
-  KEYWORD template Quat<U> nlerp(Quat<U>, Quat<U>, U);            \
+#define ISO_UNIT_ROTATIONS_OF(KEYWORD, U)                      \
+  KEYWORD template Quat<U> to_quaternion(const Mat3<U>&);      \
+  KEYWORD template Quat<U> rotation_between(Vec3<U>, Vec3<U>); \
+  KEYWORD template Quat<U> slerp(Quat<U>, Quat<U>, U);         \
+  KEYWORD template Quat<U> nlerp(Quat<U>, Quat<U>, U);         \
   KEYWORD template SwingTwist<U> swing_twist_of(Quat<U>, Vec3<U>);
 #define ISO_EXTERN_ROTATIONS(S) ISO_ROTATIONS_OF(extern, S) ISO_UNIT_ROTATIONS_OF(extern, Unit<S>)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN_ROTATIONS)

@@ -25,13 +25,13 @@ template <class S> S angle_between(Vec3<S> a, Vec3<S> b);
 /// The same with the sign of the turn from a to b about `axis`: positive where (a x b) . axis is.
 template <class S> S signed_angle(Vec3<S> a, Vec3<S> b, Vec3<S> axis);
 
-#define ISO_VECTORS_OF(KEYWORD, S)                              \
-  KEYWORD template Vec3<S> clamp_length(Vec3<S>, S);                 \
-  KEYWORD template Vec3<S> move_towards(Vec3<S>, Vec3<S>, S);   \
-  KEYWORD template Vec3<S> project_on_line<S>(Vec3<S>, Vec3<Unit<S>>);    \
-  KEYWORD template Vec3<S> project_on_plane<S>(Vec3<S>, Vec3<Unit<S>>);   \
-  KEYWORD template Vec3<S> reflect<S>(Vec3<S>, Vec3<Unit<S>>); \
-  KEYWORD template S angle_between(Vec3<S>, Vec3<S>);           \
+#define ISO_VECTORS_OF(KEYWORD, S)                                      \
+  KEYWORD template Vec3<S> clamp_length(Vec3<S>, S);                    \
+  KEYWORD template Vec3<S> move_towards(Vec3<S>, Vec3<S>, S);           \
+  KEYWORD template Vec3<S> project_on_line<S>(Vec3<S>, Vec3<Unit<S>>);  \
+  KEYWORD template Vec3<S> project_on_plane<S>(Vec3<S>, Vec3<Unit<S>>); \
+  KEYWORD template Vec3<S> reflect<S>(Vec3<S>, Vec3<Unit<S>>);          \
+  KEYWORD template S angle_between(Vec3<S>, Vec3<S>);                   \
   KEYWORD template S signed_angle(Vec3<S>, Vec3<S>, Vec3<S>);
 #define ISO_EXTERN_VECTORS(S) ISO_VECTORS_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN_VECTORS)

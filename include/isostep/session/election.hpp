@@ -79,9 +79,9 @@ class Election {
   Time since_ = 0, until_ = 0;  // [us] of all of it; of this attempt
   std::uint32_t attempt_ = 0;
   std::uint64_t came_ = 0, over_ = 0, supports_ = 0, won_with_ = 0;  // machines, a bit each
-  Time quorum_at_ = 0;                                // [us] when enough had come; 0: they have not
-  std::uint32_t called_ = 0;                          // the term for which we ask; 0: we do not
-  Time called_at_ = 0;                                // [us]
+  Time quorum_at_ = 0;                                               // [us] when enough had come; 0: they have not
+  std::uint32_t called_ = 0;                                         // the term for which we ask; 0: we do not
+  Time called_at_ = 0;                                               // [us]
 };
 
 }  // namespace isostep

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "isostep/state/members.hpp"
-#include "isostep/world/checks.hpp"
+#include "isostep/store/checks.hpp"
+#include "isostep/store/state_validator.hpp"
 #include "isostep/world/engine.hpp"
-#include "isostep/world/state_validator.hpp"
 
 namespace isostep {
 

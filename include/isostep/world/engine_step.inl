@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/world/body_frames.hpp"
+#include "isostep/store/body_frames.hpp"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/step_solver.inl"
 

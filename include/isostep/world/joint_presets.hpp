@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "isostep/dynamics/joints/axis_drive.hpp"
 #include "isostep/dynamics/joints/joint_record.hpp"
+#include "isostep/dynamics/records/axis_drive.hpp"
 
 namespace isostep {
 

@@ -7,10 +7,10 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solvers/solvers.hpp"
-#include "isostep/world/body_forces.hpp"
-#include "isostep/world/body_map.hpp"
-#include "isostep/world/events.hpp"
-#include "isostep/world/step_tools.hpp"
+#include "isostep/store/body_map.hpp"
+#include "isostep/store/events.hpp"
+#include "isostep/systems/contacts/step_tools.hpp"
+#include "isostep/systems/forces/body_forces.hpp"
 
 namespace isostep {
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "isostep/collision/broadphase/broad_phase_name.hpp"
+#include "isostep/commands/command.hpp"
 #include "isostep/core/fault.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/core/instantiate.hpp"
@@ -17,38 +18,18 @@
 #include "isostep/dynamics/body.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/state/archive.hpp"
-#include "isostep/world/command.hpp"
-#include "isostep/world/definitions.hpp"
-#include "isostep/world/events.hpp"
+#include "isostep/store/definitions.hpp"
+#include "isostep/store/events.hpp"
+#include "isostep/store/query_types.hpp"
+#include "isostep/store/settings.hpp"
+#include "isostep/store/stages.hpp"
+#include "isostep/store/views.hpp"
 #include "isostep/world/joint_presets.hpp"
-#include "isostep/world/query_types.hpp"
-#include "isostep/world/settings.hpp"
-#include "isostep/world/stages.hpp"
 
 namespace isostep {
 
 template <class S> struct WorldState;
 template <class S> class WorldEngine;
-
-/// What the world keeps of a body, for effects that meet shapes themselves. Holds until the next command, step or load.
-template <class S> struct BodyView {
-  const BodyState<S>* state = nullptr;  // null: a stale id
-  const BodyProperties<S>* properties = nullptr;
-  std::span<const Child<S>> children;  // in the body's frame
-  Contents<S> contents;                // of the blobs that they name
-  Pose<S> pose = Pose<S>::identity();  // of the body's origin
-};
-/// A pose for drawing, in float whatever the scalar: interpolated, never state.
-struct RenderPose {
-  BodyId body;
-  float position[3];     // [m] of the body's origin
-  float orientation[4];  // x y z w
-};
-
-/// Counts of the moment, for reports.
-struct WorldCounts {
-  std::uint32_t bodies, static_bodies, awake, asleep, contacts, points, joints, shapes;
-};
 
 /// A rigid-body world over any scalar.
 ///
@@ -307,7 +288,7 @@ template <class S> class World final {
   /// A frame's commands and steps as `record_to` wrote them. More than kFrameStepCap steps are an error.
   Result<void> step_recorded(Bytes input);
 
-  /// The arrays behind the world, for tools that compare, describe and measure: see world/state.hpp.
+  /// The arrays behind the world, for tools that compare, describe and measure: see store/state.hpp.
   const WorldState<S>& state() const;
   /// The same field by field, by name: what an observer of stages is given, without what a stage leaves.
   StageView state_fields() const;

@@ -7,9 +7,9 @@
 
 #include "isostep/scalar/environment.hpp"
 #include "isostep/state/command_log.hpp"
+#include "isostep/store/state_loader.inl"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/engine_state.inl"
-#include "isostep/world/state_loader.inl"
 #include "isostep/world/world_joints.inl"
 #include "isostep/world/world_queries.inl"
 

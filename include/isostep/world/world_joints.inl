@@ -4,8 +4,8 @@
 
 #include <span>
 
+#include "isostep/store/record_checks.hpp"
 #include "isostep/world/engine.hpp"
-#include "isostep/world/record_checks.hpp"
 #include "isostep/world/world.hpp"
 
 namespace isostep {

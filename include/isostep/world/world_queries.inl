@@ -42,8 +42,7 @@ std::size_t World<S>::cast_shape_all(const QueryShape<S>& shape, const Pose<S>& 
   const FloatEnvironment environment;
   return engine_->queries_.cast_shape_all({shape, pose, translation, filter}, out);
 }
-template <class S>
-bool World<S>::cast_rays(std::span<const RayCast<S>> rays, std::span<RayCastHit<S>> hits) const {
+template <class S> bool World<S>::cast_rays(std::span<const RayCast<S>> rays, std::span<RayCastHit<S>> hits) const {
   const FloatEnvironment environment;
   return engine_->queries_.cast_rays(rays, hits, engine_->tools_.runner);
 }

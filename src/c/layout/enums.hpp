@@ -9,15 +9,15 @@
 #include "isostep/collision/broadphase/broad_phase_name.hpp"
 #include "isostep/core/fault.hpp"
 #include "isostep/core/simd.hpp"
-#include "isostep/dynamics/forces/force_list.hpp"
 #include "isostep/dynamics/joints/joint_type.hpp"
 #include "isostep/dynamics/projection.hpp"
+#include "isostep/dynamics/records/force_list.hpp"
 #include "isostep/dynamics/solver_name.hpp"
 #include "isostep/geometry/blob.hpp"
 #include "isostep/geometry/shape_type.hpp"
 #include "isostep/state/verify.hpp"
-#include "isostep/world/query_types.hpp"
-#include "isostep/world/stages.hpp"
+#include "isostep/store/query_types.hpp"
+#include "isostep/store/stages.hpp"
 
 namespace isostep::c {
 
@@ -63,10 +63,11 @@ template <> struct Enumerators<Stage> {
 static_assert(Enumerators<Fault>::kCount == kFaults);
 
 /// Of all enumerations, for the one who writes the header.
-#define ISO_C_ENUMS(X)                                                                                           \
-  X(ScalarName) X(BodyType) X(ShapeType) X(JointType) X(JointAxis) X(SolverName) X(Projection) X(BroadPhaseName) \
-  X(Simd) X(ZoneShape) X(BreakPattern) X(Footing) X(StartInside) X(HitPer) X(BlobHome) X(Fault)                  \
-  X(VerifyOutcome) X(VerifyResult::Where) X(Stage)
+#define ISO_C_ENUMS(X)                                                                                       \
+  X(ScalarName)                                                                                              \
+  X(BodyType) X(ShapeType) X(JointType) X(JointAxis) X(SolverName) X(Projection) X(BroadPhaseName) X(Simd)   \
+      X(ZoneShape) X(BreakPattern) X(Footing) X(StartInside) X(HitPer) X(BlobHome) X(Fault) X(VerifyOutcome) \
+          X(VerifyResult::Where) X(Stage)
 
 /// A bit of a member of flags. In C: ISO_SET_NAME.
 struct Flag {
@@ -77,21 +78,32 @@ struct FlagSet {
   const char* name;
   std::span<const Flag> flags;
 };
-inline constexpr Flag kBodyFlags[] = {
-    {"sensor", body_flag::kSensor},           {"allow_sleep", body_flag::kAllowSleep},
-    {"collide", body_flag::kCollide},         {"bullet", body_flag::kBullet},
-    {"disabled", body_flag::kDisabled},       {"lock_x", body_flag::kLockX},
-    {"lock_y", body_flag::kLockX << 1},       {"lock_z", body_flag::kLockX << 2},
-    {"lock_angular_x", body_flag::kLockAngularX},      {"lock_angular_y", body_flag::kLockAngularX << 1},
-    {"lock_angular_z", body_flag::kLockAngularX << 2}, {"all_locks", body_flag::kAllLocks}};
-inline constexpr Flag kJointFlags[] = {
-    {"collide_connected", joint_flag::kCollideConnected}, {"limit", joint_flag::kLimit},
-    {"motor", joint_flag::kMotor},          {"spring", joint_flag::kSpring},
-    {"cone", joint_flag::kCone},            {"lock_x", joint_flag::kLockX},
-    {"lock_y", joint_flag::kLockY},         {"lock_z", joint_flag::kLockZ},
-    {"lock_swing_x", joint_flag::kLockSwingX}, {"lock_swing_y", joint_flag::kLockSwingY},
-    {"lock_twist", joint_flag::kLockTwist}, {"lock_point", joint_flag::kLockPoint},
-    {"lock_swing", joint_flag::kLockSwing}, {"lock_turns", joint_flag::kLockTurns}};
+inline constexpr Flag kBodyFlags[] = {{"sensor", body_flag::kSensor},
+                                      {"allow_sleep", body_flag::kAllowSleep},
+                                      {"collide", body_flag::kCollide},
+                                      {"bullet", body_flag::kBullet},
+                                      {"disabled", body_flag::kDisabled},
+                                      {"lock_x", body_flag::kLockX},
+                                      {"lock_y", body_flag::kLockX << 1},
+                                      {"lock_z", body_flag::kLockX << 2},
+                                      {"lock_angular_x", body_flag::kLockAngularX},
+                                      {"lock_angular_y", body_flag::kLockAngularX << 1},
+                                      {"lock_angular_z", body_flag::kLockAngularX << 2},
+                                      {"all_locks", body_flag::kAllLocks}};
+inline constexpr Flag kJointFlags[] = {{"collide_connected", joint_flag::kCollideConnected},
+                                       {"limit", joint_flag::kLimit},
+                                       {"motor", joint_flag::kMotor},
+                                       {"spring", joint_flag::kSpring},
+                                       {"cone", joint_flag::kCone},
+                                       {"lock_x", joint_flag::kLockX},
+                                       {"lock_y", joint_flag::kLockY},
+                                       {"lock_z", joint_flag::kLockZ},
+                                       {"lock_swing_x", joint_flag::kLockSwingX},
+                                       {"lock_swing_y", joint_flag::kLockSwingY},
+                                       {"lock_twist", joint_flag::kLockTwist},
+                                       {"lock_point", joint_flag::kLockPoint},
+                                       {"lock_swing", joint_flag::kLockSwing},
+                                       {"lock_turns", joint_flag::kLockTurns}};
 inline constexpr Flag kZoneEffects[] = {{"acceleration", zone_effect::kAcceleration},
                                         {"wind", zone_effect::kWind},
                                         {"gravity", zone_effect::kGravity},

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "family.hpp"
-#include "isostep/effects/fracture/breaking.hpp"
 #include "isostep/effects/ragdoll.hpp"
+#include "isostep/fracture/breaking.hpp"
 #include "isostep/world/world.hpp"
 #include "layout.hpp"
 
@@ -333,8 +333,8 @@ template <class S> struct CFields<TwoPointJoint<S>> {
 template <class S> struct CFields<WheelJoint<S>> {
   ISO_C_FIELDS_OF(WheelJoint) {
     ISO_MEMBER(a)
-    ISO_MEMBER(b) ISO_MEMBER(frame) ISO_MEMBER(suspension) ISO_MEMBER(travel) ISO_MEMBER(steer) ISO_MEMBER(drive)
-        ISO_MEMBER(collide)
+    ISO_MEMBER(b)
+    ISO_MEMBER(frame) ISO_MEMBER(suspension) ISO_MEMBER(travel) ISO_MEMBER(steer) ISO_MEMBER(drive) ISO_MEMBER(collide)
   }
 };
 template <class S> struct CFields<MotorJoint<S>> {
@@ -352,8 +352,9 @@ template <class S> struct CFields<SixAxisDefinition<S>> {
 template <class S> struct CFields<RagdollBone<S>> {
   ISO_C_FIELDS_OF(RagdollBone) {
     ISO_MEMBER(parent)
-    ISO_MEMBER(shape) ISO_MEMBER(pose) ISO_MEMBER(mass) ISO_MEMBER(joint) ISO_MEMBER(hinge) ISO_MEMBER(swing_x)
-        ISO_MEMBER(swing_y) ISO_MEMBER(lower) ISO_MEMBER(upper)
+    ISO_MEMBER(shape)
+    ISO_MEMBER(pose) ISO_MEMBER(mass) ISO_MEMBER(joint) ISO_MEMBER(hinge) ISO_MEMBER(swing_x) ISO_MEMBER(swing_y)
+        ISO_MEMBER(lower) ISO_MEMBER(upper)
   }
 };
 template <class S> struct CFields<RagdollSettings<S>> {
@@ -383,8 +384,9 @@ template <class S> struct CFields<HalfSpace<S>> {
 template <class S, class Fraction> struct CFields<QueryHit<S, Fraction>> {
   ISO_C_FIELDS_OF(QueryHit) {
     ISO_MEMBER(body)
-    ISO_MEMBER(child) ISO_MEMBER(triangle) ISO_MEMBER(point) ISO_MEMBER(normal) ISO_MEMBER(fraction)
-        ISO_MEMBER(material) ISO_MEMBER(inside)
+    ISO_MEMBER(child)
+    ISO_MEMBER(triangle) ISO_MEMBER(point) ISO_MEMBER(normal) ISO_MEMBER(fraction) ISO_MEMBER(material)
+        ISO_MEMBER(inside)
   }
 };
 template <> struct CFields<OverlapHit> {
@@ -399,8 +401,8 @@ template <> struct CFields<RenderPose> {
 template <> struct CFields<WorldCounts> {
   ISO_C_FIELDS_OF(WorldCounts) {
     ISO_MEMBER(bodies)
-    ISO_MEMBER(static_bodies) ISO_MEMBER(awake) ISO_MEMBER(asleep) ISO_MEMBER(contacts) ISO_MEMBER(points)
-        ISO_MEMBER(joints) ISO_MEMBER(shapes)
+    ISO_MEMBER(static_bodies)
+    ISO_MEMBER(awake) ISO_MEMBER(asleep) ISO_MEMBER(contacts) ISO_MEMBER(points) ISO_MEMBER(joints) ISO_MEMBER(shapes)
   }
 };
 template <> struct CFields<BreakReport> {

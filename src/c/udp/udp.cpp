@@ -182,7 +182,8 @@ iso_status iso_udp_get_statistics(const iso_udp* udp, iso_udp_statistics* out) {
     ISO_COPY(bytes_sent)
     ISO_COPY(packets_received)
     ISO_COPY(bytes_received)
-    ISO_COPY(implausible) ISO_COPY(refused) ISO_COPY(flooded) ISO_COPY(socket_errors)
+    ISO_COPY(implausible)
+    ISO_COPY(refused) ISO_COPY(flooded) ISO_COPY(socket_errors)
 #undef ISO_COPY
         give(to, out);
     return ISO_OK;

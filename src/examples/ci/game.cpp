@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "isostep/world/selfcheck.hpp"
+#include "isostep/replay/selfcheck.hpp"
 #include "isostep/world/world.hpp"
 
 namespace iso = isostep;

@@ -36,8 +36,7 @@ const void* Blob::content(ContentMaker maker) const {
     if (made->maker == maker) return made->content.get();
   }
   Made* made = new Made{maker, maker(*this), made_.load(std::memory_order_relaxed)};
-  while (!made_.compare_exchange_weak(made->next, made, std::memory_order_release, std::memory_order_relaxed)) {
-  }
+  while (!made_.compare_exchange_weak(made->next, made, std::memory_order_release, std::memory_order_relaxed)) {}
   return made->content.get();
 }
 

@@ -179,11 +179,11 @@ Result<BakedHeightField> height_field(const HeightGrid& grid, std::span<const st
 /// As CellRange: the heights say nothing.
 BakedHeightField::CellRange BakedHeightField::cells_about(const HeightPatch& patch) const {
   const auto before = [](std::uint32_t v) { return v == 0 ? 0 : v - 1; };
-  return {{before(patch.column), before(patch.row)},
-          {std::min(patch.column + patch.columns - 1, cells_x() - 1),
-           std::min(patch.row + patch.rows - 1, cells_z() - 1)},
-          0,
-          0};
+  return {
+      {before(patch.column), before(patch.row)},
+      {std::min(patch.column + patch.columns - 1, cells_x() - 1), std::min(patch.row + patch.rows - 1, cells_z() - 1)},
+      0,
+      0};
 }
 MeshBox BakedHeightField::bounds_about(const HeightPatch& patch) const {
   const CellRange cells = cells_about(patch);

@@ -23,8 +23,8 @@ template <class Point> struct PointGrid {
   /// False: a point leaves the range.
   bool double_all() {
     const auto fits = [](std::int32_t v) { return 2 * std::abs(v) < Point::kLimit; };
-    const bool all = std::all_of(points.begin(), points.end(),
-                                 [&](Point p) { return fits(p.x) && fits(p.y) && fits(p.z); });
+    const bool all =
+        std::all_of(points.begin(), points.end(), [&](Point p) { return fits(p.x) && fits(p.y) && fits(p.z); });
     if (!all) return --exponent >= 0;
     for (Point& p : points) p = {2 * p.x, 2 * p.y, 2 * p.z};
     return true;

@@ -1,6 +1,6 @@
 // What records do in a step of World<S>, for every shipped scalar.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/acting_records.inl"
+#include "isostep/instantiate/acting_records.inl"
 
 namespace isostep {
 

@@ -1,6 +1,6 @@
 // Articulations for the shipped scalars that have the bits for them.
 // SPDX-License-Identifier: MIT
-#include "isostep/effects/articulation/articulation.inl"
+#include "isostep/articulation/articulation.inl"
 
 namespace isostep {
 

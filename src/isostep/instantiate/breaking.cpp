@@ -1,6 +1,6 @@
 // break_bodies for every shipped scalar.
 // SPDX-License-Identifier: MIT
-#include "isostep/effects/fracture/breaking.inl"
+#include "isostep/fracture/breaking.inl"
 
 namespace isostep {
 

@@ -1,6 +1,6 @@
 // The systems that find contacts in a step of World<S>, for every shipped scalar.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/contact_systems.inl"
+#include "isostep/instantiate/contact_systems.inl"
 
 namespace isostep {
 

@@ -1,6 +1,6 @@
 // Drawing for every shipped scalar, and a DebugDraw that draws nothing.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/debug_draw.inl"
+#include "isostep/draw/debug_draw.inl"
 
 namespace isostep {
 

@@ -1,6 +1,6 @@
 // What tells events in a step of World<S>, for every shipped scalar.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/event_systems.inl"
+#include "isostep/instantiate/event_systems.inl"
 
 namespace isostep {
 

@@ -1,6 +1,6 @@
 // ForceRecords<S> for every shipped scalar.
 // SPDX-License-Identifier: MIT
-#include "isostep/dynamics/forces/force_list.inl"
+#include "isostep/dynamics/records/force_list.inl"
 
 namespace isostep {
 

@@ -1,6 +1,6 @@
 // Bodies of pieces for every shipped scalar.
 // SPDX-License-Identifier: MIT
-#include "isostep/effects/fracture/shatter.inl"
+#include "isostep/fracture/shatter.inl"
 
 namespace isostep {
 

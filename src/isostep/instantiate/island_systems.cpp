@@ -1,6 +1,6 @@
 // Maps, sleep and waking in a step of World<S>, for every shipped scalar.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/island_systems.inl"
+#include "isostep/instantiate/island_systems.inl"
 
 namespace isostep {
 

@@ -1,6 +1,6 @@
 // What looks after motion in a step of World<S>, for every shipped scalar.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/motion_systems.inl"
+#include "isostep/instantiate/motion_systems.inl"
 
 namespace isostep {
 

@@ -5,8 +5,8 @@
 
 namespace isostep {
 
-#define ISO_ROUNDED(S)             \
-  ISO_ROUNDED_POLYHEDRA_OF(, S)    \
+#define ISO_ROUNDED(S)          \
+  ISO_ROUNDED_POLYHEDRA_OF(, S) \
   ISO_ROUNDED_REVOLVED_OF(, S)
 ISO_FOR_EACH_SCALAR(ISO_ROUNDED)
 #undef ISO_ROUNDED

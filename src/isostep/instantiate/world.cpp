@@ -1,7 +1,8 @@
 // World<S> and its commands for every shipped scalar; its step: world_step.cpp.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/executing_commands.inl"
 #include "isostep/world/world.inl"
+
+#include "isostep/instantiate/executing_commands.inl"
 
 namespace isostep {
 

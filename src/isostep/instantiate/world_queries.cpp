@@ -1,6 +1,6 @@
 // Queries of worlds for every shipped scalar.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/queries.inl"
+#include "isostep/query/queries.inl"
 
 namespace isostep {
 

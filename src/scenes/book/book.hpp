@@ -11,10 +11,10 @@ namespace isostep::scenes {
 /// Level for a minute, then a turn to the right or, mirrored, to the left.
 enum class Turn { right, left };
 Scene flight(Turn turn);
-inline constexpr int kFlightTurns = 3600;        // [frames] of level flight
-inline constexpr double kFlightHeight = 100;     // [m]
-inline constexpr double kFlightSpeed = 8;        // [m/s]
-inline constexpr double kFlightBank = 0.2;       // [1] sine of the bank that the turn asks for
+inline constexpr int kFlightTurns = 3600;     // [frames] of level flight
+inline constexpr double kFlightHeight = 100;  // [m]
+inline constexpr double kFlightSpeed = 8;     // [m/s]
+inline constexpr double kFlightBank = 0.2;    // [1] sine of the bank that the turn asks for
 template <class S> void fly(World<S>& world, Turn turn);
 
 // A boat under sail, sail.cpp.
@@ -73,9 +73,9 @@ inline constexpr int kElementsFrames = 150;  // until the charge is over and the
 // Coarse structures, coarse.cpp.
 Scene coarse(BroadPhaseName structure);
 
-#define ISO_EXTERN(S)                             \
-  extern template void fly<S>(World<S>&, Turn);   \
-  extern template void steer<S>(World<S>&);       \
+#define ISO_EXTERN(S)                           \
+  extern template void fly<S>(World<S>&, Turn); \
+  extern template void steer<S>(World<S>&);     \
   extern template void shoot<S>(World<S>&);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "book.hpp"
 #include "isostep/math/transform.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "scenes/build.hpp"
 #include "scenes/shapes.hpp"
 
@@ -12,8 +12,8 @@ namespace {
 // The nose looks along x, y is up, the right wing is at z = 1. Forces per metre a second of air: lift of a wing at its
 // camber and by its angle, drag of it.
 constexpr double kLift = 6.25, kAngleLift = 12.5, kWingDrag = 0.625;  // [N s/m]
-constexpr double kTailLift = 10, kFinLift = 7.5;  // [N s/m] by the angle
-constexpr double kDeflection = 2.5, kTailDeflection = 5;  // [N s/m] by a full control
+constexpr double kTailLift = 10, kFinLift = 7.5;                      // [N s/m] by the angle
+constexpr double kDeflection = 2.5, kTailDeflection = 5;              // [N s/m] by a full control
 
 using Rows = std::vector<Number>;  // of a tensor
 Rows wing(double lift) { return {-kWingDrag, 0, 0, lift, -kAngleLift, 0, 0, 0, 0}; }

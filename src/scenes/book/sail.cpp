@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "book.hpp"
 #include "isostep/math/transform.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "scenes/build.hpp"
 #include "scenes/shapes.hpp"
 

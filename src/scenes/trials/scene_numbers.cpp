@@ -14,9 +14,7 @@ namespace {
 static_assert(kShapeTypes == 9,
               "a judge knows each shape by itself: see volume_of(), centre_of(), gyration_of(), least_reach()");
 
-std::shared_ptr<const SolidHull> hull_of(const ScenePart& part) {
-  return solid_hull(*hull_of_part(part, "hull"));
-}
+std::shared_ptr<const SolidHull> hull_of(const ScenePart& part) { return solid_hull(*hull_of_part(part, "hull")); }
 
 double volume_of(const ScenePart& part) {
   if (part.type == ShapeType::hull) return stretched(*hull_of(part), value(part.radius)).volume;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "files.hpp"
+#include "isostep/replay/world_kinds.hpp"
 #include "isostep/state/verify.hpp"
-#include "isostep/world/world_kinds.hpp"
 
 namespace isostep::tool {
 

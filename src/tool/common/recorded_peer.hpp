@@ -8,8 +8,8 @@
 #include <span>
 #include <utility>
 
-#include "isostep/world/desync_bundle.hpp"
-#include "isostep/world/world_kinds.hpp"
+#include "isostep/replay/desync_bundle.hpp"
+#include "isostep/replay/world_kinds.hpp"
 #include "recorded_file.hpp"
 #include "tool.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "game_options.hpp"
 #include "isostep/core/simd_choice.hpp"
-#include "isostep/world/recorder.hpp"
+#include "isostep/replay/recorder.hpp"
 #include "isostep/world/world.hpp"
 #include "scenes/build.hpp"
 #include "scenes/script.hpp"

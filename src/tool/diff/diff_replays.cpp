@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "isostep/world/world_kinds.hpp"
+#include "isostep/replay/world_kinds.hpp"
 #include "tool/common/tool.hpp"
 
 namespace isostep::tool {

@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "isostep/core/number_text.hpp"
+#include "isostep/replay/world_kinds.hpp"
 #include "isostep/state/command_log.hpp"
 #include "isostep/state/replay_format.hpp"
-#include "isostep/world/world_kinds.hpp"
 #include "tool/common/tool.hpp"
 
 namespace isostep::tool {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "isostep/replay/world_kinds.hpp"
 #include "isostep/state/command_log.hpp"
-#include "isostep/world/world_kinds.hpp"
 
 namespace isostep::tool {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "isostep/state/diff.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "path_item.hpp"
 
 namespace isostep::tool {

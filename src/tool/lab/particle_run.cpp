@@ -6,7 +6,7 @@
 
 #include "isostep/particles/particle_state.hpp"
 #include "isostep/particles/scenery.hpp"
-#include "isostep/world/settings.hpp"
+#include "isostep/store/settings.hpp"
 
 namespace isostep::tool::lab {
 namespace {

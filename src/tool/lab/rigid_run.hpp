@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "result.hpp"
 #include "scenes/build.hpp"
 #include "scenes/script.hpp"

@@ -63,7 +63,7 @@ template <class S> class Springs {
     const Vec3<S> rest = place(pulled);
     const S far = number(side_ == 1 ? scale_.length : scale_.length / 4);
     world_.place(ids[static_cast<std::size_t>(pulled)], {rest.x + far, rest.y, side_ == 1 ? rest.z : rest.z + far},
-                      Vec3<S>::zero());
+                 Vec3<S>::zero());
     world_.save(start_);
   }
 

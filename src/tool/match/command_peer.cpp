@@ -13,7 +13,7 @@ namespace isostep::tool {
 namespace {
 
 constexpr Time kGoodbye = 3 * kSecond;  // [us] a leaving client's last word may be lost, and is repeated
-constexpr Time kLongestSleep = 10000;  // [us]
+constexpr Time kLongestSleep = 10000;   // [us]
 
 /// One line a frame: push_x push_z buttons aim. After the last line nothing is pressed.
 std::vector<scenes::MatchInput> read_inputs(const std::string& path) {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "isostep/replay/desync_bundle.hpp"
+#include "isostep/replay/session_recorder.hpp"
 #include "isostep/session/event_log.hpp"
 #include "isostep/session/session.hpp"
-#include "isostep/world/desync_bundle.hpp"
-#include "isostep/world/session_recorder.hpp"
 #include "scenes/match.hpp"
 #include "tool/common/files.hpp"
 #include "tool/common/tool.hpp"

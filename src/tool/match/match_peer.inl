@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "match_peer.hpp"
 #include "network.hpp"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/particles/settings.hpp"
-#include "isostep/world/recorder.hpp"
+#include "isostep/replay/recorder.hpp"
 #include "recorder.hpp"
 
 namespace isostep::tool::page {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "effect_records.hpp"
-#include "isostep/world/debug_draw.hpp"
+#include "isostep/draw/debug_draw.hpp"
 #include "recording.hpp"
 #include "scenes/measure.hpp"
 #include "scenes/particles/particle_measure.hpp"

@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "isostep/world/debug_draw.hpp"
+#include "isostep/draw/debug_draw.hpp"
 
 namespace isostep::tool::page {
 

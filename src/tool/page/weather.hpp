@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "isostep/math/transform.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "isostep/world/world.hpp"
 
 namespace isostep::tool::page {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "isostep/replay/world_kinds.hpp"
 #include "isostep/state/command_recorder.hpp"
-#include "isostep/world/world_kinds.hpp"
 #include "particle_watch.hpp"
 #include "run_watch.hpp"
 #include "threads/tbb_runner.hpp"

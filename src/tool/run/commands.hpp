@@ -21,7 +21,7 @@ struct RunOptions {
   GameOptions game;
   int threads = 1;
   std::string simd = "best";
-  std::string broad_phase = "box_tree";  // of rigid worlds
+  std::string broad_phase = "box_tree";          // of rigid worlds
   std::string load, save, record, hashes, dump;  // files, or empty
   std::string html;                              // a page that plays the run, or empty
   int html_every = 1;                            // steps from one frame of the page to the next

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "isostep/geometry/content.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "run_report.hpp"
 #include "scenes/bars.hpp"
 #include "scenes/measure.hpp"

@@ -20,8 +20,7 @@ bool asks_for_a_run(const RunOptions& options) {
   const GameOptions& game = options.game;
   const bool methods = game.hz != standard.game.hz || game.substeps != standard.game.substeps ||
                        game.solver != standard.game.solver || game.projection != standard.game.projection ||
-                       game.integrator != standard.game.integrator ||
-                       game.stepping != standard.game.stepping;
+                       game.integrator != standard.game.integrator || game.stepping != standard.game.stepping;
   return methods || !files.empty() || !options.beside.empty() || options.scalar != standard.scalar || options.json;
 }
 

@@ -5,7 +5,7 @@
 
 #include "commands.hpp"
 #include "isostep/core/version.hpp"
-#include "isostep/world/selfcheck.hpp"
+#include "isostep/replay/selfcheck.hpp"
 #include "tool/common/tool.hpp"
 
 namespace isostep::tool {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "selfcheck_set.hpp"
 
-#include "isostep/world/replay_check.hpp"
+#include "isostep/replay/replay_check.hpp"
 #include "tool/common/files.hpp"
 #include "tool/common/games.hpp"
 #include "tool/common/recorded_game.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "match/pucks.hpp"
 #include "public_session.hpp"
 #include "puck_game.h"

@@ -1,6 +1,6 @@
 // What an articulation refuses, tells and writes.
 // SPDX-License-Identifier: MIT
-#include "isostep/effects/articulation/articulation.hpp"
+#include "isostep/articulation/articulation.hpp"
 
 #include <functional>
 #include <string>
@@ -101,8 +101,7 @@ TYPED_TEST(ArticulationOf, a_refused_call_changes_nothing_and_tells_why) {
   Articulation<S> a = built(this->two_bars());
   const std::uint64_t hash = a.hash();
   EXPECT_FALSE(a.apply_torque(2, Vec3<S>::zero()));
-  EXPECT_EQ(describe(a.fault()),
-            "apply_torque: link: not a valid value; expected a link of the definition");
+  EXPECT_EQ(describe(a.fault()), "apply_torque: link: not a valid value; expected a link of the definition");
   EXPECT_FALSE(a.apply_force(0, {S(0x1p30), S(0), S(0)}, Vec3<S>::zero()));
   EXPECT_STREQ(a.fault().field, "force");
   JointCoordinates<S> c;

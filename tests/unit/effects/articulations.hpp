@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "isostep/effects/articulation/articulation.hpp"
+#include "isostep/articulation/articulation.hpp"
 #include "isostep/math/mat3.hpp"
 
 namespace isostep::test {

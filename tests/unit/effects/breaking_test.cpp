@@ -1,6 +1,6 @@
 // Breakable bodies: what breaks them, what their pieces keep (O27) and become, and that all is state and commands.
 // SPDX-License-Identifier: MIT
-#include "isostep/effects/fracture/breaking.hpp"
+#include "isostep/fracture/breaking.hpp"
 
 #include "sample.hpp"
 #include "unit/effects/fractured.hpp"

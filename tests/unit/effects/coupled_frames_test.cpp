@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/effects/particle_coupling.hpp"
 #include "isostep/particles/recorder.hpp"
+#include "isostep/replay/recorder.hpp"
 #include "isostep/state/composite.hpp"
 #include "isostep/state/verify.hpp"
-#include "isostep/world/recorder.hpp"
 #include "unit/effects/coupled.hpp"
 
 namespace isostep::test {

@@ -1,6 +1,6 @@
 // What fracture makes of solids: pieces that add up, stay inside, keep apart, and are the same everywhere.
 // SPDX-License-Identifier: MIT
-#include "isostep/effects/fracture/fracture.hpp"
+#include "isostep/fracture/fracture.hpp"
 
 #include <algorithm>
 #include <string>
@@ -29,8 +29,8 @@ double area_of(const ConvexHull& hull, double scale) {
     const GridPoint a = hull.vertices[hull.half_edges[first].origin];
     std::uint8_t edge = hull.half_edges[first].next;
     for (std::uint8_t next = hull.half_edges[edge].next; next != first; next = hull.half_edges[next].next) {
-      const GridVector n = cross(hull.vertices[hull.half_edges[edge].origin] - a,
-                                 hull.vertices[hull.half_edges[next].origin] - a);
+      const GridVector n =
+          cross(hull.vertices[hull.half_edges[edge].origin] - a, hull.vertices[hull.half_edges[next].origin] - a);
       area += 0.5 * length(D3{double(n.x), double(n.y), double(n.z)});
       edge = next;
     }
@@ -211,8 +211,7 @@ TEST(Fracture, impacts_outside_and_on_corners_leave_a_whole) {
 
 TEST(Fracture, what_is_too_small_is_not_cut_off) {
   const GridHull solid = cube();
-  const Fracture boxes =
-      fracture(solid, EightBoxes{}, blow(solid, {0.49, 0.1, 0.1}, {0, 0, 0}), 5).value();
+  const Fracture boxes = fracture(solid, EightBoxes{}, blow(solid, {0.49, 0.1, 0.1}, {0, 0, 0}), 5).value();
   EXPECT_EQ(boxes.pieces.size(), 4u);
   EXPECT_EQ(boxes.refused, 1u);
   EXPECT_EQ(boxes.volume6, boxes.solid_volume6);

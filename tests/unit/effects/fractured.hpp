@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "isostep/effects/fracture/fracture.hpp"
+#include "isostep/fracture/fracture.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {

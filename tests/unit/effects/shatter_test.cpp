@@ -1,6 +1,6 @@
 // Bodies of pieces in worlds: what they keep of the body (oracle O27), and that rollback and recordings hold them.
 // SPDX-License-Identifier: MIT
-#include "isostep/effects/fracture/shatter.hpp"
+#include "isostep/fracture/shatter.hpp"
 
 #include <string>
 
@@ -51,7 +51,6 @@ template <class S> struct Scene {
     return bodies;
   }
 };
-
 
 template <class S> class Shatter : public ::testing::Test {};
 TYPED_TEST_SUITE(Shatter, AllScalars);

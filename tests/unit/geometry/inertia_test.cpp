@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "isostep/effects/articulation/articulation_link.hpp"
+#include "isostep/articulation/articulation_link.hpp"
 #include "isostep/geometry/mass_tensor.hpp"
 #include "oracle.hpp"
 

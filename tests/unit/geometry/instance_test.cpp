@@ -8,18 +8,21 @@
 
 #include "isostep/collision/narrowphase/collide.hpp"
 #include "isostep/geometry/baked/hull_blob.hpp"
+#include "isostep/geometry/baked/hull_content.hpp"
 #include "isostep/geometry/baked/hull_mass.hpp"
 #include "isostep/geometry/baked/surface_blob.hpp"
 #include "isostep/geometry/content.hpp"
-#include "isostep/geometry/baked/hull_content.hpp"
 #include "unit/geometry/hull_recipes.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
 namespace {
 
-const Instance kMirrors[] = {{true, false, false, 0}, {false, true, false, 0}, {false, false, true, 0},
-                             {true, true, false, 0},  {true, true, true, 0}};
+const Instance kMirrors[] = {{true, false, false, 0},
+                             {false, true, false, 0},
+                             {false, false, true, 0},
+                             {true, true, false, 0},
+                             {true, true, true, 0}};
 
 std::vector<D3> drawn(int n) {
   scenes::Draws draws(static_cast<std::uint32_t>(n) + 77);

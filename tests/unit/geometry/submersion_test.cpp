@@ -116,8 +116,9 @@ Part round_below(const Primitive<double>& p, D3 up, double level) {
   constexpr int kDiscs = 100000;
   for (int i = 0; i < kDiscs; ++i) {
     const double y = top * (2 * (i + 0.5) / kDiscs - 1), past = std::fmax(std::fabs(y) - h, 0);
-    const double radius = capped ? std::sqrt(std::fmax(r * r - past * past, 0))
-                                 : p.type == ShapeType::cone ? r * (h - y) / (2 * h) : r;
+    const double radius = capped                      ? std::sqrt(std::fmax(r * r - past * past, 0))
+                          : p.type == ShapeType::cone ? r * (h - y) / (2 * h)
+                                                      : r;
     const double reach = sine * radius, d = level - up.y * y;
     if (d <= -reach) continue;
     const double u = d >= reach ? 1 : d / reach, v = std::sqrt(1 - u * u);

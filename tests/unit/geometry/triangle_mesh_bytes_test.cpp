@@ -1,9 +1,8 @@
 // The bytes of triangle meshes, and what is refused of bytes.
 // SPDX-License-Identifier: MIT
-#include "isostep/geometry/baked/triangle_mesh.hpp"
-
 #include <gtest/gtest.h>
 
+#include "isostep/geometry/baked/triangle_mesh.hpp"
 #include "unit/geometry/triangle_soup.hpp"
 
 namespace isostep::test {

@@ -118,11 +118,11 @@ TYPED_TEST(CurvesTest, cubics_pass_their_points_with_their_slopes) {
     const RealVec slope = (real(c) - real(a)) * (6 * x * u) + real(b) * (u * (1 - 3 * x)) + real(d) * (x * (3 * x - 2));
     expect_near(real(hermite_slope(a, b, c, d, t)), slope, tolerance * 2);
     const RealVec out = (real(c) - real(a)) / 2, in = (real(d) - real(b)) / 2;
-    const RealVec catmull = real(b) * (1 - x * x * (3 - 2 * x)) + out * (x * u * u) +
-                            real(c) * (x * x * (3 - 2 * x)) - in * (x * x * u);
+    const RealVec catmull =
+        real(b) * (1 - x * x * (3 - 2 * x)) + out * (x * u * u) + real(c) * (x * x * (3 - 2 * x)) - in * (x * x * u);
     expect_near(real(catmull_rom(a, b, c, d, t)), catmull, tolerance);
-    const RealVec curve = real(a) * (u * u * u) + real(b) * (3 * u * u * x) + real(c) * (3 * u * x * x) +
-                          real(d) * (x * x * x);
+    const RealVec curve =
+        real(a) * (u * u * u) + real(b) * (3 * u * u * x) + real(c) * (3 * u * x * x) + real(d) * (x * x * x);
     expect_near(real(bezier(a, b, c, d, t)), curve, tolerance);
     EXPECT_EQ(hermite(a, b, c, d, U(0)), a);
     EXPECT_EQ(hermite(a, b, c, d, U(1)), c);

@@ -89,8 +89,8 @@ TYPED_TEST(FramesTest, inverses_undo_maps_of_any_size_or_say_that_there_is_none)
     const Vec3<S> x = draw.vector<S>(size), y = draw.vector<S>(size), z = draw.vector<S>(size);
     const Mat3<S> m = {{x, y, z}};
     const RealMat exact = real(m);
-    const Real volume = std::abs(exact.determinant()) /
-                        (exact.row(0).norm() * exact.row(1).norm() * exact.row(2).norm());
+    const Real volume =
+        std::abs(exact.determinant()) / (exact.row(0).norm() * exact.row(1).norm() * exact.row(2).norm());
     if (!(volume > 0.05L)) continue;
     const Inverse<Mat3<S>> inverse = inverse_of(m);
     ASSERT_TRUE(inverse.exists) << i;
@@ -143,7 +143,9 @@ TYPED_TEST(FramesTest, vectors_are_cut_split_and_mirrored) {
     const Real tolerance = bound<S>(8, 16, 16) + bound<U>(16, 16, 1) * 16;
     const Vec3<S> cut = clamp_length(a, most);
     EXPECT_NEAR(double(real(cut).norm() - std::min(real(a).norm(), real(most))), 0, double(tolerance));
-    if (length(a) <= most) { EXPECT_EQ(cut, a); }
+    if (length(a) <= most) {
+      EXPECT_EQ(cut, a);
+    }
     const Vec3<S> moved = move_towards(a, b, most);
     const Real way = (real(b) - real(a)).norm();
     EXPECT_NEAR(double((real(b) - real(moved)).norm() - std::max(Real(0), way - real(most))), 0, double(tolerance * 2));

@@ -39,8 +39,14 @@ class Bits {
 template <class S> struct Arguments {
   using U = Unit<S>;
   explicit Arguments(Draw& draw)
-      : a(draw.vector<S>(3)), b(draw.vector<S>(3)), p(draw.rotation<S>()), q(draw.rotation<S>()),
-        m(draw.direction<S>()), n(draw.direction<S>()), angle(draw.number<S>(4)), t(abs(draw.number<U>(0))) {}
+      : a(draw.vector<S>(3)),
+        b(draw.vector<S>(3)),
+        p(draw.rotation<S>()),
+        q(draw.rotation<S>()),
+        m(draw.direction<S>()),
+        n(draw.direction<S>()),
+        angle(draw.number<S>(4)),
+        t(abs(draw.number<U>(0))) {}
   Vec3<S> a, b;
   Quat<U> p, q;
   Vec3<U> m, n;

@@ -189,7 +189,9 @@ TYPED_TEST(RotationsTest, euler_angles_come_back_locked_or_not) {
     EXPECT_LE(real(abs(found.first)), kPi + this->angle_bound());
     EXPECT_LE(real(abs(found.second)), kPi / 2 + this->angle_bound());
     EXPECT_LE(real(abs(found.third)), kPi + this->angle_bound());
-    if (found.is_locked) { EXPECT_EQ(found.third, S(0)); }
+    if (found.is_locked) {
+      EXPECT_EQ(found.third, S(0));
+    }
     this->expect_same(real(rotation_of(kOrders[order], found.first, found.second, found.third)), real(q).normalized(),
                       this->angle_bound() * 4);
     const Real away = kPi / 2 - std::abs(real(found.second));

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "isostep/geometry/blob_file.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "isostep/world/world.hpp"
 #include "own_folder.hpp"
 #include "scenes/build.hpp"

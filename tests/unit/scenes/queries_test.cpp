@@ -32,8 +32,8 @@ TYPED_TEST(SceneQueries, hit_as_often_as_other_engines_say) {
     for (const DrawnLine& line : queries.rays) asked.push_back({vec<S>(line.from), vec<S>(line.way), {}});
     for (std::size_t i = 0; i < queries.casts.size(); ++i) {
       const DrawnLine& line = queries.casts[i];
-      const Primitive<S> shape = i % 2 == 0 ? primitive_of(Sphere<S>{from_double<S>(kCastRadius)})
-                                            : primitive_of(Box<S>{vec<S>(kCastHalf)});
+      const Primitive<S> shape =
+          i % 2 == 0 ? primitive_of(Sphere<S>{from_double<S>(kCastRadius)}) : primitive_of(Box<S>{vec<S>(kCastHalf)});
       cast.push_back({shape, {vec<S>(line.from), Quat<Unit<S>>::identity()}, vec<S>(line.way), {}});
     }
     std::vector<RayCastHit<S>> hits(asked.size()), list;
@@ -42,8 +42,7 @@ TYPED_TEST(SceneQueries, hit_as_often_as_other_engines_say) {
     ASSERT_TRUE(world.cast_shapes(cast, cast_hits));
     for (const auto& hit : hits) rays += static_cast<bool>(hit.body);
     for (const auto& hit : cast_hits) casts += static_cast<bool>(hit.body);
-    for (std::size_t i = 0; i < 1000; ++i)
-      world.cast_ray_all(asked[i].origin, asked[i].translation, list, of_bodies);
+    for (std::size_t i = 0; i < 1000; ++i) world.cast_ray_all(asked[i].origin, asked[i].translation, list, of_bodies);
     std::vector<BodyId> found;
     for (const auto& line : cast) {
       const Sphere<S> ball = {from_double<S>(kOverlapRadius)};

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "isostep/world/world.hpp"
 #include "scenes/build.hpp"
 #include "scenes/named.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "scenes/build.hpp"
 #include "scenes/named.hpp"
 #include "scenes/particles/particle_game.hpp"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "isostep/core/crc32c.hpp"
+#include "isostep/replay/replay_check.hpp"
 #include "isostep/state/replay_format.hpp"
-#include "isostep/world/replay_check.hpp"
 #include "tool/common/files.hpp"
 #include "tool/common/tool.hpp"
 #include "tool/verify/goldens.hpp"

@@ -166,7 +166,7 @@ TEST_F(CommandLine, ReportsOneJsonObjectWithTheMembersOfTheManual) {
                           "\"ms_median_settled\":", "\"contacts\":5",        "\"points\":20",
                           "\"bodies\":6",           "\"awake\":5",           "\"penetration_max\":",
                           "\"joint_error_max\":0",  "\"energy_start\":",     "\"energy_end\":",
-                          "\"asleep_at\":null",     "\"faults\":0",        "\"lost\":0}\n"}) {
+                          "\"asleep_at\":null",     "\"faults\":0",          "\"lost\":0}\n"}) {
     const std::size_t found = answer.out.find(key, at);
     ASSERT_NE(found, std::string::npos) << key << " in " << answer.out;
     at = found;

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "isostep/replay/desync_bundle.hpp"
+#include "isostep/replay/session_recorder.hpp"
 #include "isostep/state/value_text.hpp"
-#include "isostep/world/desync_bundle.hpp"
-#include "isostep/world/session_recorder.hpp"
 #include "own_folder.hpp"
 #include "tool/command_line.hpp"
 #include "tool/common/files.hpp"

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "isostep/replay/world_kinds.hpp"
 #include "isostep/state/replay_format.hpp"
-#include "isostep/world/world_kinds.hpp"
 #include "tool/diff/stage_side.hpp"
 
 namespace isostep::test {

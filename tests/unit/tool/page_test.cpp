@@ -173,9 +173,8 @@ TEST(Pages, RecordWhatCharactersStandOn) {
   Balls balls({});
   World<double>& world = balls.world;
   Character<double> walker;
-  walker.body = world.create({.type = BodyType::kinematic,
-                              .shape = world.add_shape(Capsule{0.25, 0.5}),
-                              .position = {2, 1, 3}});
+  walker.body =
+      world.create({.type = BodyType::kinematic, .shape = world.add_shape(Capsule{0.25, 0.5}), .position = {2, 1, 3}});
   world.add(walker);
   Recording recording;
   Recorder recorder(recording);

@@ -11,7 +11,7 @@
 #include "determinism/particle_mess.hpp"
 #include "determinism/solver_scene.hpp"
 #include "isostep/particles/recorder.hpp"
-#include "isostep/world/recorder.hpp"
+#include "isostep/replay/recorder.hpp"
 #include "own_folder.hpp"
 #include "tool/command_line.hpp"
 

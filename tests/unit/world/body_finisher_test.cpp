@@ -1,7 +1,7 @@
 // BodyFinisher alone: what is beyond the scalar's range is cut, and counted.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/body_finisher.hpp"
+#include "isostep/systems/motion/body_finisher.hpp"
 
 #include <limits>
 

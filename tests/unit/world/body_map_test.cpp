@@ -1,7 +1,7 @@
 // BodyMap alone: where records lie as they come and go.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/body_map.hpp"
+#include "isostep/store/body_map.hpp"
 
 #include "unit/world/systems.hpp"
 

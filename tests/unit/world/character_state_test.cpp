@@ -1,8 +1,7 @@
 // States read from outside: a character's body has a shape that can be cast, or the state is refused.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/state_validator.hpp"
-
+#include "isostep/store/state_validator.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {

@@ -1,10 +1,10 @@
 // CommandExecutor alone: commands change the state and its caches, or leave a fault.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/command_executor.hpp"
+#include "isostep/commands/command_executor.hpp"
 
 #include "isostep/state/members.hpp"
-#include "isostep/world/island_sleep.hpp"
+#include "isostep/systems/sleep/island_sleep.hpp"
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {

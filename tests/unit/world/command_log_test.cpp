@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "determinism/mess.hpp"
+#include "isostep/replay/recorder.hpp"
 #include "isostep/state/verify.hpp"
-#include "isostep/world/recorder.hpp"
 
 namespace isostep::test {
 namespace {

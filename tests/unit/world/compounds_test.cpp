@@ -60,8 +60,8 @@ TYPED_TEST(Compounds, rays_name_the_child_and_its_triangle) {
     std::uint32_t child, triangle;
     std::uint8_t material;
   };
-  const Shot shots[] = {{{0.5, 2, 0.5}, 0, 0, 7},  {{3.5, 2, 3.5}, 0, 1, 8},    {{6.1, 2, 0.1}, 1, 0, 0},
-                        {{9.9, 2, 3.9}, 1, 127, 0}, {{0, 2, -2}, 2, 0, 0},       {{11, 2, -2}, 13, 0, 0}};
+  const Shot shots[] = {{{0.5, 2, 0.5}, 0, 0, 7},   {{3.5, 2, 3.5}, 0, 1, 8}, {{6.1, 2, 0.1}, 1, 0, 0},
+                        {{9.9, 2, 3.9}, 1, 127, 0}, {{0, 2, -2}, 2, 0, 0},    {{11, 2, -2}, 13, 0, 0}};
   for (const Shot& shot : shots) {
     const auto hit = world.cast_ray(vec<S>(shot.from), vec<S>(0, -4, 0));
     ASSERT_TRUE(hit);

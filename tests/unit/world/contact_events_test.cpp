@@ -1,7 +1,7 @@
 // ContactEvents alone: the begin and the end of touches, and their impulses.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/contact_events.hpp"
+#include "isostep/systems/events/contact_events.hpp"
 
 #include "unit/world/systems.hpp"
 

@@ -1,10 +1,10 @@
 // ContinuousCollision alone, as a rule on a state whose poses the test moves: who is put back, and where to.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/continuous_collision.hpp"
+#include "isostep/systems/continuous/continuous_collision.hpp"
 
 #include "isostep/collision/broadphase/pairs.hpp"
-#include "isostep/world/fat_box.hpp"
+#include "isostep/store/fat_box.hpp"
 #include "random/dice.hpp"
 #include "random/hull.hpp"
 #include "unit/world/systems.hpp"

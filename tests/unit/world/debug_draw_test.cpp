@@ -1,6 +1,6 @@
 // Drawing: what a DebugDraw is told of worlds whose shapes, contacts and joints are known from their building.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/debug_draw.hpp"
+#include "isostep/draw/debug_draw.hpp"
 
 #include <algorithm>
 

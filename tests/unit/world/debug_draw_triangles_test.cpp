@@ -5,8 +5,8 @@
 #include <map>
 #include <span>
 
+#include "isostep/draw/debug_draw.hpp"
 #include "isostep/geometry/baked/hull_blob.hpp"
-#include "isostep/world/debug_draw.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {

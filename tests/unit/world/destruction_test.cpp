@@ -1,7 +1,7 @@
 // Destruction alone: nothing is left that names what is gone.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/destruction.hpp"
+#include "isostep/commands/destruction.hpp"
 
 #include "unit/world/systems.hpp"
 

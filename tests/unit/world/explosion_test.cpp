@@ -154,8 +154,11 @@ TYPED_TEST(Explosions, what_is_nearer_flies_first_and_the_energy_is_the_integral
     double x = nearest, v = 0;  // dv/dt = f p(s t - x) (1 - v / s) (1 - t / T) / m
     for (double t = 0; t < 1.5; t += h) {
       const double y = speed * t - x;
-      const double p = y < -width * (1 + k) ? 0 : y < -width ? (y + width * (1 + k)) / (k * width)
-                       : y < 0 ? 1 : y < k * width ? 1 - y / (k * width) : 0;
+      const double p = y < -width * (1 + k) ? 0
+                       : y < -width         ? (y + width * (1 + k)) / (k * width)
+                       : y < 0              ? 1
+                       : y < k * width      ? 1 - y / (k * width)
+                                            : 0;
       v += force * p * (1 - v / speed) * (1 - t / duration) / mass * h;
       x += v * h;
     }
@@ -236,12 +239,17 @@ TYPED_TEST(Explosions, bad_numbers_are_named) {
   refused("chimney_radius", [](Explosion<S>& e) { e.chimney_radius = S(0); });
   refused("chimney_height", [](Explosion<S>& e) { e.chimney_height = S(-1); });
   refused("chimney_duration", [](Explosion<S>& e) { e.chimney_duration = S(-1); });
-  refused("centre", [](Explosion<S>& e) { e.centre.y = highest<S>(); }, Fault::out_of_range);
-  refused("chimney_duration", [](Explosion<S>& e) { e.chimney_duration = S(2000); }, Fault::out_of_range);
-  refused("wave_duration", [](Explosion<S>& e) {
-    e.wave_speed = Limits<S>::position();
-    e.wave_duration = S(2);
-  }, Fault::out_of_range);
+  refused(
+      "centre", [](Explosion<S>& e) { e.centre.y = highest<S>(); }, Fault::out_of_range);
+  refused(
+      "chimney_duration", [](Explosion<S>& e) { e.chimney_duration = S(2000); }, Fault::out_of_range);
+  refused(
+      "wave_duration",
+      [](Explosion<S>& e) {
+        e.wave_speed = Limits<S>::position();
+        e.wave_duration = S(2);
+      },
+      Fault::out_of_range);
   EXPECT_TRUE(this->world_.state().force_records->untouched());
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "isostep/world/recorder.hpp"
+#include "isostep/replay/recorder.hpp"
 #include "scenes/hull_recipes.hpp"
 #include "unit/world/worlds.hpp"
 

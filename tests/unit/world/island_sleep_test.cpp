@@ -1,7 +1,7 @@
 // IslandSleep alone: which bodies fall asleep together, and when.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/island_sleep.hpp"
+#include "isostep/systems/sleep/island_sleep.hpp"
 
 #include "unit/world/systems.hpp"
 

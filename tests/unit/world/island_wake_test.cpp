@@ -1,7 +1,7 @@
 // IslandWake alone: what wakes which island, and in what order it comes back.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/island_wake.hpp"
+#include "isostep/systems/sleep/island_wake.hpp"
 
 #include "unit/world/systems.hpp"
 

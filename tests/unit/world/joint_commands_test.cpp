@@ -1,6 +1,6 @@
 // The commands about joints: what an accepted one does, and that a refused one names its fault and changes nothing.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/state_validator.hpp"
+#include "isostep/store/state_validator.hpp"
 #include "unit/world/commanded_world.hpp"
 
 namespace isostep::test {

@@ -1,6 +1,6 @@
 // Pairs of materials as records of a world: commands, faults, saving, loading, and what is refused in files.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/state_validator.hpp"
+#include "isostep/store/state_validator.hpp"
 #include "unit/world/commanded_world.hpp"
 
 namespace isostep::test {

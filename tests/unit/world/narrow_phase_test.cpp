@@ -1,7 +1,7 @@
 // NarrowPhase alone: contacts from pairs, what they inherit, and sensors.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/narrow_phase.hpp"
+#include "isostep/systems/contacts/narrow_phase.hpp"
 
 #include "isostep/state/hash.hpp"
 #include "unit/world/systems.hpp"

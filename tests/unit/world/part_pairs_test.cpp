@@ -1,7 +1,7 @@
 // PartPairs alone: which parts of two bodies are looked at.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/part_pairs.hpp"
+#include "isostep/systems/contacts/part_pairs.hpp"
 
 #include <array>
 #include <map>

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "determinism/mess.hpp"
-#include "isostep/world/world_kinds.hpp"
+#include "isostep/replay/world_kinds.hpp"
 
 namespace isostep::test {
 namespace {

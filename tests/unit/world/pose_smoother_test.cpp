@@ -1,6 +1,6 @@
 // Corrected bodies are drawn without a jump and soon where they are; all others exactly where they are.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/pose_smoother.hpp"
+#include "isostep/replay/pose_smoother.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Proxies alone: which bodies might touch, as they come, change and go.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/proxies.hpp"
+#include "isostep/store/proxies.hpp"
 
 #include <algorithm>
 

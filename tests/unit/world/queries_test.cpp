@@ -1,7 +1,7 @@
 // Queries alone: what a ray and a box meet. Worlds' own answers: world_queries_test.cpp.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/queries.hpp"
+#include "isostep/query/queries.hpp"
 
 #include "unit/world/systems.hpp"
 

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "isostep/geometry/baked/surface_blob.hpp"
-#include "random/hull.hpp"
 #include "random/dice.hpp"
+#include "random/hull.hpp"
 
 namespace isostep::test {
 namespace {
@@ -226,8 +226,8 @@ TYPED_TEST(QueryContact, no_ray_falls_through_an_edge_or_a_corner) {
       EXPECT_EQ(all[0].triangle, hit->triangle);
       twice += all.size() > 1;
       // A small ball along the same line does not fall through either.
-      const auto ball = w.cast_shape(primitive_of(Sphere<S>{num<S>(0.03125)}), {origin, Quat<Unit<S>>::identity()},
-                                     translation);
+      const auto ball =
+          w.cast_shape(primitive_of(Sphere<S>{num<S>(0.03125)}), {origin, Quat<Unit<S>>::identity()}, translation);
       ASSERT_TRUE(ball.has_value()) << n;
       EXPECT_LE(to_double(ball->fraction), 0.5 + 1e-3) << n;
       EXPECT_GT(to_double(ball->fraction), 0.4) << n;

@@ -1,7 +1,7 @@
 // RenderPoses alone: where bodies are drawn between two steps.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/render_poses.hpp"
+#include "isostep/systems/motion/render_poses.hpp"
 
 #include "unit/world/systems.hpp"
 

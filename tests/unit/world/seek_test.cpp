@@ -1,7 +1,7 @@
 // Seeking in a replay of a world: the state of any frame, what going back costs, and stored states that lie.
 // SPDX-License-Identifier: MIT
+#include "isostep/replay/recorder.hpp"
 #include "isostep/state/replay_seek.hpp"
-#include "isostep/world/recorder.hpp"
 #include "played_session.hpp"
 
 namespace isostep::test {

@@ -1,7 +1,7 @@
 // SensorOverlaps alone: what begins, what stays, what ends.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/sensor_overlaps.hpp"
+#include "isostep/systems/events/sensor_overlaps.hpp"
 
 #include "unit/world/systems.hpp"
 

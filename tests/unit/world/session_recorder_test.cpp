@@ -1,9 +1,9 @@
 // Recordings of sessions that roll back are those of a match that never did; the history keeps what was last true.
 // SPDX-License-Identifier: MIT
-#include "isostep/world/session_recorder.hpp"
+#include "isostep/replay/session_recorder.hpp"
 
+#include "isostep/replay/desync_bundle.hpp"
 #include "isostep/state/verify.hpp"
-#include "isostep/world/desync_bundle.hpp"
 #include "played_session.hpp"
 
 namespace isostep::test {

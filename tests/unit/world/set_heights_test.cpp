@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "isostep/geometry/baked/surface_blob.hpp"
+#include "isostep/replay/recorder.hpp"
 #include "isostep/state/verify.hpp"
-#include "isostep/world/recorder.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {

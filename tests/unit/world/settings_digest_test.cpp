@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "isostep/particles/recorder.hpp"
-#include "isostep/world/recorder.hpp"
+#include "isostep/replay/recorder.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {

@@ -1,7 +1,7 @@
 // Surroundings alone: what is gathered once meets what queries of the whole world meet.
 // SPDX-License-Identifier: MIT
 
-#include "isostep/world/surroundings.hpp"
+#include "isostep/query/surroundings.hpp"
 
 #include "unit/world/systems.hpp"
 

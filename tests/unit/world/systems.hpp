@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/world/body_map.hpp"
-#include "isostep/world/island_wake.hpp"
-#include "isostep/world/proxies.hpp"
-#include "isostep/world/state_loader.hpp"
+#include "isostep/store/body_map.hpp"
+#include "isostep/store/proxies.hpp"
+#include "isostep/store/state_loader.hpp"
+#include "isostep/systems/sleep/island_wake.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {

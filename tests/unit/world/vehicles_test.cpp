@@ -1,8 +1,8 @@
 // Vehicles and wheels as records: faults, snapshots, recordings, sleep, and ground that gives way.
 // SPDX-License-Identifier: MIT
 
+#include "isostep/replay/recorder.hpp"
 #include "isostep/state/verify.hpp"
-#include "isostep/world/recorder.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -190,8 +190,7 @@ TYPED_TEST(VehicleRecords, tell_how_far_their_wheels_are_steered) {
   run(this->w, 2);
   const double base = 2.5, side = 0.8, middle = base / std::tan(0.5);
   const double expected[] = {std::atan(base / (middle - side)), std::atan(base / (middle + side)), 0, 0};
-  for (int i = 0; i < 4; ++i)
-    EXPECT_NEAR(to_double(this->w.find(this->wheels[i])->steered), expected[i], 1e-3) << i;
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(to_double(this->w.find(this->wheels[i])->steered), expected[i], 1e-3) << i;
   this->control(0, 1, -1);
   run(this->w, 2);
   EXPECT_NEAR(to_double(this->w.find(this->wheels[0])->steered), -expected[1], 1e-3);

@@ -273,10 +273,14 @@ TYPED_TEST(Waters, bad_numbers_are_named) {
   refused("wave_length", [](Water<S>& w) { w.wave_length = S(0); });
   refused("wave_period", [](Water<S>& w) { w.wave_period = S(0); });
   refused("wave_direction", [](Water<S>& w) { w.wave_direction = Vec3<Unit<S>>::zero(); });
-  refused("surface_height", [&](Water<S>& w) { w.surface_height = far; }, Fault::out_of_range);
-  refused("middle", [&](Water<S>& w) { w.middle.x = far; }, Fault::out_of_range);
-  refused("current", [&](Water<S>& w) { w.current.x = far; }, Fault::out_of_range);
-  refused("wave_period", [&](Water<S>& w) { w.wave_period = S(2000); }, Fault::out_of_range);
+  refused(
+      "surface_height", [&](Water<S>& w) { w.surface_height = far; }, Fault::out_of_range);
+  refused(
+      "middle", [&](Water<S>& w) { w.middle.x = far; }, Fault::out_of_range);
+  refused(
+      "current", [&](Water<S>& w) { w.current.x = far; }, Fault::out_of_range);
+  refused(
+      "wave_period", [&](Water<S>& w) { w.wave_period = S(2000); }, Fault::out_of_range);
   EXPECT_TRUE(this->world_.state().force_records->untouched());
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "isostep/geometry/limits.hpp"
-#include "isostep/world/state.hpp"
+#include "isostep/store/state.hpp"
 #include "isostep/world/world.hpp"
 
 namespace isostep::test {

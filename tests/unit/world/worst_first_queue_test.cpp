@@ -5,7 +5,7 @@
 #include "isostep/core/sorted_order.hpp"
 #include "isostep/dynamics/solvers/worst_first.inl"
 #include "isostep/state/hash.hpp"
-#include "isostep/world/narrow_phase.hpp"
+#include "isostep/systems/contacts/narrow_phase.hpp"
 #include "isostep/world/step_solver.hpp"
 #include "unit/world/systems.hpp"
 

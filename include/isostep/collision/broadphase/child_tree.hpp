@@ -32,8 +32,7 @@ template <class S> class ChildTree {
   /// `index` in range.
   ISO_INLINE Leaf leaf_at(std::uint32_t index) const {
     const std::size_t after =
-        lower_bound(first_leaves_.size(),
-                    [&](std::size_t i) ISO_INLINE_LAMBDA { return first_leaves_[i] <= index; });
+        lower_bound(first_leaves_.size(), [&](std::size_t i) ISO_INLINE_LAMBDA { return first_leaves_[i] <= index; });
     return {static_cast<std::uint32_t>(after - 1), index - first_leaves_[after - 1]};
   }
   /// Of all children but half-spaces, in the frame that `t` leads to.

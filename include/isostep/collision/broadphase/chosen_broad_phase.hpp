@@ -24,17 +24,15 @@ template <class S> class ChosenBroadPhase {
   template <class Visit> ISO_INLINE void query(const Aabb<S>& box, Visit&& visit) const {
     if (name_ == BroadPhaseName::box_tree) return box_tree_.query(box, visit);
     using Plain = std::remove_reference_t<Visit>;
-    const auto call = [](void* data, std::uint32_t slot) ISO_INLINE_LAMBDA {
-      return static_cast<bool>((*static_cast<Plain*>(data))(slot));
-    };
+    const auto call = [](void* data, std::uint32_t slot)
+                          ISO_INLINE_LAMBDA { return static_cast<bool>((*static_cast<Plain*>(data))(slot)); };
     query_other(box, call, const_cast<void*>(static_cast<const void*>(&visit)));
   }
   template <class Visit> ISO_INLINE void sweep(const Sweep<S>& sweep, Visit&& visit) const {
     if (name_ == BroadPhaseName::box_tree) return box_tree_.sweep(sweep, visit);
     using Plain = std::remove_reference_t<Visit>;
-    const auto call = [](void* data, std::uint32_t slot, Unit<S> most) ISO_INLINE_LAMBDA {
-      return (*static_cast<Plain*>(data))(slot, most);
-    };
+    const auto call = [](void* data, std::uint32_t slot, Unit<S> most)
+                          ISO_INLINE_LAMBDA { return (*static_cast<Plain*>(data))(slot, most); };
     sweep_other(sweep, call, const_cast<void*>(static_cast<const void*>(&visit)));
   }
   /// visit(the structure), which is a BroadPhase.

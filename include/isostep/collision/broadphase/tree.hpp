@@ -127,8 +127,7 @@ template <class S> class AabbTree {
 
   /// The same for the leaves that overlaps(box) -> bool reaches: those for which it is true of every box on the way and
   /// of their own. False: visit wanted no more.
-  template <class Overlaps, class Visit>
-  ISO_INLINE bool traverse(const Overlaps& overlaps, Visit&& visit) const;
+  template <class Overlaps, class Visit> ISO_INLINE bool traverse(const Overlaps& overlaps, Visit&& visit) const;
 
   /// visit(slot) -> bool for the leaves that stand behind the slot's own in the tree's walk and whose boxes overlap its
   /// box, nearest in the tree first; false ends it. enter(node) -> bool, of `fold`: whether to look at a node at all.

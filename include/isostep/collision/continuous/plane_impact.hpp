@@ -19,9 +19,8 @@ template <class S>
 TimeOfImpact<S> plane_impact(const ConvexCore<S>& core, const CoreMotion<S>& motion, const SolidPlane<S>& plane,
                              S target);
 
-#define ISO_PLANE_IMPACT_OF(extern, S)                                                               \
-  extern template TimeOfImpact<S> plane_impact<S>(const ConvexCore<S>&, const CoreMotion<S>&,        \
-                                                  const SolidPlane<S>&, S);
+#define ISO_PLANE_IMPACT_OF(extern, S) \
+  extern template TimeOfImpact<S> plane_impact<S>(const ConvexCore<S>&, const CoreMotion<S>&, const SolidPlane<S>&, S);
 #define ISO_EXTERN(S) ISO_PLANE_IMPACT_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

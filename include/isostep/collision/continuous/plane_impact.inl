@@ -15,12 +15,15 @@ template <class S> class PlaneAdvance {
 
  public:
   ISO_INLINE PlaneAdvance(const SweptCore<S>& core, Vec3<U> normal, Vec3<F> point, F target)
-      : core_(core), normal_(normal), up_{convert<F>(normal.x), convert<F>(normal.y), convert<F>(normal.z)},
-        point_(point), target_(target) {}
+      : core_(core),
+        normal_(normal),
+        up_{convert<F>(normal.x), convert<F>(normal.y), convert<F>(normal.z)},
+        point_(point),
+        target_(target) {}
 
   ISO_INLINE TimeOfImpact<S> run() const {
-    TimeOfImpact<S> result = {Impact::none, Unit<S>(0), coarser_of<Unit<S>>(-normal_), Vec3<S>::zero(),
-                              Vec3<S>::zero(), S(0), 0};
+    TimeOfImpact<S> result = {Impact::none, Unit<S>(0), coarser_of<Unit<S>>(-normal_), Vec3<S>::zero(), Vec3<S>::zero(),
+                              S(0),         0};
     U t = U(0);
     bool stays = false;  // nearer than the target in every round so far
     for (result.rounds = 1; result.rounds <= kMostRounds; ++result.rounds) {

@@ -62,8 +62,8 @@ template <class F> struct HeightBound {
 };
 template <class F> struct Turning {
   ArrayView<Vec3<F>> vertices;  // [m]
-  Vec3<F> centre;                     // [m]
-  Vec3<F> up, change;                 // [1] the direction, in the core's frame, and how the core's turning changes it
+  Vec3<F> centre;               // [m]
+  Vec3<F> up, change;           // [1] the direction, in the core's frame, and how the core's turning changes it
 
   ISO_INLINE HeightBound<F> lowest(Unit<F> d) const {
     const Vec3<F> direction = up + change * d;

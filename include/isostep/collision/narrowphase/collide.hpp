@@ -33,10 +33,10 @@ template <class S>
 void collide_leaves(const LeafView<S>& a, const Transform<S>& ta, const LeafView<S>& b, const Transform<S>& tb,
                     S margin, Manifold<S>& out, CollidePolyhedra<S> polyhedra = collide_polyhedra<S>);
 
-#define ISO_COLLIDE_OF(extern, S)                                                                                    \
-  extern template void collide<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, S,           \
-                                  Manifold<S>&, CollidePolyhedra<S>);                                                \
-  extern template void collide_leaves<S>(const LeafView<S>&, const Transform<S>&, const LeafView<S>&,                \
+#define ISO_COLLIDE_OF(extern, S)                                                                          \
+  extern template void collide<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, S, \
+                                  Manifold<S>&, CollidePolyhedra<S>);                                      \
+  extern template void collide_leaves<S>(const LeafView<S>&, const Transform<S>&, const LeafView<S>&,      \
                                          const Transform<S>&, S, Manifold<S>&, CollidePolyhedra<S>);
 #define ISO_EXTERN(S) ISO_COLLIDE_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)

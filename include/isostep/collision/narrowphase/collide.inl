@@ -19,8 +19,7 @@ static_assert(detail::kShapePairs<float>.is_complete(), "two shapes have no func
 
 template <class S>
 void collide(std::type_identity_t<ShapeView<S>> a, const Transform<S>& ta, std::type_identity_t<ShapeView<S>> b,
-             const Transform<S>& tb, S margin, Manifold<S>& out,
-             std::type_identity_t<CollidePolyhedra<S>> polyhedra) {
+             const Transform<S>& tb, S margin, Manifold<S>& out, std::type_identity_t<CollidePolyhedra<S>> polyhedra) {
   const ShapeType type_a = a.primitive.type, type_b = b.primitive.type;
   if (type_b < type_a) {
     detail::kShapePairs<S>.of(type_b, type_a)(b, tb, a, ta, margin, out, polyhedra);

@@ -14,7 +14,7 @@ namespace isostep {
 /// box eight, a hull its own. At least 1 vertex, at most ConvexHull::kMaxVertices; any order, equal ones too.
 template <class S> struct ConvexCore {
   ArrayView<Vec3<S>> vertices;  // [m] in the solid's frame
-  S radius;                           // [m]
+  S radius;                     // [m]
 };
 
 /// A polyhedron's: the memory that core() shows.
@@ -81,8 +81,8 @@ template <class S> class FineCore {
   FineCore& operator=(const FineCore&) = delete;
 
   ArrayView<Vec3<F>> vertices;  // [m]
-  F radius;                           // [m]
-  F extent = F(0);                    // [m] largest coordinate of a vertex
+  F radius;                     // [m]
+  F extent = F(0);              // [m] largest coordinate of a vertex
 
  private:
   Vec3<F> copy_[kIsCopy ? ConvexHull::kMaxVertices : 1];

@@ -28,7 +28,7 @@ template <class S> struct BodyFrame {
   Vec3<S> centre;       // [m] of mass, world
   Transform<S> origin;  // the body's frame seen from its centre of mass, axes as the world's
   const Child<S>* children;
-  Contents<S> contents;  // of their blobs
+  Contents<S> contents;      // of their blobs
   const ChildTree<S>* tree;  // of many children; null: there are few
   std::uint32_t child_count;
   std::uint32_t slot;
@@ -36,8 +36,8 @@ template <class S> struct BodyFrame {
   PartKind kind;      // of the only part, if plain
   bool plain;         // one part, not moved
   bool sensor, asleep;
-  bool surfaces;        // among its parts: those are counted by leaves, see surface_pairs.hpp
-  bool mixes_alone;     // its material, see contact_friction.hpp
+  bool surfaces;     // among its parts: those are counted by leaves, see surface_pairs.hpp
+  bool mixes_alone;  // its material, see contact_friction.hpp
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("half", self.half);

@@ -185,8 +185,7 @@ ISO_INLINE EdgeContact<S> near_edges(const PolyhedronPair<S, W, Isa>& pair, cons
   const S over_b = height_over<S, W, Isa>(pair.b, pair.vertices_a.at(face_b.vertex));
   is_known = over_b <= min(limit, S(0));
   if (is_known) return {{0, 0, Vec3<Unit<S>>::zero(), limit, false}, {}, {}};
-  const EdgeContact<S> nearby =
-      contact_of(pair, EdgeAxes<S, W, Isa>(pair, face_a, face_b, margin).best(limit, margin));
+  const EdgeContact<S> nearby = contact_of(pair, EdgeAxes<S, W, Isa>(pair, face_a, face_b, margin).best(limit, margin));
   const bool overlap = over_a <= S(0) || over_b <= S(0);
   // Over a face of solids that are apart a contact has their true distance.
   is_known = nearby.axis.found ? is_best(pair, nearby, margin) : best > S(0) || overlap;

@@ -23,8 +23,8 @@ template <class S>
 void collide_polyhedron_triangle(const Polyhedron<S>& a, const Transform<S>& ta, const SurfaceFrame<S>& frame,
                                  const BakedTriangle& baked, S margin, Manifold<S>& out);
 
-#define ISO_POLYHEDRON_TRIANGLE_OF(extern, S)                                                                  \
-  extern template void collide_polyhedron_triangle<S>(const Polyhedron<S>&, const Transform<S>&,               \
+#define ISO_POLYHEDRON_TRIANGLE_OF(extern, S)                                                    \
+  extern template void collide_polyhedron_triangle<S>(const Polyhedron<S>&, const Transform<S>&, \
                                                       const SurfaceFrame<S>&, const BakedTriangle&, S, Manifold<S>&);
 #define ISO_EXTERN(S) ISO_POLYHEDRON_TRIANGLE_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)

@@ -22,10 +22,10 @@ template <class S>
 void collide_capsule_triangle(S half_height, S radius, const Transform<S>& ta, const SurfaceFrame<S>& frame,
                               const BakedTriangle& baked, S margin, Manifold<S>& out);
 
-#define ISO_ROUND_TRIANGLE_OF(extern, S)                                                                            \
-  extern template void collide_sphere_triangle<S>(S, const Transform<S>&, const SurfaceFrame<S>&,                   \
-                                                  const BakedTriangle&, S, Manifold<S>&);                           \
-  extern template void collide_capsule_triangle<S>(S, S, const Transform<S>&, const SurfaceFrame<S>&,               \
+#define ISO_ROUND_TRIANGLE_OF(extern, S)                                                              \
+  extern template void collide_sphere_triangle<S>(S, const Transform<S>&, const SurfaceFrame<S>&,     \
+                                                  const BakedTriangle&, S, Manifold<S>&);             \
+  extern template void collide_capsule_triangle<S>(S, S, const Transform<S>&, const SurfaceFrame<S>&, \
                                                    const BakedTriangle&, S, Manifold<S>&);
 #define ISO_EXTERN(S) ISO_ROUND_TRIANGLE_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)

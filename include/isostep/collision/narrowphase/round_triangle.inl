@@ -60,7 +60,7 @@ ISO_INLINE TriangleStretch<S> stretch_over(const SurfaceTriangle<S>& triangle, c
 template <class S> struct TriangleEdgeTouch {
   S separation;  // [m] of the core
   Vec3<Unit<S>> normal;
-  S along;  // [m] along the core
+  S along;   // [m] along the core
   int edge;  // -1: none
 };
 template <class S>
@@ -103,8 +103,7 @@ ISO_INLINE bool touch_beside(const SurfaceTriangle<S>& triangle, const TriangleE
   for (std::uint32_t end = 0; end < 2; ++end) {
     const Vec3<S> p = core.at(end == 0 ? low : high);
     const S height = dot(touch.normal, p - triangle.points[touch.edge]);
-    if (height - radius <= margin + kPatchReach<S>)
-      touch_round(p, height, touch.normal, radius, ta, name | end, out);
+    if (height - radius <= margin + kPatchReach<S>) touch_round(p, height, touch.normal, radius, ta, name | end, out);
   }
   return out.count > 0;
 }

@@ -50,8 +50,7 @@ template <class S> struct CoreGap {
 };
 
 /// What a search left, in S.
-template <class S>
-ISO_INLINE CoreGap<S> gap_of(const GjkDistance<Finer<S>>& found, const Simplex<Finer<S>>& simplex) {
+template <class S> ISO_INLINE CoreGap<S> gap_of(const GjkDistance<Finer<S>>& found, const Simplex<Finer<S>>& simplex) {
   CoreGap<S> gap = {};
   gap.is_apart = found.distance > Finer<S>(0);
   gap.distance = coarser<S>(found.distance);

@@ -34,11 +34,11 @@ template <class S>
 void collide_rounded_triangle(const RoundedPolyhedron<S>& a, const Transform<S>& ta, const SurfaceFrame<S>& frame,
                               const BakedTriangle& baked, S margin, Manifold<S>& out);
 
-#define ISO_ROUNDED_POLYHEDRA_OF(extern, S)                                                                           \
-  extern template void collide_rounded_polyhedra<S>(const RoundedPolyhedron<S>&, const Transform<S>&,                 \
+#define ISO_ROUNDED_POLYHEDRA_OF(extern, S)                                                                            \
+  extern template void collide_rounded_polyhedra<S>(const RoundedPolyhedron<S>&, const Transform<S>&,                  \
                                                     const RoundedPolyhedron<S>&, const Transform<S>&, S, Manifold<S>&, \
-                                                    CollidePolyhedra<S>);                                             \
-  extern template void collide_rounded_triangle<S>(const RoundedPolyhedron<S>&, const Transform<S>&,                  \
+                                                    CollidePolyhedra<S>);                                              \
+  extern template void collide_rounded_triangle<S>(const RoundedPolyhedron<S>&, const Transform<S>&,                   \
                                                    const SurfaceFrame<S>&, const BakedTriangle&, S, Manifold<S>&);
 #define ISO_EXTERN(S) ISO_ROUNDED_POLYHEDRA_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)

@@ -33,9 +33,8 @@ template <class S> ISO_INLINE OuterEdge<S> outer_edge(const Polyhedron<S>& solid
 
 /// Both ends of the stretch beside each other of two edges that face each other across the gap, if there are such.
 template <class S>
-ISO_INLINE bool touch_edges_beside(const RoundedPolyhedron<S>& a, const Transform<S>& ta,
-                                   const RoundedPolyhedron<S>& b, const Transform<S>& tb, const CoreGap<S>& gap,
-                                   S slack, S margin, Manifold<S>& out) {
+ISO_INLINE bool touch_edges_beside(const RoundedPolyhedron<S>& a, const Transform<S>& ta, const RoundedPolyhedron<S>& b,
+                                   const Transform<S>& tb, const CoreGap<S>& gap, S slack, S margin, Manifold<S>& out) {
   constexpr double kBeside = 0.0625;  // sine of the angle, 3.6 degrees
   const Transform<S> b_in_a = relative(ta, tb);
   const OuterEdge<S> of_a = outer_edge(a.core, gap.normal, slack);
@@ -67,8 +66,9 @@ template <class S> ISO_INLINE bool has_face_across(const Polyhedron<S>& solid, V
 }
 
 /// A polyhedron as a core, its vertices in a row.
-template <class S> ISO_INLINE CoreGap<S> gap_between(const Polyhedron<S>& a, const Transform<S>& ta,
-                                                     const Polyhedron<S>& b, const Transform<S>& tb) {
+template <class S>
+ISO_INLINE CoreGap<S> gap_between(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
+                                  const Transform<S>& tb) {
   const PolyhedronCore<S> core_a(a), core_b(b);
   return gap_between(core_a.core(), ta, core_b.core(), tb);
 }
@@ -85,8 +85,7 @@ ISO_INLINE bool is_beyond_face(const Polyhedron<S>& solid, const SurfaceTriangle
 }
 
 /// Whether an edge's or a point's contact across a gap is the triangle's own, and no neighbour's.
-template <class S>
-ISO_INLINE bool is_owned(const SurfaceTriangle<S>& triangle, const CoreGap<S>& gap) {
+template <class S> ISO_INLINE bool is_owned(const SurfaceTriangle<S>& triangle, const CoreGap<S>& gap) {
   const Vec3<Unit<S>> direction = -gap.normal;
   if (gap.corners == 1) return triangle.owns_at_point(static_cast<int>(gap.corner[0]), direction);
   const std::uint32_t other = 3 - gap.corner[0] - gap.corner[1];  // of the points
@@ -114,8 +113,7 @@ void collide_rounded_polyhedra(const RoundedPolyhedron<S>& a, const Transform<S>
     if (told || !gap.is_apart) return grow_cores(out, a.radius, b.radius, margin);
     out.clear();
   }
-  if (!touch_edges_beside(a, ta, b, tb, gap, tolerance * S(0.25), margin, out))
-    gap.touch(ta, a.radius, b.radius, out);
+  if (!touch_edges_beside(a, ta, b, tb, gap, tolerance * S(0.25), margin, out)) gap.touch(ta, a.radius, b.radius, out);
 }
 
 template <class S>

@@ -15,8 +15,8 @@ template <class S>
 void collide_rounded_revolved(const detail::Revolved<S>& solid, const Transform<S>& ta, const RoundedPolyhedron<S>& b,
                               const Transform<S>& tb, S margin, Manifold<S>& out);
 
-#define ISO_ROUNDED_REVOLVED_OF(extern, S)                                                                     \
-  extern template void collide_rounded_revolved<S>(const detail::Revolved<S>&, const Transform<S>&,            \
+#define ISO_ROUNDED_REVOLVED_OF(extern, S)                                                          \
+  extern template void collide_rounded_revolved<S>(const detail::Revolved<S>&, const Transform<S>&, \
                                                    const RoundedPolyhedron<S>&, const Transform<S>&, S, Manifold<S>&);
 #define ISO_EXTERN(S) ISO_ROUNDED_REVOLVED_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/box_tolerance.hpp"
-#include "isostep/math/segment.hpp"
 #include "isostep/collision/narrowphase/sphere_pairs.hpp"
+#include "isostep/math/segment.hpp"
 
 namespace isostep {
 namespace detail {

@@ -21,9 +21,7 @@ template <class S> struct SurfaceFrame {
 
   ISO_INLINE SurfaceFrame(const Transform<S>& convex, Vec3<S> centre_in_convex, const Transform<S>& surface,
                           int surface_exponent)
-      : exponent(surface_exponent),
-        centre(centre_in_convex),
-        turn(transpose(convex.rotation) * surface.rotation) {
+      : exponent(surface_exponent), centre(centre_in_convex), turn(transpose(convex.rotation) * surface.rotation) {
     const Vec3<S> at = to_local(surface, to_world(convex, centre));
     for (int axis = 0; axis < 3; ++axis) {
       steps[axis] = floor_scaled(at[axis], exponent);

@@ -136,8 +136,8 @@ template <class S> class VClip {
  private:
   static ISO_INLINE Feature known(const Polyhedron<S>& solid, Feature f) {
     const std::uint32_t count = f.kind == Feature::vertex ? solid.vertices.size()
-                              : f.kind == Feature::edge ? solid.directions.size()
-                                                        : solid.faces.size();
+                                : f.kind == Feature::edge ? solid.directions.size()
+                                                          : solid.faces.size();
     return f.index < count ? f : Feature{Feature::vertex, 0};
   }
   ISO_INLINE bool is(int i, Feature::Kind kind) const { return features_[i].kind == kind; }

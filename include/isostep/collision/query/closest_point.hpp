@@ -17,8 +17,7 @@ namespace isostep {
 template <class S>
 ClosestPoint<S> closest_point(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> query);
 
-#define ISO_EXTERN(S) \
-  extern template ClosestPoint<S> closest_point<S>(ShapeView<S>, const Transform<S>&, Vec3<S>);
+#define ISO_EXTERN(S) extern template ClosestPoint<S> closest_point<S>(ShapeView<S>, const Transform<S>&, Vec3<S>);
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN
 

@@ -11,8 +11,8 @@
 namespace isostep {
 
 template <class S> struct RayHit {
-  S fraction;            // [1] of the translation, 0 ... max_fraction
-  Vec3<Unit<S>> normal;  // [1] of the surface, world frame, against the ray
+  S fraction;                  // [1] of the translation, 0 ... max_fraction
+  Vec3<Unit<S>> normal;        // [1] of the surface, world frame, against the ray
   bool inside = false;         // the shape holds the origin
   std::uint8_t material = 0;   // of the triangle; 0 where the shape has none
   std::uint32_t triangle = 0;  // of a mesh or height field; else 0
@@ -40,9 +40,9 @@ template <class S>
 void ray_cast_all(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> origin,
                   Vec3<S> translation, const RayReach<S>& reach, const RayHitTaker<S>& taker);
 
-#define ISO_RAY_CAST_OF(extern, S)                                                                                     \
-  extern template bool ray_cast<S>(ShapeView<S>, const Transform<S>&, Vec3<S>, Vec3<S>, S, RayHit<S>&, bool);          \
-  extern template void ray_cast_all<S>(ShapeView<S>, const Transform<S>&, Vec3<S>, Vec3<S>, const RayReach<S>&,        \
+#define ISO_RAY_CAST_OF(extern, S)                                                                              \
+  extern template bool ray_cast<S>(ShapeView<S>, const Transform<S>&, Vec3<S>, Vec3<S>, S, RayHit<S>&, bool);   \
+  extern template void ray_cast_all<S>(ShapeView<S>, const Transform<S>&, Vec3<S>, Vec3<S>, const RayReach<S>&, \
                                        const RayHitTaker<S>&);
 #define ISO_EXTERN(S) ISO_RAY_CAST_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)

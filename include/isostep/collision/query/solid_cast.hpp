@@ -11,10 +11,10 @@ namespace isostep {
 
 /// A solid, its place at the start, and its way.
 template <class S> struct SolidCast {
-  ConvexCore<S> core;     // in the solid's frame
-  Transform<S> start;     // [m] from there to the world
+  ConvexCore<S> core;  // in the solid's frame
+  Transform<S> start;  // [m] from there to the world
   CastMotion<S> motion;
-  bool back_faces;        // meets triangles from behind too
+  bool back_faces;  // meets triangles from behind too
   /// Passes what it overlaps by more than motion.touch at the start; of a surface, every triangle that it touches then.
   bool skip_inside;
 };
@@ -53,9 +53,9 @@ namespace detail {
 template <class S> ISO_INLINE S cast_margin(S farthest) { return gap_noise(farthest) * S(8); }
 }  // namespace detail
 
-#define ISO_SOLID_CAST_OF(extern, S)                                                                            \
-  extern template bool cast_solid<S>(const SolidCast<S>&, ShapeView<S>, const Transform<S>&, SolidHit<S>&);     \
-  extern template void cast_solid_all<S>(const SolidCast<S>&, ShapeView<S>, const Transform<S>&,                \
+#define ISO_SOLID_CAST_OF(extern, S)                                                                        \
+  extern template bool cast_solid<S>(const SolidCast<S>&, ShapeView<S>, const Transform<S>&, SolidHit<S>&); \
+  extern template void cast_solid_all<S>(const SolidCast<S>&, ShapeView<S>, const Transform<S>&,            \
                                          const SolidHitTaker<S>&);
 #define ISO_EXTERN(S) ISO_SOLID_CAST_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)

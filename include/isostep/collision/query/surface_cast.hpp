@@ -139,8 +139,12 @@ template <class S, class G> class SurfaceCast {
       triangle.find_edges(frame_, baked);
       if (!is_clear(id, baked, triangle, hit)) hit.normal = triangle.normal;
     }
-    out = {hit.fraction, cast_.start.rotation * hit.normal, to_world(cast_.start, hit.point), hit.inside,
-           baked.material, id};
+    out = {hit.fraction,
+           cast_.start.rotation * hit.normal,
+           to_world(cast_.start, hit.point),
+           hit.inside,
+           baked.material,
+           id};
     return true;
   }
   /// Whether the normal that was found at an edge or corner is one of the surface there: whether the triangles about it

@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-#include "isostep/dynamics/joints/axis_drive.hpp"
 #include "isostep/dynamics/joints/joint_record.hpp"
 #include "isostep/dynamics/joints/joint_rows.hpp"
+#include "isostep/dynamics/records/axis_drive.hpp"
 
 namespace isostep {
 

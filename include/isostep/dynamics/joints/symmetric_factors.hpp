@@ -58,8 +58,8 @@ template <class T> ISO_INLINE SymmetricFactors<T> factor_symmetric(const Mat3<T>
   f.i1 = reciprocal(max(m.rows[1].y + softness - f.l10 * m.rows[0].y, softness));
   const T e = m.rows[1].z - f.l10 * m.rows[0].z;
   f.l21 = e * f.i1;
-  f.i2 = reciprocal(
-      max(m.rows[2].z + softness - round_to<T>(product(f.l20, m.rows[0].z) + product(f.l21, e)), softness));
+  f.i2 =
+      reciprocal(max(m.rows[2].z + softness - round_to<T>(product(f.l20, m.rows[0].z) + product(f.l21, e)), softness));
   return f;
 }
 template <class T> ISO_INLINE Mat3<T> invert_symmetric(const Mat3<T>& m, T softness) {

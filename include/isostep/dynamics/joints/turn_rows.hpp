@@ -95,8 +95,7 @@ ISO_INLINE void lock_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<
 }
 
 /// Swing: the angle between the z axes, about their common normal. Aligned axes have none, and no row.
-template <class S>
-ISO_INLINE void linearise_swing(Vec3<Unit<S>> za, Vec3<Unit<S>> zb, S most, JointDrive<S>& drive) {
+template <class S> ISO_INLINE void linearise_swing(Vec3<Unit<S>> za, Vec3<Unit<S>> zb, S most, JointDrive<S>& drive) {
   using U = Unit<S>;
   const Vec3<U> n = cross(za, zb);
   const Direction<U> axis = direction_of(n.x, n.y, n.z);

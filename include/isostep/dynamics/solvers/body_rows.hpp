@@ -87,7 +87,7 @@ template <class S> class BodyRows {
   std::vector<std::uint8_t> kinds_;
   std::vector<BodyFactors<S>> factors_;
   std::vector<BodyFlight<S>> flights_;
-  std::vector<BodyTurn<S>> turns_;   // of those that turn freely
+  std::vector<BodyTurn<S>> turns_;  // of those that turn freely
   EnergyBound<S> bound_;
   std::vector<std::uint32_t> left_;  // to be finished one by one
   std::int32_t rate_ = 1;            // [1/s] sub-steps

@@ -116,8 +116,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
   /// A bit for each contact that did not touch in the last step.
   static ISO_INLINE std::uint32_t fresh(const Contact<S>* const* contacts) {
     std::uint32_t bits = 0;
-    ISO_UNROLL for (int i = 0; i < W; ++i)
-      bits |= ((contacts[i]->flags & contact_flag::kTouching) == 0 ? 1u : 0u) << i;
+    ISO_UNROLL for (int i = 0; i < W; ++i) bits |= ((contacts[i]->flags & contact_flag::kTouching) == 0 ? 1u : 0u) << i;
     return bits;
   }
 

@@ -47,7 +47,7 @@ template <class N> struct DirectPatch {
   std::uint32_t first;   // tangent, tangent, twist
   std::uint32_t normal;  // the first of the normal rows
   std::uint32_t points;
-  std::uint32_t rolling;  // the first of two rows, or kNoRolling
+  std::uint32_t rolling;              // the first of two rows, or kNoRolling
   N friction, twist_friction, lever;  // [1] limits over the load, times 2^exponent
   int friction_exponent, twist_exponent, lever_exponent;
   static constexpr std::uint32_t kNoRolling = ~0u;
@@ -72,11 +72,11 @@ template <class N> class DirectSystem {
  public:
   using D = DirectNumber<N>;
   static constexpr N kContactGive = N(0x1p-12), kEquationGive = N(0x1p-20);
-  static constexpr int kLeastGive = -20;                 // their least exponent
+  static constexpr int kLeastGive = -20;   // their least exponent
   static constexpr int kMostPivots = 200;  // factorisations for one problem, as far as the caller's budget allows
   static constexpr int kLeastPivots = 4;   // of which a problem is worth beginning with
-  static constexpr int kPasses = 3;                      // limits come within 1/32, as a rule in two
-  static constexpr int kPatience = 3;  // exchanges that may bring nothing before rows are taken one by one
+  static constexpr int kPasses = 3;        // limits come within 1/32, as a rule in two
+  static constexpr int kPatience = 3;      // exchanges that may bring nothing before rows are taken one by one
   static constexpr int kSweeps = 16, kLeastSweeps = 4;
   static constexpr std::uint64_t kSweepWork = 4;  // of a block in a sweep: three rows at two ends
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/solver_name.hpp"
 #include "isostep/dynamics/solvers/direct.hpp"
 #include "isostep/dynamics/solvers/rigid_solver.hpp"
 #include "isostep/dynamics/solvers/sequential.hpp"
-#include "isostep/dynamics/solver_name.hpp"
 #include "isostep/dynamics/solvers/worst_first.hpp"
 
 namespace isostep {

@@ -82,9 +82,9 @@ concept TriangleGeometry = requires(const G& geometry, const MeshBox& box, std::
   { geometry.bounds() } -> std::same_as<MeshBox>;
   { geometry.has_triangle(id) } -> std::same_as<bool>;
   { geometry.neighbour(id, 0) } -> std::same_as<std::uint32_t>;  // across edge k, a ghost too, or kNoTriangle
-  { geometry.corners(id) } -> std::same_as<TriangleCorners>;  // of triangle(id)
+  { geometry.corners(id) } -> std::same_as<TriangleCorners>;     // of triangle(id)
   { geometry.triangle(id) } -> std::same_as<BakedTriangle>;
-  { geometry.material(id) } -> std::same_as<std::uint8_t>;  // its number
+  { geometry.material(id) } -> std::same_as<std::uint8_t>;                 // its number
   { geometry.table() } -> std::same_as<std::span<const SurfaceMaterial>>;  // see SurfaceMaterials
   { geometry.query(box, detail::AnyVisit{}) } -> std::same_as<bool>;
   { geometry.traverse(detail::AnyOverlap{}, detail::AnyVisit{}) } -> std::same_as<bool>;

@@ -52,10 +52,14 @@ template <class S> class BoxSolid {
   /// Valid as long as this is.
   ISO_INLINE Polyhedron<S> polyhedron() const {
     using U = Unit<S>;
-    return {{&vertices_, 8}, detail::kBoxHalfEdges,
-            detail::kBoxFaces, detail::kBoxSpokes,
-            {&detail::kBoxNormals<U>, 6}, offsets_,
-            {&detail::kBoxDirections<U>, 12}, inner_radius_};
+    return {{&vertices_, 8},
+            detail::kBoxHalfEdges,
+            detail::kBoxFaces,
+            detail::kBoxSpokes,
+            {&detail::kBoxNormals<U>, 6},
+            offsets_,
+            {&detail::kBoxDirections<U>, 12},
+            inner_radius_};
   }
 
  private:

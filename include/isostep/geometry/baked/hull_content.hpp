@@ -16,9 +16,9 @@ namespace isostep {
 template <class S> struct HullContent {
   ShapeFault fault = ShapeFault::none;  // else the rest is empty
   HullSolid<S> solid;
-  Vec3<S> widths = Vec3<S>::zero();  // [m] of its box
-  S half_width = S(0);               // [m] half the largest of them
-  Unit<S> filled = Unit<S>(0);       // [1] its volume over that of its box
+  Vec3<S> widths = Vec3<S>::zero();          // [m] of its box
+  S half_width = S(0);                       // [m] half the largest of them
+  Unit<S> filled = Unit<S>(0);               // [1] its volume over that of its box
   Vec3<S> centre_of_mass = Vec3<S>::zero();  // [m]
   /// [1] inertia over mass and half_width^2, about the centre of mass.
   Mat3<Unit<S>> inertia = Mat3<Unit<S>>::diagonal(Vec3<Unit<S>>::zero());

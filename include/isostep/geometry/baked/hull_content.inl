@@ -75,7 +75,8 @@ template <class S> std::shared_ptr<const void> HullContent<S>::make(Bytes bytes)
   };
   const std::int64_t xx = mass.variance[0], yy = mass.variance[1], zz = mass.variance[2];
   const U yz = -relative(mass.product[0]), zx = -relative(mass.product[1]), xy = -relative(mass.product[2]);
-  content->inertia = {{{relative(yy) + relative(zz), xy, zx}, {xy, relative(zz) + relative(xx), yz},
+  content->inertia = {{{relative(yy) + relative(zz), xy, zx},
+                       {xy, relative(zz) + relative(xx), yz},
                        {zx, yz, relative(xx) + relative(yy)}}};
   const auto in_box = [&](std::int64_t moment, int i, int j) ISO_INLINE_LAMBDA {
     return detail::ratio_of<U>(Int128(moment) * 4, static_cast<std::uint64_t>(box.width[i] * box.width[j]) << kBits);

@@ -57,8 +57,14 @@ template <class S> class HullSolid {
     const ColumnsView<S> vertices = vertices_.view();
     const ColumnsView<Unit<S>> normals = normals_.view();
     const std::uint8_t* const spokes = starts_.data() + normals.size();
-    return {vertices, half_edges_,         {starts_.data(), normals.size()}, {spokes, vertices.size()}, normals,
-            offsets_, directions_.view(), inner_radius_};
+    return {vertices,
+            half_edges_,
+            {starts_.data(), normals.size()},
+            {spokes, vertices.size()},
+            normals,
+            offsets_,
+            directions_.view(),
+            inner_radius_};
   }
   /// [bytes] that it points to.
   std::size_t memory() const;

@@ -14,7 +14,7 @@ namespace isostep {
 template <class S>
 detail::LocalHit<S> cast_rounded(const Polyhedron<S>& solid, S radius, const detail::LocalRay<S>& ray);
 
-#define ISO_ROUNDED_POLYHEDRON_OF(extern, S)                                                                   \
+#define ISO_ROUNDED_POLYHEDRON_OF(extern, S) \
   extern template detail::LocalHit<S> cast_rounded<S>(const Polyhedron<S>&, S, const detail::LocalRay<S>&);
 #define ISO_EXTERN(S) ISO_ROUNDED_POLYHEDRON_OF(extern, S)
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
@@ -61,7 +61,9 @@ template <class S> class RoundedDrawing {
   }
 
  private:
-  struct Arc { Vec3<S> out[kArc + 1]; };  // [m] from the edge to the surface, from its left face to its right
+  struct Arc {
+    Vec3<S> out[kArc + 1];
+  };  // [m] from the edge to the surface, from its left face to its right
 
   static ISO_INLINE Vec3<U> between(Vec3<U> a, Vec3<U> b) { return normalise(a * U(0.5) + b * U(0.5)); }
   ISO_INLINE Arc arc_of(std::uint32_t k) const {

@@ -18,8 +18,7 @@ template <class S> struct RoundEntry {
 };
 
 /// From outside of the ball about `centre`.
-template <class S>
-ISO_INLINE void enter_ball(const LocalRay<S>& ray, Vec3<S> centre, S radius, RoundEntry<S>& entry) {
+template <class S> ISO_INLINE void enter_ball(const LocalRay<S>& ray, Vec3<S> centre, S radius, RoundEntry<S>& entry) {
   const Vec3<S> from = ray.origin - centre;
   S distance;
   if (!enter_sphere(from, ray.direction, radius, distance) || !entry.is_sooner(distance)) return;

@@ -44,8 +44,8 @@ struct SurfaceMaterials {
 
   ISO_INLINE constexpr SurfaceMaterials() = default;
   template <class Numbers>
-    requires std::convertible_to<const Numbers&, std::span<const std::uint8_t>>
-  ISO_INLINE constexpr SurfaceMaterials(const Numbers& of_each, std::span<const SurfaceMaterial> of_numbers = {})
+  requires std::convertible_to<const Numbers&, std::span<const std::uint8_t>> ISO_INLINE constexpr SurfaceMaterials(
+      const Numbers& of_each, std::span<const SurfaceMaterial> of_numbers = {})
       : numbers(of_each), table(of_numbers) {}
 };
 

@@ -39,14 +39,13 @@ template <class G, class S> ClosestPoint<S> nearest_on_surface(const G& surface,
 /// [m] The box of a surface in its frame.
 template <class G, class S> Aabb<S> box_of_surface(const G& surface);
 
-#define ISO_SURFACE_QUERIES_OF_ONE(extern, G, S)                                                           \
-  extern template detail::LocalHit<S> cast_on_surface<G, S>(const G&, const detail::LocalRay<S>&,          \
-                                                            const RayReach<S>&);                           \
-  extern template void cast_through_surface<G, S>(const G&, const detail::LocalRay<S>&, const RayReach<S>&, \
-                                                  const RayTaker<S>&);                                     \
-  extern template ClosestPoint<S> nearest_on_surface<G, S>(const G&, Vec3<S>);                             \
+#define ISO_SURFACE_QUERIES_OF_ONE(extern, G, S)                                                                       \
+  extern template detail::LocalHit<S> cast_on_surface<G, S>(const G&, const detail::LocalRay<S>&, const RayReach<S>&); \
+  extern template void cast_through_surface<G, S>(const G&, const detail::LocalRay<S>&, const RayReach<S>&,            \
+                                                  const RayTaker<S>&);                                                 \
+  extern template ClosestPoint<S> nearest_on_surface<G, S>(const G&, Vec3<S>);                                         \
   extern template Aabb<S> box_of_surface<G, S>(const G&);
-#define ISO_SURFACE_QUERIES_OF(extern, S)              \
+#define ISO_SURFACE_QUERIES_OF(extern, S)             \
   ISO_SURFACE_QUERIES_OF_ONE(extern, TriangleMesh, S) \
   ISO_SURFACE_QUERIES_OF_ONE(extern, BakedHeightField, S)
 #define ISO_EXTERN(S) ISO_SURFACE_QUERIES_OF(extern, S)

@@ -92,8 +92,7 @@ struct GridRay {
   }
 };
 
-template <class G, class S>
-ISO_INLINE GridRay grid_ray(const G& surface, const LocalRay<S>& ray, S entry, S exit) {
+template <class G, class S> ISO_INLINE GridRay grid_ray(const G& surface, const LocalRay<S>& ray, S entry, S exit) {
   const MeshBox box = surface.bounds();
   std::int64_t most = 1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -241,7 +240,8 @@ template <class G, class S> ClosestPoint<S> nearest_on_surface(const G& surface,
     Vec3<S> gap;
     for (int axis = 0; axis < 3; ++axis) {
       gap[axis] = max(max(from_lattice<S>(of.low[axis], exponent) - query[axis],
-                          query[axis] - from_lattice<S>(of.high[axis], exponent)), S(0));
+                          query[axis] - from_lattice<S>(of.high[axis], exponent)),
+                      S(0));
     }
     return triangle == kNoTriangle || length(gap) <= best.distance + detail::gap_noise(max_abs(query));
   };

@@ -113,9 +113,8 @@ template <class S = Literal> struct Hull {
     const Polyhedron<S> solid = polyhedron();
     if (is_rounded()) return detail::RoundedDrawing<S>(solid, radius).visit_triangles(triangle);
     for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
-      solid.visit_fan(f, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) ISO_INLINE_LAMBDA {
-        triangle(solid.vertices[i], solid.vertices[j], solid.vertices[k]);
-      });
+      solid.visit_fan(f, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k)
+                             ISO_INLINE_LAMBDA { triangle(solid.vertices[i], solid.vertices[j], solid.vertices[k]); });
     }
   }
   ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }

@@ -30,9 +30,9 @@ template <class S> ISO_INLINE Aabb<S> box_of_steps(const MeshBox& box, int expon
 template <class S> ISO_INLINE Aabb<S> turned_box(const Aabb<S>& box, const Transform<S>& t) {
   Vec3<S> low = t.rotation * box.low, high = low;
   for (int corner = 1; corner < 8; ++corner) {
-    const Vec3<S> p = t.rotation * Vec3<S>{(corner & 1) != 0 ? box.high.x : box.low.x,
-                                           (corner & 2) != 0 ? box.high.y : box.low.y,
-                                           (corner & 4) != 0 ? box.high.z : box.low.z};
+    const Vec3<S> p =
+        t.rotation * Vec3<S>{(corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
+                             (corner & 4) != 0 ? box.high.z : box.low.z};
     low = min(low, p);
     high = max(high, p);
   }
@@ -112,9 +112,8 @@ template <class S, ShapeType Type, class G> struct SurfaceShape {
     detail::visit_lines_of_surface<S>(surface(), line);
   }
   template <class Triangle> ISO_INLINE void visit_triangles(const Triangle& triangle) const {
-    detail::visit_points_of_surface<S>(surface(), [&](std::uint32_t, const Vec3<S>(&p)[3]) ISO_INLINE_LAMBDA {
-      triangle(p[0], p[1], p[2]);
-    });
+    detail::visit_points_of_surface<S>(
+        surface(), [&](std::uint32_t, const Vec3<S>(&p)[3]) ISO_INLINE_LAMBDA { triangle(p[0], p[1], p[2]); });
   }
   ISO_INLINE Pose<S> drawn_at(const Pose<S>&, const Pose<S>& pose) const { return pose; }
 };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "stage_costs.hpp"
 
-#include "isostep/world/stages.hpp"
+#include "isostep/store/stages.hpp"
 #include "scenes/build.hpp"
 #include "scenes/named.hpp"
 #include "scenes/script.hpp"

@@ -192,8 +192,7 @@ template <class S> class PairLaws {
     return dot3(way, p) - shape.reach(way);
   }
   void check_same(const Manifold<S>& m, const Manifold<S>& w, double slack, Point shift, Law law) {
-    if (m.count != w.count)
-      return hold(law, slack == 0 ? 1 : std::abs(c_.best.separation) - kMargin - slack);
+    if (m.count != w.count) return hold(law, slack == 0 ? 1 : std::abs(c_.best.separation) - kMargin - slack);
     for (int i = 0; i < m.count; ++i) {
       hold(law, std::abs(to_double(m.points[i].separation - w.points[i].separation)) - slack);
       hold(law, length3(point_of(m.points[i].position) + shift - point_of(w.points[i].position)) - slack);

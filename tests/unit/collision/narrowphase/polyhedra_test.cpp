@@ -35,7 +35,7 @@ template <class S> class Polyhedra : public SolidTest<S> {
     const double inner = to_double(min(a.solid.polyhedron().inner_radius, b.solid.polyhedron().inner_radius));
     const double reach = std::max(oracle::length(oracle::real(ta.position)), a.radius() + b.radius());
     const double error = this->rounding(reach),
-                 tolerance = 2 * inner / 128 + 2 * error,  // faces go before edges, a before b
+                 tolerance = 2 * inner / 128 + 2 * error,                   // faces go before edges, a before b
         slack = detail::edge_slack(inner) + 2 * detail::face_slack(inner);  // and depth_tie
     if (m.count == 0) {
       ASSERT_GT(best, -error);

@@ -112,8 +112,7 @@ TYPED_TEST(Triangles, of_a_plane_push_along_its_normal_alone_and_hold_the_lowest
     Transform<S> place = this->at(random, {random.in(-2, 2), 0, random.in(-2, 2)});
     const BoxSolid<S> box(oracle::made<S>(half));
     double lowest = 1e9;
-    for (const Vec3<S> v : box.polyhedron().vertices)
-      lowest = std::min(lowest, to_double((place.rotation * v).y));
+    for (const Vec3<S> v : box.polyhedron().vertices) lowest = std::min(lowest, to_double((place.rotation * v).y));
     place.position.y = from_double<S>(-lowest - random.in(0, 0.5) * std::min({half.x, half.y, half.z}));
     const auto found = this->collide_all(primitive_of(Box<S>{oracle::made<S>(half)}), place, plain);
     ASSERT_FALSE(found.empty());
@@ -155,8 +154,8 @@ TYPED_TEST(Triangles, let_pass_what_has_its_centre_behind_them) {
   const Sheet plain([](int, int) { return 0.0; });
   const Transform<S> below = Transform<S>::of({oracle::made<S>({0.2, -0.1, 0.3}), Quat<Unit<S>>::identity()});
   const S size = from_double<S>(0.25);
-  for (const Primitive<S>& shape : {primitive_of(Sphere<S>{size}), primitive_of(Capsule<S>{size, size}),
-                                    primitive_of(Box<S>{{size, size, size}})})
+  for (const Primitive<S>& shape :
+       {primitive_of(Sphere<S>{size}), primitive_of(Capsule<S>{size, size}), primitive_of(Box<S>{{size, size, size}})})
     EXPECT_TRUE(this->collide_all(shape, below, plain).empty());
 }
 
@@ -190,8 +189,7 @@ TYPED_TEST(Triangles, are_the_same_far_out) {
     for (std::size_t i = 0; i < near.size(); ++i) {
       ASSERT_EQ(near[i].count, far[i].count);
       EXPECT_EQ(near[i].normal, far[i].normal);
-      for (int p = 0; p < near[i].count; ++p)
-        EXPECT_EQ(near[i].points[p].separation, far[i].points[p].separation);
+      for (int p = 0; p < near[i].count; ++p) EXPECT_EQ(near[i].points[p].separation, far[i].points[p].separation);
     }
   }
 }

@@ -1,0 +1,75 @@
+// The commands about joints.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/commands/command_executor.hpp"
+#include "isostep/store/record_checks.hpp"
+
+namespace isostep {
+
+/// Whether a joint may tie these two bodies.
+template <class S> bool CommandExecutor<S>::check_ends(const JointProperties<S>& joint) {
+  const BodyId ends[2] = {{joint.body_a, joint.generation_a}, {joint.body_b, joint.generation_b}};
+  const Vec3<S> arms[2] = {joint.frame_a.position, joint.frame_b.position};
+  constexpr const char *kBodies[2] = {"body_a", "body_b"}, *kFrames[2] = {"frame_a.position", "frame_b.position"};
+  bool moves = false;
+  for (int end = 0; end < 2; ++end) {
+    if (ends[end].slot == kNoBody) continue;
+    if (!known(state_.body_slots, ends[end], kBodies[end])) return false;
+    const BodyProperties<S>& body = map_.properties_at(map_.location(ends[end].slot));
+    if (detail::overreaches(body.kappa, body.principal, arms[end]))
+      return journal_.refuse({Fault::out_of_range, "", kFrames[end], "kappa arm^2 up to Limits::leverage()"});
+    moves = moves || body.type == BodyType::dynamic;
+  }
+  if (!moves) return journal_.refuse({Fault::not_dynamic, "", "body_a, body_b", "a dynamic one"});
+  return joint.body_a != joint.body_b ||
+         journal_.refuse({Fault::bad_argument, "", "body_b", "another body than body_a"});
+}
+
+template <class S> JointId CommandExecutor<S>::execute(const CreateJoint<S>& command) {
+  JointProperties<S> joint = command.joint;
+  if (!journal_.accept(detail::fault_of(joint, substep_rate(state_.settings)))) return {};
+  if (!check_ends(joint)) return {};
+  for (const std::uint32_t slot : {joint.body_a, joint.body_b}) {
+    if (slot != kNoBody) wake_.wake(slot);
+    wake_.reset_clock(slot);
+  }
+  joint.frame_a.orientation = normalise(joint.frame_a.orientation);
+  joint.frame_b.orientation = normalise(joint.frame_b.orientation);
+  const JointId id = state_.joint_slots.template take<JointId>(state_.settings.id_space);
+  JointState<S> state = {};
+  state.slot = id.slot;
+  map_.insert(state, joint);
+  return id;
+}
+
+template <class S> bool CommandExecutor<S>::execute(const DestroyJoint& command) {
+  if (!known(state_.joint_slots, command.joint, "joint")) return false;
+  destruction_.destroy_joint(command.joint.slot);
+  return true;
+}
+
+/// Whether its AxisDrives fit what the joint is to be.
+template <class S> bool CommandExecutor<S>::check_drives(JointId joint, const JointProperties<S>& next) {
+  const std::int32_t rate = substep_rate(state_.settings);
+  const auto& drives = state_.force_records->axis_drives;
+  for (std::uint32_t slot = 0; slot < drives.all().size(); ++slot) {
+    if (!drives.is_taken(slot) || !(drives.all()[slot].joint == joint)) continue;
+    if (detail::fault_of_joint(drives.all()[slot], next, rate) == Fault::none) continue;
+    return journal_.refuse({Fault::bad_argument, "", "flags", "locks and a cone that the joint's AxisDrives allow"});
+  }
+  return true;
+}
+
+template <class S> bool CommandExecutor<S>::execute(const SetJoint<S>& command) {
+  if (!known(state_.joint_slots, command.joint, "joint")) return false;
+  const JointProperties<S>& next = command.properties;
+  if (!journal_.accept(detail::fault_of(next, substep_rate(state_.settings)))) return false;
+  if (next.type != map_.properties_of(command.joint)->type)
+    return journal_.refuse({Fault::bad_argument, "", "type", "the one that the joint was made with"});
+  if (!check_drives(command.joint, next)) return false;
+  state_.joints.properties[wake_.wake_joint(command.joint.slot)].take_settings(next);
+  return true;
+}
+
+}  // namespace isostep

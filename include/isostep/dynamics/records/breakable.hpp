@@ -1,0 +1,54 @@
+// Breakable: a body that a hard enough contact breaks.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/id.hpp"
+#include "isostep/math/vec3.hpp"
+
+namespace isostep {
+
+using BreakableId = Id<struct BreakableTag>;
+
+/// Of fracture_pattern.hpp, with numbers that follow from most_pieces.
+enum class BreakPattern : std::uint32_t { eight_boxes, grain, radial, voronoi };
+
+/// A dynamic body of one box or hull. A step in which the contacts with another body give it more than `impulse`, all
+/// along their normals together, marks it: broken_by and where; events().broke tells it. break_bodies(world)
+/// (fracture/breaking.hpp) then puts pieces in place of what is marked, by commands, so that they are recorded
+/// and rolled back. The mark is state: whoever loads a snapshot finds it again. To break a body without a blow, set it.
+/// Pieces are breakable in their turn, `depth` counts down, and each breaks at the same change of speed.
+template <class S> struct Breakable {
+  BodyId body = {};
+  S impulse = S(1);  // [kg m/s]
+  BreakPattern pattern = BreakPattern::eight_boxes;
+  std::uint32_t most_pieces = 8;  // 2 to 256; of eight_boxes 8 or more
+  std::uint32_t depth = 1;        // how often: 1: its pieces do not break; 0: it does not, but may expire
+  Vec3<Unit<S>> grain = {Unit<S>(0), Unit<S>(1), Unit<S>(0)};  // [1] of wood, in the shape's frame: unit length
+  std::uint64_t seed = 0;
+  S small_mass = S(0);         // [kg] pieces lighter than that are gone
+  std::uint32_t lifetime = 0;  // [steps] after so long; 0: all stay
+  std::uint64_t expires = 0;   // [steps] World::tick() from which break_bodies() takes it away; 0: never
+  bool owns_shape = false;     // break_bodies() removes the shape along with it: pieces have shapes of their own
+  S broken_by = S(0);          // [kg m/s] the mark; 0: whole
+  Vec3<S> hit_point = {S(0), S(0), S(0)};                              // [m] body frame
+  Vec3<Unit<S>> hit_direction = {Unit<S>(0), Unit<S>(0), Unit<S>(0)};  // [1] of the blow, into the body, body frame
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+    visit("impulse", self.impulse);
+    visit("pattern", self.pattern);
+    visit("most_pieces", self.most_pieces);
+    visit("depth", self.depth);
+    visit("grain", self.grain);
+    visit("seed", self.seed);
+    visit("small_mass", self.small_mass);
+    visit("lifetime", self.lifetime);
+    visit("expires", self.expires);
+    visit("owns_shape", self.owns_shape);
+    visit("broken_by", self.broken_by);
+    visit("hit_point", self.hit_point);
+    visit("hit_direction", self.hit_direction);
+  }
+};
+
+}  // namespace isostep

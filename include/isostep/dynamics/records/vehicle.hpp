@@ -1,0 +1,180 @@
+// Vehicle and Wheel: wheels on springs that roll, grip, drive, brake and steer.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/id.hpp"
+#include "isostep/geometry/limits.hpp"
+#include "isostep/math/vec3.hpp"
+
+namespace isostep {
+
+using VehicleId = Id<struct VehicleTag>;
+using WheelId = Id<struct WheelTag>;
+
+inline constexpr std::uint32_t kMostGears = 8;
+/// [rad/s] The fastest engine: geared by the largest ratio to what turns as fast as a body may. 8192 in Q16.16.
+template <class S> ISO_INLINE constexpr S fastest_engine() {
+  return Limits<S>::mass_ratio() * Limits<S>::angular_speed();
+}
+
+/// Engine, brakes and steering of all wheels of a body; one record a body. Wheels need none: a cart's only roll.
+///   engine        throttle * engine_torque, as long as its shaft, which the wheels turn at gear * final_drive times
+///                 their mean speed, is slower than engine_speed that way. Negative throttle drives backwards.
+///   clutch        where engine_inertia is not 0 the engine turns by itself, at engine_spin, and its torque acts on it.
+///                 The clutch is friction between it and the shaft that the wheels turn: it ends the difference of
+///                 their speeds with a torque of at most clutch * clutch_torque, which the engine loses and the shaft
+///                 gets. In neutral it passes on nothing. Nothing else slows the engine down, and it runs while the
+///                 body is awake and has wheels. 0: its shaft is that of the wheels, without inertia.
+///   differential  torque * gear * final_drive, of which no more than Limits::mass_ratio() counts, divided by
+///                 Wheel::drive_share. What differential_lock says is the part of the difference in speed between
+///                 driven wheels that it takes in each iteration: 0: open, 1: locked.
+///   brakes        at each wheel brake * brake_torque * Wheel::brake_share and the same of the handbrake, against its
+///                 spin
+///   steering      each wheel turns by steer * Wheel::steer_angle, counter-clockwise seen from above where positive.
+///                 Of that ackermann 1 makes the angle of a wheel in the middle between left and right: all axles point
+///                 to one centre, on the line through the wheels that are not steered. 0: each by the same angle.
+///   tracks        the drive of each track on the side to which steer turns, left where positive, is geared by
+///                 1 - track_steer * |steer|: its share of the torque is that times as much, a turn of it counts that
+///                 much for the shaft, and a differential that is locked holds its speed to that part of the others'.
+///                 0: it rolls freely; -1, as track_steer 2 has it at full steer: it runs backwards, and the body
+///                 turns on the spot. Throttle or a locked differential turns the body, steer alone does not. A
+///                 track's side is that of its wheel with the lowest slot, against the body's centre of mass.
+/// A game sets it as often as its inputs change; that wakes the body. From engine_spin on a step writes, if there is a
+/// clutch.
+template <class S> struct Vehicle {
+  BodyId body = {};
+  S engine_torque = S(0);                                                  // [N m] at full throttle
+  S engine_speed = S(600);                                                 // [rad/s] at which it has no torque left
+  S gears[kMostGears] = {S(1), S(0), S(0), S(0), S(0), S(0), S(0), S(0)};  // [1] 0: neutral; below 0: reverse
+  std::uint32_t gear = 0;                                                  // of gears
+  S final_drive = S(1);                                                    // [1]
+  S engine_inertia = S(0);                                                 // [kg m^2] 0, or 2^-10 or more
+  S clutch_torque = S(0);                                                  // [N m] at most, fully engaged
+  S differential_lock = S(0);                                              // [1] 0 to 1
+  S brake_torque = S(0);                                                   // [N m] a wheel
+  S handbrake_torque = S(0);                                               // [N m] a wheel
+  S ackermann = S(1);                                                      // [1] 0 to 1
+  S track_steer = S(2);                                                    // [1] 0 to 2
+  S throttle = S(0);                                                       // [1] -1 to 1
+  S clutch = S(1);       // [1] 0: the engine runs alone, to 1: engaged
+  S brake = S(0);        // [1] 0 to 1
+  S handbrake = S(0);    // [1] 0 to 1
+  S steer = S(0);        // [1] -1 to 1
+  S engine_spin = S(0);  // [rad/s] of its shaft, up to fastest_engine()
+  S clutch_load = S(0);  // [N m] on the gears, in the last sub-step
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+    visit("engine_torque", self.engine_torque);
+    visit("engine_speed", self.engine_speed);
+    visit("gears", self.gears);
+    visit("gear", self.gear);
+    visit("final_drive", self.final_drive);
+    visit("engine_inertia", self.engine_inertia);
+    visit("clutch_torque", self.clutch_torque);
+    visit("differential_lock", self.differential_lock);
+    visit("brake_torque", self.brake_torque);
+    visit("handbrake_torque", self.handbrake_torque);
+    visit("ackermann", self.ackermann);
+    visit("track_steer", self.track_steer);
+    visit("throttle", self.throttle);
+    visit("clutch", self.clutch);
+    visit("brake", self.brake);
+    visit("handbrake", self.handbrake);
+    visit("steer", self.steer);
+    visit("engine_spin", self.engine_spin);
+    visit("clutch_load", self.clutch_load);
+  }
+};
+
+/// A wheel that slides along `suspension` from its hard point, without mass of its own but for its turning. Forward is
+/// axle x up, where up is against `suspension`; a positive spin rolls forward.
+///   ground      a sphere of the wheel's radius is cast along the suspension, or a ray where it meets nothing level
+///               enough: each step, and each sub-step on what is no plane as far as it gets; that moves with its body
+///   suspension  stiffness (free_length - length) - damping d(length)/dt, by backward Euler, never below 0: it pushes.
+///               Shorter than free_length - travel it does not get. Wheels of a body with the same `axle` other than 0
+///               are joined by a bar, which adds anti_roll times the difference of their lengths.
+///   tyre        along and across the wheel a force that ends the slip, at most that of the ellipse with the radii
+///               mu load: mu is the root of grip times the ground's friction. What stands sticks
+///   slip        the speed with which the tyre slides by that of its middle over the ground, or by 1 m/s if that is
+///               slower. Of that mu is a table: itself at 0, peak_grip times that at peak_slip, slide_grip times that
+///               from slide_slip on, lines between. As it is made, it does not depend on slip
+///   track       wheels of a body with the same `track` other than 0 roll as fast as one another, spin times radius, as
+///               in a chain without mass: torques, brakes and tyres of each turn all of them
+/// The ground bears the opposite of each force. All are solved in every sub-step, together for all wheels of a body.
+/// From `spin` on a step writes; contact_body is null, and load, along and across are 0, where the wheel meets nothing.
+template <class S> struct Wheel {
+  BodyId body = {};
+  Vec3<S> hard_point = {S(0), S(0), S(0)};                           // [m] body frame: the wheel's middle at length 0
+  Vec3<Unit<S>> suspension = {Unit<S>(0), Unit<S>(-1), Unit<S>(0)};  // [1] body frame, unit length: down
+  Vec3<Unit<S>> axle_direction = {Unit<S>(1), Unit<S>(0), Unit<S>(0)};  // [1] body frame, unit length: to the left
+  S free_length = S(0.3);                                               // [m]
+  S travel = S(0.3);                                                    // [m]
+  S stiffness = S(0);                                                   // [N/m]
+  S damping = S(0);                                                     // [N s/m]
+  S radius = S(0.35);                                                   // [m]
+  S inertia = S(1);                                                     // [kg m^2] about the axle
+  S grip_along = S(1);                                                  // [1] friction
+  S grip_across = S(1);                                                 // [1]
+  S peak_slip = S(0.0625);                                              // [1] above 0
+  S peak_grip = S(1);                                                   // [1]
+  S slide_slip = S(0.25);                                               // [1] above peak_slip
+  S slide_grip = S(1);                                                  // [1]
+  S steer_angle = S(0);                                                 // [rad] at steer 1
+  S drive_share = S(0);      // [1] of the torque, to those of the other wheels
+  S brake_share = S(1);      // [1]
+  S handbrake_share = S(0);  // [1]
+  std::uint32_t axle = 0;    // of the anti-roll bar
+  S anti_roll = S(0);        // [N/m] the larger of the two counts
+  std::uint32_t track = 0;   // 0: none
+  S spin = S(0);             // [rad/s] about the axle, seen from the body
+  S angle = S(0);            // [rad] that it has turned, 0 to 2 pi
+  S steered = S(0);          // [rad] from axle_direction, counter-clockwise seen from above
+  S length = S(0);           // [m] from the hard point to the wheel's middle
+  S slip = S(0);             // [1] of the tyre: the mean of this and earlier sub-steps, the last counts a half
+  BodyId contact_body = {};
+  Vec3<S> contact_point = {S(0), S(0), S(0)};                           // [m] world
+  Vec3<Unit<S>> contact_normal = {Unit<S>(0), Unit<S>(0), Unit<S>(0)};  // [1] of the ground, world
+  S load = S(0);                                                        // [N] along the normal
+  S along = S(0);                                                       // [N] on the body, forward
+  S across = S(0);                                                      // [N] on the body, normal x forward
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+    visit("hard_point", self.hard_point);
+    visit("suspension", self.suspension);
+    visit("axle_direction", self.axle_direction);
+    visit("free_length", self.free_length);
+    visit("travel", self.travel);
+    visit("stiffness", self.stiffness);
+    visit("damping", self.damping);
+    visit("radius", self.radius);
+    visit("inertia", self.inertia);
+    visit("grip_along", self.grip_along);
+    visit("grip_across", self.grip_across);
+    visit("peak_slip", self.peak_slip);
+    visit("peak_grip", self.peak_grip);
+    visit("slide_slip", self.slide_slip);
+    visit("slide_grip", self.slide_grip);
+    visit("steer_angle", self.steer_angle);
+    visit("drive_share", self.drive_share);
+    visit("brake_share", self.brake_share);
+    visit("handbrake_share", self.handbrake_share);
+    visit("axle", self.axle);
+    visit("anti_roll", self.anti_roll);
+    visit("track", self.track);
+    visit("spin", self.spin);
+    visit("angle", self.angle);
+    visit("steered", self.steered);
+    visit("length", self.length);
+    visit("slip", self.slip);
+    visit("contact_body", self.contact_body);
+    visit("contact_point", self.contact_point);
+    visit("contact_normal", self.contact_normal);
+    visit("load", self.load);
+    visit("along", self.along);
+    visit("across", self.across);
+  }
+};
+
+}  // namespace isostep

@@ -1,0 +1,22 @@
+// A body's fat box: its bounds and a margin, renewed when the body leaves it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/store/body_map.hpp"
+
+namespace isostep::detail {
+
+/// [m] added around a body's bounds: a body is looked up anew only when it leaves the margin.
+template <class S> inline constexpr S kFatMargin = S(0.1);
+
+/// `always`: also where the body is still inside.
+template <class S>
+void renew_fat_box(const BodyMap<S>& map, BodyState<S>& state, const BodyProperties<S>& body, bool always);
+
+#define ISO_EXTERN(S) \
+  extern template void renew_fat_box<S>(const BodyMap<S>&, BodyState<S>&, const BodyProperties<S>&, bool);
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep::detail

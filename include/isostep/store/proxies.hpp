@@ -1,0 +1,62 @@
+// Which bodies might touch: the structure of fat boxes and the pairs it yields, kept in step with the state they derive
+// from.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/collision/broadphase/chosen_broad_phase.hpp"
+#include "isostep/collision/broadphase/pairs.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/body.hpp"
+#include "isostep/store/crowd.hpp"
+#include "isostep/store/proxy.hpp"
+
+namespace isostep {
+
+/// A cache, not state: the pairs are a function of every body's fat box, type, filter and whether it is awake, all of
+/// them state, and where they are more than the budget of the contacts too. `place` compares with what it knew, so that
+/// loading a snapshot renews only what differs.
+template <class S> class Proxies {
+ public:
+  /// A body that is disabled has no place.
+  void place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake);
+  void remove(std::uint32_t slot);
+  /// `contacts` of the last step: of pairs beyond `budget` they decide which are looked at.
+  void update(std::span<const Contact<S>> contacts, std::size_t budget);
+  bool present(std::uint32_t slot) const { return slot < proxies_.size() && proxies_[slot].present; }
+
+  ISO_INLINE const std::vector<std::uint64_t>& pairs() const { return pairs_.keys(); }
+  /// Bodies that the budget keeps from some of their pairs.
+  std::uint32_t bodies_left_out() const { return left_out_; }
+  const ChosenBroadPhase<S>& boxes() const { return boxes_; }
+  /// From now on another structure holds the boxes.
+  void use(BroadPhaseName name);
+
+  /// The pairs alone: structures differ between worlds that agree.
+  template <class Visit> void visit_scratch(const Visit& visit) {
+    visit("pairs", const_cast<std::vector<std::uint64_t>&>(pairs_.keys()));  // injected faults are written to them
+  }
+
+ private:
+  struct MayCollide {
+    const std::vector<Proxy<S>>* proxies;
+    ISO_INLINE bool operator()(std::uint32_t a, std::uint32_t b) const {
+      return (*proxies)[a].traits.pairs_with((*proxies)[b].traits);
+    }
+  };
+
+  ChosenBroadPhase<S> boxes_;
+  PairSet<S> pairs_;
+  Crowd<S> crowd_;
+  std::uint32_t left_out_ = 0;
+  std::vector<Proxy<S>> proxies_;  // by slot
+};
+
+#define ISO_EXTERN(S) extern template class Proxies<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

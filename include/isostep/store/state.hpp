@@ -1,0 +1,145 @@
+// Everything that shapes a world's future, in flat arrays: what is saved, hashed, written and compared.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "isostep/collision/broadphase/child_tree.hpp"
+#include "isostep/core/paged_array.hpp"
+#include "isostep/core/shared.hpp"
+#include "isostep/core/slot_map.hpp"
+#include "isostep/dynamics/contact.hpp"
+#include "isostep/dynamics/joints/joint_record.hpp"
+#include "isostep/dynamics/records/force_list.hpp"
+#include "isostep/geometry/geometry_store.hpp"
+#include "isostep/geometry/shape.hpp"
+#include "isostep/store/body_set.hpp"
+#include "isostep/store/events.hpp"
+#include "isostep/store/settings.hpp"
+
+namespace isostep {
+
+/// A shape, never changed once made: worlds and snapshots share it. That of a free slot has no children.
+template <class S> struct StoredShape {
+  std::vector<Child<S>> children;
+  std::uint64_t hash = 0;  // of them
+  // No state of its own: follows from the children and the content that they name.
+  std::shared_ptr<const ChildTree<S>> tree;  // null: the shape has few children
+  S thinnest = S(0);                         // [m] of the thickness() of each child
+
+  static constexpr std::size_t kLeastWritten = 4;  // [bytes] one count
+
+  template <class Visitor, class Self> static ISO_INLINE void sections(Visitor&& visit, Self&& self) {
+    visit("children", self.children);
+  }
+};
+/// By slot, shared a page at a time.
+template <class S> using StoredShapes = PagedArray<std::shared_ptr<const StoredShape<S>>, 64>;
+/// Joints side by side, ascending by slot.
+template <class S> struct JointSet {
+  std::vector<JointState<S>> states;
+  std::vector<JointProperties<S>> properties;
+};
+
+/// A force or torque asked for since the last step, as acceleration. Ascending by slot, one a body.
+template <class S> struct PendingForce {
+  std::uint32_t slot;
+  std::uint32_t cut;  // 1: more was asked for than bodies can take, an impulse included; the step reports it
+  Vec3<S> linear;     // [m/s^2]
+  Vec3<S> angular;    // [rad/s^2]
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("slot", self.slot);
+    visit("cut", self.cut);
+    visit("linear", self.linear);
+    visit("angular", self.angular);
+  }
+};
+static_assert(kHasNoPadding<PendingForce<float>> && kHasNoPadding<PendingForce<double>>);
+
+/// A body inside a sensor. Ascending by (sensor, other).
+struct SensorOverlap {
+  std::uint32_t sensor, other;  // slots
+
+  friend constexpr bool operator==(SensorOverlap a, SensorOverlap b) {
+    return a.sensor == b.sensor && a.other == b.other;
+  }
+  friend ISO_INLINE constexpr bool operator<(SensorOverlap a, SensorOverlap b) {
+    return a.sensor != b.sensor ? a.sensor < b.sensor : a.other < b.other;
+  }
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("sensor", self.sensor);
+    visit("other", self.other);
+  }
+};
+
+/// Bodies asleep together, with their contacts and joints. Never changed once made: worlds and snapshots share it, and
+/// it costs a step, a save and a hash the same whatever its size.
+template <class S> struct SleepingIsland {
+  BodySet<S> bodies;
+  std::vector<Contact<S>> contacts;
+  JointSet<S> joints;
+  std::uint64_t hash = 0;  // of all the above
+
+  static constexpr std::size_t kLeastWritten = 20;  // [bytes] five counts
+
+  /// visit("name", array) in a fixed order.
+  template <class Visitor, class Self> static ISO_INLINE void sections(Visitor&& visit, Self&& self) {
+    visit("bodies", self.bodies.states);
+    visit("properties", self.bodies.properties);
+    visit("contacts", self.contacts);
+    visit("joints", self.joints.states);
+    visit("joint_properties", self.joints.properties);
+  }
+};
+
+/// Shared a page at a time, for there may be more of them than bodies awake.
+template <class S> using SleepingIslands = PagedArray<std::shared_ptr<const SleepingIsland<S>>, 256>;
+
+template <class S> struct WorldState {
+  Settings<S> settings;
+  std::uint64_t tick = 0;  // steps taken
+  SlotMap body_slots, shape_slots, joint_slots;
+  // What only commands change: copies have it in common until one of them does.
+  StoredShapes<S> shapes;
+  Shared<GeometryStore> geometry;  // what their children name
+  StaticBodies<S> static_bodies;
+  BodySet<S> awake;
+  std::vector<Contact<S>> contacts;  // ascending by key
+  JointSet<S> joints;
+  std::vector<PendingForce<S>> forces;
+  Shared<ForceRecords<S>> force_records;
+  std::vector<SensorOverlap> overlaps;
+  UntoldEvents untold;
+  SleepingIslands<S> sleeping;
+
+  /// In the order of the hash and of the portable form: see state/members.hpp.
+  template <class Visitor, class Self> static ISO_INLINE void members(Visitor&& visit, Self&& self) {
+    visit("settings", self.settings);
+    visit("tick", self.tick);
+    visit("body_slots", self.body_slots);
+    visit("shape_slots", self.shape_slots);
+    visit("joint_slots", self.joint_slots);
+    visit.islands("shapes", self.shapes);
+    visit.bodies_in_pages(self.static_bodies);
+    visit("bodies", self.awake.states);
+    visit("properties", self.awake.properties);
+    visit("contacts", self.contacts);
+    visit("joints", self.joints.states);
+    visit("joint_properties", self.joints.properties);
+    visit("forces", self.forces);
+    visit("overlaps", self.overlaps);
+    visit("untold_contact_end", self.untold.contact_end);
+    visit("untold_sensor_end", self.untold.sensor_end);
+    visit("untold_woke", self.untold.woke);
+    visit("untold_sensors", self.untold.sensors);
+    visit.islands("sleeping", self.sleeping);
+    visit.records(self.force_records);
+    visit.store("blobs", self.geometry);
+  }
+};
+
+}  // namespace isostep

@@ -1,0 +1,81 @@
+// Characters<S>: moves what walks, at the end of a step.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/commands/command_executor.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/query/queries.hpp"
+#include "isostep/systems/character/character_walk.hpp"
+
+namespace isostep {
+
+/// Input:   the world as the step leaves it, and the Character records.
+/// Output:  their bodies' poses, what the records tell, and forces for the next step on what they push and stand on.
+/// Order:   all look at the world before any moves, slot by slot; then all are put where they go, likewise.
+/// Keeps:   nothing from step to step but memory.
+template <class S> class Characters {
+ public:
+  ISO_INLINE Characters(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies, IslandWake<S>& wake,
+                        const Queries<S>& queries, CommandExecutor<S>& commands)
+      : state_(state),
+        map_(map),
+        proxies_(proxies),
+        wake_(wake),
+        queries_(queries),
+        commands_(commands),
+        around_(state, map, proxies, queries) {}
+
+  void update();
+
+ private:
+  /// A force that acts for the next step.
+  struct Push {
+    BodyId body;
+    Vec3<S> force, point;  // [N], [m] world
+  };
+  struct Move {
+    std::uint32_t record;  // slot
+    Character<S> character;
+    Vec3<S> way;  // [m]
+  };
+  using Place = typename CharacterWalk<S>::Place;
+  void walk(std::uint32_t slot);
+  /// Who is asked for its surroundings.
+  struct Asking {
+    ShapeId shape;
+    Pose<S> pose;  // of the body's origin
+  };
+  static QueryFilter seen_by(const Character<S>& character);
+  void find_passed(const Character<S>& character, const Asking& asking);
+  bool is_above(const Character<S>& character, const Asking& asking, const OneWay<S>& way);
+  S highest_of(BodyId body, Vec3<Unit<S>> axis) const;
+  Vec3<S> local_to(BodyId body, Vec3<S> point) const;
+  void push_touched(const CharacterWalk<S>& walk, const Character<S>& character);
+  void bear(const Character<S>& character);
+  void put(const Move& move);
+  void push(const Push& push);
+
+  WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  Proxies<S>& proxies_;
+  IslandWake<S>& wake_;
+  const Queries<S>& queries_;
+  CommandExecutor<S>& commands_;
+  std::vector<std::uint8_t> walks_;  // by body slot: detail::obstacle
+  std::vector<Move> moves_;
+  std::vector<Push> pushes_;
+  Surroundings<S> around_;  // of one character
+  WalkMemory<S> memory_;
+  bool knows_contacts_ = false;              // memory_ has what is near where one begins
+  std::vector<BodyId> passed_;               // that one character goes through
+  std::vector<std::uint32_t> passed_kinds_;  // likewise
+};
+
+#define ISO_EXTERN(S) extern template class Characters<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

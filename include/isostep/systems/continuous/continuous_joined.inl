@@ -1,0 +1,236 @@
+// ContinuousCollision: what joints tie together stops together.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/joints/joint_kinds.hpp"
+#include "isostep/systems/continuous/continuous_collision.inl"
+
+namespace isostep {
+
+namespace detail {
+/// Times that a mechanism is placed anew because a body of it would pass something: the way that a body goes with its
+/// joints and the one that it was swept along differ by the square of what they turn. In the first half joints are
+/// closed, which moves bodies even in no time.
+inline constexpr int kMostPlacings = 8;
+/// [1] of its way to where it is stopped that a mechanism is put back to at most: less would be no way forward.
+template <class S> inline constexpr Unit<S> kLeastPart = Unit<S>(0.125);
+/// Ties go to the first.
+template <class S>
+std::uint32_t heaviest_of(std::span<const std::uint32_t> bodies, std::span<const BodyProperties<S>> properties) {
+  std::uint32_t heaviest = bodies[0];
+  for (const std::uint32_t body : bodies) {
+    if (properties[heaviest].mass < properties[body].mass) heaviest = body;
+  }
+  return heaviest;
+}
+/// [1] How much a joint may move a body that the other one holds: what is lighter follows what is heavier.
+template <class S>
+Unit<S> share_of_pull(const WorldState<S>& state, const BodyMap<S>& map, const typename JoinedBodies<S>::Link& link) {
+  const JointProperties<S>& joint = state.joints.properties[link.joint];
+  const std::uint32_t holder = link.is_b ? joint.body_a : joint.body_b;
+  const S own = state.awake.properties[link.body].mass;
+  if (holder == kNoBody || map.location(holder).set != Location::kAwake) return Unit<S>(1);
+  const BodyProperties<S>& other = state.awake.properties[map.location(holder).index];
+  return other.type == BodyType::dynamic && other.mass < own ? divide_to<Unit<S>>(other.mass, own) : Unit<S>(1);
+}
+template <class S> Vec3<S> no_longer_than(Vec3<S> v, S most) {
+  const S size = length(v);
+  return most < size ? v * divide_to<Unit<S>>(most, size) : v;
+}
+/// [rad] Two bodies that turn by less in a step turn by less than half a turn against each other.
+template <class S> inline constexpr S kFarTurn = S(1.5);
+}  // namespace detail
+
+/// One body that stops alone is torn from the rest by what that still moves in this step: a limb of a ragdoll at 60 m/s
+/// by 0.4 m. If each went as far along its own straight way, whirling limbs would be apart by what arcs differ from
+/// chords, 0.17 m. So it is the joints that go part of their ways, and what they hold is held. As at an impact of one
+/// body, the rest of the step's time is lost. What nothing stopped stays as it is: who counts as fast depends on what
+/// other islands have, and islands do not.
+template <class S> void ContinuousCollision<S>::stop_joined() {
+  if (movers_.empty() || state_.joints.properties.empty()) return;
+  const std::size_t count = state_.awake.states.size();
+  joined_bodies_.begin();
+  ends_.resize(count);
+  mover_of_.assign(count, 0);
+  for (std::size_t i = 0; i < movers_.size(); ++i) mover_of_[movers_[i].index] = static_cast<std::uint32_t>(i + 1);
+  for (const Mover& mover : movers_) {
+    if (!joined_bodies_.is_known(mover.index)) stop_mechanism(joined_bodies_.find(mover.index));
+  }
+}
+
+/// A body that would pass something where joints have it becomes the one that they begin from. If that does not help,
+/// each goes its own way, which is free, and joints come apart: a mechanism that stood still instead would never lose
+/// the speed that presses it against a wall.
+template <class S> void ContinuousCollision<S>::stop_mechanism(std::span<const std::uint32_t> mechanism) {
+  const bool hangs = joined_bodies_.is_held();
+  if (mechanism.size() == 1 && !hangs) return;
+  keep_ends(mechanism);
+  const Leader leader = leader_of(mechanism);
+  if (leader.fraction == Unit<S>(1)) return;
+  const bool carried = meets_carrier(mechanism);  // what may have stopped it goes on with it
+  std::uint32_t root = detail::heaviest_of<S>(mechanism, state_.awake.properties);
+  Unit<S> part = Unit<S>(1);
+  bool is_free = false;
+  for (int times = 0; times < detail::kMostPlacings && !is_free; ++times) {
+    const std::span<const Link> tree = joined_bodies_.tree_from(root);
+    place_tree(tree, leader.fraction * part, times < detail::kMostPlacings / 2);
+    const Obstruction worst = worst_of(tree);
+    is_free = worst.part == Unit<S>(1);
+    part = part * worst.part;
+    if (!carried && !(part < detail::kLeastPart<S>)) continue;
+    if (hangs) break;
+    root = worst.body;
+    part = Unit<S>(1);
+  }
+  for (const std::uint32_t body : mechanism) {
+    if (!is_free) put_at(body, own_way(body, leader.fraction));
+    place(body);
+  }
+}
+
+/// Those that were stopped are elsewhere by now.
+template <class S> void ContinuousCollision<S>::keep_ends(std::span<const std::uint32_t> mechanism) {
+  for (const std::uint32_t body : mechanism) {
+    const std::uint32_t mover = mover_of_[body];
+    ends_[body] = mover == 0 ? now(body) : movers_[mover - 1].poses[movers_[mover - 1].pieces];
+  }
+}
+
+/// The first that was stopped; ties go to the first in order.
+template <class S>
+typename ContinuousCollision<S>::Leader ContinuousCollision<S>::leader_of(
+    std::span<const std::uint32_t> mechanism) const {
+  Leader first = {mechanism[0], Unit<S>(1)};
+  for (const std::uint32_t body : mechanism) {
+    const Unit<S> fraction = mover_of_[body] == 0 ? Unit<S>(1) : movers_[mover_of_[body] - 1].fraction;
+    if (fraction < first.fraction || (fraction == first.fraction && body < first.body)) first = {body, fraction};
+  }
+  return first;
+}
+
+template <class S> bool ContinuousCollision<S>::meets_carrier(std::span<const std::uint32_t> mechanism) const {
+  if (carriers_.empty()) return false;
+  for (const std::uint32_t body : mechanism) {
+    const Aabb<S> swept = detail::swept_box<S>({start_[body], ends_[body], Vec3<S>::zero()}, measure(body).reach);
+    for (const Carrier& carrier : carriers_) {
+      if (overlap(carrier.swept, swept)) return true;
+    }
+  }
+  return false;
+}
+
+template <class S> void ContinuousCollision<S>::place_tree(std::span<const Link> tree, Unit<S> fraction, bool closes) {
+  for (const Link& link : tree) {
+    const bool is_root = link.joint == JoinedBodies<S>::kNone;
+    const Pose<S> own = own_way(link.body, fraction);
+    if (is_root) {
+      put_at(link.body, own);
+      continue;
+    }
+    Pose<S> there = joined_pose(link, fraction, closes);
+    const S most =
+        length(ends_[link.body].position - start_[link.body].position) * detail::share_of_pull(state_, map_, link);
+    there.position = own.position + detail::no_longer_than(there.position - own.position, most);
+    put_at(link.body, there);
+  }
+}
+
+/// Where a body is after a fraction of the step that is no more than what is free of its own way.
+template <class S> Pose<S> ContinuousCollision<S>::own_way(std::uint32_t body, Unit<S> fraction) {
+  if (mover_of_[body] != 0) {
+    const Mover& mover = movers_[mover_of_[body] - 1];
+    return mover.fraction == fraction ? mover.stopped : way_of(mover, fraction);
+  }
+  put_at(body, ends_[body]);
+  return way_of(measure(body), fraction);
+}
+
+/// Where its joint has a body after a fraction of the step, while the joint's other body is where it is now. `closes`:
+/// what joints hold together that the solver left apart.
+template <class S> Pose<S> ContinuousCollision<S>::joined_pose(const Link& link, Unit<S> fraction, bool closes) {
+  const JointProperties<S>& p = state_.joints.properties[link.joint];
+  const Pose<S>& frame = link.is_b ? p.frame_b : p.frame_a;
+  const Carriage other = carriage_of(link.is_b ? p.body_a : p.body_b, link.is_b ? p.frame_a : p.frame_b);
+  const Pose<S> start = detail::pose_from(other.start, compose(start_[link.body], frame));
+  const Pose<S> end = detail::pose_from(other.end, compose(ends_[link.body], frame));
+  Pose<S> joint = pose_at<S>({start, end, Vec3<S>::zero()}, fraction);
+  if (closes && holds_point(p)) joint.position = Vec3<S>::zero();
+  if (joins_two_points(p.type)) {
+    const S from = length(start.position), to = length(end.position);
+    joint.position = heading_of(joint.position).direction * (from + (to - from) * fraction);
+  }
+  Pose<S> there = compose(other.now, joint);
+  if (turns_far(p.body_a) || turns_far(p.body_b))
+    there.orientation = own_way(link.body, fraction).orientation * frame.orientation;
+  return held_by_locks(link.body, there, frame);
+}
+
+/// Two poses of a joint do not tell a turn of more than half of one: then the bodies' own turns count.
+template <class S> bool ContinuousCollision<S>::turns_far(std::uint32_t slot) const {
+  if (slot == kNoBody || map_.location(slot).set != Location::kAwake) return false;
+  const Vec3<S> spin = convert<S>(map_.state_at(map_.location(slot)).angular_velocity);
+  return !(heading_of(spin).length / S(state_.settings.hz) < detail::kFarTurn<S>);
+}
+
+template <class S>
+typename ContinuousCollision<S>::Carriage ContinuousCollision<S>::carriage_of(std::uint32_t slot,
+                                                                              const Pose<S>& frame) const {
+  const Pose<S> here = map_.centre_pose_at(slot);
+  Carriage of = {here, here, compose(here, frame)};
+  if (slot != kNoBody && map_.location(slot).set == Location::kAwake) {
+    const std::uint32_t index = map_.location(slot).index;
+    of.start = start_[index];
+    if (state_.awake.properties[index].type == BodyType::dynamic) of.end = ends_[index];
+  }
+  of.start = compose(of.start, frame);
+  of.end = compose(of.end, frame);
+  return of;
+}
+
+/// A body one of whose frames is there, as far as its locked axes let it.
+template <class S>
+Pose<S> ContinuousCollision<S>::held_by_locks(std::uint32_t index, const Pose<S>& there, const Pose<S>& frame) const {
+  const std::uint32_t flags = state_.awake.properties[index].flags;
+  const Pose<S>& start = start_[index];
+  Quat<Unit<S>> orientation = normalise(there.orientation * conjugate(frame.orientation));
+  if ((flags & body_flag::kAngularLocks) != 0) {
+    Quat<Unit<S>> turn = orientation * conjugate(start.orientation);
+    Unit<S>* const axes[] = {&turn.x, &turn.y, &turn.z};
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      if ((flags & body_flag::kLockAngularX << i) != 0) *axes[i] = Unit<S>(0);
+    }
+    orientation = normalise(normalise(turn) * start.orientation);
+  }
+  Vec3<S> position = there.position - rotate(orientation, frame.position);
+  for (int i = 0; i < 3; ++i) {
+    if ((flags & body_flag::kLockX << i) != 0) position[i] = start.position[i];
+  }
+  return {position, orientation};
+}
+
+/// The part of its way from the start to where it is up to which a body passes nothing. What gets no deeper by it than
+/// contacts push out in a step is free, but for its middle.
+template <class S> Unit<S> ContinuousCollision<S>::free_part(std::uint32_t body) {
+  if (!may_move(body)) return Unit<S>(1);
+  Mover mover = measure(body);
+  mover.closely = true;
+  const S shallow = mover.inner * S(0.25), least = min(shallow, detail::kGraze<S> * S(0.5));
+  if (!(least < mover.motion)) return Unit<S>(1);
+  const Cut cut = first_impact(mover, false);
+  const auto part_of = [&](Unit<S> fraction, S deep) {
+    return deep < mover.motion * (Unit<S>(1) - fraction) ? fraction : Unit<S>(1);
+  };
+  return min(part_of(cut.fraction, shallow), part_of(cut.fraction_of_middle, least));
+}
+/// Of the body with the least free part; ties go to the first of the tree. The root goes its own way.
+template <class S>
+typename ContinuousCollision<S>::Obstruction ContinuousCollision<S>::worst_of(std::span<const Link> tree) {
+  Obstruction worst = {tree[0].body, Unit<S>(1)};
+  for (const Link& link : tree) {
+    const Unit<S> part = link.joint == JoinedBodies<S>::kNone ? Unit<S>(1) : free_part(link.body);
+    if (part < worst.part) worst = {link.body, part};
+  }
+  return worst;
+}
+
+}  // namespace isostep

@@ -1,0 +1,63 @@
+// JoinedBodies<S>: what joints tie to a body, as a tree.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/store/body_map.hpp"
+
+namespace isostep {
+
+/// Input:   the joints of awake bodies.
+/// Output:  of a body, the dynamic bodies that joints between such tie to it, its mechanism; the same as a tree.
+/// Keeps:   nothing but memory.
+/// Order:   follows from that of bodies and joints alone.
+template <class S> class JoinedBodies {
+ public:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  /// A body of a tree. Its place follows from that of the joint's other body, which stands before it in the tree or is
+  /// moved by no joint.
+  struct Link {
+    std::uint32_t body;   // among the awake ones
+    std::uint32_t joint;  // among those of the state; kNone: of the root
+    bool is_b;            // of the joint
+  };
+
+  ISO_INLINE JoinedBodies(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
+
+  /// Takes the joints as they are now; no body is known yet.
+  void begin();
+  ISO_INLINE bool is_known(std::uint32_t body) const { return known_[body] != 0; }
+  /// Of a body that is not known, among the awake ones: its mechanism, of which it is the first.
+  std::span<const std::uint32_t> find(std::uint32_t body);
+  /// Whether joints tie what find() found to what they do not move: the world, static or kinematic bodies.
+  bool is_held() const;
+  /// What find() found, each body once. It grows from joints with what joints do not move, or if there are none, from
+  /// `root`. What closes a loop is left out.
+  std::span<const Link> tree_from(std::uint32_t root);
+
+ private:
+  /// visit(joint, whether the body is its b)
+  template <class Visit> ISO_INLINE void each_joint(std::uint32_t body, const Visit& visit) const {
+    for (std::uint32_t i = first_[body]; i < first_[body + 1]; ++i) visit(at_body_[i] / 2, at_body_[i] % 2 != 0);
+  }
+  std::uint32_t dynamic_at(std::uint32_t slot) const;
+  std::uint32_t other_of(std::uint32_t joint, bool is_b) const;
+  void add(const Link& link);
+
+  const WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  std::vector<std::uint32_t> first_, filled_, at_body_;  // of each body its joints, each twice its place, plus 1 for b
+  std::vector<std::uint8_t> known_, in_tree_;            // by body
+  std::vector<std::uint32_t> members_;
+  std::vector<Link> links_;
+};
+
+#define ISO_EXTERN(S) extern template class JoinedBodies<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,45 @@
+// ContactEvents<S>: which bodies began and ceased to press on each other.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/contact_response.hpp"
+#include "isostep/store/events.hpp"
+#include "isostep/store/state.hpp"
+
+namespace isostep {
+
+/// A step's contacts as the narrow phase and the solver leave them.
+template <class S> struct SolvedContacts {
+  std::span<const Contact<S>> old, now;                // of the last step and of this one, ascending
+  std::span<const ContactGeometry<S>> geometry;        // parallel to `now`
+  std::span<const Velocity<S>> impulses;               // [m/s] likewise, of the whole step
+  std::span<const ContactResponse<S>> responses = {};  // of those that answer otherwise, ascending by contact
+};
+
+/// Input:   the contacts of two steps.
+/// Output:  events of their begin, with the impulse, and of their end, in order.
+/// Keeps:   nothing from step to step but memory.
+template <class S> class ContactEvents {
+ public:
+  ISO_INLINE explicit ContactEvents(const WorldState<S>& state) : state_(state) {}
+
+  /// Two bodies touch when any of their contacts carried an impulse. Appends to `events`, which may hold ends that
+  /// commands made.
+  void collect(const SolvedContacts<S>& contacts, Events<S>& events);
+
+ private:
+  const WorldState<S>& state_;
+  std::vector<ContactEnd> end_scratch_;
+};
+
+#define ISO_EXTERN(S) extern template class ContactEvents<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

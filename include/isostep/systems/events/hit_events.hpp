@@ -1,0 +1,46 @@
+// HitEvents<S>: contacts that begin fast, of bodies with a HitReport.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/store/body_map.hpp"
+#include "isostep/systems/events/contact_events.hpp"
+
+namespace isostep {
+
+/// Input:   the records; a step's contacts, as the narrow phase leaves them and again as the solver does.
+/// Output:  events, ascending by pair: of a pair's points that which closed fastest.
+/// Keeps:   nothing from step to step but memory.
+template <class S> class HitEvents {
+ public:
+  ISO_INLINE HitEvents(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
+
+  /// Before the solver: how fast they close.
+  void measure(std::span<const ContactGeometry<S>> geometry);
+  /// After it: which of them began to press.
+  void collect(const SolvedContacts<S>& contacts, Events<S>& events);
+
+ private:
+  struct Approach {
+    S speed;              // [m/s] 0: of no body with a record, or leaving
+    std::uint32_t point;  // of the contact
+  };
+  void list_thresholds();
+  Approach approach_of(const ContactGeometry<S>& g, std::uint32_t count) const;
+  bool touched(std::span<const Contact<S>> old, std::uint32_t a, std::uint32_t b) const;
+  void tell(const SolvedContacts<S>& contacts, std::size_t first, std::size_t end, Events<S>& events) const;
+
+  const WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  std::vector<S> thresholds_;         // [m/s] by body slot; below 0: none
+  std::vector<Approach> approaches_;  // parallel to the contacts; empty: nobody asks
+};
+
+#define ISO_EXTERN(S) extern template class HitEvents<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

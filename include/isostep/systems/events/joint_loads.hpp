@@ -1,0 +1,45 @@
+// JointLoads<S>: what measured joints bore in a step, and which of them it broke.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/commands/destruction.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/joints/joint_impulse.hpp"
+#include "isostep/store/body_map.hpp"
+#include "isostep/store/events.hpp"
+
+namespace isostep {
+
+/// Input:   the JointLoad records; what the solver adds to impulses().
+/// Output:  the records' force and torque; joints that are broken are destroyed, and events tell it, ascending by the
+///          record's slot.
+/// Keeps:   nothing from step to step but memory.
+template <class S> class JointLoads {
+ public:
+  ISO_INLINE JointLoads(WorldState<S>& state, const BodyMap<S>& map, Destruction<S>& destruction)
+      : state_(state), map_(map), destruction_(destruction) {}
+
+  /// Zeros, one for each awake joint; empty where nobody measures one. Once a step, before it is solved.
+  std::span<JointImpulse<S>> impulses();
+  /// After the step's contacts and joints are no longer needed as they were.
+  void update(Events<S>& events);
+
+ private:
+  bool measure(JointLoad<S>& load) const;
+
+  WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  Destruction<S>& destruction_;
+  std::vector<JointImpulse<S>> impulses_;  // by awake joint
+  std::vector<JointBroke<S>> broken_;
+};
+
+#define ISO_EXTERN(S) extern template class JointLoads<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,43 @@
+// BodyFinisher<S>: keeps what a step moved within the scalar's range.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/store/body_map.hpp"
+#include "isostep/store/events.hpp"
+#include "isostep/store/proxies.hpp"
+
+namespace isostep {
+
+/// Input:   the state after the solver; the poses of the awake bodies' centres as the step began; whom the solver cut.
+/// Output:  the same state with no number that is not finite and none beyond Limits<S>; what was changed, as counts in
+///          the report; fat boxes; the broad phase knows of them.
+/// Keeps:   nothing.
+template <class S> class BodyFinisher {
+ public:
+  ISO_INLINE BodyFinisher(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies)
+      : state_(state), map_(map), proxies_(proxies) {}
+
+  /// `cut`: of each awake body, whether the solver cut its speed in a sub-step already; empty for none.
+  void finish(std::span<const Pose<S>> start, std::span<const std::uint8_t> cut, StepReport& report);
+
+ private:
+  static void stop_if_not_finite(BodyState<S>& state, const Pose<S>& start, StepReport& report);
+  static bool clamp_speed(BodyState<S>& state, Velocity<S> angular_limit);
+  static void clamp_position(BodyState<S>& state, StepReport& report);
+  void discard_bad_impulses();
+
+  WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  Proxies<S>& proxies_;
+};
+
+#define ISO_EXTERN(S) extern template class BodyFinisher<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,90 @@
+// Bodies of body_finisher.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/dynamics/solvers/step_context.hpp"
+#include "isostep/math/shortened.hpp"
+#include "isostep/store/checks.hpp"
+#include "isostep/store/fat_box.inl"
+#include "isostep/systems/motion/body_finisher.hpp"
+
+namespace isostep {
+
+template <class S>
+void BodyFinisher<S>::finish(std::span<const Pose<S>> start, std::span<const std::uint8_t> cut, StepReport& report) {
+  const Settings<S>& settings = state_.settings;
+  const Velocity<S> angular_limit =
+      angular_speed_limit<S>(integration_rate(settings.solver, settings.hz, settings.substeps));
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    BodyState<S>& state = state_.awake.states[i];
+    const BodyProperties<S>& body = state_.awake.properties[i];
+    stop_if_not_finite(state, start[i], report);
+    const bool too_fast = clamp_speed(state, angular_limit);
+    report.clamped_speed += too_fast || (!cut.empty() && cut[i] != 0);
+    clamp_position(state, report);
+    detail::renew_fat_box(map_, state, body, false);
+    proxies_.place(state, body, true);
+  }
+  if (report.stopped > 0) discard_bad_impulses();
+}
+
+/// A body with a number that is not finite stops where it was as the step began.
+template <class S>
+ISO_INLINE void BodyFinisher<S>::stop_if_not_finite(BodyState<S>& state, const Pose<S>& start, StepReport& report) {
+  const auto& q = state.orientation;
+  const bool finite = is_finite(state.centre) && is_finite(state.velocity) && is_finite(state.angular_velocity) &&
+                      is_finite(q.x) && is_finite(q.y) && is_finite(q.z) && is_finite(q.w);
+  if (finite) return;
+  state.centre = start.position;
+  state.orientation = start.orientation;
+  state.velocity = Vec3<Velocity<S>>::zero();
+  state.angular_velocity = Vec3<Velocity<S>>::zero();
+  ++report.stopped;
+}
+
+template <class S> ISO_INLINE bool BodyFinisher<S>::clamp_speed(BodyState<S>& state, Velocity<S> angular_limit) {
+  using V = Velocity<S>;
+  const V speed = convert<V>(Limits<S>::speed());
+  const bool rotates_too_fast = detail::rotates_too_fast(state.angular_velocity, state.fat);
+  if (!(detail::is_longer(state.velocity, speed) || detail::is_longer(state.angular_velocity, angular_limit) ||
+        rotates_too_fast))
+    return false;
+  const S most = rotates_too_fast ? Limits<S>::surface_speed() / max_abs(state.fat.high - state.fat.low)
+                                  : Limits<S>::angular_speed();
+  state.velocity = detail::shortened(state.velocity, speed);
+  state.angular_velocity = detail::shortened(state.angular_velocity, min(angular_limit, convert<V>(most)));
+  return true;
+}
+
+/// A body at the edge of the world does not move on.
+template <class S> ISO_INLINE void BodyFinisher<S>::clamp_position(BodyState<S>& state, StepReport& report) {
+  const S edge = Limits<S>::position();
+  if (!(edge < max_abs(state.centre))) return;
+  const Vec3<S> c = state.centre;
+  state.centre = {clamp(c.x, -edge, edge), clamp(c.y, -edge, edge), clamp(c.z, -edge, edge)};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(state.centre[axis] == c[axis])) state.velocity[axis] = Velocity<S>(0);
+  }
+  ++report.clamped_position;
+}
+
+/// A body that was stopped leaves contacts and joints behind whose impulses are not finite either.
+template <class S> void BodyFinisher<S>::discard_bad_impulses() {
+  using V = Velocity<S>;
+  for (Contact<S>& contact : state_.contacts) {
+    bool finite = is_finite(contact.friction_impulse) && is_finite(contact.twist_impulse);
+    for (const V impulse : contact.normal_impulse) finite = finite && is_finite(impulse);
+    if (finite) continue;
+    for (V& impulse : contact.normal_impulse) impulse = V(0);
+    contact.friction_impulse = Vec3<V>::zero();
+    contact.twist_impulse = V(0);
+  }
+  for (JointState<S>& joint : state_.joints.states) {
+    if (is_finite(joint.point) && is_finite(joint.angular)) continue;
+    JointState<S> fresh = {};
+    fresh.slot = joint.slot;
+    joint = fresh;
+  }
+}
+
+}  // namespace isostep

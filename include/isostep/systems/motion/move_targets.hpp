@@ -1,0 +1,54 @@
+// MoveTargets<S>: carries kinematic bodies to where MoveTarget records say.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/records/move_target.hpp"
+#include "isostep/math/shortened.hpp"
+#include "isostep/math/transform.hpp"
+#include "isostep/store/body_map.hpp"
+
+namespace isostep {
+
+namespace detail {
+/// Where the centre of mass lies as the target is reached.
+template <class S> ISO_INLINE Pose<S> centre_at(const MoveTarget<S>& target, Vec3<S> local_centre) {
+  return BodyMap<S>::centre_pose({target.pose.position, normalise(target.pose.orientation)}, local_centre);
+}
+}  // namespace detail
+
+/// Input:   the state as a step begins, with its MoveTarget records; as its sub-steps are over; as it ends.
+/// Output:  velocities that lead to the targets; poses that are the targets; no velocity, and no such record.
+/// Keeps:   what it moves within a step.
+template <class S> class MoveTargets {
+ public:
+  ISO_INLINE MoveTargets(WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
+
+  void begin_step();
+  void arrive();
+  void end_step();
+
+ private:
+  struct Move {
+    std::uint32_t record;  // its slot
+    std::uint32_t body;    // its slot
+    Pose<S> goal;          // of the centre of mass
+    bool reaches;
+    std::uint32_t locks;  // of the body: none holds it in this step
+  };
+  BodyState<S>& state_of(const Move& move) { return state_.awake.states[map_.location(move.body).index]; }
+  bool start(BodyState<S>& state, const Pose<S>& goal) const;
+
+  WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  std::vector<Move> moves_;
+};
+
+#define ISO_EXTERN(S) extern template class MoveTargets<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,55 @@
+// RenderPoses<S>: poses for drawing, between the last two steps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/store/body_map.hpp"
+#include "isostep/store/views.hpp"
+
+namespace isostep {
+
+/// Input:   the state as a step begins, and later.
+/// Output:  poses of all bodies that move or sleep.
+/// Keeps:   where the awake bodies were when the last step began.
+template <class S> class RenderPoses {
+ public:
+  ISO_INLINE explicit RenderPoses(const WorldState<S>& state) : state_(state) {}
+
+  /// As a step begins.
+  void keep_start();
+  /// Of the centres of the bodies that were awake, in their order.
+  ISO_INLINE std::span<const Pose<S>> start() const { return start_poses_; }
+  /// A body that a command puts somewhere is drawn there, and not on the way from where its slot was before.
+  void start_here(const BodyState<S>& state);
+  /// The state was replaced: bodies are drawn where they are.
+  ISO_INLINE void forget() {
+    start_poses_.clear();
+    start_slots_.clear();
+  }
+
+  /// `alpha` of 0: as the last step began; of 1: now.
+  const std::vector<RenderPose>& fill(float alpha);
+
+  template <class Visit> void visit_scratch(const Visit& visit) {
+    visit("start_poses", start_poses_);
+    visit("start_slots", start_slots_);
+  }
+
+ private:
+  void add(const BodyState<S>& state, const BodyProperties<S>& body, const Pose<S>* start, float alpha);
+
+  const WorldState<S>& state_;
+  std::vector<Pose<S>> start_poses_;
+  std::vector<std::uint32_t> start_slots_;  // of the same bodies, ascending
+  std::vector<RenderPose> poses_;
+};
+
+#define ISO_EXTERN(S) extern template class RenderPoses<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,73 @@
+// IslandSleep<S>: puts islands of bodies at rest to sleep.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "isostep/core/disjoint_sets.hpp"
+#include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/belt.hpp"
+#include "isostep/dynamics/solver_body.hpp"
+#include "isostep/store/body_map.hpp"
+#include "isostep/store/proxies.hpp"
+
+namespace isostep {
+
+/// Input:   the state after a step: awake bodies with their sleep clocks, contacts and joints.
+/// Output:  sleep clocks; islands whose bodies have all rested for half a second, moved out of the awake arrays into
+///          WorldState::sleeping; the ids of their bodies. The body map and the broad phase know of it.
+/// Keeps:   nothing from step to step but memory.
+template <class S> class IslandSleep {
+ public:
+  ISO_INLINE IslandSleep(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies)
+      : state_(state), map_(map), proxies_(proxies) {}
+
+  /// Appends to `fell_asleep`. What touches one of the belts stays awake; null: there are none. `pulls`: what pulls at
+  /// each awake body beside gravity, or empty.
+  void update(std::vector<BodyId>& fell_asleep, const Belts<S>* belts = nullptr,
+              std::span<const Acceleration<S>> pulls = {});
+
+  /// Puts the island of an awake dynamic body to sleep at once, whatever its bodies were about to do; the next step
+  /// tells. False, and no change: one of them may not sleep.
+  bool put_to_sleep(std::uint32_t slot);
+
+ private:
+  std::uint32_t delay() const;
+  void update_clocks(std::span<const Acceleration<S>> pulls);
+  void stop_clocks_of_carried(const Belts<S>* belts);
+  void stop_clocks_of_motors();
+  void stop_clocks_by_forces();
+  bool some_body_is_ready() const;
+
+  bool is_dynamic(std::uint32_t slot) const;
+  void find_islands();
+  void find_island_clocks();
+  template <class Visit> void for_each_wheel_on_ground(const Visit& visit) const;
+  void tie_coupled(const Coupling<S>& coupling);
+  bool mark_ready_islands();
+
+  void move_marked_islands(std::vector<BodyId>& fell_asleep);
+  SleepingIsland<S>* island_of(std::size_t index);
+  SleepingIsland<S>* island_of_either(std::uint32_t slot_a, std::uint32_t slot_b);
+  void move_contacts();
+  void move_joints();
+  void move_bodies(std::vector<BodyId>& fell_asleep);
+  void list_islands();
+
+  WorldState<S>& state_;
+  BodyMap<S>& map_;
+  Proxies<S>& proxies_;
+  DisjointSets islands_;              // of indices of awake bodies
+  std::vector<std::uint32_t> clock_;  // by island: the least of its bodies', then 1 if it falls asleep and 0 if not
+  std::vector<std::shared_ptr<SleepingIsland<S>>> asleep_;  // by island
+};
+
+#define ISO_EXTERN(S) extern template class IslandSleep<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

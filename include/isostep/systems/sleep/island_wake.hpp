@@ -1,0 +1,85 @@
+// IslandWake<S>: wakes sleeping islands.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/store/body_map.hpp"
+#include "isostep/store/proxies.hpp"
+
+namespace isostep {
+
+/// Input:   the state, and which body or joint is about to change.
+/// Output:  the islands' bodies, contacts and joints among the awake ones, in canonical order, with sleep clocks of 0;
+///          WorldState::untold.woke; the body map and the broad phase know of it.
+/// Keeps:   nothing from call to call but memory.
+template <class S> class IslandWake {
+ public:
+  ISO_INLINE IslandWake(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies)
+      : state_(state), map_(map), proxies_(proxies) {}
+
+  /// The island of a body, if it sleeps.
+  void wake(std::uint32_t slot);
+  /// One island after another in this order, at the cost of one merge.
+  void wake(std::span<const std::uint32_t> slot_list);
+  void wake_all();
+  /// Islands that something awake and moving has a contact with, or something awake a wheel on, or that a fast
+  /// kinematic body is about to pass through. False: there was none. Waking brings new pairs, so the caller updates the
+  /// broad phase and calls again.
+  bool wake_touched();
+  /// Every island and every body that the body's fat box meets: what is moved, changed or taken away may have held them
+  /// up.
+  void wake_touching(std::uint32_t slot);  // a sensor wakes nobody: it notes that the next step looks who sleeps in it
+  /// The same of a box [m] that is about to change, or has; but of `slot`, which is what changes.
+  void wake_touching(const Aabb<S>& box, std::uint32_t slot);
+  /// Every island with a joint or spring to, or a contact or wheel on, a body that no island holds. Its box need not
+  /// meet theirs any more: a contact sleeps as the last step found it.
+  void wake_held_by(std::uint32_t slot);
+  /// Every body with a wheel on that one inside of the box [m]: its own need not reach the ground.
+  void wake_wheels_on(std::uint32_t slot, const Aabb<S>& box);
+  /// Wakes the joint's island and starts the sleep clocks of its bodies anew. Returns its index among the awake joints.
+  std::uint32_t wake_joint(std::uint32_t slot);
+  /// The awake state of a body that is about to be changed. Not of a static one.
+  BodyState<S>& wake_for_change(std::uint32_t slot);
+  /// An awake body rests anew: what held it may be gone, and the rest it had counted was on that.
+  void reset_clock(std::uint32_t slot);
+
+ private:
+  /// A record of an island, to be sorted into the awake ones.
+  struct Record {
+    std::uint64_t key;  // its place among the awake ones
+    const SleepingIsland<S>* island;
+    std::size_t index;
+  };
+  struct ByKey {
+    ISO_INLINE std::uint64_t operator()(const Record& record) const { return record.key; }
+  };
+
+  bool is_sensor(std::uint32_t slot) const;
+  void find_run_over(std::size_t index);
+  bool is_touched(std::uint64_t pair) const;
+  bool are_ghosts(std::uint32_t a, std::uint32_t b) const;
+  void start_waking(std::uint32_t island);
+  void merge_woken();
+  void merge_contacts();
+  template <class ArrayOf, class KeyOf> std::size_t sort_records(const ArrayOf& array_of, const KeyOf& key_of);
+  template <class Set, class SetOf> void merge_set(Set& into, const SetOf& set_of);
+
+  WorldState<S>& state_;
+  BodyMap<S>& map_;
+  Proxies<S>& proxies_;
+  std::vector<std::shared_ptr<const SleepingIsland<S>>> woken_;  // off the state's list, not yet among the awake ones
+  std::vector<Record> records_, scratch_;
+  std::vector<std::uint32_t> touched_;
+};
+
+#define ISO_EXTERN(S) extern template class IslandWake<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

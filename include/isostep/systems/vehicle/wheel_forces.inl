@@ -1,0 +1,237 @@
+// Bodies of wheel_forces.hpp: a sub-step of suspensions and tyres.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/store/checks.hpp"
+#include "isostep/store/finite_guard.hpp"
+#include "isostep/systems/vehicle/wheel_clutch.inl"
+#include "isostep/systems/vehicle/wheel_drive.inl"
+#include "isostep/systems/vehicle/wheel_ground.inl"
+#include "isostep/systems/vehicle/wheel_tracks.inl"
+
+namespace isostep {
+
+template <class S>
+auto WheelForces<S>::solve(const SolverBodies<S>& bodies, const std::vector<Acceleration<S>>& accelerations,
+                           std::int32_t rate) -> const std::vector<Push>& {
+  bodies_ = &bodies;
+  rate_ = rate;
+  h_ = divide_to<Step<S>>(S(1), S(rate));
+  pushes_.clear();
+  motion_.resize(bodies.mass.size());
+  follow_ground();
+  const auto next = [&](std::uint32_t row) { return detail::next_motion(state_, bodies, accelerations, row, h_); };
+  for (const Group& group : groups_) motion_[group.row] = next(group.row);
+  for (const Run& run : runs_) motion_[run.ground] = next(run.ground);
+  for (Group& group : groups_) {
+    const Mat3<U> turn = to_matrix(state_.awake.states[group.row - 1].orientation);
+    for (std::uint32_t r = group.first; r < group.end; ++r) place(runs_[r], turn);
+    drive(group);
+  }
+  for (int i = 0; i < kIterations; ++i) {
+    for (Group& group : groups_) {
+      group.done = i > 0 && group.ends_early && !group.changed;
+      group.changed = false;
+      if (group.done) continue;
+      lock(group);
+      engage(group);
+    }
+    for (const std::uint32_t r : order_) {
+      if (Group& group = groups_[runs_[r].group]; !group.done && runs_[r].touches) group.changed |= iterate(runs_[r]);
+    }
+  }
+  for (const Group& group : groups_) tell(group);
+  return pushes_;
+}
+
+/// Where the wheel's middle is on its way down, so that it touches the ground's plane; and the rows there. `turn` is
+/// that of the body.
+template <class S> void WheelForces<S>::place(Run& run, const Mat3<U>& turn) {
+  run.touches = false;
+  run.spin.brake = V(0);
+  const Wheel<S>& w = wheel(run);
+  run.length = w.free_length;
+  if (!run.met) return;
+  const bool stands = run.ground == 0;  // the ground
+  const Vec3<S> centre = state_.awake.states[run.row - 1].centre;
+  const Vec3<S> hard_arm = turn * (w.hard_point - state_.awake.properties[run.row - 1].local_centre);
+  const Vec3<U> down = turn * w.suspension;
+  const MotionRow<V>& moved = bodies_->displacement[run.ground];
+  const Vec3<S> point =
+      stands ? run.point : run.point + convert<S>(moved.linear) + cross(convert<S>(moved.angular), run.ground_arm);
+  const U facing = -dot(down, run.normal);
+  if (facing < kLeastFacing) return;
+  run.lean = divide_to<S>(S(1), facing);
+  const S height = dot(centre - point + hard_arm, run.normal);
+  const S length = saturate_to<S>(product(height - w.radius, run.lean));
+  if (w.free_length <= length) return;
+  run.touches = true;
+  const Vec3<S> arm = hard_arm + down * length - run.normal * w.radius;
+  run.at = centre + arm;
+  const Vec3<S> ground_arm = run.at - point + run.ground_arm;
+  const Vec3<U> forward = normalise(cross(turn * run.axle, run.normal));
+  const SolverMass<S>&body = bodies_->mass[run.row], &ground = bodies_->mass[run.ground];
+  const auto set = [&](Row& row, Vec3<U> way) ISO_INLINE_LAMBDA {
+    if (stands) row.set(way, body, arm);
+    else row.set(way, body, arm, ground, ground_arm);
+  };
+  set(run.up, run.normal);
+  set(run.along, forward);
+  set(run.across, cross(run.normal, forward));
+  compress(run, length);
+  MotionRow<V>& motion = motion_[run.row];
+  move(run, run.up, motion, run.load);
+  move(run, run.along, motion, run.push_along);
+  move(run, run.across, motion, run.push_across);
+}
+
+/// Spring, damper, bar and stop at a length, and the tyre's grip.
+template <class S> void WheelForces<S>::compress(Run& run, S length) const {
+  const Wheel<S>& w = wheel(run);
+  const S mass = bodies_->mass[run.row].mass;
+  const S stiffness = divide_to<S>(saturating_add(w.stiffness, run.anti_roll), mass);  // [1/s^2]
+  run.length = length;
+  const detail::SlipCurve<S> curve = {w.peak_slip, w.peak_grip, w.slide_slip, w.slide_grip};
+  const S part = curve.is_flat() ? S(1) : curve.at(run.slip);
+  run.grip_along = times(run.mu_along, part);
+  run.grip_across = times(run.mu_across, part);
+  run.strut.spring = times(stiffness, w.free_length - length);
+  run.strut.damping = saturating_add(divide_to<S>(w.damping, mass), stiffness * h_);
+  run.strut.bar = run.partner == kNone ? S(0) : divide_to<S>(run.anti_roll, mass);
+  const S firm = times(times(times(run.up.give, run.lean), run.lean), run.strut.damping * h_);
+  run.strut.firm = saturating_add(S(1), firm);
+  // No shorter after the sub-step, and where it is too short, out of that.
+  const S room = divide_to<S>(length - (w.free_length - w.travel), run.lean);
+  run.strut.stop = min(saturate_to<V>(product(-room, S(rate_))), detail::kPushSpeed<S>);
+}
+
+/// [m/s] Along a row. Row 0 does not move.
+template <class S>
+ISO_INLINE Velocity<S> WheelForces<S>::speed_of(const Run& run, const Row& row, const MotionRow<V>& body) const {
+  return run.ground == 0 ? row.speed(body) : row.speed(body, motion_[run.ground]);
+}
+/// The same, as it would be without the impulse that it has made so far.
+template <class S>
+ISO_INLINE Velocity<S> WheelForces<S>::without(const Run& run, const Row& row, V impulse,
+                                               const MotionRow<V>& body) const {
+  return saturating_subtract(speed_of(run, row, body), saturate_to<V>(product(row.give, impulse)));
+}
+template <class S> ISO_INLINE void WheelForces<S>::move(const Run& run, const Row& row, MotionRow<V>& body, V impulse) {
+  if (run.ground == 0) row.push(body, impulse);
+  else row.push(body, motion_[run.ground], impulse);
+}
+
+/// What the strut pushes, of the length and speed that it leads to itself.
+template <class S> ISO_INLINE void WheelForces<S>::press(Run& run, MotionRow<V>& body) {
+  const V others = without(run, run.up, run.load, body);
+  S force = run.strut.spring;  // [m/s^2] along the suspension
+  if (run.partner != kNone && runs_[run.partner].touches) {
+    const Run& other = runs_[run.partner];
+    const S speed = times(other.lean, convert<S>(speed_of(other, other.up, body)));
+    const S pressed = wheel(other).free_length - other.length - speed * h_;
+    force = saturating_add(force, -times(run.strut.bar, pressed));
+  }
+  force = saturating_add(force, -times(run.strut.damping, times(run.lean, convert<S>(others))));
+  const S pushed = divide_to<S>(times(force, run.lean), run.strut.firm);  // [m/s^2]
+  const V stop = divide_to<V>(run.strut.stop - others, run.up.give);
+  const V load = max(max(V(0), saturate_to<V>(product(pushed, h_))), stop);
+  move(run, run.up, body, load - run.load);
+  run.load = load;
+}
+
+template <class S> ISO_INLINE void WheelForces<S>::grip(Run& run, MotionRow<V>& body) {
+  const auto most = [&](S mu) ISO_INLINE_LAMBDA { return saturate_to<V>(product(mu, run.load)); };
+  const V slip_along = without(run, run.along, run.push_along, body);
+  const V slip_across = without(run, run.across, run.push_across, body);
+  const detail::TyreImpulse<V> made = detail::tyre_impulse<S>(spin_of(run), run.along.give, run.across.give, slip_along,
+                                                              slip_across, most(run.grip_along), most(run.grip_across));
+  move(run, run.along, body, made.along - run.push_along);
+  move(run, run.across, body, made.across - run.push_across);
+  run.push_along = made.along;
+  run.push_across = made.across;
+}
+
+/// Whether that changed its impulses by more than kSettled.
+template <class S> bool WheelForces<S>::iterate(Run& run) {
+  MotionRow<V> body = motion_[run.row];  // no wheel of a body stands on that body
+  const V load = run.load, along = run.push_along, across = run.push_across;
+  press(run, body);
+  grip(run, body);
+  motion_[run.row] = body;
+  const V most = run.load * kSettled;
+  return most < abs(run.load - load) || most < abs(run.push_along - along) || most < abs(run.push_across - across);
+}
+
+/// How far it turns in the sub-step; a track's leader before the others of it.
+template <class S> void WheelForces<S>::turn_wheel(Run& run) const {
+  constexpr S kTurn = S(6.28318530717958647692);
+  const V fastest = convert<V>(min(Limits<S>::surface_speed(), Limits<S>::speed() + Limits<S>::speed()));
+  run.spin.rim = leads(run) ? clamp(end_of(run), -fastest, fastest) : runs_[run.leader].spin.rim;
+  const S spin = divide_to<S>(run.spin.rim, wheel(run).radius);
+  run.angle += clamp(spin * h_, -kTurn, kTurn);
+  if (kTurn <= run.angle) run.angle -= kTurn;
+  if (run.angle < S(0)) run.angle += kTurn;
+}
+
+/// [1] Of this sub-step and the ones before.
+template <class S> S WheelForces<S>::slip_of(const Run& run) const {
+  const S before = run.slip * S(0.5);
+  if (!run.touches) return before;
+  const MotionRow<V>& body = motion_[run.row];
+  const V along = speed_of(run, run.along, body), across = speed_of(run, run.across, body);
+  return before + convert<S>(detail::tyre_slip(saturating_subtract(along, run.spin.rim), across, along)) * S(0.5);
+}
+
+/// The impulses of the sub-step, on the body together.
+template <class S> void WheelForces<S>::tell(const Group& group) {
+  Push all = {group.row, Vec3<V>::zero(), Vec3<V>::zero()};
+  bool any = false;
+  for (std::uint32_t r = group.first; r < group.end; ++r) {
+    Run& run = runs_[r];
+    if (!run.touches) run.load = run.push_along = run.push_across = V(0);
+    turn_wheel(run);
+    run.slip = slip_of(run);
+    if (!run.touches) continue;
+    any = true;
+    const auto sum = [&](auto part) {
+      return Row::times(part(run.up), run.load) + Row::times(part(run.along), run.push_along) +
+             Row::times(part(run.across), run.push_across);
+    };
+    const Vec3<V> linear = sum([](const Row& row) { return row.way; });
+    all.linear = saturating_add(all.linear, linear);
+    all.angular = saturating_add(all.angular, sum([](const Row& row) { return row.spun; }));
+    if (!(S(0) < run.up.share)) continue;
+    const Vec3<V> turning = sum([](const Row& row) { return row.ground_spun; });
+    pushes_.push_back({run.ground, -Row::times(linear, run.up.share), -Row::times(turning, run.up.share)});
+  }
+  if (any) pushes_.push_back(all);
+}
+
+template <class S> void WheelForces<S>::end_step() {
+  if (runs_.empty()) return;
+  end_engines();
+  std::vector<Wheel<S>>& wheels = state_.force_records.change().wheels.change_all();
+  for (const Run& run : runs_) {
+    Wheel<S>& w = wheels[run.slot];
+    const S mass = state_.awake.properties[run.row - 1].mass;
+    const auto force = [&](V impulse) {
+      return saturate_to<S>(product(mass, saturate_to<S>(product(impulse, S(rate_)))));
+    };
+    w.spin = divide_to<S>(run.spin.rim, w.radius);
+    w.angle = run.angle;
+    w.steered = run.steered;
+    w.length = run.length;
+    w.slip = run.slip;
+    w.contact_body = run.touches ? run.met : BodyId{};
+    w.contact_normal = run.touches ? run.normal : Vec3<U>{U(0), U(0), U(0)};
+    w.contact_point = run.touches ? run.at : Vec3<S>::zero();
+    w.load = force(run.load);
+    w.along = force(run.push_along);
+    w.across = force(run.push_across);
+    detail::keep_finite(w);
+    constexpr V kTurning = V(0.05);
+    if (kTurning < abs(run.spin.rim)) state_.awake.states[run.row - 1].sleep_clock = 0;
+  }
+}
+
+}  // namespace isostep
