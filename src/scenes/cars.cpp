@@ -50,7 +50,7 @@ template <class S> void drive_cars(World<S>& world) {
   constexpr std::uint64_t kRound = 360, kThrottle = 120, kBrake = 300, kSwing = 240;  // [frames]
   const std::uint64_t tick = world.tick();
   const S turned = S(static_cast<int>(tick % kSwing)) * number(2 * 3.14159265358979323846 / kSwing);
-  const auto ids = world.state().force_records->vehicles.slot_map().template ids<VehicleId>();
+  const auto ids = world.state().records->vehicles.slot_map().template ids<VehicleId>();
   for (std::size_t i = 0; i < ids.size(); ++i) {
     Vehicle<S> vehicle = *world.find(ids[i]);
     vehicle.throttle = S(tick % kRound < kThrottle ? 1 : 0);

@@ -120,7 +120,7 @@ struct SceneField {
   std::vector<Number> numbers;  // of a matrix by rows; of a flag or a choice its number; of a body its place, or -1
 };
 struct SceneRecord {
-  std::string kind;                // as force_list.hpp names it
+  std::string kind;                // as record_list.hpp names it
   std::vector<SceneField> fields;  // those that differ from what the engine's record has
 };
 

@@ -197,7 +197,7 @@ template <class S> void play_medley(World<S>& world) {
 }  // namespace
 
 template <class S> void before_step(Script script, World<S>& world) {
-  if (!world.state().force_records->breakables.all().empty()) break_bodies(world, kMostBroken);
+  if (!world.state().records->breakables.all().empty()) break_bodies(world, kMostBroken);
   if (script == Script::mixer) stir(world);
   if (script == Script::mixed) Mixing<S>(world).run();
   if (script == Script::hit) hit(world);

@@ -86,7 +86,7 @@ Scene street() {
 template <class S> void play_street(World<S>& world, std::span<const StreetInput> inputs) {
   const auto part = [](std::int8_t n, S unit) { return S(static_cast<int>(n)) * unit; };
   const S share = value_of<S>(1.0 / 128, "script"), speed = value_of<S>(1.0 / 32, "script");
-  const ForceRecords<S>& records = *world.state().force_records;
+  const RecordStore<S>& records = *world.state().records;
   const auto cars = records.vehicles.slot_map().template ids<VehicleId>();
   const auto walkers = records.characters.slot_map().template ids<CharacterId>();
   for (std::size_t i = 0; i < inputs.size(); ++i) {

@@ -47,7 +47,7 @@ template <class S> void lead_walkers(World<S>& world) {
   if (tick == kWalkersCome) add_walkers(world);
   Draws draws(kSeed);
   for (std::uint64_t i = 0; i < (tick - kWalkersCome) / kWalkersTurn * kWalkers; ++i) draws.next();
-  for (const CharacterId id : world.state().force_records->characters.slot_map().template ids<CharacterId>()) {
+  for (const CharacterId id : world.state().records->characters.slot_map().template ids<CharacterId>()) {
     Character<S> walker = *world.find(id);
     const SinCos<S> way = sin_cos(scalar<S>(kTurn * draws.unit()));
     walker.move = {scalar<S>(kSpeed) * way.cos, S(0), scalar<S>(kSpeed) * way.sin};

@@ -160,7 +160,7 @@ template <class S> struct Twins {
 
   template <class Record> Record naming() const {
     Record record;
-    const bool is_carried = std::is_same_v<Record, MoveTarget<S>> || std::is_same_v<Record, Character<S>>;
+    const bool is_carried = std::is_same_v<Record, Character<S>>;
     if constexpr (requires { record.body; }) record.body = is_carried ? carried : a;
     if constexpr (requires { record.a; }) record.a = a;
     if constexpr (requires { record.b; }) record.b = b;

@@ -87,7 +87,7 @@ TYPED_TEST(RecordAllocation, VehiclesAndCharactersMoveWithoutAny) {
   Movers<S> movers(world);
   for (int frame = 0; frame < 240; ++frame) movers.play(frame);
   std::uint32_t rolling = 0, walking = 0;
-  const ForceRecords<S>& records = *world.state().force_records;
+  const RecordStore<S>& records = *world.state().records;
   for (const Wheel<S>& wheel : records.wheels.all()) rolling += wheel.contact_body && wheel.spin != S(0) ? 1u : 0u;
   for (const CharacterId id : movers.walkers()) walking += world.find(id)->footing == Footing::floor ? 1u : 0u;
   EXPECT_GT(rolling, 8u);
@@ -153,7 +153,7 @@ TYPED_TEST(RecordAllocation, GhostsThatComeAndGoNeedNone) {
     world.set_pose(ball, {{S(0), S(-1), S(0)}, Quat<Unit<S>>::identity()});
     for (int frame = 0; frame < 60; ++frame) {
       world.step();
-      for (const Ghost<S>& ghost : world.state().force_records->ghosts.all()) ghosts += ghost.a ? 1u : 0u;
+      for (const Ghost<S>& ghost : world.state().records->ghosts.all()) ghosts += ghost.a ? 1u : 0u;
     }
     EXPECT_GT(world.center_of_mass(ball).y, S(2));
   };

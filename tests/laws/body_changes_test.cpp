@@ -186,7 +186,7 @@ TYPED_TEST(BodyChanges, the_next_step_carries_a_kinematic_body_exactly_to_its_ta
   const Pose<S> there = this->w.pose(body);
   run(this->w, 5);
   EXPECT_EQ(this->w.pose(body).position, there.position);
-  EXPECT_TRUE(this->w.state().force_records->move_targets.slot_map().template ids<MoveTargetId>().empty());
+  EXPECT_TRUE(this->w.state().moves.empty());
 }
 
 /// A lift of 0.5 m/s, up and then aside: what stands on it goes along, but for v^2 / 2 mu g until it has that speed.

@@ -247,7 +247,7 @@ TYPED_TEST(Couplings, refuse_what_has_no_position_and_teeth_that_are_not_whole) 
   refused(coupling, "upper");
   coupling = rack_and_pinion<S>(a, num<S>(0.3), c);
   EXPECT_TRUE(this->w.add(coupling)) << describe(this->w.fault());
-  EXPECT_EQ(this->w.state().force_records->couplings.slot_map().count_taken(), 1u);
+  EXPECT_EQ(this->w.state().records->couplings.slot_map().count_taken(), 1u);
 }
 
 }  // namespace

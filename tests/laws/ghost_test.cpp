@@ -10,7 +10,7 @@ template <class S> class Ghosts : public ::testing::Test {
  protected:
   BodyId platform(D3 at, D3 half = {4, 0.125, 4}) { return w.create(still<S>(add_box(w, half.x, half.y, half.z), at)); }
   BodyId ball(D3 at, D3 velocity = {0, 0, 0}) { return w.create(moving<S>(add_ball(w, 0.25), at, velocity)); }
-  std::size_t ghosts() const { return w.state().force_records->ghosts.slot_map().template ids<GhostId>().size(); }
+  std::size_t ghosts() const { return w.state().records->ghosts.slot_map().template ids<GhostId>().size(); }
   D3 at(BodyId body) const { return real(w.center_of_mass(body)); }
 
   World<S> w{settings<S>()};

@@ -125,7 +125,7 @@ TYPED_TEST(JointLoads, a_chain_holds_under_what_it_bears_and_breaks_at_its_top_u
     frames[n++] = chain.pull(60, 120);  // 60 N more in a second: the top bears 40
     EXPECT_FALSE(chain.w.contains(chain.joints[0]));
     EXPECT_TRUE(chain.w.contains(chain.joints[1]));
-    EXPECT_EQ(chain.w.state().force_records->joint_loads.slot_map().count_taken(), 19u);
+    EXPECT_EQ(chain.w.state().records->joint_loads.slot_map().count_taken(), 19u);
   }
   EXPECT_NEAR(frames[0], 40, 2);
   EXPECT_NEAR(frames[1], frames[0], 2);

@@ -43,8 +43,7 @@ template <class S> class JointTreeWatch {
       joints_.push_back({id, false});
       if (w.joint(id)->type != JointType::six_axis) axes_.push_back(DrivenAxis::of(w, id));
     }
-    for (const AxisDrive<S>& drive : w.state().force_records->axis_drives.all())
-      axes_.push_back(DrivenAxis::of(w, drive));
+    for (const AxisDrive<S>& drive : w.state().records->axis_drives.all()) axes_.push_back(DrivenAxis::of(w, drive));
     start_ = momentum();
     for (const BodyId id : tree.bodies) {
       mass_ += to_double(w.mass(id));

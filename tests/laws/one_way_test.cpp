@@ -26,7 +26,7 @@ template <class S> class OneWays : public ::testing::Test {
     return id;
   }
   BodyId ball(D3 at, D3 velocity = {0, 0, 0}) { return w.create(moving<S>(add_ball(w, 0.25), at, velocity)); }
-  std::size_t ghosts() const { return w.state().force_records->ghosts.slot_map().template ids<GhostId>().size(); }
+  std::size_t ghosts() const { return w.state().records->ghosts.slot_map().template ids<GhostId>().size(); }
   D3 at(BodyId body) const { return real(w.center_of_mass(body)); }
 
   World<S> w{settings<S>()};
@@ -59,7 +59,7 @@ template <class S> std::vector<BodyId> jumpers(World<S>& w, bool with, int count
 /// By body slot.
 template <class S> std::vector<std::uint8_t> ghosts_of(const World<S>& w) {
   std::vector<std::uint8_t> all(w.state().body_slots.entries().size(), 0);
-  for (const Ghost<S>& ghost : w.state().force_records->ghosts.all()) {
+  for (const Ghost<S>& ghost : w.state().records->ghosts.all()) {
     if (ghost.a) all[ghost.a.slot] = all[ghost.b.slot] = 1;
   }
   return all;
@@ -376,7 +376,7 @@ TYPED_TEST(OneWays, are_rolled_back_while_bodies_are_inside) {
     for (int i = 0; i < 8; ++i) this->ball({0.75 * i - 3, 0.25, 0}, {0, 5 + 0.25 * i, 0});
     std::size_t inside = 0;
     expect_exact_rollback(this->w, 60, [&](World<S>& world, int frame) {
-      if (frame == 30) inside = world.state().force_records->ghosts.slot_map().template ids<GhostId>().size();
+      if (frame == 30) inside = world.state().records->ghosts.slot_map().template ids<GhostId>().size();
     });
     EXPECT_GT(inside, 0u);
   }

@@ -187,7 +187,7 @@ TYPED_TEST(PartBelts, refuse_what_is_no_part_and_change_nothing) {
   expect_refused(this->w.set(id, this->belt(body, {1, 0, 0}, 7)), "part", kNoPart);
   WorldState<S> state = this->w.state();
   EXPECT_EQ(StateValidator<S>(state).broken_rule(), nullptr);
-  SurfaceVelocity<S>& record = state.force_records.change().surface_velocitys.change_all()[id.slot];
+  SurfaceVelocity<S>& record = state.records.change().surface_velocitys.change_all()[id.slot];
   record.part = 0;
   EXPECT_STREQ(StateValidator<S>(state).broken_rule(), "two belts have the same part");
   record.part = 2;

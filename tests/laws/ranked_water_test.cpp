@@ -1,4 +1,4 @@
-// Laws of RankedWater: which water a body has where several overlap.
+// Laws of Water with priorities: which water a body has where several overlap.
 // SPDX-License-Identifier: MIT
 
 #include "laws/exact_rollback.hpp"
@@ -7,12 +7,13 @@ namespace isostep::test {
 namespace {
 
 /// Of 100 kg a cubic metre, which Q16.16 can count too.
-template <class S> RankedWater<S> water(double height, double density, std::int32_t priority, D3 at, D3 half) {
-  RankedWater<S> w;
+template <class S> Water<S> water(double height, double density, std::int32_t priority, D3 at, D3 half) {
+  Water<S> w;
   w.surface_height = num<S>(height);
   w.density = num<S>(density);
   w.linear_drag = w.angular_drag = S(4);
   w.priority = priority;
+  w.replaces = true;
   w.middle = vec<S>(at);
   w.half = vec<S>(half);
   return w;
@@ -66,18 +67,18 @@ TYPED_TEST(RankedWaters, the_highest_rank_counts_and_waters_of_one_rank_add_up) 
   this->fill_sea(4, 0);
   const double bar = 0.05;  // [m/s^2]
   EXPECT_NEAR(this->rise(inside), 10, bar);
-  RankedWater<S> high = water<S>(4, 75, 2, {0, 0, 0}, half);
+  Water<S> high = water<S>(4, 75, 2, {0, 0, 0}, half);
   high.mask = ~2u;
   high.linear_drag = S(0);
-  const RankedWaterId id = this->w.add(high);
-  RankedWater<S> low = water<S>(4, 150, 1, {0, 0, 0}, half);
+  const WaterId id = this->w.add(high);
+  Water<S> low = water<S>(4, 150, 1, {0, 0, 0}, half);
   low.linear_drag = S(0);
   this->w.add(low);
   this->w.add(water<S>(4, 100, -1, {0, 0, 0}, half));
   EXPECT_NEAR(this->rise(inside), 10 * (0.75 * 2 - 1), bar);
   EXPECT_NEAR(this->rise(other), 10 * (1.5 * 2 - 1), bar) << "of a category that the highest leaves alone";
   EXPECT_NEAR(this->rise(outside), 10, bar);
-  RankedWater<S> twice = high;
+  Water<S> twice = high;
   twice.density = S(25);
   this->w.add(twice);
   EXPECT_NEAR(this->rise(inside), 10 * (1.0 * 2 - 1), bar);
@@ -97,14 +98,14 @@ TYPED_TEST(RankedWaters, of_two_regions_side_by_side_a_body_has_one) {
 
 TYPED_TEST(RankedWaters, a_zone_keeps_out_what_ranks_below_it) {
   using S = TypeParam;
-  RankedZone<S> bell;
+  ForceZone<S> bell;
   bell.shape = ZoneShape::box;
   bell.half = vec<S>(4, 4, 4);
   bell.priority = 2;
   bell.replaces = zone_effect::kWater;
   ASSERT_TRUE(this->w.add(bell));
-  RankedWater<S> pool = water<S>(4, 75, 1, {0, 0, 0}, {2, 2, 2});
-  const RankedWaterId id = this->w.add(pool);
+  Water<S> pool = water<S>(4, 75, 1, {0, 0, 0}, {2, 2, 2});
+  const WaterId id = this->w.add(pool);
   const BodyId body = this->box({0, -1, 0});
   EXPECT_NEAR(this->rise(body), -10, 0.02);
   pool.priority = 3;
@@ -121,8 +122,8 @@ TYPED_TEST(RankedWaters, keels_feel_the_water_that_they_are_in) {
   keel.tensor = Mat3<S>::diagonal(vec<S>(0, 0, -400));
   keel.is_under_water = true;
   ASSERT_TRUE(this->w.add(keel));
-  RankedWater<S> dock = water<S>(-4, 100, 1, {0, 0, 0}, {2, 2, 2});
-  const RankedWaterId id = this->w.add(dock);
+  Water<S> dock = water<S>(-4, 100, 1, {0, 0, 0}, {2, 2, 2});
+  const WaterId id = this->w.add(dock);
   const auto left = [&] {
     this->w.set_velocity(boat, vec<S>(0, 0, 1), Vec3<S>::zero());
     this->w.step();
@@ -136,7 +137,7 @@ TYPED_TEST(RankedWaters, keels_feel_the_water_that_they_are_in) {
 
 TYPED_TEST(RankedWaters, bad_numbers_are_those_of_water) {
   using S = TypeParam;
-  RankedWater<S> bad = water<S>(0, 100, 1, {0, 0, 0}, {2, 2, 2});
+  Water<S> bad = water<S>(0, 100, 1, {0, 0, 0}, {2, 2, 2});
   bad.density = S(-1);
   const std::uint64_t before = this->w.hash();
   EXPECT_FALSE(this->w.add(bad));
@@ -151,9 +152,9 @@ TYPED_TEST(RankedWaters, it_is_state) {
   using S = TypeParam;
   this->fill_sea();
   for (int i = 0; i < 6; ++i) this->box({i * 1.25 - 3, 0.5 * i - 1, 0});
-  RankedWater<S> lock = water<S>(0.5, 100, 1, {0, 0, 0}, {2, 4, 2});
+  Water<S> lock = water<S>(0.5, 100, 1, {0, 0, 0}, {2, 4, 2});
   lock.wave_height = num<S>(0.125);
-  const RankedWaterId id = this->w.add(lock);
+  const WaterId id = this->w.add(lock);
   expect_exact_rollback(this->w, 90, [&](World<S>& world, int i) {
     if (i % 15 != 7) return;
     lock.surface_height = num<S>((i % 30) * 0.0625 - 1);

@@ -1,4 +1,4 @@
-// Laws of RankedZone: which zones act where several overlap.
+// Laws of ForceZone with priorities: which zones act where several overlap.
 // SPDX-License-Identifier: MIT
 
 #include "laws/exact_rollback.hpp"
@@ -6,8 +6,8 @@
 namespace isostep::test {
 namespace {
 
-template <class S> RankedZone<S> zone(D3 acceleration, std::int32_t priority, std::uint32_t replaces, double half = 0) {
-  RankedZone<S> z;
+template <class S> ForceZone<S> zone(D3 acceleration, std::int32_t priority, std::uint32_t replaces, double half = 0) {
+  ForceZone<S> z;
   z.acceleration = vec<S>(acceleration);
   z.priority = priority;
   z.replaces = replaces;
@@ -55,9 +55,9 @@ TYPED_TEST(RankedZones, the_highest_rank_that_replaces_hides_what_is_below_and_n
   plain.acceleration = vec<S>(1, 0, 0);
   this->w.add(plain);
   this->w.add(zone<S>({0, 4, 0}, 1, zone_effect::kAcceleration, 2));
-  RankedZone<S> middle = zone<S>({0, 2, 0}, 2, zone_effect::kAcceleration, 2);
+  ForceZone<S> middle = zone<S>({0, 2, 0}, 2, zone_effect::kAcceleration, 2);
   middle.mask = 1;
-  const RankedZoneId id = this->w.add(middle);
+  const ForceZoneId id = this->w.add(middle);
   this->w.add(zone<S>({0, 0, 1}, 2, zone_effect::kAcceleration, 2));
   this->w.add(zone<S>({0, 0, 2}, 3, 0, 2));
   this->expect(inside, {0, 2, 3});
@@ -83,7 +83,7 @@ TYPED_TEST(RankedZones, wind_is_replaced_by_wind_alone) {
   using S = TypeParam;
   const BodyId body = this->ball({0, 0, 0});
   this->w.add(BodyDrag<S>{body, num<S>(100), S(0), S(0)});
-  RankedZone<S> low = zone<S>({0, 0, 0}, 0, 0), high = zone<S>({0, 0, 0}, 1, zone_effect::kWind, 4);
+  ForceZone<S> low = zone<S>({0, 0, 0}, 0, 0), high = zone<S>({0, 0, 0}, 1, zone_effect::kWind, 4);
   low.wind = vec<S>(1, 0, 0);
   high.wind = vec<S>(0, 0, 1);
   this->w.add(low);
@@ -101,7 +101,7 @@ TYPED_TEST(RankedZones, a_zone_that_changes_wakes_what_it_may_reach) {
   add_ground(this->w);
   const BodyId body = this->ball({0, 0.25, 0});
   ASSERT_TRUE(settle(this->w));
-  const RankedZoneId id = this->w.add(zone<S>({0, 12, 0}, 0, 0));
+  const ForceZoneId id = this->w.add(zone<S>({0, 12, 0}, 0, 0));
   EXPECT_TRUE(this->w.is_awake(body));
   run(this->w, 30);
   EXPECT_GT(to_double(this->w.center_of_mass(body).y), 0.4);
@@ -109,11 +109,11 @@ TYPED_TEST(RankedZones, a_zone_that_changes_wakes_what_it_may_reach) {
   EXPECT_STREQ(this->w.fault().field, "replaces");
 }
 
-TYPED_TEST(RankedZones, ranks_are_state_and_a_world_that_had_none_does_not_know_of_them) {
+TYPED_TEST(RankedZones, priorities_are_state) {
   using S = TypeParam;
   for (int i = 0; i < 4; ++i) this->ball({i * 1.0, 0, 0});
   this->w.add(zone<S>({1, 0, 0}, 0, 0));
-  const RankedZoneId id = this->w.add(zone<S>({0, 1, 0}, 1, zone_effect::kAcceleration, 2));
+  const ForceZoneId id = this->w.add(zone<S>({0, 1, 0}, 1, zone_effect::kAcceleration, 2));
   expect_exact_rollback(this->w, 60, [&](World<S>& world, int i) {
     if (i % 10 == 4) world.set(id, zone<S>({0, 1, 0}, i % 20 == 4 ? -1 : 1, zone_effect::kAcceleration, 2));
   });

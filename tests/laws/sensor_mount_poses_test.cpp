@@ -237,7 +237,7 @@ TYPED_TEST(SensorMountPoses, of_a_state_that_breaks_a_rule_are_not_read) {
   EXPECT_EQ(StateValidator<S>(good).broken_rule(), nullptr);
   const auto rule_of = [&](SensorMount<S> record) {
     WorldState<S> state = good;
-    state.force_records.change().sensor_mounts.change_all()[this->mount.slot] = record;
+    state.records.change().sensor_mounts.change_all()[this->mount.slot] = record;
     const char* rule = StateValidator<S>(state).broken_rule();
     return std::string(rule == nullptr ? "" : rule);
   };

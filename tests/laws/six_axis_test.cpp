@@ -328,7 +328,7 @@ TYPED_TEST(SixAxis, refuses_what_no_axis_can_do) {
   EXPECT_STREQ(w.fault().field, "axis");
   EXPECT_EQ(w.hash(), now);
   EXPECT_TRUE(w.destroy(joint));
-  EXPECT_TRUE(w.state().force_records->axis_drives.slot_map().template ids<AxisDriveId>().empty());
+  EXPECT_TRUE(w.state().records->axis_drives.slot_map().template ids<AxisDriveId>().empty());
 }
 
 }  // namespace

@@ -230,7 +230,7 @@ TYPED_TEST(SurfaceVelocities, refuse_what_is_no_record_and_change_nothing) {
     refused({b, zero, {num<S>(NAN), S(0), S(0)}}, Fault::not_finite, "angular");
   }
   ASSERT_TRUE(this->w.destroy(a));
-  EXPECT_EQ(this->w.state().force_records->surface_velocitys.slot_map().template ids<SurfaceVelocityId>().size(), 0u);
+  EXPECT_EQ(this->w.state().records->surface_velocitys.slot_map().template ids<SurfaceVelocityId>().size(), 0u);
 }
 
 TYPED_TEST(SurfaceVelocities, are_rolled_back_and_equal_on_all_lanes) {

@@ -6,7 +6,7 @@
 
 #include "isostep/collision/broadphase/pairs.inl"
 #include "isostep/collision/broadphase/tree.inl"
-#include "isostep/dynamics/records/force_list.inl"
+#include "isostep/dynamics/records/record_store.inl"
 #include "isostep/geometry/mass_properties.inl"
 #include "isostep/geometry/validate.inl"
 #include "isostep/instantiate/contact_systems.inl"

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "isostep/dynamics/joints/joint_alone.inl"
+#include "isostep/dynamics/joints/joint_checks.hpp"
 #include "isostep/geometry/validate.inl"
 #include "isostep/scalar/math.inl"
-#include "isostep/store/checks.hpp"
 
 using namespace isostep;
 

@@ -24,8 +24,8 @@ template <class S> class RandomBodies {
       case 3: return change_mass();
       case 4: world_.sleep(any_body()); return;
       case 5: return move();
-      case 6: return change(world_.state().force_records->kind_ghosts);
-      default: return change(world_.state().force_records->ranked_zones);
+      case 6: return change(world_.state().records->kind_ghosts);
+      default: return change(world_.state().records->force_zones);
     }
   }
 
@@ -86,12 +86,10 @@ template <class S> class RandomBodies {
     ghost.kind_b = 1 + dice_.below(kMaterialKinds);
     return ghost;
   }
-  RankedZone<S> drawn(RankedZone<S> zone) {
+  ForceZone<S> drawn(ForceZone<S> zone) {
     draw_zone(dice_, zone);
     zone.priority = static_cast<std::int32_t>(dice_.below(5)) - 2;
-    zone.replaces = dice_.below(zone_effect::kWater);
-    Dice own = dice_;  // what is drawn after it is as it was before zones kept water out
-    if (own.one_in(2)) zone.replaces |= zone_effect::kWater;
+    zone.replaces = dice_.below(zone_effect::kAll + 1);
     return zone;
   }
 

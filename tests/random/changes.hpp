@@ -90,7 +90,7 @@ template <class S> class RandomChanges {
     breakable.seed = seed;
     breakable.small_mass = num<S>(dice.in(0, 1));
     breakable.lifetime = dice.below(60);
-    for (const Breakable<S>& other : w.state().force_records->breakables.all())
+    for (const Breakable<S>& other : w.state().records->breakables.all())
       if (other.body == breakable.body) return;
     w.add(breakable);
   }
@@ -100,7 +100,7 @@ template <class S> class RandomChanges {
     if (drive_of(seed) != Drive::movers) return;
     Dice dice(seed * 141650939 + frame * 160481183 + 23);
     if (!dice.one_in(12)) return;
-    const std::vector<CharacterId> ids = w.state().force_records->characters.slot_map().template ids<CharacterId>();
+    const std::vector<CharacterId> ids = w.state().records->characters.slot_map().template ids<CharacterId>();
     if (ids.size() < 3 && dice.one_in(2)) return add_character(w, dice);
     if (ids.empty()) return;
     const CharacterId id = ids[dice.below(static_cast<std::uint32_t>(ids.size()))];
@@ -153,7 +153,7 @@ template <class S> class RandomChanges {
     pair.static_friction = num<S>(dice.in(0, 2));
     if (dice.one_in(3)) pair.restitution = num<S>(dice.in(0, 1));
     if (dice.one_in(3)) pair.rolling_resistance = num<S>(dice.in(0, 0.0625));
-    const auto& pairs = w.state().force_records->material_pairs;
+    const auto& pairs = w.state().records->material_pairs;
     const std::vector<MaterialPairId> ids = pairs.slot_map().template ids<MaterialPairId>();
     for (const MaterialPairId id : ids) {
       if (kinds_key(w.find(id)->kind_a, w.find(id)->kind_b) != kinds_key(pair.kind_a, pair.kind_b)) continue;

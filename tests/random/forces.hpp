@@ -15,13 +15,11 @@ template <class S> class RandomForces {
 
   /// One more, one less, or one that is another now.
   void change() {
-    const std::uint32_t kind = dice_.below(kKinds), what = dice_.below(8);
+    const std::uint32_t kind = dice_.below(drawn_kinds()), what = dice_.below(8);
     std::uint32_t i = 0;
-    ForceRecords<S>::forces(
-        [&](const char*, const auto& registry) {
-          if (i++ == kind) change(registry, what);
-        },
-        *world_.state().force_records);
+    for_each_drawn([&](const auto& registry) {
+      if (i++ == kind) change(registry, what);
+    });
   }
 
   /// A null id where there is no dynamic body.
@@ -158,13 +156,19 @@ template <class S> class RandomForces {
     return true;
   }
 
-  static constexpr std::uint32_t kKinds = [] {
+  /// Registries of the kinds that are drawn here.
+  template <class Visit> void for_each_drawn(const Visit& visit) {
+    RecordStore<S>::members(
+        [&]<class Record, class IdType>(const char*, const Registry<Record, IdType>& registry) {
+          if constexpr (requires(RandomForces & forces, Record & record) { forces.draw(record); }) visit(registry);
+        },
+        *world_.state().records);
+  }
+  std::uint32_t drawn_kinds() {
     std::uint32_t kinds = 0;
-#define ISO_COUNT(name, Record, Id, S) ++kinds;
-    ISO_FOR_EACH_FORCE(ISO_COUNT, S)
-#undef ISO_COUNT
+    for_each_drawn([&](const auto&) { ++kinds; });
     return kinds;
-  }();
+  }
 
   World<S>& world_;
   Dice& dice_;

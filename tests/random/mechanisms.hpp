@@ -14,7 +14,7 @@ template <class S> class RandomMechanisms {
   RandomMechanisms(World<S>& world, Dice& dice) : world_(world), dice_(dice) {}
 
   void change() {
-    const auto couplings = world_.state().force_records->couplings.slot_map().template ids<CouplingId>();
+    const auto couplings = world_.state().records->couplings.slot_map().template ids<CouplingId>();
     if (dice_.one_in(4)) return measure();
     if (!couplings.empty() && dice_.one_in(2)) {
       const CouplingId id = couplings[dice_.below(static_cast<std::uint32_t>(couplings.size()))];
@@ -60,7 +60,7 @@ template <class S> class RandomMechanisms {
     if (!load.joint) return;
     load.break_force = num<S>(dice_.one_in(2) ? dice_.in(0, 400) : 0);
     load.break_torque = num<S>(dice_.one_in(2) ? dice_.in(0, 100) : 0);
-    for (const JointLoad<S>& other : world_.state().force_records->joint_loads.all())
+    for (const JointLoad<S>& other : world_.state().records->joint_loads.all())
       if (other.joint == load.joint) return;
     world_.add(load);
   }

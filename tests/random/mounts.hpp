@@ -16,7 +16,7 @@ template <class S> class RandomMounts {
   RandomMounts(World<S>& world, Dice& dice) : world_(world), dice_(dice) {}
 
   void change() {
-    const auto& mounts = world_.state().force_records->sensor_mounts;
+    const auto& mounts = world_.state().records->sensor_mounts;
     const std::vector<SensorMountId> ids = mounts.slot_map().template ids<SensorMountId>();
     if (ids.empty() || (ids.size() < 3 && dice_.one_in(2))) return add();
     const SensorMountId id = ids[dice_.below(static_cast<std::uint32_t>(ids.size()))];

@@ -19,11 +19,11 @@ template <class S> class RandomResponses {
   RandomResponses(World<S>& world, Dice& dice) : world_(world), dice_(dice) {}
 
   void change() {
-    const ForceRecords<S>& records = *world_.state().force_records;
+    const RecordStore<S>& records = *world_.state().records;
     switch (dice_.below(3)) {
       case 0: return change(records.kind_responses);
       case 1: return change(records.damping_zones);
-      default: return change(records.ranked_waters);
+      default: return change(records.waters);
     }
   }
 
@@ -53,7 +53,7 @@ template <class S> class RandomResponses {
     zone.replaces = dice_.one_in(2);
     return zone;
   }
-  RankedWater<S> drawn(RankedWater<S> water) {
+  Water<S> drawn(Water<S> water) {
     const BodyId body = RandomForces<S>(world_, dice_).body();
     water.density = num<S>(body ? to_double(world_.mass(body)) * dice_.in(0, 2) : 0);
     water.surface_height = num<S>(dice_.in(-1, 2));
@@ -61,6 +61,7 @@ template <class S> class RandomResponses {
     water.half = vec<S>(dice_.in(1, 3), 4, 2);
     water.linear_drag = num<S>(dice_.in(0, 2));
     water.priority = static_cast<std::int32_t>(dice_.below(5)) - 2;
+    water.replaces = dice_.one_in(2);
     return water;
   }
 

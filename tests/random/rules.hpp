@@ -15,7 +15,7 @@ template <class S> class RandomRules {
 
   /// One more, one less, or one that is another now.
   void change() {
-    const ForceRecords<S>& records = *world_.state().force_records;
+    const RecordStore<S>& records = *world_.state().records;
     switch (dice_.below(4)) {
       case 0: return change(records.surface_velocitys);
       case 1: return change(records.ghosts);

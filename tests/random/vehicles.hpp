@@ -18,8 +18,8 @@ template <class S> class RandomVehicles {
   /// Where `placed` is a body for one, that becomes a vehicle; else one is driven, or loses a wheel, or all.
   void change(BodyId placed) {
     if (placed) return build(placed);
-    const auto vehicles = world_.state().force_records->vehicles.slot_map().template ids<VehicleId>();
-    const auto wheels = world_.state().force_records->wheels.slot_map().template ids<WheelId>();
+    const auto vehicles = world_.state().records->vehicles.slot_map().template ids<VehicleId>();
+    const auto wheels = world_.state().records->wheels.slot_map().template ids<WheelId>();
     if (vehicles.empty()) return;
     const VehicleId id = vehicles[dice_.below(static_cast<std::uint32_t>(vehicles.size()))];
     if (dice_.one_in(24)) {
@@ -32,9 +32,7 @@ template <class S> class RandomVehicles {
       world_.set(id, vehicle);
     }
   }
-  bool has_room() const {
-    return world_.state().force_records->vehicles.slot_map().template ids<VehicleId>().size() < 2;
-  }
+  bool has_room() const { return world_.state().records->vehicles.slot_map().template ids<VehicleId>().size() < 2; }
 
  private:
   void build(BodyId body) {

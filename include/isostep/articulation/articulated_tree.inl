@@ -4,9 +4,9 @@
 
 #include "isostep/articulation/articulated_tree.hpp"
 #include "isostep/articulation/articulation_limits.hpp"
+#include "isostep/dynamics/checks.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/state/hash.hpp"
-#include "isostep/store/checks.hpp"
 
 namespace isostep::detail {
 

@@ -5,8 +5,8 @@
 #include "isostep/articulation/articulated_tree.hpp"
 #include "isostep/articulation/articulation_limits.hpp"
 #include "isostep/articulation/articulation_state.hpp"
+#include "isostep/dynamics/checks.hpp"
 #include "isostep/geometry/limits.hpp"
-#include "isostep/store/checks.hpp"
 
 namespace isostep::detail {
 

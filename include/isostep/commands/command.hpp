@@ -7,7 +7,7 @@
 
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/joints/joint_record.hpp"
-#include "isostep/dynamics/records/force_list.hpp"
+#include "isostep/dynamics/records/record_store.hpp"
 #include "isostep/geometry/blob.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/state/archive.hpp"
@@ -229,7 +229,7 @@ struct SleepBody {
     visit("body", self.body);
   }
 };
-/// The next step carries a kinematic body there: MoveTarget.
+/// The next step carries a kinematic body there: World::move_to.
 template <class S> struct MoveTo {
   BodyId body;
   Pose<S> pose;  // of the body's origin
@@ -239,123 +239,41 @@ template <class S> struct MoveTo {
   }
 };
 
-template <class Record> using SetForce = SetRecord<Record, typename detail::ForceIdOf<Record>::Type>;
+template <class Record> using SetRecordOf = SetRecord<Record, typename detail::RecordIdOf<Record>::Type>;
 
 /// ISO_FOR_EACH_COMMAND(X, S) expands X(name, Type, Result, S) for each command: its name in faults, the record, and
 /// what `World<S>::apply` and `execute` return: an id of what was made, or whether it was accepted. To add
-/// one: its record above, its line here, its `execute`; see README.md. The position is the number in replays: append,
-/// never reorder.
-#define ISO_FOR_EACH_COMMAND(X, S)                                             \
-  X(add_shape, AddShape<S>, ShapeId, S)                                        \
-  X(remove_shape, RemoveShape, bool, S)                                        \
-  X(create_body, CreateBody<S>, BodyId, S)                                     \
-  X(destroy_body, DestroyBody, bool, S)                                        \
-  X(wake_body, WakeBody, bool, S)                                              \
-  X(set_pose, SetPose<S>, bool, S)                                             \
-  X(set_velocity, SetVelocity<S>, bool, S)                                     \
-  X(apply_force, ApplyForce<S>, bool, S)                                       \
-  X(apply_impulse, ApplyImpulse<S>, bool, S)                                   \
-  X(set_material, SetMaterial<S>, bool, S)                                     \
-  X(set_filter, SetFilter, bool, S)                                            \
-  X(set_motion, SetMotion<S>, bool, S)                                         \
-  X(set_user_data, SetUserData, bool, S)                                       \
-  X(set_gravity, SetGravity<S>, bool, S)                                       \
-  X(create_joint, CreateJoint<S>, JointId, S)                                  \
-  X(destroy_joint, DestroyJoint, bool, S)                                      \
-  X(set_joint, SetJoint<S>, bool, S)                                           \
-  X(set_heights, SetHeights, bool, S)                                          \
-  X(add_force_zone, AddRecord<ForceZone<S>>, ForceZoneId, S)                   \
-  X(set_force_zone, SetForce<ForceZone<S>>, bool, S)                           \
-  X(remove_force_zone, RemoveRecord<ForceZoneId>, bool, S)                     \
-  X(add_attractor, AddRecord<Attractor<S>>, AttractorId, S)                    \
-  X(set_attractor, SetForce<Attractor<S>>, bool, S)                            \
-  X(remove_attractor, RemoveRecord<AttractorId>, bool, S)                      \
-  X(add_body_spring, AddRecord<BodySpring<S>>, BodySpringId, S)                \
-  X(set_body_spring, SetForce<BodySpring<S>>, bool, S)                         \
-  X(remove_body_spring, RemoveRecord<BodySpringId>, bool, S)                   \
-  X(add_thruster, AddRecord<Thruster<S>>, ThrusterId, S)                       \
-  X(set_thruster, SetForce<Thruster<S>>, bool, S)                              \
-  X(remove_thruster, RemoveRecord<ThrusterId>, bool, S)                        \
-  X(add_buoyancy, AddRecord<BuoyancyPoint<S>>, BuoyancyId, S)                  \
-  X(set_buoyancy, SetForce<BuoyancyPoint<S>>, bool, S)                         \
-  X(remove_buoyancy, RemoveRecord<BuoyancyId>, bool, S)                        \
-  X(add_drag, AddRecord<BodyDrag<S>>, DragId, S)                               \
-  X(set_drag, SetForce<BodyDrag<S>>, bool, S)                                  \
-  X(remove_drag, RemoveRecord<DragId>, bool, S)                                \
-  X(add_aero_surface, AddRecord<AeroSurface<S>>, AeroSurfaceId, S)             \
-  X(set_aero_surface, SetForce<AeroSurface<S>>, bool, S)                       \
-  X(remove_aero_surface, RemoveRecord<AeroSurfaceId>, bool, S)                 \
-  X(add_explosion, AddRecord<Explosion<S>>, ExplosionId, S)                    \
-  X(set_explosion, SetForce<Explosion<S>>, bool, S)                            \
-  X(remove_explosion, RemoveRecord<ExplosionId>, bool, S)                      \
-  X(add_water, AddRecord<Water<S>>, WaterId, S)                                \
-  X(set_water, SetForce<Water<S>>, bool, S)                                    \
-  X(remove_water, RemoveRecord<WaterId>, bool, S)                              \
-  X(add_material_pair, AddRecord<MaterialPair<S>>, MaterialPairId, S)          \
-  X(set_material_pair, SetForce<MaterialPair<S>>, bool, S)                     \
-  X(remove_material_pair, RemoveRecord<MaterialPairId>, bool, S)               \
-  X(add_breakable, AddRecord<Breakable<S>>, BreakableId, S)                    \
-  X(set_breakable, SetForce<Breakable<S>>, bool, S)                            \
-  X(remove_breakable, RemoveRecord<BreakableId>, bool, S)                      \
-  X(add_character, AddRecord<Character<S>>, CharacterId, S)                    \
-  X(set_character, SetForce<Character<S>>, bool, S)                            \
-  X(remove_character, RemoveRecord<CharacterId>, bool, S)                      \
-  X(add_vehicle, AddRecord<Vehicle<S>>, VehicleId, S)                          \
-  X(set_vehicle, SetForce<Vehicle<S>>, bool, S)                                \
-  X(remove_vehicle, RemoveRecord<VehicleId>, bool, S)                          \
-  X(add_wheel, AddRecord<Wheel<S>>, WheelId, S)                                \
-  X(set_wheel, SetForce<Wheel<S>>, bool, S)                                    \
-  X(remove_wheel, RemoveRecord<WheelId>, bool, S)                              \
-  X(add_surface_velocity, AddRecord<SurfaceVelocity<S>>, SurfaceVelocityId, S) \
-  X(set_surface_velocity, SetForce<SurfaceVelocity<S>>, bool, S)               \
-  X(remove_surface_velocity, RemoveRecord<SurfaceVelocityId>, bool, S)         \
-  X(add_ghost, AddRecord<Ghost<S>>, GhostId, S)                                \
-  X(set_ghost, SetForce<Ghost<S>>, bool, S)                                    \
-  X(remove_ghost, RemoveRecord<GhostId>, bool, S)                              \
-  X(add_one_way, AddRecord<OneWay<S>>, OneWayId, S)                            \
-  X(set_one_way, SetForce<OneWay<S>>, bool, S)                                 \
-  X(remove_one_way, RemoveRecord<OneWayId>, bool, S)                           \
-  X(add_hit_report, AddRecord<HitReport<S>>, HitReportId, S)                   \
-  X(set_hit_report, SetForce<HitReport<S>>, bool, S)                           \
-  X(remove_hit_report, RemoveRecord<HitReportId>, bool, S)                     \
-  X(add_joint_load, AddRecord<JointLoad<S>>, JointLoadId, S)                   \
-  X(set_joint_load, SetForce<JointLoad<S>>, bool, S)                           \
-  X(remove_joint_load, RemoveRecord<JointLoadId>, bool, S)                     \
-  X(add_coupling, AddRecord<Coupling<S>>, CouplingId, S)                       \
-  X(set_coupling, SetForce<Coupling<S>>, bool, S)                              \
-  X(remove_coupling, RemoveRecord<CouplingId>, bool, S)                        \
-  X(add_axis_drive, AddRecord<AxisDrive<S>>, AxisDriveId, S)                   \
-  X(set_axis_drive, SetForce<AxisDrive<S>>, bool, S)                           \
-  X(remove_axis_drive, RemoveRecord<AxisDriveId>, bool, S)                     \
-  X(set_enabled, SetEnabled, bool, S)                                          \
-  X(set_type, SetType<S>, bool, S)                                             \
-  X(set_mass, SetMass<S>, bool, S)                                             \
-  X(sleep_body, SleepBody, bool, S)                                            \
-  X(move_to, MoveTo<S>, bool, S)                                               \
-  X(add_move_target, AddRecord<MoveTarget<S>>, MoveTargetId, S)                \
-  X(set_move_target, SetForce<MoveTarget<S>>, bool, S)                         \
-  X(remove_move_target, RemoveRecord<MoveTargetId>, bool, S)                   \
-  X(add_kind_ghost, AddRecord<KindGhost<S>>, KindGhostId, S)                   \
-  X(set_kind_ghost, SetForce<KindGhost<S>>, bool, S)                           \
-  X(remove_kind_ghost, RemoveRecord<KindGhostId>, bool, S)                     \
-  X(add_ranked_zone, AddRecord<RankedZone<S>>, RankedZoneId, S)                \
-  X(set_ranked_zone, SetForce<RankedZone<S>>, bool, S)                         \
-  X(remove_ranked_zone, RemoveRecord<RankedZoneId>, bool, S)                   \
-  X(add_contact_report, AddRecord<ContactReport<S>>, ContactReportId, S)       \
-  X(set_contact_report, SetForce<ContactReport<S>>, bool, S)                   \
-  X(remove_contact_report, RemoveRecord<ContactReportId>, bool, S)             \
-  X(add_kind_response, AddRecord<KindResponse<S>>, KindResponseId, S)          \
-  X(set_kind_response, SetForce<KindResponse<S>>, bool, S)                     \
-  X(remove_kind_response, RemoveRecord<KindResponseId>, bool, S)               \
-  X(add_damping_zone, AddRecord<DampingZone<S>>, DampingZoneId, S)             \
-  X(set_damping_zone, SetForce<DampingZone<S>>, bool, S)                       \
-  X(remove_damping_zone, RemoveRecord<DampingZoneId>, bool, S)                 \
-  X(add_ranked_water, AddRecord<RankedWater<S>>, RankedWaterId, S)             \
-  X(set_ranked_water, SetForce<RankedWater<S>>, bool, S)                       \
-  X(remove_ranked_water, RemoveRecord<RankedWaterId>, bool, S)                 \
-  X(add_sensor_mount, AddRecord<SensorMount<S>>, SensorMountId, S)             \
-  X(set_sensor_mount, SetForce<SensorMount<S>>, bool, S)                       \
-  X(remove_sensor_mount, RemoveRecord<SensorMountId>, bool, S)
+/// one: its record above, its line here, its `execute`; see README.md. Each kind of record has three. The position is
+/// the number in replays.
+#define ISO_FOR_EACH_COMMAND(X, S)            \
+  X(add_shape, AddShape<S>, ShapeId, S)       \
+  X(remove_shape, RemoveShape, bool, S)       \
+  X(set_heights, SetHeights, bool, S)         \
+  X(create_body, CreateBody<S>, BodyId, S)    \
+  X(destroy_body, DestroyBody, bool, S)       \
+  X(wake_body, WakeBody, bool, S)             \
+  X(sleep_body, SleepBody, bool, S)           \
+  X(set_pose, SetPose<S>, bool, S)            \
+  X(move_to, MoveTo<S>, bool, S)              \
+  X(set_velocity, SetVelocity<S>, bool, S)    \
+  X(apply_force, ApplyForce<S>, bool, S)      \
+  X(apply_impulse, ApplyImpulse<S>, bool, S)  \
+  X(set_material, SetMaterial<S>, bool, S)    \
+  X(set_filter, SetFilter, bool, S)           \
+  X(set_motion, SetMotion<S>, bool, S)        \
+  X(set_user_data, SetUserData, bool, S)      \
+  X(set_enabled, SetEnabled, bool, S)         \
+  X(set_type, SetType<S>, bool, S)            \
+  X(set_mass, SetMass<S>, bool, S)            \
+  X(set_gravity, SetGravity<S>, bool, S)      \
+  X(create_joint, CreateJoint<S>, JointId, S) \
+  X(destroy_joint, DestroyJoint, bool, S)     \
+  X(set_joint, SetJoint<S>, bool, S)          \
+  ISO_FOR_EACH_RECORD_WITH(ISO_RECORD_COMMANDS, X, S)
+#define ISO_RECORD_COMMANDS(X, name, Record, Id, S) \
+  X(add_##name, AddRecord<Record>, Id, S)           \
+  X(set_##name, SetRecordOf<Record>, bool, S)       \
+  X(remove_##name, RemoveRecord<Id>, bool, S)
 
 #define ISO_TYPE(name, Type, Result, S) , Type
 template <class S> using Command = CommandVariant<void ISO_FOR_EACH_COMMAND(ISO_TYPE, S)>;

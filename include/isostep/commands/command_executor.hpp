@@ -10,9 +10,9 @@
 #include "isostep/commands/command.hpp"
 #include "isostep/commands/destruction.hpp"
 #include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/checks.hpp"
 #include "isostep/geometry/mass_properties.hpp"
 #include "isostep/state/command_journal.hpp"
-#include "isostep/store/checks.hpp"
 #include "isostep/systems/motion/move_targets.hpp"
 #include "isostep/systems/motion/render_poses.hpp"
 #include "isostep/systems/sleep/island_sleep.hpp"
@@ -77,36 +77,15 @@ template <class S> class CommandExecutor {
   bool check_joints_of(std::uint32_t slot, const BodyProperties<S>& next);
   template <class Record> bool check_tie(const Record& record, std::uint32_t slot, const BodyProperties<S>& next);
   bool check_ends(const JointProperties<S>& joint);
-  template <class Record> bool check_force(const Record& record);
+  template <class Record> bool check_record(const Record& record);
   template <class Record> bool check_joints(const Record& record);
-  template <class Record> ISO_INLINE bool check_spring(const Record&) { return true; }
-  bool check_spring(const BodySpring<S>& spring);
-  bool check_spring(const BodySpring<S>& spring, const BodyProperties<S>* a, const BodyProperties<S>* b,
-                    const FaultReport& none_moves);
-  bool check_spring(const Wheel<S>& wheel);
-  template <class Record> ISO_INLINE bool check_alone(const Record&, std::uint32_t) { return true; }
-  bool check_alone(const MaterialPair<S>& pair, std::uint32_t slot);
-  bool check_alone(const Breakable<S>& breakable, std::uint32_t slot);
-  bool check_alone(const Character<S>& character, std::uint32_t slot);
-  bool check_alone(const Vehicle<S>& vehicle, std::uint32_t slot);
-  bool check_alone(const JointLoad<S>& load, std::uint32_t slot);
-  bool check_alone(const AxisDrive<S>& drive, std::uint32_t slot);
-  bool check_alone(const SurfaceVelocity<S>& surface, std::uint32_t slot);
-  bool check_alone(const Ghost<S>& ghost, std::uint32_t slot);
-  bool check_alone(const OneWay<S>& one_way, std::uint32_t slot);
-  bool check_alone(const HitReport<S>& report, std::uint32_t slot);
-  bool check_alone(const ContactReport<S>& report, std::uint32_t slot);
-  bool check_alone(const KindGhost<S>& ghost, std::uint32_t slot);
-  bool check_alone(const KindResponse<S>& response, std::uint32_t slot);
-  bool check_alone(const MoveTarget<S>& target, std::uint32_t slot);
-  bool check_alone(const SensorMount<S>& mount, std::uint32_t slot);
-  template <class Record> bool check_kinds(const Record& record, std::uint32_t slot);
-  template <class Record> bool check_only_one(const Record& record, std::uint32_t slot);
-  template <class Record> void wake_for_force(const Record& record);
+  template <class Record> detail::RecordPlace<S> place_of(const Record& record) const;
+  template <class Record> bool check_alone(const Record& record, std::uint32_t slot);
+  template <class Record> void wake_for_record(const Record& record);
   void wake_what_rests_on(BodyId body);
-  template <class Record> auto add_force(const Record& record);
-  template <class Record, class IdType> bool set_force(IdType id, const Record& record);
-  template <class IdType> bool remove_force(IdType id);
+  template <class Record> auto add_record(const Record& record);
+  template <class Record, class IdType> bool set_record(IdType id, const Record& record);
+  template <class IdType> bool remove_record(IdType id);
 
   static BodyProperties<S> properties_of(const BodyDefinition<S>& definition);
   bool give_mass(const BodyMass<S>& mass, BodyProperties<S>& body);
@@ -114,8 +93,7 @@ template <class S> class CommandExecutor {
   void replace(std::uint32_t slot, BodyState<S> state, const BodyProperties<S>& next);
   void wake_coupled(std::uint32_t slot);
   void leave_ground(std::uint32_t slot, const Pose<S>* from = nullptr);
-  MoveTargetId target_of(std::uint32_t slot) const;
-  void remove_target(std::uint32_t slot);
+  void forget_move(std::uint32_t slot);
   void halt(std::uint32_t slot);
   PendingForce<S>& pending_force(std::uint32_t slot);
 

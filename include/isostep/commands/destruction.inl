@@ -77,6 +77,7 @@ template <class S> void Destruction<S>::erase_what_names_them() {
                 [&](const Contact<S>& c) { return is_marked(c.key.body_a) || is_marked(c.key.body_b); });
   std::erase_if(state_.overlaps, [&](SensorOverlap o) { return is_marked(o.sensor) || is_marked(o.other); });
   std::erase_if(state_.forces, [&](const PendingForce<S>& f) { return is_marked(f.slot); });
+  std::erase_if(state_.moves, [&](const PendingMove<S>& m) { return is_marked(m.slot); });
 }
 
 template <class S> void Destruction<S>::erase_records() {
@@ -163,16 +164,15 @@ template <class S> template <class TurnOf> void Destruction<S>::remove_records(c
     return !records_.empty();
   };
   bool any = false;
-  ForceRecords<S>::members([&](const char*, const auto& registry) { any = any || find(registry); },
-                           *state_.force_records);
+  RecordStore<S>::members([&](const char*, const auto& registry) { any = any || find(registry); }, *state_.records);
   if (!any) return;
-  ForceRecords<S>::members(
+  RecordStore<S>::members(
       [&](const char*, auto& registry) {
         if (!find(registry)) return;
         sort(records_);
         for (const Going& record : records_) registry.remove_at(record.slot);
       },
-      state_.force_records.change());
+      state_.records.change());
 }
 
 template <class S> void Destruction<S>::sort(std::vector<Going>& going) {

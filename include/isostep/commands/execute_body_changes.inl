@@ -6,7 +6,6 @@
 
 #include "isostep/commands/command_executor.hpp"
 #include "isostep/store/fat_box.hpp"
-#include "isostep/store/record_checks.hpp"
 
 namespace isostep {
 
@@ -33,7 +32,7 @@ template <class S> bool CommandExecutor<S>::give_mass_anew(const BodyMass<S>& ma
 template <class S>
 template <class Record>
 bool CommandExecutor<S>::check_tie(const Record& record, std::uint32_t slot, const BodyProperties<S>& next) {
-  const detail::NamedBodies<S> bodies = detail::bodies_of(record);
+  const detail::NamedBodies<S> bodies = detail::RecordRules<Record>::bodies(record);
   for (int i = 0; i < bodies.count; ++i) {
     const detail::NamedBody<S>& named = bodies.all[i];
     if (!named.body || named.body.slot != slot) continue;
@@ -42,14 +41,13 @@ bool CommandExecutor<S>::check_tie(const Record& record, std::uint32_t slot, con
     if (detail::overreaches(next, named))
       return journal_.refuse({Fault::out_of_range, "", "mass", "kappa arm^2 of records up to Limits::leverage()"});
   }
-  const auto as_next = [&](BodyId body) { return body && body.slot == slot ? &next : map_.properties_of(body); };
-  if constexpr (std::is_same_v<Record, BodySpring<S>>) {
-    return check_spring(record, as_next(record.a), as_next(record.b),
-                        {Fault::bad_argument, "", "type", "one that the body's springs may tie"});
-  } else if constexpr (std::is_same_v<Record, Wheel<S>>) {
-    return journal_.accept(detail::fault_of_inertia(record, next));
+  detail::RecordPlace<S> place = place_of(record);
+  for (int i = 0; i < bodies.count; ++i) {
+    if (bodies.all[i].body && bodies.all[i].body.slot == slot) place.bodies[i] = &next;
   }
-  return true;
+  const FaultReport fault = detail::RecordRules<Record>::fault_at(record, place);
+  if (fault.fault != Fault::not_dynamic) return journal_.accept(fault);
+  return journal_.refuse({Fault::bad_argument, "", "type", "one that the body's springs may tie"});
 }
 
 /// Whether no joint of the body would reach too far.
@@ -74,16 +72,15 @@ template <class S> bool CommandExecutor<S>::check_joints_of(std::uint32_t slot, 
 template <class S> bool CommandExecutor<S>::check_ties(std::uint32_t slot, const BodyProperties<S>& next) {
   if (!check_joints_of(slot, next)) return false;
   bool good = true;
-  ForceRecords<S>::members(
+  RecordStore<S>::members(
       [&](const char*, const auto& registry) {
         for (const auto& record : registry.all()) {
-          if constexpr (std::is_same_v<std::remove_cvref_t<decltype(record)>, MoveTarget<S>>) continue;  // goes
           const BodyId a = detail::first_body_of(record), b = detail::second_body_of(record);
           const bool names = (a && a.slot == slot) || (b && b.slot == slot);
           if (good && names) good = check_tie(record, slot, next);
         }
       },
-      *state_.force_records);
+      *state_.records);
   return good;
 }
 
@@ -91,7 +88,7 @@ template <class S> bool CommandExecutor<S>::check_ties(std::uint32_t slot, const
 
 /// What couples the body's joints with others is awake as a whole.
 template <class S> void CommandExecutor<S>::wake_coupled(std::uint32_t slot) {
-  for (const Coupling<S>& coupling : state_.force_records->couplings.all()) {
+  for (const Coupling<S>& coupling : state_.records->couplings.all()) {
     const detail::NamedJoints joints = detail::joints_of(coupling);
     bool named = false;
     for (const JointId id : joints.all) {
@@ -108,13 +105,13 @@ template <class S> void CommandExecutor<S>::wake_coupled(std::uint32_t slot) {
 /// further. One that is only turned stands where it stood.
 template <class S> void CommandExecutor<S>::leave_ground(std::uint32_t slot, const Pose<S>* from) {
   if (map_.properties_at(map_.location(slot)).type != BodyType::kinematic) return;
-  const auto& characters = state_.force_records->characters;
+  const auto& characters = state_.records->characters;
   const CharacterId id = characters.id_where([slot](const Character<S>& c) { return c.body.slot == slot; });
   const Character<S>* const character = characters.find(id);
   if (character == nullptr || !character->ground) return;
   const Vec3<S> at = map_.origin_pose_at(slot).position;
   if (from != nullptr && max_abs(saturating_subtract(at, from->position)) <= character->skin) return;
-  state_.force_records.change().characters.change(id).ground = {};
+  state_.records.change().characters.change(id).ground = {};
 }
 
 /// Another body in place of one, in its slot: all that it touched has ended, joints begin without impulses.
@@ -160,7 +157,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetType<S>& command) {
   next.type = command.type;
   if (!give_mass_anew(command.mass, next) || !check_ties(slot, next)) return false;
   if (next.type == BodyType::static_) state.velocity = state.angular_velocity = Vec3<Velocity<S>>::zero();
-  remove_target(slot);
+  forget_move(slot);
   replace(slot, state, next);
   return true;
 }
@@ -184,30 +181,31 @@ template <class S> bool CommandExecutor<S>::execute(const SleepBody& command) {
          journal_.refuse({Fault::bad_argument, "", "body", "one of an island whose bodies may sleep"});
 }
 
-// ---- targets of kinematic bodies
+// ---- moves of kinematic bodies
 
-/// Of a body; null where it has none.
-template <class S> MoveTargetId CommandExecutor<S>::target_of(std::uint32_t slot) const {
-  return state_.force_records->move_targets.id_where(
-      [slot](const MoveTarget<S>& target) { return target.body.slot == slot; });
-}
-template <class S> void CommandExecutor<S>::remove_target(std::uint32_t slot) {
-  const MoveTargetId target = target_of(slot);
-  if (target) state_.force_records.change().move_targets.remove_at(target.slot);
+template <class S> void CommandExecutor<S>::forget_move(std::uint32_t slot) {
+  std::erase_if(state_.moves, [slot](const PendingMove<S>& move) { return move.slot == slot; });
 }
 
-/// In place of the target that the body has. What rests where it is told to be goes on resting, so that a game may say
-/// so every frame.
+/// In place of the move that the body was told before. What rests where it is told to be goes on resting, so that a
+/// game may say so every frame.
 template <class S> bool CommandExecutor<S>::execute(const MoveTo<S>& command) {
-  const MoveTarget<S> target = {command.body, command.pose};
-  if (!check_force(target)) return false;
-  const MoveTargetId earlier = target_of(command.body.slot);
-  if (earlier) return set_force(earlier, target);
+  if (!known(command.body)) return false;
+  const std::uint32_t slot = command.body.slot;
+  const BodyProperties<S>& body = *map_.properties_of(command.body);
+  if (body.type != BodyType::kinematic) return journal_.refuse({Fault::bad_argument, "", "body", "a kinematic one"});
+  if (!journal_.accept(detail::fault_of_pose(command.pose))) return false;
+  const std::size_t place = place_of_slot(state_.moves, slot);
+  const bool told = place < state_.moves.size() && state_.moves[place].slot == slot;
   const BodyState<S>& state = *map_.state_of(command.body);
-  const Pose<S> goal = detail::centre_at<S>(target, map_.properties_of(command.body)->local_centre);
+  const Pose<S> goal = detail::centre_at(command.pose, body.local_centre);
   const bool rests = state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
-  if (rests && state.centre == goal.position && state.orientation == goal.orientation) return true;
-  return static_cast<bool>(execute(AddRecord<MoveTarget<S>>{target}));
+  if (!told && rests && state.centre == goal.position && state.orientation == goal.orientation) return true;
+  wake_.wake(slot);
+  wake_.reset_clock(slot);
+  wake_what_rests_on(command.body);
+  find_or_insert(state_.moves, PendingMove<S>{slot, 0, command.pose}).pose = command.pose;
+  return true;
 }
 
 }  // namespace isostep

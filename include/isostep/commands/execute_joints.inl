@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/commands/command_executor.hpp"
-#include "isostep/store/record_checks.hpp"
+#include "isostep/dynamics/joints/joint_checks.hpp"
 
 namespace isostep {
 
@@ -52,7 +52,7 @@ template <class S> bool CommandExecutor<S>::execute(const DestroyJoint& command)
 /// Whether its AxisDrives fit what the joint is to be.
 template <class S> bool CommandExecutor<S>::check_drives(JointId joint, const JointProperties<S>& next) {
   const std::int32_t rate = substep_rate(state_.settings);
-  const auto& drives = state_.force_records->axis_drives;
+  const auto& drives = state_.records->axis_drives;
   for (std::uint32_t slot = 0; slot < drives.all().size(); ++slot) {
     if (!drives.is_taken(slot) || !(drives.all()[slot].joint == joint)) continue;
     if (detail::fault_of_joint(drives.all()[slot], next, rate) == Fault::none) continue;

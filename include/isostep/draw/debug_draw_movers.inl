@@ -15,7 +15,7 @@ template <class S> class MoverSketch {
 
  public:
   ISO_INLINE MoverSketch(const World<S>& world, DebugDraw& to, const Sketch<S>& sketch)
-      : world_(world), records_(*world.state().force_records), to_(to), sketch_(sketch) {}
+      : world_(world), records_(*world.state().records), to_(to), sketch_(sketch) {}
 
   ISO_INLINE void draw_wheels() const {
     for (std::uint32_t slot = 0; slot < records_.wheels.all().size(); ++slot) {
@@ -97,7 +97,7 @@ template <class S> class MoverSketch {
   }
 
   const World<S>& world_;
-  const ForceRecords<S>& records_;
+  const RecordStore<S>& records_;
   DebugDraw& to_;
   const Sketch<S>& sketch_;
 };

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/checks.hpp"
 #include "isostep/effects/ragdoll.hpp"
 #include "isostep/scalar/environment.hpp"
-#include "isostep/store/checks.hpp"
 
 namespace isostep {
 

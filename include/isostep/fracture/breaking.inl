@@ -130,7 +130,7 @@ template <class S> void remove_expired(World<S>& world, const Breakable<S>& reco
 template <class S> BreakReport break_bodies(World<S>& world, std::uint32_t most) {
   const FloatEnvironment environment;
   BreakReport report;
-  const auto& registry = world.state().force_records->breakables;
+  const auto& registry = world.state().records->breakables;
   std::vector<BreakableId> due;
   for (const BreakableId id : registry.slot_map().template ids<BreakableId>()) {
     const Breakable<S>& record = *registry.find(id);

@@ -15,8 +15,6 @@
 namespace isostep {
 
 inline constexpr std::uint32_t kMaxBlobBytes = 1u << 28;  // of one blob in a file
-/// In the first word of a portable form, beside what names the world: blobs stand at its end.
-inline constexpr std::uint32_t kPortableBlobsBit = 0x40000000u;
 
 /// Where those find a blob who read a state or a recording that names it.
 enum class BlobHome : std::uint8_t {

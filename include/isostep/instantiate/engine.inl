@@ -20,7 +20,7 @@
 #include "isostep/draw/debug_draw.inl"
 #include "isostep/dynamics/joints/joint_tree.inl"
 #include "isostep/dynamics/joints/tree_kernel.inl"
-#include "isostep/dynamics/records/force_list.inl"
+#include "isostep/dynamics/records/record_store.inl"
 #include "isostep/dynamics/solvers/body_kernel.inl"
 #include "isostep/dynamics/solvers/contact_kernel.inl"
 #include "isostep/dynamics/solvers/direct.inl"
@@ -129,7 +129,7 @@
   ISO_INSTANTIATE_MOTION_SYSTEMS(OwnScalar)                                                                     \
   ISO_INSTANTIATE_EVENT_SYSTEMS(OwnScalar)                                                                      \
   ISO_INSTANTIATE_WORLD_STEP(OwnScalar)                                                                         \
-  ISO_INSTANTIATE_FORCE_RECORDS(OwnScalar)                                                                      \
+  ISO_INSTANTIATE_RECORD_STORE(OwnScalar)                                                                       \
   ISO_INSTANTIATE_COMMANDS(OwnScalar)                                                                           \
   ISO_INSTANTIATE_WORLD(OwnScalar)                                                                              \
   template void draw<OwnScalar>(const World<OwnScalar>&, DebugDraw&, const DrawOptions&);                       \

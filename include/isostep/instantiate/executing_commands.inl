@@ -5,9 +5,9 @@
 #include "isostep/commands/destruction.inl"
 #include "isostep/commands/execute_bodies.inl"
 #include "isostep/commands/execute_body_changes.inl"
-#include "isostep/commands/execute_force_records.inl"
 #include "isostep/commands/execute_forces.inl"
 #include "isostep/commands/execute_joints.inl"
+#include "isostep/commands/execute_records.inl"
 #include "isostep/commands/execute_shapes.inl"
 
 #define ISO_INSTANTIATE_EXECUTE(name, Type, Result, S) template Result CommandExecutor<S>::execute(const Type&);

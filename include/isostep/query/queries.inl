@@ -4,13 +4,12 @@
 
 #include "isostep/collision/query/closest_point.hpp"
 #include "isostep/core/stable_sort.hpp"
+#include "isostep/dynamics/checks.hpp"
 #include "isostep/dynamics/joints/joint_coordinate.hpp"
 #include "isostep/query/queries.hpp"
 #include "isostep/query/query_batches.inl"
 #include "isostep/query/query_casts.inl"
 #include "isostep/query/query_overlaps.inl"
-#include "isostep/store/checks.hpp"
-#include "isostep/store/record_checks.hpp"
 
 namespace isostep {
 
@@ -115,8 +114,8 @@ template <class S> S Queries<S>::joint_position(JointId joint) const {
 template <class S> S Queries<S>::joint_position(JointId joint, JointAxis axis) const {
   const JointProperties<S>* properties = map_.properties_of(joint);
   if (properties == nullptr || properties->type != JointType::six_axis) return S(0);
-  const auto& drives = state_.force_records->axis_drives;
-  const auto find = [&](JointAxis of) { return drives.find(detail::drive_on(*state_.force_records, joint, of)); };
+  const auto& drives = state_.records->axis_drives;
+  const auto find = [&](JointAxis of) { return drives.find(detail::drive_on(*state_.records, joint, of)); };
   const bool swings = axis == JointAxis::swing_x || axis == JointAxis::swing_y;
   const int tilting =
       swings ? detail::tilting_swing(properties->flags, find(JointAxis::swing_x), find(JointAxis::swing_y)) : -1;

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/shape_core.hpp"
+#include "isostep/dynamics/checks.hpp"
 #include "isostep/dynamics/solvers/schedule.hpp"
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/query/hit_list.hpp"
 #include "isostep/query/queries.hpp"
 #include "isostep/query/query_probes.hpp"
-#include "isostep/store/checks.hpp"
 
 namespace isostep {
 

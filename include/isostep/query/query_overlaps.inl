@@ -5,10 +5,10 @@
 #include "isostep/collision/narrowphase/collide.hpp"
 #include "isostep/collision/narrowphase/surface_pairs.hpp"
 #include "isostep/core/stable_sort.hpp"
+#include "isostep/dynamics/checks.hpp"
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/math/rotations.hpp"
 #include "isostep/query/queries.hpp"
-#include "isostep/store/checks.hpp"
 
 namespace isostep {
 

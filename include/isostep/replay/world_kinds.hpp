@@ -95,9 +95,8 @@ template <class Visit> ISO_INLINE std::string_view with_world(const RecordedWorl
 
 /// visit(WorldTag<W>{}) for the world whose portable form begins with that word; false when there is none.
 template <class Visit> ISO_INLINE bool with_portable_world(std::uint32_t word, Visit&& visit) {
-  const std::uint32_t id = word & ~(kPortableBlobsBit | kPortableForcesBit | kPortableNewerRecordsBit);
   return any_world([&](auto tag) ISO_INLINE_LAMBDA {
-    if (id != WorldTraits<typename decltype(tag)::Type>::kPortableId) return false;
+    if (word != WorldTraits<typename decltype(tag)::Type>::kPortableId) return false;
     visit(tag);
     return true;
   });

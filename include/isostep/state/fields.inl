@@ -160,15 +160,10 @@ template <class Visitor> class StateFields {
   }
   template <class Records> void records(Records& value) const {
     using Value = std::remove_cvref_t<decltype(*value)>;
-    const bool first = !value->untouched();
-    const std::uint32_t kinds = value->newer_kinds();
-    const auto visit_them = [&](auto& records) {
-      if (first) Value::first_members(*this, records);
-      Value::newer_members(kinds, *this, records);
-    };
-    if (!first && kinds == 0) return;
-    if constexpr (Visitor::kEdits) visit_them(value.change());
-    else visit_them(*value);
+    const std::uint32_t kinds = value->kinds();
+    if (kinds == 0) return;
+    if constexpr (Visitor::kEdits) Value::members_of(kinds, *this, value.change());
+    else Value::members_of(kinds, *this, *value);
   }
   template <class Store> void store(const char* name, const Store& value) const { visit_(name, value->names()); }
   template <class List> void islands(const char* name, const List& list) const {

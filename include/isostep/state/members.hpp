@@ -22,11 +22,9 @@
 //   visit("name", value)         a record with `fields`, a number, a SlotMap, a Registry, or a vector of records
 //   visit.bodies_in_pages(list)  StaticBodies, or another list of two arrays in pages that may be empty
 //   visit.islands("name", list)  a PagedArray of immutable objects, each with `sections(visit, self)` and `hash`
-//   visit.records(value)         Shared<T>: registries that T::first_members visits, and T::newer_members. A state to
-//                                which none was ever added has the hash and the portable form of one that knows of
-//                                none; of the latter this holds kind by kind
-//   visit.store("name", value)   Shared<T>: names, by which content outside the state is known. Last of all; a state
-//                                without any has the hash and the portable form of one that knows of no store
+//   visit.records(value)         Shared<T>: a word of which kinds T::kinds there are, then the registries of those,
+//                                which T::members_of visits
+//   visit.store("name", value)   Shared<T>: names, by which content outside the state is known. Last of all
 
 namespace isostep::detail {
 
@@ -88,13 +86,11 @@ class StateHasher {
     add_page(combiner_, list.pages() - 1);
   }
   template <class Records> ISO_INLINE void records(const Shared<Records>& value) {
-    if (!value->untouched()) Records::first_members(*this, *value);
-    const std::uint32_t kinds = value->newer_kinds();
-    if (kinds != 0) combiner_.add(kinds);
-    Records::newer_members(kinds, *this, *value);
+    const std::uint32_t kinds = value->kinds();
+    combiner_.add(kinds);
+    Records::members_of(kinds, *this, *value);
   }
   template <class Store> ISO_INLINE void store(const char*, const Shared<Store>& value) {
-    if (value->empty()) return;
     combiner_.add(value.remembered().get(
         [&]() ISO_INLINE_LAMBDA { return hash_records(value->names().data(), value->names().size()); }));
   }
@@ -159,14 +155,11 @@ class StateWriter {
     for (const auto& island : list) std::remove_cvref_t<decltype(*island)>::sections(*this, *island);
   }
   template <class Records> ISO_INLINE void records(const Shared<Records>& value) {
-    if (!value->untouched()) Records::first_members(*this, *value);
-    const std::uint32_t kinds = value->newer_kinds();
-    if (kinds != 0) writer_.write(kinds);
-    Records::newer_members(kinds, *this, *value);
+    const std::uint32_t kinds = value->kinds();
+    writer_.write(kinds);
+    Records::members_of(kinds, *this, *value);
   }
-  template <class Store> ISO_INLINE void store(const char*, const Shared<Store>& value) {
-    if (!value->empty()) value->write(writer_);
-  }
+  template <class Store> ISO_INLINE void store(const char*, const Shared<Store>& value) { value->write(writer_); }
 
  private:
   Writer& writer_;
@@ -176,16 +169,12 @@ class StateWriter {
 struct ReadNoStore {
   template <class Store> ISO_INLINE void operator()(Store&) const {}
 };
-/// Which records there are: of the first kinds, and of those that say how bodies touch.
-struct RecordsThere {
-  bool first = false, of_contacts = false;
-};
 /// Into a state that is new. What it reads is well formed; whether it is valid, the engine's validator says.
 /// `read_store`: of a store that may be changed, when its turn comes.
 template <class ReadStore = ReadNoStore> class StateReader {
  public:
-  ISO_INLINE explicit StateReader(Reader& reader, ReadStore read_store = {}, RecordsThere there = {})
-      : reader_(reader), read_store_(std::move(read_store)), there_(there) {}
+  ISO_INLINE explicit StateReader(Reader& reader, ReadStore read_store = {})
+      : reader_(reader), read_store_(std::move(read_store)) {}
 
   template <class T> ISO_INLINE void operator()(const char*, T& value) { reader_.read(value); }
   ISO_INLINE void operator()(const char*, SlotMap& slot_map) { read_slots(reader_, slot_map); }
@@ -217,19 +206,15 @@ template <class ReadStore = ReadNoStore> class StateReader {
     }
   }
   template <class Records> ISO_INLINE void records(Shared<Records>& value) {
-    if (there_.first) Records::first_members(*this, value.change());
-    if (!there_.of_contacts) return;
     const auto kinds = reader_.read<std::uint32_t>();
-    if (kinds == 0 || (kinds & ~Records::kNewerKinds) != 0)
-      reader_.fail(ErrorCode::invalid, "records of unknown kinds");
-    if (reader_.ok()) Records::newer_members(kinds, *this, value.change());
+    if (kinds >> Records::kKinds != 0) reader_.fail(ErrorCode::invalid, "records of unknown kinds");
+    if (reader_.ok() && kinds != 0) Records::members_of(kinds, *this, value.change());
   }
   template <class Store> ISO_INLINE void store(const char*, Shared<Store>& value) { read_store_(value.change()); }
 
  private:
   Reader& reader_;
   ReadStore read_store_;
-  RecordsThere there_;
 };
 
 }  // namespace isostep::detail

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/store/checks.hpp"
+#include "isostep/dynamics/checks.hpp"
 
 namespace isostep::detail {
 

@@ -5,10 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "isostep/collision/broadphase/pairs.hpp"
 #include "isostep/core/stable_sort.hpp"
+#include "isostep/dynamics/records/record_store.hpp"
 #include "isostep/store/body_map.hpp"
-#include "isostep/store/record_checks.hpp"
 #include "isostep/store/state.hpp"
 
 namespace isostep {
@@ -53,160 +52,119 @@ template <class S> class RecordValidator {
   /// Null, or a sentence for the first rule that is broken.
   const char* broken_rule() const {
     const char* broken = nullptr;
-    ForceRecords<S>::members(
+    RecordStore<S>::members(
         [&](const char*, const auto& registry) {
           if (broken == nullptr) broken = records(registry);
         },
-        *state_.force_records);
-    if (broken == nullptr) broken = kind_pairs(state_.force_records->material_pairs);
-    if (broken == nullptr) broken = one_a_joint(state_.force_records->joint_loads, "two loads have the same joint");
-    if (broken == nullptr) broken = one_an_axis(state_.force_records->axis_drives);
-    if (broken == nullptr) broken = one_a_body(state_.force_records->breakables, "two breakables have the same body");
-    if (broken == nullptr) broken = one_a_body(state_.force_records->characters, "two characters have the same body");
-    if (broken == nullptr) broken = one_a_body(state_.force_records->vehicles, "two vehicles have the same body");
-    return broken != nullptr ? broken : contact_records();
+        *state_.records);
+    return broken;
   }
 
  private:
-  const char* contact_records() const {
-    const ForceRecords<S>& all = *state_.force_records;
-    const auto part_of = [](const SurfaceVelocity<S>& v) { return std::uint64_t{v.body.slot} << 32 | v.part; };
-    if (const char* rule = one_a_key(all.surface_velocitys, part_of, "two belts have the same part")) return rule;
-    if (const char* rule = one_a_body(all.one_ways, "two one-way records have the same body")) return rule;
-    if (const char* rule = one_a_body(all.hit_reports, "two reports of hits have the same body")) return rule;
-    if (const char* rule = one_a_body(all.contact_reports, "two reports of contacts have the same body")) return rule;
-    if (const char* rule = one_a_body(all.move_targets, "two targets have the same body")) return rule;
-    const auto sensor_of = [](const SensorMount<S>& mount) { return std::uint64_t{mount.sensor.slot}; };
-    if (const char* rule = one_a_key(all.sensor_mounts, sensor_of, "two mounts have the same sensor")) return rule;
-    if (const char* rule = no_mounted_carrier(all.sensor_mounts)) return rule;
-    if (const char* rule = kind_pairs(all.kind_ghosts)) return rule;
-    if (const char* rule = kind_pairs(all.kind_responses)) return rule;
-    return one_a_key(
-        all.ghosts, [](const Ghost<S>& ghost) { return pair_key(ghost.a.slot, ghost.b.slot); },
-        "two ghosts have the same bodies");
-  }
-  template <class Mounts> const char* no_mounted_carrier(const Mounts& all) const {
-    std::vector<std::uint8_t> is_mounted(seen_.set_of_body.size(), 0);
-    for (const SensorMount<S>& mount : all.all()) {
-      if (mount.sensor) is_mounted[mount.sensor.slot] = 1;
+  template <class Record, class IdType> const char* records(const Registry<Record, IdType>& registry) const {
+    using Rules = detail::RecordRules<Record>;
+    const std::vector<Record>& all = registry.all();
+    if (all.size() != registry.slot_map().entries().size()) return "records are not one a slot";
+    if (!detail::lie_in(registry.slot_map(), state_.settings.id_space)) return "a record's slot is of another id space";
+    for (std::uint32_t slot = 0; slot < all.size(); ++slot) {
+      if (!registry.is_taken(slot)) {
+        if (!is_empty(all[slot])) return "a free record holds something";
+        continue;
+      }
+      if (Rules::fault(all[slot]) != Fault::none) return "a record is out of range";
+      if (!names_well(all[slot])) return "a record names no body or joint that it may act on";
+      if (Rules::fault_at(all[slot], place_of(all[slot])) != Fault::none)
+        return "a record does not fit what it names, or the solver";
+      if (Rules::kTies && ties_islands(all[slot])) return "a record ties two islands";
     }
-    for (const SensorMount<S>& mount : all.all()) {
-      if (mount.sensor && is_mounted[mount.on.slot] != 0) return "a sensor is mounted on one that is mounted";
+    if constexpr (requires(const Record& record) { Rules::key(record); }) {
+      if (has_twins(registry)) return "two records of a kind are about the same";
+    }
+    if constexpr (requires { Rules::kNoCarrier; }) {
+      if (has_chain(all)) return "a sensor is mounted on one that is mounted";
     }
     return nullptr;
   }
-  template <class Drives> static const char* one_an_axis(const Drives& all) {
-    const auto axis_of = [](const AxisDrive<S>& drive) {
-      return std::uint64_t{drive.joint.slot} << 32 | static_cast<std::uint32_t>(drive.axis);
-    };
-    return one_a_key(all, axis_of, "two drives have the same axis of a joint");
+  template <class Record> static bool is_empty(const Record& record) {
+    const Record none{};
+    return hash_records_by_fields(&record, 1) == hash_records_by_fields(&none, 1);
   }
-  template <class Records, class KeyOf>
-  static const char* one_a_key(const Records& all, const KeyOf& key_of, const char* rule) {
-    std::vector<std::uint64_t> keys;
-    for (std::uint32_t slot = 0; slot < all.all().size(); ++slot) {
-      if (all.is_taken(slot)) keys.push_back(key_of(all.all()[slot]));
+  template <class Record> bool names_well(const Record& record) const {
+    const detail::NamedBodies<S> bodies = detail::RecordRules<Record>::bodies(record);
+    for (int i = 0; i < bodies.count; ++i) {
+      const detail::NamedBody<S>& named = bodies.all[i];
+      if (!named.body && named.may_be_null) continue;
+      if (!state_.body_slots.holds(named.body) || !detail::is_as_asked(seen_.type_of(named.body.slot), named.must_be))
+        return false;
     }
-    return has_twins(keys) ? rule : nullptr;
+    constexpr bool kOne = requires { record.joint; }
+    , kMore = requires { record.joint_a; };
+    const detail::NamedJoints joints = detail::joints_of(record);
+    for (int i = 0; i < (kMore ? 3 : kOne ? 1 : 0); ++i) {
+      const bool optional = i == 2 && !joints.all[i];
+      if (!optional && !state_.joint_slots.holds(joints.all[i])) return false;
+    }
+    return true;
   }
-  static bool has_twins(std::vector<std::uint64_t>& keys) {
-    std::vector<std::uint64_t> scratch(keys.size());
-    stable_sort(keys.data(), scratch.data(), static_cast<std::uint32_t>(keys.size()), OwnKey{});
+  /// Of a record that names well.
+  template <class Record> detail::RecordPlace<S> place_of(const Record& record) const {
+    detail::RecordPlace<S> place = {state_.settings, {}, {}, {}};
+    const detail::NamedBodies<S> bodies = detail::RecordRules<Record>::bodies(record);
+    for (int i = 0; i < bodies.count; ++i) {
+      if (bodies.all[i].body) place.bodies[i] = seen_.properties_of_body[bodies.all[i].body.slot];
+    }
+    if (place.bodies[0] != nullptr) place.parts = state_.shapes[place.bodies[0]->shape]->children;
+    const detail::NamedJoints joints = detail::joints_of(record);
+    for (int i = 0; i < 3; ++i) {
+      if (joints.all[i]) place.joints[i] = seen_.joint_at[joints.all[i].slot].joint;
+    }
+    return place;
+  }
+  /// Whether bodies that move, or joints that hold something, lie in two sets.
+  template <class Record> bool ties_islands(const Record& record) const {
+    std::uint32_t set = Location::kNone;
+    bool differ = false;
+    const auto look = [&](std::uint32_t of) {
+      differ = differ || (set != Location::kNone && set != of);
+      set = of;
+    };
+    const detail::NamedBodies<S> bodies = detail::RecordRules<Record>::bodies(record);
+    for (int i = 0; i < bodies.count; ++i) {
+      const BodyId body = bodies.all[i].body;
+      if (body && seen_.moves(body.slot)) look(seen_.set_of_body[body.slot]);
+    }
+    for (const JointId id : detail::joints_of(record).all) {
+      if (!id) continue;
+      const typename SlotTables<S>::JointAt& at = seen_.joint_at[id.slot];
+      if (seen_.moves(at.joint->body_a) || seen_.moves(at.joint->body_b)) look(at.set);
+    }
+    return differ;
+  }
+  template <class Record, class IdType> static bool has_twins(const Registry<Record, IdType>& registry) {
+    std::vector<detail::RecordKey> keys;
+    for (std::uint32_t slot = 0; slot < registry.all().size(); ++slot) {
+      if (registry.is_taken(slot)) keys.push_back(detail::RecordRules<Record>::key(registry.all()[slot]));
+    }
+    std::vector<detail::RecordKey> scratch(keys.size());
+    const auto count = static_cast<std::uint32_t>(keys.size());
+    stable_sort(keys.data(), scratch.data(), count, [](const detail::RecordKey& key) { return key.second; });
+    stable_sort(keys.data(), scratch.data(), count, [](const detail::RecordKey& key) { return key.first; });
     for (std::size_t i = 1; i < keys.size(); ++i) {
       if (keys[i - 1] == keys[i]) return true;
     }
     return false;
   }
-  template <class Record, class IdType> const char* records(const Registry<Record, IdType>& registry) const {
-    const std::vector<Record>& all = registry.all();
-    if (all.size() != registry.slot_map().entries().size()) return "force records are not one a slot";
-    if (!detail::lie_in(registry.slot_map(), state_.settings.id_space)) return "a force's slot is of another id space";
-    for (std::uint32_t slot = 0; slot < all.size(); ++slot) {
-      if (!registry.is_taken(slot)) {
-        if (detail::first_body_of(all[slot]) || detail::second_body_of(all[slot]) ||
-            detail::joints_of(all[slot]).all[0]) {
-          return "a free force names a body or a joint";
-        }
-        continue;
-      }
-      if (detail::fault_of(all[slot]) != Fault::none) return "a force record is out of range";
-      const detail::NamedBodies<S> bodies = detail::bodies_of(all[slot]);
-      for (int i = 0; i < bodies.count; ++i) {
-        if (!names_well(bodies.all[i])) return "a force record names no body that it may act on";
-      }
-      if (!ties_well(all[slot]))
-        return "a spring or a coupling ties two islands, a record names no joint, part or sensor, a character has "
-               "a shape that cannot be cast, or direct is to scale masses";
+  /// Whether the second body of one record is the first of another.
+  template <class Record> bool has_chain(const std::vector<Record>& all) const {
+    std::vector<std::uint8_t> is_first(seen_.set_of_body.size(), 0);
+    for (const Record& record : all) {
+      if (const BodyId body = detail::first_body_of(record)) is_first[body.slot] = 1;
     }
-    return nullptr;
-  }
-  bool names_well(const detail::NamedBody<S>& named) const {
-    if (!named.body) return named.may_be_null;
-    return state_.body_slots.holds(named.body) && detail::is_as_asked(seen_.type_of(named.body.slot), named.must_be);
-  }
-  template <class Record> bool ties_well(const Record&) const { return true; }
-  bool ties_well(const SurfaceVelocity<S>& surface) const {
-    const std::uint32_t shape = seen_.properties_of_body[surface.body.slot]->shape;
-    return surface.part == kEveryPart || surface.part < state_.shapes[shape]->children.size();
-  }
-  bool ties_well(const Character<S>& character) const {
-    return detail::can_walk<S>(state_.shapes[seen_.properties_of_body[character.body.slot]->shape]->children);
-  }
-  bool ties_well(const SensorMount<S>& mount) const {
-    return (seen_.properties_of_body[mount.sensor.slot]->flags & body_flag::kSensor) != 0;
-  }
-  bool ties_well(const KindResponse<S>&) const { return state_.settings.solver != SolverName::direct; }
-  bool ties_well(const BodySpring<S>& spring) const {
-    const auto is_dynamic = [&](BodyId body) { return body && seen_.type_of(body.slot) == BodyType::dynamic; };
-    if (!is_dynamic(spring.a) && !is_dynamic(spring.b)) return false;
-    const bool ties = spring.a && spring.b && seen_.moves(spring.a.slot) && seen_.moves(spring.b.slot);
-    return !ties || seen_.set_of_body[spring.a.slot] == seen_.set_of_body[spring.b.slot];
-  }
-  bool ties_well(const JointLoad<S>& load) const { return state_.joint_slots.holds(load.joint); }
-  bool ties_well(const AxisDrive<S>& drive) const {
-    if (!state_.joint_slots.holds(drive.joint)) return false;
-    const JointProperties<S>& joint = *seen_.joint_at[drive.joint.slot].joint;
-    return detail::fault_of_joint(drive, joint, substep_rate(state_.settings)) == Fault::none;
-  }
-  bool ties_well(const Coupling<S>& coupling) const {
-    const detail::NamedJoints named = detail::joints_of(coupling);
-    const JointProperties<S>* joints[3] = {};
-    std::uint32_t set = Location::kNone;  // of those that hold something
-    for (int i = 0; i < 3; ++i) {
-      if (i == 2 && !named.all[i]) continue;
-      if (!state_.joint_slots.holds(named.all[i])) return false;
-      const typename SlotTables<S>::JointAt& at = seen_.joint_at[named.all[i].slot];
-      joints[i] = at.joint;
-      if (!seen_.moves(at.joint->body_a) && !seen_.moves(at.joint->body_b)) continue;
-      if (set != Location::kNone && set != at.set) return false;
-      set = at.set;
+    for (const Record& record : all) {
+      const BodyId body = detail::second_body_of(record);
+      if (body && is_first[body.slot] != 0) return true;
     }
-    return detail::fault_of_joints(coupling, joints) == Fault::none;
-  }
-  template <class Pairs> static const char* kind_pairs(const Pairs& pairs) {
-    std::vector<std::uint64_t> kinds;
-    for (std::uint32_t slot = 0; slot < pairs.all().size(); ++slot) {
-      const std::uint64_t key = kinds_key(pairs.all()[slot].kind_a, pairs.all()[slot].kind_b);
-      if (pairs.is_taken(slot)) kinds.push_back(key);
-      else if (key != 0) return "a free pair names a kind";
-    }
-    return has_twins(kinds) ? "two pairs have the same kinds" : nullptr;
-  }
-  template <class Records> const char* one_a_body(const Records& all, const char* rule) const {
-    return one_a_slot(
-        all, state_.body_slots, [](const auto& record) { return record.body.slot; }, rule);
-  }
-  template <class Records> const char* one_a_joint(const Records& all, const char* rule) const {
-    return one_a_slot(
-        all, state_.joint_slots, [](const auto& record) { return record.joint.slot; }, rule);
-  }
-  template <class Records, class SlotOf>
-  const char* one_a_slot(const Records& all, const SlotMap& slot_map, const SlotOf& slot_of, const char* rule) const {
-    std::vector<std::uint8_t> has(slot_map.entries().size(), 0);
-    for (std::uint32_t slot = 0; slot < all.all().size(); ++slot) {
-      if (all.is_taken(slot) && has[slot_of(all.all()[slot])]++ != 0) return rule;
-    }
-    return nullptr;
+    return false;
   }
 
   const WorldState<S>& state_;

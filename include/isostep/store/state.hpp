@@ -13,12 +13,12 @@
 #include "isostep/core/slot_map.hpp"
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/joints/joint_record.hpp"
-#include "isostep/dynamics/records/force_list.hpp"
+#include "isostep/dynamics/records/record_store.hpp"
+#include "isostep/dynamics/settings.hpp"
 #include "isostep/geometry/geometry_store.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/store/body_set.hpp"
 #include "isostep/store/events.hpp"
-#include "isostep/store/settings.hpp"
 
 namespace isostep {
 
@@ -59,6 +59,20 @@ template <class S> struct PendingForce {
   }
 };
 static_assert(kHasNoPadding<PendingForce<float>> && kHasNoPadding<PendingForce<double>>);
+
+/// Where the next step carries a kinematic body, by move_to. Ascending by slot, one a body.
+template <class S> struct PendingMove {
+  std::uint32_t slot;
+  std::uint32_t reserved;  // 0: keeps records of 8-byte scalars without padding
+  Pose<S> pose;            // of the body's origin, world
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("slot", self.slot);
+    visit("reserved", self.reserved);
+    visit("pose", self.pose);
+  }
+};
+static_assert(kHasNoPadding<PendingMove<float>> && kHasNoPadding<PendingMove<double>>);
 
 /// A body inside a sensor. Ascending by (sensor, other).
 struct SensorOverlap {
@@ -111,7 +125,8 @@ template <class S> struct WorldState {
   std::vector<Contact<S>> contacts;  // ascending by key
   JointSet<S> joints;
   std::vector<PendingForce<S>> forces;
-  Shared<ForceRecords<S>> force_records;
+  std::vector<PendingMove<S>> moves;
+  Shared<RecordStore<S>> records;
   std::vector<SensorOverlap> overlaps;
   UntoldEvents untold;
   SleepingIslands<S> sleeping;
@@ -131,13 +146,14 @@ template <class S> struct WorldState {
     visit("joints", self.joints.states);
     visit("joint_properties", self.joints.properties);
     visit("forces", self.forces);
+    visit("moves", self.moves);
     visit("overlaps", self.overlaps);
     visit("untold_contact_end", self.untold.contact_end);
     visit("untold_sensor_end", self.untold.sensor_end);
     visit("untold_woke", self.untold.woke);
     visit("untold_sensors", self.untold.sensors);
     visit.islands("sleeping", self.sleeping);
-    visit.records(self.force_records);
+    visit.records(self.records);
     visit.store("blobs", self.geometry);
   }
 };

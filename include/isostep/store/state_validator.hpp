@@ -5,10 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/dynamics/checks.hpp"
+#include "isostep/dynamics/joints/joint_checks.hpp"
 #include "isostep/geometry/content.hpp"
 #include "isostep/geometry/surfaces.hpp"
 #include "isostep/store/body_map.hpp"
-#include "isostep/store/checks.hpp"
 #include "isostep/store/record_validator.hpp"
 #include "isostep/store/state.hpp"
 
@@ -241,6 +242,14 @@ template <class S> class StateValidator {
         return "a force is out of range";
       }
       if (i > 0 && !(forces[i - 1].slot < slot)) return "forces ascend by slot";
+    }
+    const std::vector<PendingMove<S>>& moves = state_.moves;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      const std::uint32_t slot = moves[i].slot;
+      if (!seen_.is_body(slot) || seen_.type_of(slot) != BodyType::kinematic) return "a move is of no kinematic body";
+      if (moves[i].reserved != 0 || detail::fault_of_pose(moves[i].pose) != Fault::none)
+        return "a move is out of range";
+      if (i > 0 && !(moves[i - 1].slot < slot)) return "moves ascend by slot";
     }
     for (std::size_t i = 0; i < state_.overlaps.size(); ++i) {
       if (!seen_.is_body(state_.overlaps[i].sensor) || !seen_.is_body(state_.overlaps[i].other))

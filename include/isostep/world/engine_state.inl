@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/checks.hpp"
 #include "isostep/state/members.hpp"
-#include "isostep/store/checks.hpp"
 #include "isostep/store/state_validator.hpp"
 #include "isostep/world/engine.hpp"
 
@@ -63,9 +63,7 @@ template <class S> void WorldEngine<S>::load(const WorldState<S>& from) {
 }
 
 template <class S> void WorldEngine<S>::write_portable(Writer& writer) const {
-  writer.write(ScalarTraits<S>::kId | (state_.geometry->empty() ? 0 : kPortableBlobsBit) |
-               (state_.force_records->untouched() ? 0 : kPortableForcesBit) |
-               (state_.force_records->newer_kinds() == 0 ? 0 : kPortableNewerRecordsBit));
+  writer.write(ScalarTraits<S>::kId);
   WorldState<S>::members(detail::StateWriter(writer), state_);
 }
 
@@ -83,15 +81,10 @@ template <class S> void complete_shapes(WorldState<S>& state) {
 
 template <class S> Result<void> WorldEngine<S>::read_portable(Reader& reader) {
   WorldState<S> next;
-  const auto kind = reader.read<std::uint32_t>();
-  constexpr std::uint32_t kBits = kPortableBlobsBit | kPortableForcesBit | kPortableNewerRecordsBit;
-  if ((kind & ~kBits) != ScalarTraits<S>::kId && reader.ok())
+  if (reader.read<std::uint32_t>() != ScalarTraits<S>::kId && reader.ok())
     reader.fail(ErrorCode::incompatible, "not written by a rigid world of this scalar");
-  const auto read_store = [&](GeometryStore& store) {
-    if ((kind & kPortableBlobsBit) != 0) store.read(reader, *state_.geometry, assets_);
-  };
-  const detail::RecordsThere there = {(kind & kPortableForcesBit) != 0, (kind & kPortableNewerRecordsBit) != 0};
-  WorldState<S>::members(detail::StateReader(reader, read_store, there), next);
+  const auto read_store = [&](GeometryStore& store) { store.read(reader, *state_.geometry, assets_); };
+  WorldState<S>::members(detail::StateReader(reader, read_store), next);
   if (reader.ok()) {
     if (const char* rule = StateValidator<S>(next).broken_rule()) reader.fail(ErrorCode::corrupt, rule);
   }

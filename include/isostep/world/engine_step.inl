@@ -74,7 +74,7 @@ template <class S> void WorldEngine<S>::find_pairs() {
 template <class S> void WorldEngine<S>::find_contacts() {
   const Settings<S>& settings = state_.settings;
   const std::int32_t rate = integration_rate(settings.solver, settings.hz, settings.substeps);
-  belts_.update(state_.force_records->surface_velocitys, min(Limits<S>::angular_speed(), S(rate)),
+  belts_.update(state_.records->surface_velocitys, min(Limits<S>::angular_speed(), S(rate)),
                 [&](const SurfaceVelocity<S>& record) { return detail::place_of_belt(map_, record); });
   pair_rules_.update(proxies_.pairs());
   report_.cut_compounds = narrow_phase_.update(proxies_.pairs(), tools_, {pair_rules_.apart(), &belts_});

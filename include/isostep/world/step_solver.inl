@@ -23,7 +23,7 @@ struct AxisDriveKey {
 
 template <class S> void StepSolver<S>::list_axis_drives() {
   axis_drives_.clear();
-  const auto& records = state_.force_records->axis_drives;
+  const auto& records = state_.records->axis_drives;
   for (std::uint32_t slot = 0; slot < records.all().size(); ++slot) {
     if (!records.is_taken(slot)) continue;
     const AxisDrive<S>& drive = records.all()[slot];

@@ -16,12 +16,12 @@
 #include "isostep/core/simd.hpp"
 #include "isostep/core/task_runner.hpp"
 #include "isostep/dynamics/body.hpp"
+#include "isostep/dynamics/settings.hpp"
 #include "isostep/geometry/shape.hpp"
 #include "isostep/state/archive.hpp"
 #include "isostep/store/definitions.hpp"
 #include "isostep/store/events.hpp"
 #include "isostep/store/query_types.hpp"
-#include "isostep/store/settings.hpp"
 #include "isostep/store/stages.hpp"
 #include "isostep/store/views.hpp"
 #include "isostep/world/joint_presets.hpp"
@@ -118,8 +118,12 @@ template <class S> class World final {
   /// of them for the next step. No event tells of it. Refused where one of them may not sleep, or the world's settings
   /// forbid it. What moves and touches them wakes them, in the next step if it does so now.
   bool sleep(BodyId body);
-  /// The next step carries a kinematic body to that pose, and leaves it there at rest: MoveTarget. Once more before the
-  /// step is another target in place of the first.
+  /// The next step carries a kinematic body to that pose. In that step it has the velocity that leads there, along a
+  /// line and about one axis by the shorter way, so that it pushes and carries what it touches, and is held by no lock;
+  /// as the step ends it lies exactly at the pose, and stands still. What is further than a body may move in a step,
+  /// Limits::speed() and a radian a sub-step, is not reached: the body goes as far, and stops there. A velocity that
+  /// was set is of no account. Once more before the step is another pose in place of the first. A disabled body goes
+  /// when it is enabled again.
   bool move_to(BodyId body, const Pose<S>& pose);
   bool set_gravity(Vec3<S> gravity);  // [m/s^2] world
   /// [N] and [N m], world, for the length of the next step; they add up. A point is in the world [m].
@@ -153,17 +157,16 @@ template <class S> class World final {
   /// the target of a servo or the speed of a motor. Null where there is none.
   AxisDriveId axis_drive(JointId joint, JointAxis axis) const;
 
-  // Records: each kind of force that acts from step to step, force_list.hpp, and of record_list.hpp. They act on what
-  // is awake; adding one, changing or removing it wakes the bodies that it names, and those of zones, attractors and
-  // pairs of materials all. They go with the bodies that they name.
-#define ISO_FORCE(name, Record, Id, S)                       \
+  // Records: each kind of record_list.hpp. They act on what is awake; adding one, changing or removing it wakes what it
+  // acts on. They go with the bodies and joints that they name.
+#define ISO_RECORD(name, Record, Id, S)                      \
   Id add(const Record& record);                              \
   bool set(Id id, const Record& record);                     \
   bool remove(Id id);                                        \
   /* Null for a stale id; until the next command or load. */ \
   const Record* find(Id id) const;
-  ISO_FOR_EACH_RECORD(ISO_FORCE, S)
-#undef ISO_FORCE
+  ISO_FOR_EACH_RECORD(ISO_RECORD, S)
+#undef ISO_RECORD
 
   /// Every mutator above is one of these with its fields as arguments: command.hpp.
 #define ISO_APPLY(name, Type, Result, S) Result apply(const Type& command);

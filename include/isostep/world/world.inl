@@ -100,12 +100,14 @@ template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> childre
   }
   return apply(command);
 }
-#define ISO_FORCE(name, Record, Id, S)                                                                               \
-  template <class S> Id World<S>::add(const Record& record) { return apply(AddRecord<Record>{record}); }             \
-  template <class S> bool World<S>::set(Id id, const Record& record) { return apply(SetForce<Record>{id, record}); } \
-  template <class S> bool World<S>::remove(Id id) { return apply(RemoveRecord<Id>{id}); }                            \
-  template <class S> const Record* World<S>::find(Id id) const {                                                     \
-    return detail::registry_of(*engine_->state_.force_records, id).find(id);                                         \
+#define ISO_FORCE(name, Record, Id, S)                                                                   \
+  template <class S> Id World<S>::add(const Record& record) { return apply(AddRecord<Record>{record}); } \
+  template <class S> bool World<S>::set(Id id, const Record& record) {                                   \
+    return apply(SetRecordOf<Record>{id, record});                                                       \
+  }                                                                                                      \
+  template <class S> bool World<S>::remove(Id id) { return apply(RemoveRecord<Id>{id}); }                \
+  template <class S> const Record* World<S>::find(Id id) const {                                         \
+    return detail::registry_of(*engine_->state_.records, id).find(id);                                   \
   }
 ISO_FOR_EACH_RECORD(ISO_FORCE, S)
 #undef ISO_FORCE

@@ -4,7 +4,6 @@
 
 #include <span>
 
-#include "isostep/store/record_checks.hpp"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/world.hpp"
 
@@ -39,7 +38,7 @@ JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const 
   return joint_between(type, a, frame, b, frame);
 }
 template <class S> AxisDriveId World<S>::axis_drive(JointId joint, JointAxis axis) const {
-  return detail::drive_on(*engine_->state_.force_records, joint, axis);
+  return detail::drive_on(*engine_->state_.records, joint, axis);
 }
 template <class S>
 JointProperties<S> World<S>::joint_between(JointType type, BodyId a, const Pose<S>& frame_a, BodyId b,

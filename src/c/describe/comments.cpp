@@ -97,13 +97,7 @@ void read_comments(const std::string& root, Schema& schema) {
   }
   std::sort(files.begin(), files.end());
   Bodies bodies;
-  // Zones and waters come before those that stand in their place.
-  for (const fs::path& file : files) {
-    if (file.filename().string().compare(0, 7, "ranked_") != 0) read_structs(file, bodies);
-  }
-  for (const fs::path& file : files) {
-    if (file.filename().string().compare(0, 7, "ranked_") == 0) read_structs(file, bodies);
-  }
+  for (const fs::path& file : files) read_structs(file, bodies);
   for (Family& family : schema.families) fill(bodies, family.structs);
   fill(bodies, schema.common);
 }

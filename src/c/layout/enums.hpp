@@ -11,7 +11,7 @@
 #include "isostep/core/simd.hpp"
 #include "isostep/dynamics/joints/joint_type.hpp"
 #include "isostep/dynamics/projection.hpp"
-#include "isostep/dynamics/records/force_list.hpp"
+#include "isostep/dynamics/records/record_store.hpp"
 #include "isostep/dynamics/solver_name.hpp"
 #include "isostep/geometry/blob.hpp"
 #include "isostep/geometry/shape_type.hpp"
@@ -63,11 +63,12 @@ template <> struct Enumerators<Stage> {
 static_assert(Enumerators<Fault>::kCount == kFaults);
 
 /// Of all enumerations, for the one who writes the header.
-#define ISO_C_ENUMS(X)                                                                                       \
-  X(ScalarName)                                                                                              \
-  X(BodyType) X(ShapeType) X(JointType) X(JointAxis) X(SolverName) X(Projection) X(BroadPhaseName) X(Simd)   \
-      X(ZoneShape) X(BreakPattern) X(Footing) X(StartInside) X(HitPer) X(BlobHome) X(Fault) X(VerifyOutcome) \
-          X(VerifyResult::Where) X(Stage)
+#define ISO_C_ENUMS(X)                                                                                                 \
+  X(ScalarName)                                                                                                        \
+  X(BodyType)                                                                                                          \
+  X(ShapeType) X(JointType) X(JointAxis) X(SolverName) X(Projection) X(BroadPhaseName) X(Simd) X(ZoneShape)            \
+      X(BreakPattern) X(Footing) X(StartInside) X(HitPer) X(BlobHome) X(Fault) X(VerifyOutcome) X(VerifyResult::Where) \
+          X(Stage)
 
 /// A bit of a member of flags. In C: ISO_SET_NAME.
 struct Flag {

@@ -74,7 +74,7 @@
   X(overlap_query, true, O(shape), O(primitive), O(pose), O(filter))                                                   \
   X(point_query, true, O(point), O(max_distance), O(filter))                                                           \
   X(box_query, true, O(box), O(filter))                                                                                \
-  X(force_zone, true, O(shape), O(pose), O(half), O(acceleration), O(wind), O(mask))                                   \
+  X(force_zone, true, O(shape), O(pose), O(half), O(acceleration), O(wind), O(mask), O(priority), O(replaces))         \
   X(attractor, true, O(body), O(point), O(strength), O(least_distance), O(range), O(mask))                             \
   X(body_spring, true, O(a), O(b), O(anchor_a), O(anchor_b), O(rest_length), O(stiffness), O(damping), O(only_pulls))  \
   X(thruster, true, O(body), O(point), O(force))                                                                       \
@@ -83,7 +83,8 @@
     O(implosion_duration), O(wave_force), O(wave_speed), O(wave_width), O(wave_ramp), O(wave_duration),                \
     O(chimney_force), O(chimney_radius), O(chimney_height), O(chimney_duration), O(is_shielded), O(mask))              \
   X(water, true, O(surface_height), O(density), O(middle), O(half), O(current), O(linear_drag), O(quadratic_drag),     \
-    O(angular_drag), O(wave_height), O(wave_length), O(wave_period), O(wave_direction), O(mask))                       \
+    O(angular_drag), O(wave_height), O(wave_length), O(wave_period), O(wave_direction), O(mask), O(priority),          \
+    O(replaces))                                                                                                       \
   X(drag, true, O(body), O(linear), O(quadratic), O(angular))                                                          \
   X(aero_surface, true, O(body), O(point), O(orientation), O(tensor), O(low), O(high), O(control), O(is_quadratic),    \
     O(is_under_water))                                                                                                 \
@@ -110,16 +111,11 @@
   X(coupling, true, O(joint_a), O(joint_b), O(joint_c), O(ratio_a), O(ratio_b), O(ratio_c), O(lower), O(upper))        \
   X(axis_drive, true, O(joint), O(axis), O(limited), O(motor), O(lower), O(upper), O(motor_speed), O(spring_target),   \
     O(spring_frequency), O(spring_damping), O(force), O(spring_mass), O(limit_frequency), O(limit_damping))            \
-  X(move_target, true, O(body), O(pose))                                                                               \
   X(kind_ghost, true, O(kind_a), O(kind_b))                                                                            \
-  X(ranked_zone, true, O(shape), O(pose), O(half), O(acceleration), O(wind), O(mask), O(priority), O(replaces))        \
   X(contact_report, true, O(body))                                                                                     \
   X(kind_response, true, O(kind_a), O(kind_b), O(inverse_mass_scale_a), O(inverse_mass_scale_b),                       \
     O(inverse_inertia_scale_a), O(inverse_inertia_scale_b), O(max_force))                                              \
   X(damping_zone, true, O(shape), O(pose), O(half), O(linear), O(angular), O(mask), O(priority), O(replaces))          \
-  X(ranked_water, true, O(surface_height), O(density), O(middle), O(half), O(current), O(linear_drag),                 \
-    O(quadratic_drag), O(angular_drag), O(wave_height), O(wave_length), O(wave_period), O(wave_direction), O(mask),    \
-    O(priority))                                                                                                       \
   X(sensor_mount, true, O(sensor), O(on), O(frame))
 
 #define ISO_C_COMMON_CHECKS(X)                                                                                         \

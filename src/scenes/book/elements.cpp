@@ -120,8 +120,7 @@ void add_rules(Scene& scene) {
   scene.records.push_back({"hit_report", {{"body", {hammer}}, {"speed", {2}}}});
   scene.records.push_back({"contact_report", {{"body", {crate}}}});
   scene.records.push_back({"kind_ghost", {{"kind_a", {2}}, {"kind_b", {3}}}});
-  scene.records.push_back({"move_target", {{"body", {walker}}, {"position", {-2, 0.875, -4}}}});
-  scene.records.push_back({"ranked_zone",
+  scene.records.push_back({"force_zone",
                            {{"shape", {1}},
                             {"position", {22, 5, -4}},
                             {"half", {2, 0, 0}},
@@ -141,12 +140,13 @@ void add_media(Scene& scene) {
                             {"angular", {1}},
                             {"priority", {1}},
                             {"replaces", {1}}}});
-  scene.records.push_back({"ranked_water",
+  scene.records.push_back({"water",
                            {{"surface_height", {0.875}},
                             {"middle", {-8, 0, 0}},
                             {"half", {1, 2, 2}},
                             {"linear_drag", {1}},
-                            {"priority", {1}}}});
+                            {"priority", {1}},
+                            {"replaces", {1}}}});
 }
 /// Drives round a curve.
 void add_cart(Scene& scene) {

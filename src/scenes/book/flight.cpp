@@ -59,7 +59,7 @@ Scene flight(Turn turn) {
 /// Proportional control of each axis. Mirrored, every quantity of roll and yaw has the other sign, bit for bit.
 template <class S> void fly(World<S>& world, Turn turn) {
   const SlotMap& bodies = world.state().body_slots;
-  const ForceRecords<S>& records = *world.state().force_records;
+  const RecordStore<S>& records = *world.state().records;
   const auto surfaces = records.aero_surfaces.slot_map().template ids<AeroSurfaceId>();
   const auto engines = records.thrusters.slot_map().template ids<ThrusterId>();
   const auto aircraft = bodies.template ids<BodyId>();

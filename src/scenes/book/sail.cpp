@@ -37,7 +37,7 @@ Scene sailing(bool wind) {
 
 /// Holds the bow along x: the rudder against the heading and its change.
 template <class S> void steer(World<S>& world) {
-  const ForceRecords<S>& records = *world.state().force_records;
+  const RecordStore<S>& records = *world.state().records;
   const auto surfaces = records.aero_surfaces.slot_map().template ids<AeroSurfaceId>();
   const auto bodies = world.state().body_slots.template ids<BodyId>();
   if (surfaces.size() < 4 || bodies.empty()) return;

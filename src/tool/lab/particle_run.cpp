@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "isostep/dynamics/settings.hpp"
 #include "isostep/particles/particle_state.hpp"
 #include "isostep/particles/scenery.hpp"
-#include "isostep/store/settings.hpp"
 
 namespace isostep::tool::lab {
 namespace {

@@ -87,8 +87,8 @@ template <class S> Effect effect_of(const AeroSurface<S>& surface) {
 
 /// `to` is a Recorder. Attractors, drag and points of buoyancy are not drawn.
 template <class S, class To> void record_effects(const World<S>& world, To& to) {
-  const ForceRecords<S>& records = *world.state().force_records;
-  if (records.no_forces()) return;
+  const RecordStore<S>& records = *world.state().records;
+  if (records.kinds() == 0) return;
   const Weather<S> weather(world);
   const Vector up = weather.up();
   for_each_record(records.waters, [&](WaterId id, const Water<S>& water) {

@@ -42,7 +42,7 @@ template <class S> Mat3<double> mixed_tensor(const AeroSurface<S>& surface) {
 /// to within a sub-step, and holds everything within limits: forces differ by as much as a sub-step changes them.
 template <class S> class Weather {
  public:
-  explicit Weather(const World<S>& world) : world_(world), records_(*world.state().force_records) {
+  explicit Weather(const World<S>& world) : world_(world), records_(*world.state().records) {
     const Vector gravity = in_double(world.settings().gravity);
     if (const double size = length(gravity); size > 0) up_ = -gravity / size;
     seconds_ = static_cast<double>(world.tick()) / world.settings().hz;
@@ -113,7 +113,7 @@ template <class S> class Weather {
   }
 
   const World<S>& world_;
-  const ForceRecords<S>& records_;
+  const RecordStore<S>& records_;
   Vector up_ = Vector::zero();
   double seconds_ = 0;
 };

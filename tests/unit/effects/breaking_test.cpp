@@ -119,7 +119,7 @@ TYPED_TEST(Breakables, break_as_deep_as_they_may) {
   }
   EXPECT_GT(broken, 4) << "the fall breaks the crate and most of its pieces";
   EXPECT_LE(broken, 9);
-  EXPECT_TRUE(this->world_.state().force_records->breakables.slot_map().template ids<BreakableId>().size() <= 8u);
+  EXPECT_TRUE(this->world_.state().records->breakables.slot_map().template ids<BreakableId>().size() <= 8u);
 }
 
 TYPED_TEST(Breakables, small_pieces_expire_with_their_shapes) {
@@ -216,7 +216,7 @@ TYPED_TEST(Breakables, bad_numbers_are_named) {
   refused(
       "hit_point", [](Breakable<S>& b) { b.hit_point.x = highest<S>(); }, Fault::out_of_range);
   refused("hit_direction", [](Breakable<S>& b) { b.hit_direction.x = Unit<S>(0.5); });
-  EXPECT_TRUE(this->world_.state().force_records->untouched());
+  EXPECT_TRUE(this->world_.state().records->untouched());
   this->make_breakable(body, 1);
   refused("body", [](Breakable<S>&) {});  // has a record
 }
@@ -228,10 +228,10 @@ TYPED_TEST(Breakables, what_is_disabled_breaks_once_it_is_not) {
   d.mass = S(10);
   const BodyId crate = w.create(d);
   this->make_breakable(crate, 1);
-  Breakable<S> marked = w.state().force_records->breakables.all()[0];
+  Breakable<S> marked = w.state().records->breakables.all()[0];
   marked.broken_by = S(2);
   marked.hit_direction = {Unit<S>(0), Unit<S>(-1), Unit<S>(0)};
-  ASSERT_TRUE(w.set(w.state().force_records->breakables.slot_map().template ids<BreakableId>()[0], marked))
+  ASSERT_TRUE(w.set(w.state().records->breakables.slot_map().template ids<BreakableId>()[0], marked))
       << describe(w.fault());
   ASSERT_TRUE(w.set_enabled(crate, false));
   break_bodies(w, 8);

@@ -128,7 +128,7 @@ TEST(SceneFile, SurfacesAndLocksReachTheWorldAndReturnToTheFile) {
     EXPECT_EQ(belt.anisotropy, (Vec3<double>{0.25, 1, 0.5}));
     EXPECT_EQ(belt.kind, 7u);
     EXPECT_EQ(world.settings().restitution_threshold, 0.125);
-    const auto& pairs = world.state().force_records->material_pairs;
+    const auto& pairs = world.state().records->material_pairs;
     ASSERT_EQ(pairs.all().size(), 1u);
     EXPECT_EQ(pairs.all()[0].kind_a, 7u);
     EXPECT_EQ(pairs.all()[0].kind_b, 4294967295u);

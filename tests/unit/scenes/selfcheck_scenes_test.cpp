@@ -121,11 +121,11 @@ TYPED_TEST(SelfcheckScenes, MedleyByEverySolverHasContactsAndPulledJointsWithinT
 
 template <class S> std::set<std::string> kinds_of(const World<S>& world) {
   std::set<std::string> kinds;
-  ForceRecords<S>::members(
+  RecordStore<S>::members(
       [&](const char* kind, const auto& registry) {
         if (!registry.slot_map().template ids<BodyId>().empty()) kinds.insert(kind);
       },
-      *world.state().force_records);
+      *world.state().records);
   return kinds;
 }
 
@@ -135,7 +135,7 @@ TYPED_TEST(SelfcheckScenes, ElementsHasEveryRecordAndEachActs) {
   World<S> world(settings_of<S>(scene));
   const std::vector<BodyId> bodies = build(scene, world).bodies;
   std::size_t every = 0;
-  ForceRecords<S>::members([&](const char*, const auto&) { ++every; }, *world.state().force_records);
+  RecordStore<S>::members([&](const char*, const auto&) { ++every; }, *world.state().records);
   EXPECT_EQ(kinds_of(world).size(), every);
   EXPECT_LE(world.counts().bodies, 18u);
   std::size_t broke = 0, joints_broken = 0, most = 0, ghosts = 0, hits = 0, felt = 0;
@@ -148,7 +148,7 @@ TYPED_TEST(SelfcheckScenes, ElementsHasEveryRecordAndEachActs) {
     joints_broken += world.events().joint_broke.size();
     hits += world.events().hits.size();
     felt += world.events().sensor_begin.size();
-    ghosts = std::max(ghosts, world.state().force_records->ghosts.slot_map().template ids<GhostId>().size());
+    ghosts = std::max(ghosts, world.state().records->ghosts.slot_map().template ids<GhostId>().size());
     slowest = std::min(slowest, to_double(world.velocity(bodies[8]).z));
     most = std::max<std::size_t>(most, world.counts().bodies);
   }

@@ -35,10 +35,6 @@ template <class S> KindGhost<S> broken(KindGhost<S> ghost) {
   ghost.kind_a = 0;
   return ghost;
 }
-template <class S> RankedZone<S> broken(RankedZone<S> zone) {
-  zone.replaces = zone_effect::kAll + 1;
-  return zone;
-}
 template <class S> KindResponse<S> broken(KindResponse<S> response) {
   response.inverse_mass_scale_a = S(2);
   return response;
@@ -46,10 +42,6 @@ template <class S> KindResponse<S> broken(KindResponse<S> response) {
 template <class S> DampingZone<S> broken(DampingZone<S> zone) {
   zone.linear = S(-1);
   return zone;
-}
-template <class S> RankedWater<S> broken(RankedWater<S> water) {
-  water.density = S(-1);
-  return water;
 }
 template <class S> JointLoad<S> broken(JointLoad<S> load) {
   load.joint = {};
@@ -151,7 +143,7 @@ TYPED_TEST(CommandData, commands_given_as_data_do_what_the_calls_do) {
     using Record = decltype(record);
     EXPECT_TRUE(both(AddRecord<Record>{record}, [&](auto& w) { return w.add(record); }));
     EXPECT_FALSE(both(AddRecord<Record>{broken(record)}, [&](auto& w) { return w.add(broken(record)); }));
-    EXPECT_TRUE(both(SetForce<Record>{id, record}, [&](auto& w) { return w.set(id, record); }));
+    EXPECT_TRUE(both(SetRecordOf<Record>{id, record}, [&](auto& w) { return w.set(id, record); }));
     EXPECT_NE(called.find(id), nullptr);
     called.step();
     told.step();
@@ -184,10 +176,8 @@ TYPED_TEST(CommandData, commands_given_as_data_do_what_the_calls_do) {
   pair.kind_b = 2;
   each(pair, MaterialPairId{0, 1});
   each(KindGhost<S>{1, 2}, KindGhostId{0, 1});
-  each(RankedZone<S>{}, RankedZoneId{0, 1});
   each(KindResponse<S>{1, 2}, KindResponseId{0, 1});
   each(DampingZone<S>{}, DampingZoneId{0, 1});
-  each(RankedWater<S>{}, RankedWaterId{0, 1});
   Breakable<S> breakable;
   breakable.body = b;
   each(breakable, BreakableId{0, 1});
@@ -210,7 +200,7 @@ TYPED_TEST(CommandData, commands_given_as_data_do_what_the_calls_do) {
   const Ghost<S> ghost = {b, character.body}, of_one = {b, b};  // far apart: a step would end it
   EXPECT_TRUE(both(AddRecord<Ghost<S>>{ghost}, [&](auto& w) { return w.add(ghost); }));
   EXPECT_FALSE(both(AddRecord<Ghost<S>>{of_one}, [&](auto& w) { return w.add(of_one); }));
-  EXPECT_TRUE(both(SetForce<Ghost<S>>{{0, 1}, ghost}, [&](auto& w) { return w.set(GhostId{0, 1}, ghost); }));
+  EXPECT_TRUE(both(SetRecordOf<Ghost<S>>{{0, 1}, ghost}, [&](auto& w) { return w.set(GhostId{0, 1}, ghost); }));
   EXPECT_TRUE(both(RemoveRecord<GhostId>{{0, 1}}, [](auto& w) { return w.remove(GhostId{0, 1}); }));
   EXPECT_TRUE(both(AddRecord<Ghost<S>>{ghost}, [&](auto& w) { return w.add(ghost); }));
   called.step();
@@ -219,12 +209,6 @@ TYPED_TEST(CommandData, commands_given_as_data_do_what_the_calls_do) {
   EXPECT_FALSE(both(RemoveRecord<GhostId>{{0, 2}}, [](auto& w) { return w.remove(GhostId{0, 2}); }));
   each(HitReport<S>{b, S(2)}, HitReportId{0, 1});
   each(ContactReport<S>{b}, ContactReportId{0, 1});
-  const MoveTarget<S> target = {character.body, pose};
-  const MoveTargetId first = {0, 2};  // of its slot: move_to() above had one
-  EXPECT_TRUE(both(AddRecord<MoveTarget<S>>{target}, [&](auto& w) { return w.add(target); }));
-  EXPECT_FALSE(both(AddRecord<MoveTarget<S>>{target}, [&](auto& w) { return w.add(target); }));
-  EXPECT_TRUE(both(SetForce<MoveTarget<S>>{first, target}, [&](auto& w) { return w.set(first, target); }));
-  EXPECT_TRUE(both(RemoveRecord<MoveTargetId>{first}, [&](auto& w) { return w.remove(first); }));
   const auto joined = [&](JointType type, double x) {
     const Pose<S> frame = {vec<S>(x, 0, 0), Quat<Unit<S>>::identity()};
     const JointProperties<S> made = called.joint_at(type, {}, b, frame);

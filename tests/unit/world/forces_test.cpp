@@ -146,7 +146,7 @@ TYPED_TEST(Forces, thrusters_push_and_turn_with_their_body) {
   // Off the centre it turns: I = m (x^2 + y^2) / 3 = 1.25.
   this->world_.set_pose(id, Pose<S>::identity());
   this->world_.set_velocity(id, Vec3<S>::zero(), Vec3<S>::zero());
-  const auto ids = this->world_.state().force_records->thrusters.slot_map().template ids<ThrusterId>();
+  const auto ids = this->world_.state().records->thrusters.slot_map().template ids<ThrusterId>();
   ASSERT_EQ(ids.size(), 1u);
   EXPECT_TRUE(this->world_.set(ids[0], {id, vec<S>(0, 0.5, 0), vec<S>(3, 0, 0)}));
   run(this->world_, 6);

@@ -87,7 +87,7 @@ TYPED_TEST(JointCommands, more_drives_than_axes_are_refused) {
   }
   six.drive_count = kJointAxes;
   EXPECT_TRUE(w.create(six_axis(six)));
-  EXPECT_EQ(w.state().force_records->axis_drives.slot_map().template ids<AxisDriveId>().size(), kJointAxes);
+  EXPECT_EQ(w.state().records->axis_drives.slot_map().template ids<AxisDriveId>().size(), kJointAxes);
 }
 
 TYPED_TEST(JointCommands, a_state_in_which_an_axis_has_two_drives_is_not_valid) {
@@ -101,7 +101,7 @@ TYPED_TEST(JointCommands, a_state_in_which_an_axis_has_two_drives_is_not_valid) 
   ASSERT_TRUE(w.create(six_axis(six)));
   WorldState<S> state = w.state();
   EXPECT_EQ(StateValidator<S>(state).broken_rule(), nullptr);
-  state.force_records.change().axis_drives.change_all()[0].axis = JointAxis::twist;
+  state.records.change().axis_drives.change_all()[0].axis = JointAxis::twist;
   EXPECT_STREQ(StateValidator<S>(state).broken_rule(), "two drives have the same axis of a joint");
 }
 

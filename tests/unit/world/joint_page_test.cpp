@@ -57,8 +57,8 @@ TYPED_TEST(JointPage, couples_joints_and_measures_them) {
   load.break_force = S(500);  // [N]
   world.add(load);
   // README: end
-  EXPECT_EQ(world.state().force_records->couplings.slot_map().count_taken(), 2u) << describe(world.first_fault());
-  EXPECT_EQ(world.state().force_records->joint_loads.slot_map().count_taken(), 1u) << describe(world.first_fault());
+  EXPECT_EQ(world.state().records->couplings.slot_map().count_taken(), 2u) << describe(world.first_fault());
+  EXPECT_EQ(world.state().records->joint_loads.slot_map().count_taken(), 1u) << describe(world.first_fault());
 }
 
 }  // namespace

@@ -124,7 +124,7 @@ TYPED_TEST(MaterialPairs, a_state_with_two_records_of_the_same_kinds_or_a_bad_on
   w.remove(removed);
   const auto rule_of = [&](auto&& change) -> std::string {
     WorldState<S> state = w.state();
-    change(state.force_records.change().material_pairs.change_all(), state.settings);
+    change(state.records.change().material_pairs.change_all(), state.settings);
     const char* rule = StateValidator<S>(state).broken_rule();
     return rule == nullptr ? "" : rule;
   };

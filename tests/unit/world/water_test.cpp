@@ -201,13 +201,13 @@ TYPED_TEST(Waters, a_zone_of_higher_rank_keeps_it_out) {
                other = this->body(box, {0, -8, 1.5}, 25);
   ASSERT_TRUE(this->world_.set_filter(other, {2, 0xffffffffu, 0}));
   this->fill(this->pond());
-  RankedZone<S> cabin;
+  ForceZone<S> cabin;
   cabin.shape = ZoneShape::box;
   cabin.pose.position = vec<S>(0, -8, 0);
   cabin.half = vec<S>(2, 2, 2);
   cabin.mask = ~2u;
   cabin.replaces = zone_effect::kWater;
-  const RankedZoneId id = this->world_.add(cabin);
+  const ForceZoneId id = this->world_.add(cabin);
   ASSERT_TRUE(id) << describe(this->world_.fault());
   const auto rise_in_a_step = [&](BodyId body) {
     this->world_.set_velocity(body, Vec3<S>::zero(), Vec3<S>::zero());
@@ -235,13 +235,13 @@ TYPED_TEST(Waters, keels_in_a_dry_zone_feel_nothing) {
   keel.tensor = Mat3<S>::diagonal(vec<S>(0, 0, -400));
   keel.is_under_water = true;
   ASSERT_TRUE(this->world_.add(keel));
-  RankedZone<S> dock;  // around the keel alone: the hull above it floats
+  ForceZone<S> dock;  // around the keel alone: the hull above it floats
   dock.shape = ZoneShape::box;
   dock.pose.position = vec<S>(0, -2.25, 0);
   dock.half = vec<S>(4, 2, 4);
   dock.priority = 1;
   dock.replaces = zone_effect::kWater;
-  const RankedZoneId id = this->world_.add(dock);
+  const ForceZoneId id = this->world_.add(dock);
   ASSERT_TRUE(id) << describe(this->world_.fault());
   const auto push = [&] { this->world_.set_velocity(boat, vec<S>(0, 0, 1), Vec3<S>::zero()); };
   push();
@@ -281,7 +281,7 @@ TYPED_TEST(Waters, bad_numbers_are_named) {
       "current", [&](Water<S>& w) { w.current.x = far; }, Fault::out_of_range);
   refused(
       "wave_period", [&](Water<S>& w) { w.wave_period = S(2000); }, Fault::out_of_range);
-  EXPECT_TRUE(this->world_.state().force_records->untouched());
+  EXPECT_TRUE(this->world_.state().records->untouched());
 }
 
 }  // namespace

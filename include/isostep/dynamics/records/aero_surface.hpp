@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/mat3.hpp"
 
 namespace isostep {
@@ -41,3 +42,27 @@ template <class S> struct AeroSurface {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> bool is_finite_matrix(const Mat3<S>& m) {
+  return is_finite(m.rows[0]) && is_finite(m.rows[1]) && is_finite(m.rows[2]);
+}
+
+template <class S> struct RecordRules<AeroSurface<S>> : RecordDefaults<S> {
+  static FaultReport fault(const AeroSurface<S>& a) {
+    constexpr const char *kFinite = "finite numbers", *kControl = "-1 to 1";
+    return Checklist()
+        .also(fault_of_place(a.point, "point"))
+        .proper(is_unit<S>(a.orientation), "orientation", kUnitLength)
+        .ask(is_finite_matrix(a.tensor), Fault::not_finite, "tensor", kFinite)
+        .ask(is_finite_matrix(a.low), Fault::not_finite, "low", kFinite)
+        .ask(is_finite_matrix(a.high), Fault::not_finite, "high", kFinite)
+        .finite(a.control, "control")
+        .proper(within(a.control, S(1)), "control", kControl)
+        .report();
+  }
+  static NamedBodies<S> bodies(const AeroSurface<S>& a) { return named_point(a.body, a.point, "point"); }
+};
+
+}  // namespace isostep::detail

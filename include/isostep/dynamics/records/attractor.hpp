@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {
@@ -31,3 +32,25 @@ template <class S> struct Attractor {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<Attractor<S>> : RecordDefaults<S> {
+  static constexpr Wakes kWakes = Wakes::all;
+  static FaultReport fault(const Attractor<S>& a) {
+    return Checklist()
+        .also(fault_of_place(a.point, "point"))
+        .finite(a.strength, "strength")
+        .finite(a.least_distance, "least_distance")
+        .finite(a.range, "range")
+        .in_range(a.range <= Limits<S>::position(), "range", "0 to Limits::position()")
+        .in_range(Limits<S>::minimum_size() <= a.least_distance, "least_distance", "Limits::minimum_size() or more")
+        .proper(S(0) <= a.range, "range", "0 to Limits::position()")
+        .report();
+  }
+  static NamedBodies<S> bodies(const Attractor<S>& a) {
+    return {{{a.body, "body", true, MustBe::any, Vec3<S>::zero(), "point"}, {}}, 1};
+  }
+};
+
+}  // namespace isostep::detail

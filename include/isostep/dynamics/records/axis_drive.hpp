@@ -6,6 +6,7 @@
 
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/joints/joint_record.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 
 namespace isostep {
 
@@ -71,3 +72,64 @@ template <class S> struct JointAxisDrive {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+/// Of a drive with the joint that it names.
+template <class S>
+FaultReport fault_of_joint(const AxisDrive<S>& d, const JointProperties<S>& joint, std::int32_t substep_rate) {
+  const bool cone = (joint.flags & joint_flag::kCone) != 0 && d.limited &&
+                    (d.axis == JointAxis::swing_x || d.axis == JointAxis::swing_y);
+  return Checklist()
+      .proper(joint.type == JointType::six_axis, "joint", "a six-axis joint")
+      .proper((joint.flags & lock_of(d.axis)) == 0, "axis", "one that the joint does not lock")
+      .proper(!cone || d.lower == -d.upper, "lower", "-upper: the joint's kCone makes an ellipse of them")
+      .in_range(d.spring_frequency <= S(substep_rate) * S(0.5), "spring_frequency", "up to half the sub-step rate")
+      .in_range(d.limit_frequency <= S(substep_rate) * S(0.5), "limit_frequency", "up to half the sub-step rate")
+      .report();
+}
+
+template <class S> struct RecordRules<AxisDrive<S>> : RecordDefaults<S> {
+  static FaultReport fault(const AxisDrive<S>& d) {
+    if (kJointAxes <= static_cast<std::uint32_t>(d.axis)) return {Fault::bad_argument, "", "axis", "one of JointAxis"};
+    const bool length = is_length(d.axis), sprung = S(0) < d.spring_frequency;
+    const S reach = length ? Limits<S>::position() : kMaxAngle<S> * S(0.5);
+    const char* expected = length ? "lengths up to Limits::position()" : "-pi to pi";
+    NumberChecks<S> checks;
+    checks.not_negative(d.spring_frequency, "spring_frequency");
+    checks.not_negative(d.force, "force");
+    checks.not_negative(d.spring_mass, "spring_mass");
+    checks.not_negative(d.limit_frequency, "limit_frequency");
+    return checks.list.also(fault_of_drive(d, length, reach, expected))
+        .proper(d.lower <= d.upper, "lower", "no more than upper")
+        .proper(!sprung || S(0) <= d.spring_damping, "spring_damping", "0 to 64")
+        .in_range(d.spring_mass <= Limits<S>::mass(), "spring_mass", "0 to Limits::mass()")
+        .finite(d.limit_damping, "limit_damping")
+        .proper(S(0) <= d.limit_damping && d.limit_damping <= kMaxDampingRatio<S>, "limit_damping", "0 to 64")
+        .report();
+  }
+  static constexpr OnlyOne only_one(const AxisDrive<S>&) { return {"axis", "an axis that has no record yet"}; }
+  static RecordKey key(const AxisDrive<S>& d) { return {d.joint.slot, static_cast<std::uint32_t>(d.axis)}; }
+  static NamedJoints joints(const AxisDrive<S>& d) { return {{d.joint, {}, {}}}; }
+  static FaultReport fault_at(const AxisDrive<S>& d, const RecordPlace<S>& place) {
+    return fault_of_joint(d, *place.joints[0], substep_rate(place.settings));
+  }
+};
+
+/// Of all drives that a joint is to have.
+template <class S>
+FaultReport fault_of_drives(std::span<const AxisDrive<S>> drives, const JointProperties<S>& joint,
+                            std::int32_t substep_rate) {
+  std::uint32_t taken = 0;
+  for (const AxisDrive<S>& drive : drives) {
+    const FaultReport fault = RecordRules<AxisDrive<S>>::fault(drive),
+                      of_joint = fault_of_joint(drive, joint, substep_rate);
+    if (fault != Fault::none) return fault;
+    if (of_joint != Fault::none) return of_joint;
+    if ((taken & lock_of(drive.axis)) != 0) return {Fault::bad_argument, "", "axis", "each axis once"};
+    taken |= lock_of(drive.axis);
+  }
+  return {};
+}
+
+}  // namespace isostep::detail

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
+#include "isostep/dynamics/reduced_mass.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {
@@ -36,3 +38,58 @@ template <class S> struct BodySpring {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+/// [kg] What an end of a spring bears at a point: the mass, less what turning gives way.
+template <class S> S least_mass_at(const BodyProperties<S>& body, Vec3<S> point) {
+  const S arm = length(point - body.local_centre), most = max_abs(body.kappa);
+  return body.mass / (S(1) + (most * arm) * arm);
+}
+/// Whether a spring swings more slowly than the sub-steps of that rate [1/s] resolve, and is damped no faster. Null
+/// bodies do not move.
+template <class S>
+FaultReport fault_of_rate(const BodySpring<S>& s, const BodyProperties<S>* a, const BodyProperties<S>* b, S rate) {
+  const auto mass_of = [](const BodyProperties<S>* body, Vec3<S> anchor) {
+    return body == nullptr || body->type != BodyType::dynamic ? S(0) : least_mass_at(*body, anchor);
+  };
+  const S mass_a = mass_of(a, s.anchor_a), mass_b = mass_of(b, s.anchor_b);
+  const S reduced = !(S(0) < mass_a) ? mass_b : !(S(0) < mass_b) ? mass_a : mass_a * mass_share(mass_a, mass_b).a;
+  return Checklist()
+      .in_range((s.stiffness / rate) / rate <= reduced, "stiffness", "up to the reduced mass times the rate squared")
+      .in_range(s.damping / rate <= reduced, "damping", "up to the reduced mass times the rate of sub-steps")
+      .report();
+}
+
+template <class S> struct RecordRules<BodySpring<S>> : RecordDefaults<S> {
+  static constexpr bool kBears = true;
+  static constexpr bool kTies = true;
+  static FaultReport fault(const BodySpring<S>& s) {
+    return Checklist()
+        .also(fault_of_place(s.anchor_a, "anchor_a"))
+        .also(fault_of_place(s.anchor_b, "anchor_b"))
+        .finite(s.rest_length, "rest_length")
+        .finite(s.stiffness, "stiffness")
+        .finite(s.damping, "damping")
+        .in_range(s.rest_length <= Limits<S>::position(), "rest_length", "0 to Limits::position()")
+        .proper(S(0) <= s.rest_length, "rest_length", "0 to Limits::position()")
+        .proper(S(0) <= s.stiffness, "stiffness", kZeroOrMore)
+        .proper(S(0) <= s.damping, "damping", kZeroOrMore)
+        .proper(!(s.a == s.b), "b", "another body than a")
+        .report();
+  }
+  static NamedBodies<S> bodies(const BodySpring<S>& s) {
+    return {
+        {{s.a, "a", false, MustBe::any, s.anchor_a, "anchor_a"}, {s.b, "b", true, MustBe::any, s.anchor_b, "anchor_b"}},
+        2};
+  }
+  static FaultReport fault_at(const BodySpring<S>& s, const RecordPlace<S>& place) {
+    const BodyProperties<S>*const a = place.bodies[0], *const b = place.bodies[1];
+    const auto moves = [](const BodyProperties<S>* body) { return body != nullptr && body->type == BodyType::dynamic; };
+    if (!moves(a) && !moves(b)) return {Fault::not_dynamic, "", "a, b", "a dynamic one"};
+    const Settings<S>& settings = place.settings;
+    return fault_of_rate(s, a, b, S(integration_rate(settings.solver, settings.hz, settings.substeps)));
+  }
+};
+
+}  // namespace isostep::detail

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {
@@ -52,3 +53,33 @@ template <class S> struct Breakable {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<Breakable<S>> : RecordDefaults<S> {
+  static FaultReport fault(const Breakable<S>& b) {
+    constexpr std::uint32_t kMostPieces = 256, kMostDepth = 16;
+    const bool boxes = b.pattern == BreakPattern::eight_boxes;
+    return Checklist()
+        .finite(b.impulse, "impulse")
+        .finite(b.small_mass, "small_mass")
+        .finite(b.broken_by, "broken_by")
+        .also(fault_of_place(b.hit_point, "hit_point"))
+        .proper(b.pattern <= BreakPattern::voronoi, "pattern", "one of BreakPattern")
+        .proper((boxes ? 8u : 2u) <= b.most_pieces && b.most_pieces <= kMostPieces, "most_pieces",
+                "2 to 256, of eight_boxes 8 or more")
+        .proper(b.depth <= kMostDepth, "depth", "0 to 16")
+        .proper(is_direction<S>(b.grain), "grain", "a vector of length 1")
+        .proper(S(0) <= b.impulse, "impulse", kZeroOrMore)
+        .proper(S(0) <= b.small_mass, "small_mass", kZeroOrMore)
+        .proper(S(0) <= b.broken_by, "broken_by", kZeroOrMore)
+        .proper(b.hit_direction == Vec3<Unit<S>>::zero() || is_direction<S>(b.hit_direction), "hit_direction",
+                "a vector of length 1, or 0")
+        .report();
+  }
+  static NamedBodies<S> bodies(const Breakable<S>& b) { return named_body<S>(b.body, MustBe::dynamic); }
+  static constexpr OnlyOne only_one(const Breakable<S>&) { return kOneABody; }
+  static RecordKey key(const Breakable<S>& r) { return {r.body.slot}; }
+};
+
+}  // namespace isostep::detail

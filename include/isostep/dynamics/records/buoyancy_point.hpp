@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {
@@ -31,3 +32,26 @@ template <class S> struct BuoyancyPoint {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<BuoyancyPoint<S>> : RecordDefaults<S> {
+  static constexpr bool kBears = true;
+  static FaultReport fault(const BuoyancyPoint<S>& b) {
+    return Checklist()
+        .also(fault_of_place(b.point, "point"))
+        .finite(b.max_depth, "max_depth")
+        .finite(b.volume, "volume")
+        .finite(b.surface_height, "surface_height")
+        .finite(b.density, "density")
+        .in_range(b.max_depth <= Limits<S>::extent(), "max_depth", "above 0, up to Limits::extent()")
+        .in_range(within(b.surface_height, Limits<S>::position()), "surface_height", "a size up to Limits::position()")
+        .proper(S(0) < b.max_depth, "max_depth", "above 0, up to Limits::extent()")
+        .proper(S(0) <= b.volume, "volume", kZeroOrMore)
+        .proper(S(0) <= b.density, "density", kZeroOrMore)
+        .report();
+  }
+  static NamedBodies<S> bodies(const BuoyancyPoint<S>& b) { return named_point(b.body, b.point, "point"); }
+};
+
+}  // namespace isostep::detail

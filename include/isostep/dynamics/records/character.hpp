@@ -3,6 +3,8 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
+#include "isostep/geometry/surfaces.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {
@@ -64,3 +66,53 @@ template <class S> struct Character {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<Character<S>> : RecordDefaults<S> {
+  static FaultReport fault(const Character<S>& c) {
+    const S least = Limits<S>::minimum_size() * S(0.0625), speed = Limits<S>::speed() * S(0.5);
+    constexpr const char* kSlow = "up to half of Limits::speed()";
+    return Checklist()
+        .finite(c.step_height, "step_height")
+        .finite(c.least_up, "least_up")
+        .finite(c.skin, "skin")
+        .finite(c.mass, "mass")
+        .finite(c.push_force, "push_force")
+        .finite(c.air_acceleration, "air_acceleration")
+        .finite(c.gravity_scale, "gravity_scale")
+        .finite(c.move, "move")
+        .finite(c.jump, "jump")
+        .finite(c.velocity, "velocity")
+        .also(fault_of_place(c.foot, "foot"))
+        .also(fault_of_place(c.foot_at, "foot_at"))
+        .in_range(c.step_height <= Limits<S>::extent(), "step_height", "0 to Limits::extent()")
+        .in_range(c.mass <= Limits<S>::mass(), "mass", "0 to Limits::mass()")
+        .in_range(c.air_acceleration <= Limits<S>::speed(), "air_acceleration", "0 to Limits::speed()")
+        .in_range(within(c.gravity_scale, S(16)), "gravity_scale", "a size up to 16")
+        .in_range(no_longer(c.move, speed), "move", kSlow)
+        .in_range(c.jump <= speed, "jump", "0 to half of Limits::speed()")
+        .in_range(within(c.velocity, Limits<S>::speed()), "velocity", "components up to Limits::speed()")
+        .proper(S(0) <= c.step_height, "step_height", "0 to Limits::extent()")
+        .proper(S(0) < c.least_up && c.least_up <= S(1), "least_up", "above 0, up to 1")
+        .proper(least <= c.skin && c.skin <= S(0.25), "skin", "Limits::minimum_size() / 16 to 0.25")
+        .proper(S(0) <= c.mass, "mass", "0 to Limits::mass()")
+        .proper(S(0) <= c.push_force, "push_force", kZeroOrMore)
+        .proper(S(0) <= c.air_acceleration, "air_acceleration", "0 to Limits::speed()")
+        .proper(S(0) <= c.jump, "jump", "0 to half of Limits::speed()")
+        .proper(c.footing <= Footing::steep, "footing", "one of Footing")
+        .proper(c.normal == Vec3<Unit<S>>::zero() || is_direction<S>(c.normal), "normal", "a vector of length 1, or 0")
+        .report();
+  }
+  static NamedBodies<S> bodies(const Character<S>& c) { return named_body<S>(c.body, MustBe::kinematic); }
+  static constexpr OnlyOne only_one(const Character<S>&) { return kOneABody; }
+  static RecordKey key(const Character<S>& r) { return {r.body.slot}; }
+  /// It is cast, as one.
+  static FaultReport fault_at(const Character<S>&, const RecordPlace<S>& place) {
+    const bool one = place.parts.size() == 1;
+    const bool walks = one && !is_surface(place.parts[0].primitive.type) && is_bounded(place.parts[0].primitive.type);
+    return Checklist().ask(walks, Fault::bad_shape, "body", "one of a single convex part with an end").report();
+  }
+};
+
+}  // namespace isostep::detail

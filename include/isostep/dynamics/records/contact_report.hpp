@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/scalar/platform.hpp"
 
 namespace isostep {
@@ -20,3 +21,15 @@ template <class S> struct ContactReport {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<ContactReport<S>> : RecordDefaults<S> {
+  static constexpr Wakes kWakes = Wakes::none;
+  static FaultReport fault(const ContactReport<S>&) { return {}; }
+  static NamedBodies<S> bodies(const ContactReport<S>& r) { return named_body<S>(r.body, MustBe::any); }
+  static constexpr OnlyOne only_one(const ContactReport<S>&) { return kOneABody; }
+  static RecordKey key(const ContactReport<S>& r) { return {r.body.slot}; }
+};
+
+}  // namespace isostep::detail

@@ -3,6 +3,9 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/joints/joint_coordinate.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
+#include "isostep/scalar/lattice.hpp"
 #include "isostep/scalar/scalar.hpp"
 
 namespace isostep {
@@ -70,3 +73,52 @@ template <class S> ISO_INLINE Coupling<S> mimic(JointId a, JointId b) {
 }
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+/// Of a coupling with the joints that it names: whether each has a coordinate, and teeth where that is an angle.
+template <class S> FaultReport fault_of_joints(const Coupling<S>& c, const JointProperties<S>* const (&joints)[3]) {
+  const S ratios[] = {c.ratio_a, c.ratio_b, c.ratio_c};
+  constexpr const char *kJoints[] = {"joint_a", "joint_b", "joint_c"}, *kRatios[] = {"ratio_a", "ratio_b", "ratio_c"};
+  Checklist list;
+  bool turns = false;
+  for (int i = 0; i < 3; ++i) {
+    if (joints[i] == nullptr) continue;
+    const bool angle = measure_of(joints[i]->type) == JointMeasure::angle;
+    const bool whole = ratios[i] == S(static_cast<int>(floor_scaled(ratios[i], 0)));
+    list.proper(has_coordinate(joints[i]->type), kJoints[i], "a hinge, slider, cylindrical, planar or distance joint")
+        .proper(!angle || whole, kRatios[i], "a whole number: the joint's position is an angle");
+    turns = turns || angle;
+  }
+  return list.proper(!turns || c.upper - c.lower < S(6.28), "upper", "less than a turn above lower").report();
+}
+
+template <class S> struct RecordRules<Coupling<S>> : RecordDefaults<S> {
+  static constexpr bool kTies = true;
+  static FaultReport fault(const Coupling<S>& c) {
+    const S ratios[] = {c.ratio_a, c.ratio_b, c.ratio_c}, most = S(kMostTeeth);
+    constexpr const char* kRatios[] = {"ratio_a", "ratio_b", "ratio_c"};
+    constexpr const char* kRatio = "a size from 1 / 1024 to 1024";
+    Checklist list;
+    for (int i = 0; i < (c.joint_c ? 3 : 2); ++i) {
+      list.finite(ratios[i], kRatios[i]).in_range(within(ratios[i], most), kRatios[i], kRatio);
+      list.proper(S(1) / most <= abs(ratios[i]), kRatios[i], kRatio);
+    }
+    return list.finite(c.ratio_c, "ratio_c")
+        .finite(c.lower, "lower")
+        .finite(c.upper, "upper")
+        .in_range(within(c.lower, Limits<S>::position()), "lower", "up to Limits::position()")
+        .in_range(within(c.upper, Limits<S>::position()), "upper", "up to Limits::position()")
+        .proper(c.lower <= c.upper, "upper", "lower or more")
+        .proper(!(c.joint_a == c.joint_b), "joint_b", "another joint than joint_a")
+        .proper(!c.joint_c || (!(c.joint_a == c.joint_c) && !(c.joint_b == c.joint_c)), "joint_c",
+                "another joint than joint_a and joint_b")
+        .report();
+  }
+  static NamedJoints joints(const Coupling<S>& c) { return {{c.joint_a, c.joint_b, c.joint_c}}; }
+  static FaultReport fault_at(const Coupling<S>& c, const RecordPlace<S>& place) {
+    return fault_of_joints(c, place.joints);
+  }
+};
+
+}  // namespace isostep::detail

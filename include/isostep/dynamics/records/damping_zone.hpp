@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/records/force_zone.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 
 namespace isostep {
 
@@ -36,3 +37,23 @@ template <class S> struct DampingZone {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<DampingZone<S>> : RecordDefaults<S> {
+  static constexpr Wakes kWakes = Wakes::all;
+  static FaultReport fault(const DampingZone<S>& z) {
+    constexpr const char* kRate = "0 to 16384";
+    return Checklist()
+        .also(fault_of_region(z))
+        .finite(z.linear, "linear")
+        .finite(z.angular, "angular")
+        .in_range(z.linear <= S(kMaxRate), "linear", kRate)
+        .in_range(z.angular <= S(kMaxRate), "angular", kRate)
+        .proper(S(0) <= z.linear, "linear", kRate)
+        .proper(S(0) <= z.angular, "angular", kRate)
+        .report();
+  }
+};
+
+}  // namespace isostep::detail

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {
@@ -27,3 +28,21 @@ template <class S> struct BodyDrag {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<BodyDrag<S>> : RecordDefaults<S> {
+  static FaultReport fault(const BodyDrag<S>& d) {
+    return Checklist()
+        .finite(d.linear, "linear")
+        .finite(d.quadratic, "quadratic")
+        .finite(d.angular, "angular")
+        .proper(S(0) <= d.linear, "linear", kZeroOrMore)
+        .proper(S(0) <= d.quadratic, "quadratic", kZeroOrMore)
+        .proper(S(0) <= d.angular, "angular", kZeroOrMore)
+        .report();
+  }
+  static NamedBodies<S> bodies(const BodyDrag<S>& d) { return named_body<S>(d.body, MustBe::dynamic); }
+};
+
+}  // namespace isostep::detail

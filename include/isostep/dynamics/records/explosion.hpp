@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {
@@ -66,3 +67,43 @@ template <class S> struct Explosion {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+inline constexpr int kMostBlastSeconds = 1024;  // [s] of each phase; the clock counts to 16384
+
+template <class S> struct RecordRules<Explosion<S>> : RecordDefaults<S> {
+  static constexpr Wakes kWakes = Wakes::all;
+  static FaultReport fault(const Explosion<S>& e) {
+    constexpr const char *kSeconds = "0 to 1024", *kLength = "0 to Limits::position()";
+    Checklist list;
+    list.also(fault_of_place(e.centre, "centre"));
+    const auto length = [&](S x, const char* field) {
+      list.finite(x, field).in_range(x <= Limits<S>::position(), field, kLength).proper(S(0) <= x, field, kLength);
+    };
+    const auto seconds = [&](S x, const char* field) {
+      list.finite(x, field).in_range(x <= S(kMostBlastSeconds), field, kSeconds).proper(S(0) <= x, field, kSeconds);
+    };
+    list.finite(e.implosion_force, "implosion_force");
+    length(e.implosion_least, "implosion_least");
+    length(e.implosion_most, "implosion_most");
+    seconds(e.implosion_duration, "implosion_duration");
+    list.finite(e.wave_force, "wave_force");
+    length(e.wave_speed, "wave_speed");
+    length(e.wave_width, "wave_width");
+    list.finite(e.wave_ramp, "wave_ramp").proper(S(0) <= e.wave_ramp && e.wave_ramp <= S(1), "wave_ramp", "0 to 1");
+    seconds(e.wave_duration, "wave_duration");
+    list.finite(e.chimney_force, "chimney_force");
+    length(e.chimney_radius, "chimney_radius");
+    length(e.chimney_height, "chimney_height");
+    seconds(e.chimney_duration, "chimney_duration");
+    // Beyond that the wave has nothing to meet, and its place would leave the format.
+    list.in_range(product(e.wave_speed, e.wave_duration) <= product(Limits<S>::position(), S(1)), "wave_duration",
+                  "wave_speed wave_duration up to Limits::position()");
+    return list.proper(Limits<S>::minimum_size() <= e.wave_speed, "wave_speed", "Limits::minimum_size() or more")
+        .proper(Limits<S>::minimum_size() <= e.chimney_radius, "chimney_radius", "Limits::minimum_size() or more")
+        .report();
+  }
+};
+
+}  // namespace isostep::detail

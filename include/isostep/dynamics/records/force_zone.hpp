@@ -1,8 +1,9 @@
-// ForceZone: a part of the world with its own gravity or wind.
+// ForceZone: a part of the world with its own gravity or wind, which may hide those of others.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/transform.hpp"
 
 namespace isostep {
@@ -11,8 +12,22 @@ using ForceZoneId = Id<struct ForceZoneTag>;
 
 enum class ZoneShape : std::uint32_t { everywhere, sphere, box };
 
+/// Bits of ForceZone::replaces.
+namespace zone_effect {
+inline constexpr std::uint32_t kAcceleration = 1u << 0;  // of zones
+inline constexpr std::uint32_t kWind = 1u << 1;          // of zones
+inline constexpr std::uint32_t kGravity = 1u << 2;       // Settings::gravity, which is below all zones
+inline constexpr std::uint32_t kWater = 1u << 3;         // of Water: what is inside is dry
+inline constexpr std::uint32_t kAll = 15u;
+}  // namespace zone_effect
+
 /// Dynamic bodies that are awake, of a category of the mask, with their centre of mass inside, are accelerated. The
 /// wind moves no body by itself: BodyDrag and AeroSurface feel the sum of the winds at their points.
+/// Priority: zones act by (priority, slot). Of what acts at a point, effect by effect, zones below the highest priority
+/// that replaces the effect there count for nothing; all others add up. What a zone's mask leaves out it neither moves
+/// nor hides anything from; its wind blows for all. A body whose centre of mass is in a zone that replaces water of
+/// lower priority is neither borne nor slowed by it; of a body that reaches into it from outside, as the hull round a
+/// cabin, the water bears all that is below the surface.
 template <class S> struct ForceZone {
   ZoneShape shape = ZoneShape::everywhere;
   Pose<S> pose = Pose<S>::identity();         // of a sphere the position alone
@@ -20,6 +35,8 @@ template <class S> struct ForceZone {
   Vec3<S> acceleration = {S(0), S(0), S(0)};  // [m/s^2] world
   Vec3<S> wind = {S(0), S(0), S(0)};          // [m/s] world
   std::uint32_t mask = 0xffffffffu;           // categories: Filter. The wind blows for all
+  std::int32_t priority = 0;
+  std::uint32_t replaces = 0;  // zone_effect: what it hides, of zones of lower priority; 0: it adds to them
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("shape", self.shape);
@@ -28,7 +45,28 @@ template <class S> struct ForceZone {
     visit("acceleration", self.acceleration);
     visit("wind", self.wind);
     visit("mask", self.mask);
+    visit("priority", self.priority);
+    visit("replaces", self.replaces);
   }
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<ForceZone<S>> : RecordDefaults<S> {
+  static constexpr Wakes kWakes = Wakes::all;
+  static FaultReport fault(const ForceZone<S>& z) {
+    const S speed = Limits<S>::speed();
+    return Checklist()
+        .also(fault_of_region(z))
+        .finite(z.acceleration, "acceleration")
+        .finite(z.wind, "wind")
+        .in_range(within(z.acceleration, speed), "acceleration", "components up to Limits::speed()")
+        .in_range(no_longer(z.wind, speed), "wind", kWithinSpeed)
+        .proper((z.replaces & ~zone_effect::kAll) == 0, "replaces", "bits of zone_effect")
+        .report();
+  }
+};
+
+}  // namespace isostep::detail

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {
@@ -22,3 +23,21 @@ template <class S> struct HitReport {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<HitReport<S>> : RecordDefaults<S> {
+  static constexpr Wakes kWakes = Wakes::none;
+  static FaultReport fault(const HitReport<S>& h) {
+    return Checklist()
+        .finite(h.speed, "speed")
+        .in_range(h.speed <= Limits<S>::speed(), "speed", "0 to Limits::speed()")
+        .proper(S(0) <= h.speed, "speed", "0 to Limits::speed()")
+        .report();
+  }
+  static NamedBodies<S> bodies(const HitReport<S>& h) { return named_body<S>(h.body, MustBe::any); }
+  static constexpr OnlyOne only_one(const HitReport<S>&) { return kOneABody; }
+  static RecordKey key(const HitReport<S>& r) { return {r.body.slot}; }
+};
+
+}  // namespace isostep::detail

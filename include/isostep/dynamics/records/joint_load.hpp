@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/scalar/platform.hpp"
 
 namespace isostep {
@@ -29,3 +30,21 @@ template <class S> struct JointLoad {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<JointLoad<S>> : RecordDefaults<S> {
+  static FaultReport fault(const JointLoad<S>& l) {
+    NumberChecks<S> checks;
+    checks.not_negative(l.break_force, "break_force");
+    checks.not_negative(l.break_torque, "break_torque");
+    checks.not_negative(l.force, "force");
+    checks.not_negative(l.torque, "torque");
+    return checks.list.report();
+  }
+  static constexpr OnlyOne only_one(const JointLoad<S>&) { return kOneAJoint; }
+  static RecordKey key(const JointLoad<S>& l) { return {l.joint.slot}; }
+  static NamedJoints joints(const JointLoad<S>& l) { return {{l.joint, {}, {}}}; }
+};
+
+}  // namespace isostep::detail

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/scalar/platform.hpp"
 
 namespace isostep {
@@ -26,3 +27,19 @@ template <class S> struct KindGhost {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<KindGhost<S>> : RecordDefaults<S> {
+  static constexpr Wakes kWakes = Wakes::all;
+  static FaultReport fault(const KindGhost<S>& g) {
+    return Checklist()
+        .proper(g.kind_a != 0, "kind_a", "1 or more")
+        .proper(g.kind_b != 0, "kind_b", "1 or more")
+        .report();
+  }
+  static constexpr OnlyOne only_one(const KindGhost<S>&) { return kOnePairOfKinds; }
+  static RecordKey key(const KindGhost<S>& p) { return {kinds_key(p.kind_a, p.kind_b)}; }
+};
+
+}  // namespace isostep::detail

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/scalar/platform.hpp"
 #include "isostep/scalar/scalar.hpp"
 
@@ -43,3 +44,44 @@ template <class S> struct KindResponse {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<KindResponse<S>> : RecordDefaults<S> {
+  static constexpr Wakes kWakes = Wakes::all;
+  static FaultReport fault(const KindResponse<S>& r) {
+    constexpr const char *kMass = "0, or 2^-8 to 1", *kOne = "above 0 where inverse_mass_scale_a is 0",
+                         *kPart = "0 to 1", *kSame = "that of a, for both are of one kind";
+    const auto is_mass_scale = [](S x) { return x == S(0) || (S(0x1p-8) <= x && x <= S(1)); };
+    const bool same = r.kind_a == r.kind_b;
+    return Checklist()
+        .finite(r.inverse_mass_scale_a, "inverse_mass_scale_a")
+        .finite(r.inverse_mass_scale_b, "inverse_mass_scale_b")
+        .finite(r.inverse_inertia_scale_a, "inverse_inertia_scale_a")
+        .finite(r.inverse_inertia_scale_b, "inverse_inertia_scale_b")
+        .finite(r.max_force, "max_force")
+        .proper(r.kind_a != 0, "kind_a", "1 or more")
+        .proper(r.kind_b != 0, "kind_b", "1 or more")
+        .proper(is_mass_scale(r.inverse_mass_scale_a), "inverse_mass_scale_a", kMass)
+        .proper(is_mass_scale(r.inverse_mass_scale_b), "inverse_mass_scale_b", kMass)
+        .proper(S(0) < r.inverse_mass_scale_a || S(0) < r.inverse_mass_scale_b, "inverse_mass_scale_b", kOne)
+        .proper(S(0) <= r.inverse_inertia_scale_a && r.inverse_inertia_scale_a <= S(1), "inverse_inertia_scale_a",
+                kPart)
+        .proper(S(0) <= r.inverse_inertia_scale_b && r.inverse_inertia_scale_b <= S(1), "inverse_inertia_scale_b",
+                kPart)
+        .proper(!same || r.inverse_mass_scale_a == r.inverse_mass_scale_b, "inverse_mass_scale_b", kSame)
+        .proper(!same || r.inverse_inertia_scale_a == r.inverse_inertia_scale_b, "inverse_inertia_scale_b", kSame)
+        .proper(S(0) <= r.max_force, "max_force", kZeroOrMore)
+        .report();
+  }
+  static constexpr OnlyOne only_one(const KindResponse<S>&) { return kOnePairOfKinds; }
+  static RecordKey key(const KindResponse<S>& p) { return {kinds_key(p.kind_a, p.kind_b)}; }
+  /// Two rows of `direct` on one body share its true mass: its matrix is one of square roots of masses.
+  static FaultReport fault_at(const KindResponse<S>&, const RecordPlace<S>& place) {
+    return Checklist()
+        .proper(place.settings.solver != SolverName::direct, "solver", "another solver than direct")
+        .report();
+  }
+};
+
+}  // namespace isostep::detail

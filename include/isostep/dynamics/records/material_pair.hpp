@@ -6,6 +6,7 @@
 
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/body.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 
 namespace isostep {
 
@@ -33,9 +34,34 @@ template <class S> struct MaterialPair {
   }
 };
 
-/// The same for (a, b) and (b, a).
-ISO_INLINE constexpr std::uint64_t kinds_key(std::uint32_t a, std::uint32_t b) {
-  return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
-}
-
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<MaterialPair<S>> : RecordDefaults<S> {
+  static constexpr Wakes kWakes = Wakes::all;
+  static FaultReport fault(const MaterialPair<S>& p) {
+    return Checklist()
+        .finite(p.friction, "friction")
+        .finite(p.static_friction, "static_friction")
+        .finite(p.restitution, "restitution")
+        .finite(p.rolling_resistance, "rolling_resistance")
+        .finite(p.spin_resistance, "spin_resistance")
+        .in_range(p.friction <= kMaxFriction<S>, "friction", "0 to 16")
+        .in_range(p.static_friction <= kMaxFriction<S>, "static_friction", "0 to 16")
+        .in_range(p.rolling_resistance <= Limits<S>::extent(), "rolling_resistance", "0 to Limits::extent()")
+        .in_range(p.spin_resistance <= Limits<S>::extent(), "spin_resistance", "0 to Limits::extent()")
+        .proper(p.kind_a != 0, "kind_a", "1 or more")
+        .proper(p.kind_b != 0, "kind_b", "1 or more")
+        .proper(S(0) <= p.friction, "friction", "0 to 16")
+        .proper(S(0) <= p.static_friction, "static_friction", "0 to 16")
+        .proper(S(0) <= p.restitution && p.restitution <= S(1), "restitution", "0 to 1")
+        .proper(S(0) <= p.rolling_resistance, "rolling_resistance", "0 to Limits::extent()")
+        .proper(S(0) <= p.spin_resistance, "spin_resistance", "0 to Limits::extent()")
+        .report();
+  }
+  static constexpr OnlyOne only_one(const MaterialPair<S>&) { return kOnePairOfKinds; }
+  static RecordKey key(const MaterialPair<S>& p) { return {kinds_key(p.kind_a, p.kind_b)}; }
+};
+
+}  // namespace isostep::detail

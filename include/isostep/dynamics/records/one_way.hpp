@@ -9,6 +9,7 @@
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/core/registry.hpp"
 #include "isostep/core/stable_sort.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/mat3.hpp"
 #include "isostep/math/quat.hpp"
 
@@ -82,3 +83,21 @@ template <class S> class Ways {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<OneWay<S>> : RecordDefaults<S> {
+  static constexpr Wakes kWakes = Wakes::touching;
+  static FaultReport fault(const OneWay<S>& w) {
+    return Checklist()
+        .proper(is_direction<S>(w.axis), "axis", "a vector of length 1")
+        .finite(w.least_cosine, "least_cosine")
+        .proper(S(0) < w.least_cosine && w.least_cosine <= S(1), "least_cosine", "above 0, up to 1")
+        .report();
+  }
+  static NamedBodies<S> bodies(const OneWay<S>& w) { return named_body<S>(w.body, MustBe::any); }
+  static constexpr OnlyOne only_one(const OneWay<S>&) { return kOneABody; }
+  static RecordKey key(const OneWay<S>& r) { return {r.body.slot}; }
+};
+
+}  // namespace isostep::detail

@@ -1,51 +1,66 @@
-// The closed list of records that are registered with a world and are no forces.
+// The closed list of records: what is registered with a world beside bodies, shapes and joints.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/records/aero_surface.hpp"
+#include "isostep/dynamics/records/attractor.hpp"
 #include "isostep/dynamics/records/axis_drive.hpp"
+#include "isostep/dynamics/records/body_spring.hpp"
 #include "isostep/dynamics/records/breakable.hpp"
+#include "isostep/dynamics/records/buoyancy_point.hpp"
 #include "isostep/dynamics/records/character.hpp"
 #include "isostep/dynamics/records/contact_report.hpp"
 #include "isostep/dynamics/records/coupling.hpp"
 #include "isostep/dynamics/records/damping_zone.hpp"
+#include "isostep/dynamics/records/drag.hpp"
+#include "isostep/dynamics/records/explosion.hpp"
+#include "isostep/dynamics/records/force_zone.hpp"
 #include "isostep/dynamics/records/ghost.hpp"
 #include "isostep/dynamics/records/hit_report.hpp"
 #include "isostep/dynamics/records/joint_load.hpp"
 #include "isostep/dynamics/records/kind_ghost.hpp"
 #include "isostep/dynamics/records/kind_response.hpp"
 #include "isostep/dynamics/records/material_pair.hpp"
-#include "isostep/dynamics/records/move_target.hpp"
 #include "isostep/dynamics/records/one_way.hpp"
-#include "isostep/dynamics/records/ranked_water.hpp"
-#include "isostep/dynamics/records/ranked_zone.hpp"
 #include "isostep/dynamics/records/sensor_mount.hpp"
 #include "isostep/dynamics/records/surface_velocity.hpp"
+#include "isostep/dynamics/records/thruster.hpp"
 #include "isostep/dynamics/records/vehicle.hpp"
+#include "isostep/dynamics/records/water.hpp"
 
-/// As ISO_FOR_EACH_FORCE in forces/force_list.hpp, of what does not act by `act` in a sub-step.
-#define ISO_FOR_EACH_OTHER_RECORD(R, S)                \
-  R(material_pair, MaterialPair<S>, MaterialPairId, S) \
-  R(breakable, Breakable<S>, BreakableId, S)           \
-  R(character, Character<S>, CharacterId, S)           \
-  R(vehicle, Vehicle<S>, VehicleId, S)                 \
-  R(wheel, Wheel<S>, WheelId, S)
+/// ISO_FOR_EACH_RECORD_WITH(R, X, S) expands R(X, name, Record, Id, S) for each kind, at most 32 of them. Those that
+/// act in a sub-step act in this order; what resists motion - drag, surfaces, the drag of water - after all others, for
+/// it asks what they are about to do. Every kind has three commands, add_name, set_name and remove_name, and a registry
+/// in RecordStore, whose name is the same with an s. The order is that of hashes, portable forms and commands. To add
+/// one: README.md.
+#define ISO_FOR_EACH_RECORD_WITH(R, X, S)                          \
+  R(X, force_zone, ForceZone<S>, ForceZoneId, S)                   \
+  R(X, attractor, Attractor<S>, AttractorId, S)                    \
+  R(X, body_spring, BodySpring<S>, BodySpringId, S)                \
+  R(X, thruster, Thruster<S>, ThrusterId, S)                       \
+  R(X, buoyancy, BuoyancyPoint<S>, BuoyancyId, S)                  \
+  R(X, explosion, Explosion<S>, ExplosionId, S)                    \
+  R(X, water, Water<S>, WaterId, S)                                \
+  R(X, drag, BodyDrag<S>, DragId, S)                               \
+  R(X, aero_surface, AeroSurface<S>, AeroSurfaceId, S)             \
+  R(X, damping_zone, DampingZone<S>, DampingZoneId, S)             \
+  R(X, material_pair, MaterialPair<S>, MaterialPairId, S)          \
+  R(X, breakable, Breakable<S>, BreakableId, S)                    \
+  R(X, character, Character<S>, CharacterId, S)                    \
+  R(X, vehicle, Vehicle<S>, VehicleId, S)                          \
+  R(X, wheel, Wheel<S>, WheelId, S)                                \
+  R(X, surface_velocity, SurfaceVelocity<S>, SurfaceVelocityId, S) \
+  R(X, ghost, Ghost<S>, GhostId, S)                                \
+  R(X, one_way, OneWay<S>, OneWayId, S)                            \
+  R(X, hit_report, HitReport<S>, HitReportId, S)                   \
+  R(X, contact_report, ContactReport<S>, ContactReportId, S)       \
+  R(X, joint_load, JointLoad<S>, JointLoadId, S)                   \
+  R(X, coupling, Coupling<S>, CouplingId, S)                       \
+  R(X, axis_drive, AxisDrive<S>, AxisDriveId, S)                   \
+  R(X, kind_ghost, KindGhost<S>, KindGhostId, S)                   \
+  R(X, kind_response, KindResponse<S>, KindResponseId, S)          \
+  R(X, sensor_mount, SensorMount<S>, SensorMountId, S)
 
-/// The same, of newer kinds: how bodies touch, what joints bear, where kinematic bodies and sensors are to be, which
-/// zones and waters hide others, what slows. The position is the kind's number in hashes and portable forms: append,
-/// never reorder. A world to which none of a kind was ever added has the hash and form of one that does not know it.
-#define ISO_FOR_EACH_NEWER_RECORD(R, S)                         \
-  R(surface_velocity, SurfaceVelocity<S>, SurfaceVelocityId, S) \
-  R(ghost, Ghost<S>, GhostId, S)                                \
-  R(one_way, OneWay<S>, OneWayId, S)                            \
-  R(hit_report, HitReport<S>, HitReportId, S)                   \
-  R(joint_load, JointLoad<S>, JointLoadId, S)                   \
-  R(coupling, Coupling<S>, CouplingId, S)                       \
-  R(axis_drive, AxisDrive<S>, AxisDriveId, S)                   \
-  R(move_target, MoveTarget<S>, MoveTargetId, S)                \
-  R(kind_ghost, KindGhost<S>, KindGhostId, S)                   \
-  R(ranked_zone, RankedZone<S>, RankedZoneId, S)                \
-  R(contact_report, ContactReport<S>, ContactReportId, S)       \
-  R(kind_response, KindResponse<S>, KindResponseId, S)          \
-  R(damping_zone, DampingZone<S>, DampingZoneId, S)             \
-  R(ranked_water, RankedWater<S>, RankedWaterId, S)             \
-  R(sensor_mount, SensorMount<S>, SensorMountId, S)
+/// R(name, Record, Id, S) for each kind.
+#define ISO_FOR_EACH_RECORD(R, S) ISO_FOR_EACH_RECORD_WITH(ISO_RECORD_ALONE, R, S)
+#define ISO_RECORD_ALONE(R, name, Record, Id, S) R(name, Record, Id, S)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/transform.hpp"
 
 namespace isostep {
@@ -32,3 +33,33 @@ template <class S> struct SensorMount {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<SensorMount<S>> : RecordDefaults<S> {
+  static constexpr Wakes kWakes = Wakes::none;
+  static FaultReport fault(const SensorMount<S>& m) {
+    return Checklist()
+        .proper(!(m.sensor == m.on), "on", "another body than sensor")
+        .finite(m.frame.position, "frame.position")
+        .in_range(within(m.frame.position, Limits<S>::extent()), "frame.position", "components up to Limits::extent()")
+        .proper(is_unit<S>(m.frame.orientation), "frame.orientation", kUnitLength)
+        .report();
+  }
+  static NamedBodies<S> bodies(const SensorMount<S>& m) {
+    return {{{m.sensor, "sensor", false, MustBe::kinematic, Vec3<S>::zero(), ""},
+             {m.on, "on", false, MustBe::any, Vec3<S>::zero(), ""}},
+            2};
+  }
+  static constexpr OnlyOne only_one(const SensorMount<S>&) { return {"sensor", "a sensor that has no record yet"}; }
+  static RecordKey key(const SensorMount<S>& m) { return {m.sensor.slot}; }
+  /// Neither of the two is mounted on and mounted.
+  static constexpr const char* kNoCarrier[] = {"a sensor that carries none", "a body that is not mounted itself"};
+  static FaultReport fault_at(const SensorMount<S>&, const RecordPlace<S>& place) {
+    return Checklist()
+        .proper((place.bodies[0]->flags & body_flag::kSensor) != 0, "sensor", "a body that is a sensor")
+        .report();
+  }
+};
+
+}  // namespace isostep::detail

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {
@@ -42,3 +43,30 @@ template <class S> struct SurfaceVelocity {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<SurfaceVelocity<S>> : RecordDefaults<S> {
+  static constexpr Wakes kWakes = Wakes::touching;
+  static FaultReport fault(const SurfaceVelocity<S>& v) {
+    return Checklist()
+        .finite(v.linear, "linear")
+        .finite(v.angular, "angular")
+        .in_range(no_longer(v.linear, Limits<S>::speed()), "linear", kWithinSpeed)
+        .in_range(no_longer(v.angular, Limits<S>::angular_speed()), "angular", "a length up to Limits::angular_speed()")
+        .report();
+  }
+  static NamedBodies<S> bodies(const SurfaceVelocity<S>& v) { return named_body<S>(v.body, MustBe::any); }
+  static constexpr OnlyOne only_one(const SurfaceVelocity<S>& v) {
+    return v.part == kEveryPart ? kOneABody : OnlyOne{"part", "a part that has no record yet"};
+  }
+  static RecordKey key(const SurfaceVelocity<S>& v) { return {v.body.slot, v.part}; }
+  static FaultReport fault_at(const SurfaceVelocity<S>& v, const RecordPlace<S>& place) {
+    return Checklist()
+        .proper(v.part == kEveryPart || v.part < place.parts.size(), "part",
+                "kEveryPart, or a child of the body's shape")
+        .report();
+  }
+};
+
+}  // namespace isostep::detail

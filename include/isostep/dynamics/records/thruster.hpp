@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {
@@ -22,3 +23,14 @@ template <class S> struct Thruster {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<Thruster<S>> : RecordDefaults<S> {
+  static FaultReport fault(const Thruster<S>& t) {
+    return Checklist().also(fault_of_place(t.point, "point")).finite(t.force, "force").report();
+  }
+  static NamedBodies<S> bodies(const Thruster<S>& t) { return named_point(t.body, t.point, "point"); }
+};
+
+}  // namespace isostep::detail

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/records/record_rules.hpp"
+#include "isostep/dynamics/wheel_rows.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/math/vec3.hpp"
 
@@ -178,3 +180,88 @@ template <class S> struct Wheel {
 };
 
 }  // namespace isostep
+
+namespace isostep::detail {
+
+template <class S> struct RecordRules<Vehicle<S>> : RecordDefaults<S> {
+  static FaultReport fault(const Vehicle<S>& v) {
+    NumberChecks<S> checks;
+    checks.not_negative(v.engine_torque, "engine_torque");
+    checks.not_negative(v.engine_speed, "engine_speed");
+    for (const S gear : v.gears) checks.list.finite(gear, "gears");
+    checks.list.proper(v.gear < kMostGears, "gear", "0 to 7");
+    checks.list.finite(v.final_drive, "final_drive");
+    checks.list.finite(v.engine_inertia, "engine_inertia")
+        .proper(v.engine_inertia == S(0) || S(0x1p-10) <= v.engine_inertia, "engine_inertia", "0, or 2^-10 or more");
+    checks.not_negative(v.clutch_torque, "clutch_torque");
+    checks.part(v.differential_lock, "differential_lock");
+    checks.not_negative(v.brake_torque, "brake_torque");
+    checks.not_negative(v.handbrake_torque, "handbrake_torque");
+    checks.part(v.ackermann, "ackermann");
+    checks.list.finite(v.track_steer, "track_steer")
+        .proper(S(0) <= v.track_steer && v.track_steer <= S(2), "track_steer", "0 to 2");
+    checks.input(v.throttle, "throttle");
+    checks.part(v.clutch, "clutch");
+    checks.part(v.brake, "brake");
+    checks.part(v.handbrake, "handbrake");
+    checks.input(v.steer, "steer");
+    checks.list.finite(v.engine_spin, "engine_spin")
+        .in_range(within(v.engine_spin, fastest_engine<S>()), "engine_spin", "a size up to fastest_engine()");
+    checks.list.finite(v.clutch_load, "clutch_load");
+    return checks.list.report();
+  }
+  static NamedBodies<S> bodies(const Vehicle<S>& v) { return named_body<S>(v.body, MustBe::dynamic); }
+  static constexpr OnlyOne only_one(const Vehicle<S>&) { return kOneABody; }
+  static RecordKey key(const Vehicle<S>& r) { return {r.body.slot}; }
+};
+
+template <class S> struct RecordRules<Wheel<S>> : RecordDefaults<S> {
+  static FaultReport fault(const Wheel<S>& w) {
+    constexpr S kMostSteer = S(1.570796326794896619);  // [rad]
+    NumberChecks<S> checks;
+    checks.list.also(fault_of_place(w.hard_point, "hard_point"));
+    checks.direction(w.suspension, "suspension");
+    checks.direction(w.axle_direction, "axle_direction");
+    checks.list.proper(within(dot(w.axle_direction, w.suspension), Unit<S>(0.5)), "axle_direction",
+                       "one across the suspension, to 30 degrees");
+    checks.size(w.free_length, "free_length");
+    checks.not_negative(w.travel, "travel");
+    checks.list.proper(w.travel <= w.free_length, "travel", "0 to free_length");
+    checks.not_negative(w.stiffness, "stiffness");
+    checks.not_negative(w.damping, "damping");
+    checks.size(w.radius, "radius");
+    checks.list.finite(w.inertia, "inertia").proper(S(0) < w.inertia, "inertia", "above 0");
+    checks.grip(w.grip_along, "grip_along");
+    checks.grip(w.grip_across, "grip_across");
+    checks.size_of_slip(w.peak_slip, "peak_slip");
+    checks.grip(w.peak_grip, "peak_grip");
+    checks.size_of_slip(w.slide_slip, "slide_slip");
+    checks.list.proper(w.peak_slip < w.slide_slip, "slide_slip", "above peak_slip");
+    checks.grip(w.slide_grip, "slide_grip");
+    checks.list.finite(w.steer_angle, "steer_angle")
+        .in_range(within(w.steer_angle, kMostSteer), "steer_angle", "-pi/2 to pi/2");
+    checks.part(w.drive_share, "drive_share");
+    checks.part(w.brake_share, "brake_share");
+    checks.part(w.handbrake_share, "handbrake_share");
+    checks.not_negative(w.anti_roll, "anti_roll");
+    checks.list.finite(w.spin, "spin").finite(w.angle, "angle").finite(w.length, "length");
+    checks.list.finite(w.steered, "steered");
+    checks.list.finite(w.slip, "slip").proper(S(0) <= w.slip && w.slip <= S(4), "slip", "0 to 4");
+    checks.list.finite(w.contact_point, "contact_point").finite(w.contact_normal, "contact_normal");
+    checks.list.in_range(within(w.angle, kMaxAngle<S>), "angle", "-2 pi to 2 pi");
+    checks.list.in_range(within(w.steered, kMaxAngle<S>), "steered", "-2 pi to 2 pi");
+    checks.not_negative(w.load, "load");
+    checks.list.finite(w.along, "along").finite(w.across, "across");
+    return checks.list.report();
+  }
+  static NamedBodies<S> bodies(const Wheel<S>& w) { return named_point(w.body, w.hard_point, "hard_point"); }
+  /// Whether tyre and body are within the range of masses that one row bears.
+  static FaultReport fault_at(const Wheel<S>& w, const RecordPlace<S>& place) {
+    return Checklist()
+        .in_range(rim_give(place.bodies[0]->mass, w.radius, w.inertia) <= Limits<S>::leverage(), "inertia",
+                  "mass radius^2 / inertia up to Limits::leverage()")
+        .report();
+  }
+};
+
+}  // namespace isostep::detail

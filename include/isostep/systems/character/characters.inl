@@ -3,10 +3,10 @@
 #pragma once
 
 #include "isostep/collision/query/closest_point.hpp"
+#include "isostep/dynamics/checks.hpp"
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/math/rotations.hpp"
 #include "isostep/query/surroundings.inl"
-#include "isostep/store/checks.hpp"
 #include "isostep/store/fat_box.hpp"
 #include "isostep/store/finite_guard.hpp"
 #include "isostep/systems/character/character_walk.inl"
@@ -34,7 +34,7 @@ template <class S>
 const SurfaceVelocity<S>* belt_under(const WorldState<S>& state, const BodyMap<S>& map, const Character<S>& character) {
   const SurfaceVelocity<S>* of_body = nullptr;
   std::uint32_t part = kEveryPart;  // not asked for yet
-  for (const SurfaceVelocity<S>& belt : state.force_records->surface_velocitys.all()) {
+  for (const SurfaceVelocity<S>& belt : state.records->surface_velocitys.all()) {
     if (!belt.body || belt.body != character.ground) continue;
     if (belt.part == kEveryPart) {
       of_body = &belt;
@@ -72,7 +72,7 @@ template <class S> S push_on(S mass, S lacks, std::int32_t hz, S most) {
 }  // namespace detail
 
 template <class S> void Characters<S>::update() {
-  const auto& records = state_.force_records->characters;
+  const auto& records = state_.records->characters;
   if (records.all().empty()) return;
   walks_.assign(state_.body_slots.entries().size(), detail::obstacle::kFixed);
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
@@ -89,7 +89,7 @@ template <class S> void Characters<S>::update() {
     if (records.is_taken(slot) && map_.is_enabled(records.all()[slot].body.slot)) walk(slot);
   }
   if (moves_.empty()) return;
-  std::vector<Character<S>>& changed = state_.force_records.change().characters.change_all();
+  std::vector<Character<S>>& changed = state_.records.change().characters.change_all();
   for (const Move& move : moves_) {
     changed[move.record] = move.character;
     detail::keep_finite(changed[move.record]);
@@ -99,7 +99,7 @@ template <class S> void Characters<S>::update() {
 }
 
 template <class S> void Characters<S>::walk(std::uint32_t slot) {
-  Character<S> character = state_.force_records->characters.all()[slot];
+  Character<S> character = state_.records->characters.all()[slot];
   const Settings<S>& settings = state_.settings;
   const Asking asking = {state_.shape_slots.template id_of<ShapeId>(map_.properties_of(character.body)->shape),
                          map_.origin_pose_at(character.body.slot)};
@@ -135,16 +135,16 @@ template <class S> void Characters<S>::find_passed(const Character<S>& character
   passed_.clear();
   passed_kinds_.clear();
   const std::uint32_t kind = map_.properties_of(character.body)->material.kind;
-  for (const KindGhost<S>& ghost : state_.force_records->kind_ghosts.all()) {
+  for (const KindGhost<S>& ghost : state_.records->kind_ghosts.all()) {
     if (kind != 0 && ghost.kind_a == kind) passed_kinds_.push_back(ghost.kind_b);
     if (kind != 0 && ghost.kind_b == kind) passed_kinds_.push_back(ghost.kind_a);
   }
-  for (const Ghost<S>& ghost : state_.force_records->ghosts.all()) {
+  for (const Ghost<S>& ghost : state_.records->ghosts.all()) {
     if (ghost.a && ghost.a == character.body) passed_.push_back(ghost.b);
     if (ghost.b && ghost.b == character.body) passed_.push_back(ghost.a);
   }
   knows_contacts_ = false;
-  for (const OneWay<S>& way : state_.force_records->one_ways.all()) {
+  for (const OneWay<S>& way : state_.records->one_ways.all()) {
     if (way.body && way.body != character.body && !is_above(character, asking, way)) passed_.push_back(way.body);
   }
 }

@@ -8,7 +8,7 @@ namespace isostep {
 
 template <class S> void ContactResponses<S>::update() {
   all_.clear();
-  table_.update(state_.force_records->kind_responses);
+  table_.update(state_.records->kind_responses);
   if (table_.empty()) return;
   const auto kind = [&](std::uint32_t slot) { return map_.properties_at(map_.location(slot)).material.kind; };
   for (std::uint32_t i = 0; i < state_.contacts.size(); ++i) {

@@ -99,7 +99,7 @@ std::uint32_t NarrowPhase<S>::update(std::span<const std::uint64_t> pairs, const
   belts_ = rules.belts == nullptr || rules.belts->empty() ? nullptr : rules.belts;
   kernels_ = tools.pair_kernels;
   part_pairs_.begin(rules.apart);
-  material_table_.update(state_.force_records->material_pairs);
+  material_table_.update(state_.records->material_pairs);
   old_contacts_.swap(state_.contacts);
   overlaps_.clear();
   placed_ = 0;

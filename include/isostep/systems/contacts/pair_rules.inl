@@ -22,7 +22,7 @@ template <class S> void PairRules<S>::update(std::span<const std::uint64_t> pair
   add_mounts(pairs);
   sort();
   ghosts_ = apart_.size();
-  ways_.update(state_.force_records->one_ways,
+  ways_.update(state_.records->one_ways,
                [&](std::uint32_t slot) { return map_.state_at(map_.location(slot)).orientation; });
   if (!ways_.empty()) judge_pairs(pairs);
 }
@@ -36,7 +36,7 @@ template <class S> void PairRules<S>::sort() {
 // ---- ghosts
 
 template <class S> void PairRules<S>::end_ghosts() {
-  const auto& ghosts = state_.force_records->ghosts;
+  const auto& ghosts = state_.records->ghosts;
   ended_.clear();
   for (std::uint32_t slot = 0; slot < ghosts.all().size(); ++slot) {
     if (!ghosts.is_taken(slot)) continue;
@@ -45,13 +45,13 @@ template <class S> void PairRules<S>::end_ghosts() {
     else ended_.push_back(slot);
   }
   if (ended_.empty()) return;
-  auto& changed = state_.force_records.change().ghosts;
+  auto& changed = state_.records.change().ghosts;
   for (const std::uint32_t slot : ended_) changed.remove_at(slot);
 }
 
 /// Pairs of kinds that pass each other.
 template <class S> void PairRules<S>::add_kinds(std::span<const std::uint64_t> pairs) {
-  kinds_.update(state_.force_records->kind_ghosts);
+  kinds_.update(state_.records->kind_ghosts);
   if (kinds_.empty()) return;
   const auto kind = [&](std::uint32_t slot) { return map_.properties_at(map_.location(slot)).material.kind; };
   for (const std::uint64_t key : pairs) {
@@ -61,7 +61,7 @@ template <class S> void PairRules<S>::add_kinds(std::span<const std::uint64_t> p
 
 /// A sensor and the body that it goes with; all pairs of one on a body that is disabled.
 template <class S> void PairRules<S>::add_mounts(std::span<const std::uint64_t> pairs) {
-  const std::vector<SensorMount<S>>& mounts = state_.force_records->sensor_mounts.all();
+  const std::vector<SensorMount<S>>& mounts = state_.records->sensor_mounts.all();
   bool any_blind = false;
   for (const SensorMount<S>& mount : mounts) {
     if (!mount.sensor) continue;
@@ -81,7 +81,7 @@ template <class S> void PairRules<S>::add_mounts(std::span<const std::uint64_t> 
 
 /// [m] that a character keeps from what is in its way; 0 of other bodies.
 template <class S> S PairRules<S>::skin_of(BodyId body) const {
-  const auto& characters = state_.force_records->characters;
+  const auto& characters = state_.records->characters;
   const CharacterId id = characters.id_where([&](const Character<S>& character) { return character.body == body; });
   return id ? characters.find(id)->skin : S(0);
 }
@@ -98,7 +98,7 @@ template <class S> bool PairRules<S>::still_meet(BodyId a, BodyId b) const {
 
 template <class S> void PairRules<S>::begin_ghost(std::uint64_t key) {
   const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };
-  state_.force_records.change().ghosts.add({id(pair_a(key)), id(pair_b(key))}, state_.settings.id_space);
+  state_.records.change().ghosts.add({id(pair_a(key)), id(pair_b(key))}, state_.settings.id_space);
 }
 
 // ---- one-way bodies

@@ -10,7 +10,7 @@
 namespace isostep {
 
 template <class S> void BreakEvents<S>::collect(const SolvedContacts<S>& contacts, Events<S>& events) {
-  const auto& records = state_.force_records->breakables;
+  const auto& records = state_.records->breakables;
   if (records.all().empty()) return;
   record_of_.assign(state_.body_slots.entries().size(), 0);
   blows_.assign(records.all().size(), Blow{S(0), 0, false});
@@ -34,7 +34,7 @@ template <class S> void BreakEvents<S>::weigh(const SolvedContacts<S>& contacts,
   for (const bool on_b : {false, true}) {
     const std::uint32_t record = record_of_[on_b ? key.body_b : key.body_a];
     if (record == 0) continue;
-    const Breakable<S>& breakable = state_.force_records->breakables.all()[record - 1];
+    const Breakable<S>& breakable = state_.records->breakables.all()[record - 1];
     Blow& blow = blows_[record - 1];
     if (breakable.impulse < impulse && breakable.broken_by < impulse && blow.impulse < impulse)
       blow = {impulse, first, on_b};
@@ -50,7 +50,7 @@ template <class S> void BreakEvents<S>::mark(const SolvedContacts<S>& contacts, 
   for (std::uint32_t i = 0; i < points; ++i)
     arm += (blow.on_b ? geometry.points[i].arm_b : geometry.points[i].arm_a) * share;
   const Vec3<Unit<S>> direction = blow.on_b ? geometry.normal : -geometry.normal;
-  Breakable<S>& breakable = state_.force_records.change().breakables.change_all()[slot];
+  Breakable<S>& breakable = state_.records.change().breakables.change_all()[slot];
   const Location at = map_.location(breakable.body.slot);
   const BodyState<S>& body = map_.state_at(at);
   const Mat3<Unit<S>> turn = to_matrix(body.orientation);

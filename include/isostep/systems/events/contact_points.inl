@@ -8,7 +8,7 @@
 namespace isostep {
 
 template <class S> void ContactPoints<S>::collect(const SolvedContacts<S>& contacts, Events<S>& events) {
-  const auto& records = state_.force_records->contact_reports;
+  const auto& records = state_.records->contact_reports;
   if (records.all().empty()) return;
   asked_.clear();
   for (std::uint32_t slot = 0; slot < records.all().size(); ++slot) {

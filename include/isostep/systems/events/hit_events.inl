@@ -8,7 +8,7 @@
 namespace isostep {
 
 template <class S> void HitEvents<S>::list_thresholds() {
-  const auto& records = state_.force_records->hit_reports;
+  const auto& records = state_.records->hit_reports;
   thresholds_.assign(state_.body_slots.entries().size(), S(-1));
   for (std::uint32_t slot = 0; slot < records.all().size(); ++slot) {
     if (records.is_taken(slot)) thresholds_[records.all()[slot].body.slot] = records.all()[slot].speed;
@@ -17,7 +17,7 @@ template <class S> void HitEvents<S>::list_thresholds() {
 
 template <class S> void HitEvents<S>::measure(std::span<const ContactGeometry<S>> geometry) {
   approaches_.clear();
-  if (state_.force_records->hit_reports.all().empty()) return;
+  if (state_.records->hit_reports.all().empty()) return;
   list_thresholds();
   approaches_.resize(state_.contacts.size());
   for (std::size_t i = 0; i < state_.contacts.size(); ++i) {

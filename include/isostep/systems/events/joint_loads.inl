@@ -10,7 +10,7 @@ namespace isostep {
 
 template <class S> std::span<JointImpulse<S>> JointLoads<S>::impulses() {
   impulses_.clear();
-  if (state_.force_records->joint_loads.all().empty()) return {};
+  if (state_.records->joint_loads.all().empty()) return {};
   impulses_.assign(state_.joints.states.size(), JointImpulse<S>::zero());
   return impulses_;
 }
@@ -34,7 +34,7 @@ template <class S> bool JointLoads<S>::measure(JointLoad<S>& load) const {
 template <class S> void JointLoads<S>::update(Events<S>& events) {
   if (impulses_.empty()) return;
   broken_.clear();
-  auto& loads = state_.force_records.change().joint_loads;
+  auto& loads = state_.records.change().joint_loads;
   for (std::uint32_t slot = 0; slot < loads.all().size(); ++slot) {
     if (!loads.is_taken(slot)) continue;
     JointLoad<S>& load = loads.change_all()[slot];

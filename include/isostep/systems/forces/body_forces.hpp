@@ -23,8 +23,8 @@ namespace isostep {
 /// Output:  an acceleration for each awake body; the report's clamped_force. Explosions that ended are removed, and the
 ///          records of wheels written.
 /// Keeps:   nothing from step to step but memory.
-/// Order:   what commands asked for, then the records kind by kind (force_list.hpp), each kind ascending by slot, then
-///          wheels, then couplings.
+/// Order:   what commands asked for, then the records kind by kind (record_list.hpp), each kind ascending by slot, but
+///          zones and waters by (priority, slot), then wheels, then couplings.
 template <class S> class BodyForces {
  public:
   ISO_INLINE BodyForces(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
@@ -74,17 +74,24 @@ template <class S> class BodyForces {
   static constexpr std::uint32_t kMostParts = 1024;  // of a body's mass, for what resists its motion
 
   ISO_INLINE bool no_records() const {
-    const ForceRecords<S>& records = *state_.force_records;
-    return records.no_forces() && records.ranked_zones.all().empty() && records.ranked_waters.all().empty() &&
-           records.damping_zones.all().empty() && !wheels_.any() && !couplings_.any();
+    const RecordStore<S>& records = *state_.records;
+    bool none = !wheels_.any() && !couplings_.any();
+    RecordStore<S>::members(
+        [&](const char*, const auto& registry) ISO_INLINE_LAMBDA { none = none && !acts(registry); }, records);
+    return none;
   }
   void renew(const SolverBodies<S>& bodies, std::int32_t rate);
   ISO_INLINE bool is_last() const { return substep_ + 1 == substeps_; }
-  template <class Registry> void act_all(const Registry& registry);
+  /// Whether one of the records of that kind may act in a sub-step.
+  template <class Record, class IdType> static ISO_INLINE bool acts(const Registry<Record, IdType>& registry) {
+    if constexpr (requires(BodyForces & forces, const Record& record) { forces.act(record); })
+      return !registry.all().empty();
+    else return false;
+  }
+  template <class Record, class IdType> void act_all(const Registry<Record, IdType>& registry);
   template <class Act> void bear(const Act& act);
   void act(const ForceZone<S>& zone);
-  void act(const ForceZone<S>& zone, std::int32_t priority);
-  void act_by_rank();
+  void act_in_place_of_gravity();
   bool replaces_gravity(std::uint32_t category, Vec3<S> point) const;
   template <class Zones> void rank(const Zones& zones, std::vector<std::uint64_t>& ranks);
   void rank_zones();
@@ -94,10 +101,10 @@ template <class S> class BodyForces {
   void act(const Thruster<S>& thruster);
   void act(const BuoyancyPoint<S>& buoyancy);
   void act(const Explosion<S>& explosion);
-  void act(const Water<S>& water) { act(water, 0, false); }
-  void act(const Water<S>& water, std::int32_t priority, bool by_centre);
+  void act(const Water<S>& water);
   void act(const BodyDrag<S>&) {}  // these resist
   void act(const AeroSurface<S>&) {}
+  void act(const DampingZone<S>&) {}
 
   End end_at(BodyId body, Vec3<S> local) const;
   Vec3<S> wind_at(Vec3<S> point) const;
@@ -110,7 +117,9 @@ template <class S> class BodyForces {
   Mat3<S> give_of(const End& end, const Mat3<U>& axes) const;
   Vec3<S> settled(const End& end, const Mat3<U>& axes, const Mat3<S>& tensor, Vec3<S> velocity) const;
 
-  template <class Registry, class Visit> static void for_each_taken(const Registry& registry, const Visit& visit);
+  template <class Registry, class Visit> void for_each_taken(const Registry& registry, const Visit& visit) const;
+  template <class Record, class Visit>
+  void for_each_ranked(std::span<const std::uint64_t> ranks, const std::vector<Record>& all, const Visit& visit) const;
   // resisting_forces.inl
   void resist_all();
   void resist(const BodyDrag<S>& drag);
@@ -132,7 +141,6 @@ template <class S> class BodyForces {
   Wet wet_part(std::uint32_t row, S density, const Surface& surface) const;
   void resist(const Wet& wet);
   bool is_dry(std::uint32_t row, std::int32_t priority, Vec3<S> point) const;
-  template <class Visit> void for_each_water(const Visit& visit) const;
   bool is_under_water(std::uint32_t row, Vec3<S> point, Vec3<S>& velocity) const;
 
   WorldState<S>& state_;
@@ -140,8 +148,8 @@ template <class S> class BodyForces {
   const Proxies<S>& proxies_;
   WheelForces<S> wheels_;
   CouplingForces<S> couplings_;
-  // Of RankedZones, DampingZones and RankedWaters, ascending by (priority, slot).
-  std::vector<std::uint64_t> ranks_, damping_ranks_, water_ranks_, rank_scratch_;
+  // Of ForceZones, DampingZones and Waters, ascending by (priority, slot).
+  std::vector<std::uint64_t> zone_ranks_, damping_ranks_, water_ranks_, rank_scratch_;
   std::vector<Acceleration<S>> asked_, steady_, accelerations_;  // by commands; of what pushes, too; of all
   std::vector<Acceleration<S>> before_, pulls_;                  // of all, before one that bears acts; without those
   std::vector<Wet> wet_;

@@ -8,12 +8,6 @@
 namespace isostep {
 
 namespace detail {
-/// A record bears if it holds bodies up or back, and ends where they come to rest.
-template <class Record> inline constexpr bool kBears = false;
-template <class S> inline constexpr bool kBears<BodySpring<S>> = true;
-template <class S> inline constexpr bool kBears<BuoyancyPoint<S>> = true;
-template <class S> inline constexpr bool kBears<Water<S>> = true;
-
 template <class S> ISO_INLINE Acceleration<S> difference(const Acceleration<S>& a, const Acceleration<S>& b) {
   return {saturating_subtract(a.linear, b.linear), saturating_subtract(a.angular, b.angular)};
 }
@@ -40,7 +34,7 @@ template <class S> void BodyForces<S>::begin_step() {
 }
 template <class S> void BodyForces<S>::end_step(StepReport& report) {
   report.clamped_force += cut_count_;
-  if (!state_.force_records->no_forces()) remove_ended();
+  remove_ended();
   wheels_.end_step();
 }
 
@@ -61,9 +55,9 @@ template <class S> void BodyForces<S>::renew(const SolverBodies<S>& bodies, std:
   accelerations_ = asked_;
   pulls_.assign(is_last() ? accelerations_.size() : 0, {Vec3<S>::zero(), Vec3<S>::zero()});
   wet_.clear();
-  wet_.reserve((state_.force_records->waters.all().size() + water_ranks_.size()) * accelerations_.size());
-  ForceRecords<S>::forces([&](const char*, const auto& registry) { act_all(registry); }, *state_.force_records);
-  act_by_rank();
+  wet_.reserve(water_ranks_.size() * accelerations_.size());
+  RecordStore<S>::members([&](const char*, const auto& registry) { act_all(registry); }, *state_.records);
+  act_in_place_of_gravity();
   resist_all();
   const auto push_all = [&](std::span<const VelocityChange<S>> changes) {
     for (const VelocityChange<S>& change : changes) push(change);
@@ -74,13 +68,16 @@ template <class S> void BodyForces<S>::renew(const SolverBodies<S>& bodies, std:
   ++substep_;
 }
 
-/// Each record of a kind.
-template <class S> template <class Registry> void BodyForces<S>::act_all(const Registry& registry) {
-  using Record = std::remove_cvref_t<decltype(registry.all()[0])>;
-  const auto all = [&] { for_each_taken(registry, [&](const auto& record) { act(record); }); };
-  if (registry.all().empty()) return;
-  if constexpr (detail::kBears<Record>) bear(all);
-  else all();
+/// Each record of a kind that acts.
+template <class S>
+template <class Record, class IdType>
+void BodyForces<S>::act_all(const Registry<Record, IdType>& registry) {
+  if constexpr (requires(BodyForces & forces, const Record& record) { forces.act(record); }) {
+    const auto all = [&] { for_each_taken(registry, [&](const auto& record) { act(record); }); };
+    if (registry.all().empty()) return;
+    if constexpr (detail::RecordRules<Record>::kBears) bear(all);
+    else all();
+  }
 }
 /// In the last sub-step `pulls_` are, until it ends, what bears.
 template <class S> template <class Act> void BodyForces<S>::bear(const Act& act) {
@@ -95,12 +92,22 @@ template <class S> template <class Act> void BodyForces<S>::bear(const Act& act)
 
 // ---- what all of them use
 
+/// Ascending by slot; zones and waters by (priority, slot).
 template <class S>
 template <class Registry, class Visit>
-void BodyForces<S>::for_each_taken(const Registry& registry, const Visit& visit) {
+void BodyForces<S>::for_each_taken(const Registry& registry, const Visit& visit) const {
+  using Record = std::remove_cvref_t<decltype(registry.all()[0])>;
+  if constexpr (std::is_same_v<Record, ForceZone<S>>) return for_each_ranked(zone_ranks_, registry.all(), visit);
+  if constexpr (std::is_same_v<Record, Water<S>>) return for_each_ranked(water_ranks_, registry.all(), visit);
   for (std::uint32_t slot = 0; slot < registry.all().size(); ++slot) {
     if (registry.is_taken(slot)) visit(registry.all()[slot]);
   }
+}
+template <class S>
+template <class Record, class Visit>
+void BodyForces<S>::for_each_ranked(std::span<const std::uint64_t> ranks, const std::vector<Record>& all,
+                                    const Visit& visit) const {
+  for (const std::uint64_t rank : ranks) visit(all[rank & 0xffffffffu]);
 }
 
 template <class S> typename BodyForces<S>::End BodyForces<S>::end_at(BodyId body, Vec3<S> local) const {

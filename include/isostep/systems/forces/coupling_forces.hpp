@@ -23,7 +23,7 @@ template <class S> class CouplingForces {
 
   ISO_INLINE CouplingForces(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
-  ISO_INLINE bool any() const { return !state_.force_records->couplings.all().empty(); }
+  ISO_INLINE bool any() const { return !state_.records->couplings.all().empty(); }
   ISO_INLINE void begin_step() { runs_.clear(); }
   /// What couplings do in a sub-step of 1 / rate seconds before which the bodies would be accelerated by that much.
   const std::vector<VelocityChange<S>>& solve(const SolverBodies<S>& bodies,

@@ -53,7 +53,7 @@ template <class S> bool CouplingForces<S>::acts(const Coupling<S>& coupling) con
 }
 
 template <class S> void CouplingForces<S>::list_runs(const SolverBodies<S>& bodies) {
-  const auto& couplings = state_.force_records->couplings;
+  const auto& couplings = state_.records->couplings;
   rows_.clear();
   for (std::uint32_t slot = 0; slot < couplings.all().size(); ++slot) {
     const Coupling<S>& coupling = couplings.all()[slot];

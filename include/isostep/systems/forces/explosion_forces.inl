@@ -118,12 +118,12 @@ template <class S> void BodyForces<S>::act(const Explosion<S>& explosion) {
 
 /// Explosions that ended with this step are gone.
 template <class S> void BodyForces<S>::remove_ended() {
-  const auto& explosions = state_.force_records->explosions;
+  const auto& explosions = state_.records->explosions;
   for (std::uint32_t slot = 0; slot < explosions.all().size(); ++slot) {
     if (!explosions.is_taken(slot)) continue;
     const Explosion<S>& e = explosions.all()[slot];
     const S t = detail::seconds_since<S>(e.begin, state_.tick + 1, state_.settings.hz, 0, state_.settings.hz);
-    if (e.duration() <= t) state_.force_records.change().explosions.remove_at(slot);
+    if (e.duration() <= t) state_.records.change().explosions.remove_at(slot);
   }
 }
 

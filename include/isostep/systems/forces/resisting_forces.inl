@@ -14,7 +14,7 @@ namespace isostep {
 
 /// After all that pushes, of which this takes what bodies are about to do.
 template <class S> void BodyForces<S>::resist_all() {
-  const ForceRecords<S>& records = *state_.force_records;
+  const RecordStore<S>& records = *state_.records;
   resisting_.assign(accelerations_.size(), 0);
   const auto count = [&](std::uint32_t row) {
     if (bodies_->moves(row)) ++resisting_[row - 1];

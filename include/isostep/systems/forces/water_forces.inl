@@ -59,15 +59,14 @@ typename BodyForces<S>::Wet BodyForces<S>::wet_part(std::uint32_t row, S density
   return wet;
 }
 
-/// by_centre: of a RankedWater.
-template <class S> void BodyForces<S>::act(const Water<S>& water, std::int32_t priority, bool by_centre) {
+template <class S> void BodyForces<S>::act(const Water<S>& water) {
   const Heading<S> down = heading_of(state_.settings.gravity);
   if (!(S(0) < down.length)) return;
   for (std::uint32_t row = 1; row < bodies_->mass.size(); ++row) {
     if (!is_pushed(row, water.mask)) continue;
     const BodyState<S>& state = state_.awake.states[row - 1];
-    const Aabb<S> box = by_centre ? Aabb<S>{state.centre, state.centre} : state.fat;
-    if (!in_region(water, box) || is_dry(row, priority, state.centre)) continue;
+    const Aabb<S> box = water.replaces ? Aabb<S>{state.centre, state.centre} : state.fat;
+    if (!in_region(water, box) || is_dry(row, water.priority, state.centre)) continue;
     const Surface surface = surface_at(water, state.centre);
     // The box is where the step began, with its margin: what of it is dry stays so for a sub-step's motion.
     const Vec3<S> reach = max(abs(state.fat.high - state.centre), abs(state.fat.low - state.centre));
@@ -101,21 +100,13 @@ template <class S> void BodyForces<S>::resist(const Wet& wet) {
 template <class S> bool BodyForces<S>::is_dry(std::uint32_t row, std::int32_t priority, Vec3<S> point) const {
   const std::uint32_t category = state_.awake.properties[row - 1].filter.category;
   if (is_hidden(zone_effect::kWater, priority, category, point)) return true;
-  const auto& waters = state_.force_records->ranked_waters;
+  const auto& waters = state_.records->waters;
   for (std::size_t i = water_ranks_.size(); i-- > 0;) {
-    const RankedWater<S>& water = waters.all()[water_ranks_[i] & 0xffffffffu];
+    const Water<S>& water = waters.all()[water_ranks_[i] & 0xffffffffu];
     if (water.priority <= priority) return false;
-    if ((category & water.mask) != 0 && in_region<S>(water, {point, point})) return true;
+    if (water.replaces && (category & water.mask) != 0 && in_region<S>(water, {point, point})) return true;
   }
   return false;
-}
-/// visit(water, priority)
-template <class S> template <class Visit> void BodyForces<S>::for_each_water(const Visit& visit) const {
-  for_each_taken(state_.force_records->waters, [&](const Water<S>& water) { visit(water, 0); });
-  for (const std::uint64_t rank : water_ranks_) {
-    const RankedWater<S>& water = state_.force_records->ranked_waters.all()[rank & 0xffffffffu];
-    visit(water, water.priority);
-  }
 }
 /// Whether a point of a body is under water, and how that flows.
 template <class S> bool BodyForces<S>::is_under_water(std::uint32_t row, Vec3<S> point, Vec3<S>& velocity) const {
@@ -123,9 +114,9 @@ template <class S> bool BodyForces<S>::is_under_water(std::uint32_t row, Vec3<S>
   velocity = Vec3<S>::zero();
   if (state_.settings.gravity == Vec3<S>::zero()) return false;
   const std::uint32_t category = state_.awake.properties[row - 1].filter.category;
-  for_each_water([&](const Water<S>& water, std::int32_t priority) {
+  for_each_taken(state_.records->waters, [&](const Water<S>& water) {
     if ((category & water.mask) == 0) return;
-    if (!in_region(water, Aabb<S>{point, point}) || is_dry(row, priority, point)) return;
+    if (!in_region(water, Aabb<S>{point, point}) || is_dry(row, water.priority, point)) return;
     const Surface surface = surface_at(water, point);
     if (!(S(0) < surface.depth)) return;
     under = true;

@@ -32,19 +32,19 @@ void BodyForces<S>::rank(const Zones& zones, std::vector<std::uint64_t>& ranks) 
   stable_sort(ranks.data(), rank_scratch_.data(), static_cast<std::uint32_t>(ranks.size()), OwnKey{});
 }
 template <class S> void BodyForces<S>::rank_zones() {
-  const ForceRecords<S>& records = *state_.force_records;
-  rank(records.ranked_zones, ranks_);
+  const RecordStore<S>& records = *state_.records;
+  rank(records.force_zones, zone_ranks_);
   rank(records.damping_zones, damping_ranks_);
-  rank(records.ranked_waters, water_ranks_);
+  rank(records.waters, water_ranks_);
 }
 
 /// Whether a zone of higher priority replaces the effect at a point, for bodies of that category.
 template <class S>
 bool BodyForces<S>::is_hidden(std::uint32_t effect, std::int32_t priority, std::uint32_t category,
                               Vec3<S> point) const {
-  const auto& zones = state_.force_records->ranked_zones;
-  for (std::size_t i = ranks_.size(); i-- > 0;) {
-    const RankedZone<S>& zone = zones.all()[ranks_[i] & 0xffffffffu];
+  const auto& zones = state_.records->force_zones;
+  for (std::size_t i = zone_ranks_.size(); i-- > 0;) {
+    const ForceZone<S>& zone = zones.all()[zone_ranks_[i] & 0xffffffffu];
     if (zone.priority <= priority) return false;
     const bool hides = (zone.replaces & effect) != 0 && (category & zone.mask) != 0;
     if (hides && detail::is_inside(zone, point)) return true;
@@ -52,32 +52,19 @@ bool BodyForces<S>::is_hidden(std::uint32_t effect, std::int32_t priority, std::
   return false;
 }
 
-template <class S> void BodyForces<S>::act(const ForceZone<S>& zone) { act(zone, 0); }
-template <class S> void BodyForces<S>::act(const ForceZone<S>& zone, std::int32_t priority) {
+template <class S> void BodyForces<S>::act(const ForceZone<S>& zone) {
   if (zone.acceleration == Vec3<S>::zero()) return;
   for (std::uint32_t row = 1; row < bodies_->mass.size(); ++row) {
     const Vec3<S> centre = state_.awake.states[row - 1].centre;
     if (!is_pushed(row, zone.mask) || !detail::is_inside(zone, centre)) continue;
     const std::uint32_t category = state_.awake.properties[row - 1].filter.category;
-    if (!is_hidden(zone_effect::kAcceleration, priority, category, centre)) accelerate(row, zone.acceleration);
+    if (!is_hidden(zone_effect::kAcceleration, zone.priority, category, centre)) accelerate(row, zone.acceleration);
   }
 }
 
-/// Ranked waters and zones, and the world's gravity where a zone replaces it: below all of them.
-template <class S> void BodyForces<S>::act_by_rank() {
-  const auto float_all = [&] {
-    for (const std::uint64_t rank : water_ranks_) {
-      const RankedWater<S>& water = state_.force_records->ranked_waters.all()[rank & 0xffffffffu];
-      act(water, water.priority, true);
-    }
-  };
-  if (!water_ranks_.empty()) bear(float_all);
-  if (ranks_.empty()) return;
-  const auto& zones = state_.force_records->ranked_zones;
-  for (const std::uint64_t rank : ranks_) {
-    const RankedZone<S>& zone = zones.all()[rank & 0xffffffffu];
-    act(zone, zone.priority);
-  }
+/// The world's gravity, where a zone replaces it, is below all zones.
+template <class S> void BodyForces<S>::act_in_place_of_gravity() {
+  if (zone_ranks_.empty()) return;
   for (std::uint32_t row = 1; row < bodies_->mass.size(); ++row) {
     if (!bodies_->moves(row)) continue;
     const BodyProperties<S>& body = state_.awake.properties[row - 1];
@@ -86,7 +73,7 @@ template <class S> void BodyForces<S>::act_by_rank() {
   }
 }
 template <class S> bool BodyForces<S>::replaces_gravity(std::uint32_t category, Vec3<S> point) const {
-  for (const RankedZone<S>& zone : state_.force_records->ranked_zones.all()) {
+  for (const ForceZone<S>& zone : state_.records->force_zones.all()) {
     const bool replaces = (zone.replaces & zone_effect::kGravity) != 0 && (category & zone.mask) != 0;
     if (replaces && detail::is_inside(zone, point)) return true;
   }
@@ -96,16 +83,10 @@ template <class S> bool BodyForces<S>::replaces_gravity(std::uint32_t category, 
 template <class S> Vec3<S> BodyForces<S>::wind_at(Vec3<S> point) const {
   constexpr std::uint32_t kAllCategories = 0xffffffffu;
   Vec3<S> wind = Vec3<S>::zero();
-  const auto blow = [&](const ForceZone<S>& zone, std::int32_t priority) {
+  for_each_taken(state_.records->force_zones, [&](const ForceZone<S>& zone) {
     if (zone.wind == Vec3<S>::zero() || !detail::is_inside(zone, point)) return;
-    if (!is_hidden(zone_effect::kWind, priority, kAllCategories, point)) wind = saturating_add(wind, zone.wind);
-  };
-  for_each_taken(state_.force_records->force_zones, [&](const ForceZone<S>& zone) { blow(zone, 0); });
-  const auto& zones = state_.force_records->ranked_zones;
-  for (const std::uint64_t rank : ranks_) {
-    const RankedZone<S>& zone = zones.all()[rank & 0xffffffffu];
-    blow(zone, zone.priority);
-  }
+    if (!is_hidden(zone_effect::kWind, zone.priority, kAllCategories, point)) wind = saturating_add(wind, zone.wind);
+  });
   return held_within(wind, Limits<S>::speed());
 }
 
@@ -114,7 +95,7 @@ template <class S> void BodyForces<S>::gather_damping() {
   damping_.clear();
   if (damping_ranks_.empty()) return;
   damping_.assign(accelerations_.size(), {S(0), S(0)});
-  const auto& zones = state_.force_records->damping_zones;
+  const auto& zones = state_.records->damping_zones;
   for (std::uint32_t row = 1; row < bodies_->mass.size(); ++row) {
     if (!bodies_->moves(row)) continue;
     const Vec3<S> centre = state_.awake.states[row - 1].centre;

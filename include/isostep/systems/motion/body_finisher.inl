@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/checks.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 #include "isostep/math/shortened.hpp"
-#include "isostep/store/checks.hpp"
 #include "isostep/store/fat_box.inl"
 #include "isostep/systems/motion/body_finisher.hpp"
 

@@ -1,4 +1,4 @@
-// MoveTargets<S>: carries kinematic bodies to where MoveTarget records say.
+// MoveTargets<S>: carries kinematic bodies to where move_to says.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
-#include "isostep/dynamics/records/move_target.hpp"
 #include "isostep/math/shortened.hpp"
 #include "isostep/math/transform.hpp"
 #include "isostep/store/body_map.hpp"
@@ -14,14 +13,14 @@
 namespace isostep {
 
 namespace detail {
-/// Where the centre of mass lies as the target is reached.
-template <class S> ISO_INLINE Pose<S> centre_at(const MoveTarget<S>& target, Vec3<S> local_centre) {
-  return BodyMap<S>::centre_pose({target.pose.position, normalise(target.pose.orientation)}, local_centre);
+/// Where the centre of mass lies as a body's origin is at the pose.
+template <class S> ISO_INLINE Pose<S> centre_at(const Pose<S>& pose, Vec3<S> local_centre) {
+  return BodyMap<S>::centre_pose({pose.position, normalise(pose.orientation)}, local_centre);
 }
 }  // namespace detail
 
-/// Input:   the state as a step begins, with its MoveTarget records; as its sub-steps are over; as it ends.
-/// Output:  velocities that lead to the targets; poses that are the targets; no velocity, and no such record.
+/// Input:   the state as a step begins, with its moves; as its sub-steps are over; as it ends.
+/// Output:  velocities that lead to the targets; poses that are the targets; no velocity, and no such move.
 /// Keeps:   what it moves within a step.
 template <class S> class MoveTargets {
  public:
@@ -33,9 +32,8 @@ template <class S> class MoveTargets {
 
  private:
   struct Move {
-    std::uint32_t record;  // its slot
-    std::uint32_t body;    // its slot
-    Pose<S> goal;          // of the centre of mass
+    std::uint32_t body;  // its slot
+    Pose<S> goal;        // of the centre of mass
     bool reaches;
     std::uint32_t locks;  // of the body: none holds it in this step
   };

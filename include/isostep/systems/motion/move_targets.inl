@@ -11,16 +11,13 @@ namespace isostep {
 
 template <class S> void MoveTargets<S>::begin_step() {
   moves_.clear();
-  const auto& targets = state_.force_records->move_targets;
-  for (std::uint32_t slot = 0; slot < targets.all().size(); ++slot) {
-    if (!targets.is_taken(slot)) continue;
-    const MoveTarget<S>& target = targets.all()[slot];
-    const Location at = map_.location(target.body.slot);
+  for (const PendingMove<S>& move : state_.moves) {
+    const Location at = map_.location(move.slot);
     if (at.set != Location::kAwake) continue;  // disabled
     BodyProperties<S>& body = state_.awake.properties[at.index];
-    const Pose<S> goal = detail::centre_at(target, body.local_centre);
+    const Pose<S> goal = detail::centre_at(move.pose, body.local_centre);
     const bool reaches = start(state_.awake.states[at.index], goal);
-    moves_.push_back({slot, target.body.slot, goal, reaches, body.flags & body_flag::kAllLocks});
+    moves_.push_back({move.slot, goal, reaches, body.flags & body_flag::kAllLocks});
     body.flags &= ~body_flag::kAllLocks;
   }
 }
@@ -56,14 +53,17 @@ template <class S> void MoveTargets<S>::arrive() {
 }
 
 template <class S> void MoveTargets<S>::end_step() {
-  if (moves_.empty()) return;
-  auto& targets = state_.force_records.change().move_targets;
   for (const Move& move : moves_) {
     state_.awake.properties[map_.location(move.body).index].flags |= move.locks;
     state_of(move).velocity = Vec3<Velocity<S>>::zero();
     state_of(move).angular_velocity = Vec3<Velocity<S>>::zero();
-    targets.remove_at(move.record);
   }
+  std::size_t next = 0;  // of moves_, which ascend too; those of disabled bodies wait
+  std::erase_if(state_.moves, [&](const PendingMove<S>& move) {
+    const bool done = next < moves_.size() && moves_[next].body == move.slot;
+    if (done) ++next;
+    return done;
+  });
 }
 
 }  // namespace isostep

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/checks.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 #include "isostep/math/shortened.hpp"
-#include "isostep/store/checks.hpp"
 #include "isostep/store/fat_box.hpp"
 #include "isostep/store/force_bounds.hpp"
 #include "isostep/systems/motion/sensor_mounts.hpp"
@@ -28,7 +28,7 @@ template <class S> void SensorMounts<S>::end_step() {
 
 /// visit(state, properties, record) of the sensors that are enabled: a kinematic body never sleeps.
 template <class S> template <class Visit> void SensorMounts<S>::for_each(const Visit& visit) {
-  for (const SensorMount<S>& mount : state_.force_records->sensor_mounts.all()) {
+  for (const SensorMount<S>& mount : state_.records->sensor_mounts.all()) {
     if (!mount.sensor) continue;
     const Location at = map_.location(mount.sensor.slot);
     if (at.set == Location::kAwake) visit(state_.awake.states[at.index], state_.awake.properties[at.index], mount);

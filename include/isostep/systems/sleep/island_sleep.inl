@@ -88,20 +88,15 @@ template <class S> void IslandSleep<S>::update_clocks(std::span<const Accelerati
 }
 /// A blast may be on its way, and water with a wave moves again what it lets rest for a while.
 template <class S> void IslandSleep<S>::stop_clocks_by_forces() {
-  const auto& ranked = state_.force_records->ranked_waters;
-  if (state_.force_records->no_forces() && ranked.all().empty()) return;
-  const auto& explosions = state_.force_records->explosions;
-  const auto& waters = state_.force_records->waters;
+  const auto& explosions = state_.records->explosions;
+  const auto& waters = state_.records->waters;
+  if (explosions.all().empty() && waters.all().empty()) return;
   bool blast = false;
   for (std::uint32_t slot = 0; slot < explosions.all().size(); ++slot) blast = blast || explosions.is_taken(slot);
   for (BodyState<S>& state : state_.awake.states) {
     bool moved = blast;
     for (const Water<S>& water : waters.all())
       moved = moved || (S(0) < water.wave_height && in_region(water, state.fat));
-    for (std::uint32_t slot = 0; slot < ranked.all().size(); ++slot) {
-      const RankedWater<S>& water = ranked.all()[slot];
-      moved = moved || (ranked.is_taken(slot) && S(0) < water.wave_height && in_region<S>(water, state.fat));
-    }
     if (moved) state.sleep_clock = 0;
   }
 }
@@ -139,7 +134,7 @@ template <class S> void IslandSleep<S>::stop_clocks_of_motors() {
     if ((joint.flags & joint_flag::kMotor) == 0 || !is_slow(joint.motor_speed)) continue;
     for (std::uint32_t row = 0; row < kJointRows; ++row) stop_if_runs(i, row);
   }
-  for (const AxisDrive<S>& drive : state_.force_records->axis_drives.all()) {
+  for (const AxisDrive<S>& drive : state_.records->axis_drives.all()) {
     if (!drive.motor || !is_slow(drive.motor_speed)) continue;
     const Location at = map_.joint_location(drive.joint.slot);
     if (!at.is_asleep()) stop_if_runs(at.index, static_cast<std::uint32_t>(drive.axis));
@@ -174,11 +169,11 @@ template <class S> void IslandSleep<S>::find_islands() {
   for (const JointProperties<S>& joint : state_.joints.properties) {
     if (joint.body_a != kNoBody && joint.body_b != kNoBody) tie(joint.body_a, joint.body_b);
   }
-  for (const BodySpring<S>& spring : state_.force_records->body_springs.all()) {
+  for (const BodySpring<S>& spring : state_.records->body_springs.all()) {
     if (spring.a && spring.b) tie(spring.a.slot, spring.b.slot);
   }
   for_each_wheel_on_ground(tie);
-  for (const Coupling<S>& coupling : state_.force_records->couplings.all()) tie_coupled(coupling);
+  for (const Coupling<S>& coupling : state_.records->couplings.all()) tie_coupled(coupling);
 }
 
 /// The bodies of all joints of a coupling.
@@ -197,7 +192,7 @@ template <class S> void IslandSleep<S>::tie_coupled(const Coupling<S>& coupling)
 
 /// visit(slot of a wheel's body, slot of the ground)
 template <class S> template <class Visit> void IslandSleep<S>::for_each_wheel_on_ground(const Visit& visit) const {
-  for (const Wheel<S>& wheel : state_.force_records->wheels.all()) {
+  for (const Wheel<S>& wheel : state_.records->wheels.all()) {
     if (state_.body_slots.holds(wheel.body) && state_.body_slots.holds(wheel.contact_body))
       visit(wheel.body.slot, wheel.contact_body.slot);
   }
@@ -223,7 +218,7 @@ template <class S> void IslandSleep<S>::find_island_clocks() {
   for (const JointProperties<S>& joint : state_.joints.properties) {
     if (joint.body_a != kNoBody && joint.body_b != kNoBody) keep_awake(joint.body_a, joint.body_b);
   }
-  for (const BodySpring<S>& spring : state_.force_records->body_springs.all()) {
+  for (const BodySpring<S>& spring : state_.records->body_springs.all()) {
     if (spring.a && spring.b) keep_awake(spring.a.slot, spring.b.slot);
   }
   for_each_wheel_on_ground(keep_awake);

@@ -47,7 +47,7 @@ template <class S> bool IslandWake<S>::wake_touched() {
     touched_.push_back(map_.location(pair_a(pair)).is_asleep() ? pair_a(pair) : pair_b(pair));
   }
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) find_run_over(i);
-  for (const Wheel<S>& wheel : state_.force_records->wheels.all()) {
+  for (const Wheel<S>& wheel : state_.records->wheels.all()) {
     if (!state_.body_slots.holds(wheel.body) || !state_.body_slots.holds(wheel.contact_body)) continue;
     if (map_.location(wheel.body.slot).set != Location::kAwake) continue;
     if (map_.location(wheel.contact_body.slot).is_asleep()) touched_.push_back(wheel.contact_body.slot);
@@ -100,7 +100,7 @@ template <class S> bool IslandWake<S>::is_touched(std::uint64_t pair) const {
 }
 /// Whether they pass each other, by a Ghost or a KindGhost.
 template <class S> bool IslandWake<S>::are_ghosts(std::uint32_t a, std::uint32_t b) const {
-  const ForceRecords<S>& records = *state_.force_records;
+  const RecordStore<S>& records = *state_.records;
   const auto is_of_both = [&](const Ghost<S>& ghost) {
     return (ghost.a.slot == a && ghost.b.slot == b) || (ghost.a.slot == b && ghost.b.slot == a);
   };
@@ -147,17 +147,17 @@ template <class S> void IslandWake<S>::wake_held_by(std::uint32_t slot) {
     if (held) start_waking(i);
   }
   merge_woken();
-  for (const BodySpring<S>& spring : state_.force_records->body_springs.all()) {
+  for (const BodySpring<S>& spring : state_.records->body_springs.all()) {
     if (spring.a && spring.b && (spring.a.slot == slot || spring.b.slot == slot))
       wake(spring.a.slot == slot ? spring.b.slot : spring.a.slot);
   }
-  for (const Wheel<S>& wheel : state_.force_records->wheels.all()) {
+  for (const Wheel<S>& wheel : state_.records->wheels.all()) {
     if (wheel.body && wheel.contact_body && wheel.contact_body.slot == slot) wake(wheel.body.slot);
   }
 }
 
 template <class S> void IslandWake<S>::wake_wheels_on(std::uint32_t slot, const Aabb<S>& box) {
-  for (const Wheel<S>& wheel : state_.force_records->wheels.all()) {
+  for (const Wheel<S>& wheel : state_.records->wheels.all()) {
     const bool is_on = wheel.body && wheel.contact_body && wheel.contact_body.slot == slot;
     if (is_on && overlap(box, {wheel.contact_point, wheel.contact_point})) wake(wheel.body.slot);
   }

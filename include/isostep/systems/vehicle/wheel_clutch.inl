@@ -59,7 +59,7 @@ template <class S> void WheelForces<S>::end_engines() {
   constexpr S kChanging = S(0x1p-6);  // [rad/s] in a step
   for (const Group& group : groups_) {
     if (group.vehicle == kNone || group.engine.inertia == S(0)) continue;
-    Vehicle<S>& vehicle = state_.force_records.change().vehicles.change_all()[group.vehicle];
+    Vehicle<S>& vehicle = state_.records.change().vehicles.change_all()[group.vehicle];
     const S change = saturating_subtract(group.engine.spin, vehicle.engine_spin);
     if (kChanging < abs(change)) state_.awake.states[group.row - 1].sleep_clock = 0;
     vehicle.engine_spin = group.engine.spin;

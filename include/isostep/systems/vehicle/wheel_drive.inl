@@ -57,7 +57,7 @@ template <class S> void WheelForces<S>::push_shaft(const Group& group, S torque)
 /// Torque on the driven wheels or on the engine, and brakes.
 template <class S> void WheelForces<S>::drive(Group& group) {
   if (group.vehicle == kNone) return;
-  const Vehicle<S>& vehicle = state_.force_records->vehicles.all()[group.vehicle];
+  const Vehicle<S>& vehicle = state_.records->vehicles.all()[group.vehicle];
   set_brakes(group, vehicle);
   if (S(0) < group.engine.inertia) return turn_engine(group, vehicle);
   if (!group.geared || vehicle.throttle == S(0)) return;
@@ -68,7 +68,7 @@ template <class S> void WheelForces<S>::drive(Group& group) {
 /// steering does not gear otherwise keeps what it turns with together.
 template <class S> void WheelForces<S>::lock(const Group& group) {
   if (group.vehicle == kNone) return;
-  const S locked = state_.force_records->vehicles.all()[group.vehicle].differential_lock;
+  const S locked = state_.records->vehicles.all()[group.vehicle].differential_lock;
   if (!(S(0) < locked)) return;
   const auto is_driven = [&](const Run& run) { return leads(run) && run.driven; };
   const auto speed_of = [&](const Run& run) { return divide_to<S>(end_of(run), wheel(run).radius); };

@@ -33,7 +33,7 @@ template <class S> class WheelForces {
   ISO_INLINE WheelForces(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
       : state_(state), map_(map), queries_(state, map, proxies, journal_) {}
 
-  ISO_INLINE bool any() const { return !state_.force_records->wheels.all().empty(); }
+  ISO_INLINE bool any() const { return !state_.records->wheels.all().empty(); }
   /// Finds the ground.
   void begin_step();
   /// What the wheels do in a sub-step of 1 / rate seconds before which the bodies would be accelerated by that much.
@@ -147,7 +147,7 @@ template <class S> class WheelForces {
   bool is_uneven(const Run& run, const Stance& at, const Ground& ground);
   bool bears(std::uint32_t body, std::uint32_t ground) const;
   // wheel_forces.inl
-  const Wheel<S>& wheel(const Run& run) const { return state_.force_records->wheels.all()[run.slot]; }
+  const Wheel<S>& wheel(const Run& run) const { return state_.records->wheels.all()[run.slot]; }
   bool leads(const Run& run) const { return &runs_[run.leader] == &run; }
   static ISO_INLINE S times(S a, S b) { return saturate_to<S>(product(a, b)); }
   void place(Run& run, const Mat3<U>& turn);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/store/checks.hpp"
+#include "isostep/dynamics/checks.hpp"
 #include "isostep/store/finite_guard.hpp"
 #include "isostep/systems/vehicle/wheel_clutch.inl"
 #include "isostep/systems/vehicle/wheel_drive.inl"
@@ -210,7 +210,7 @@ template <class S> void WheelForces<S>::tell(const Group& group) {
 template <class S> void WheelForces<S>::end_step() {
   if (runs_.empty()) return;
   end_engines();
-  std::vector<Wheel<S>>& wheels = state_.force_records.change().wheels.change_all();
+  std::vector<Wheel<S>>& wheels = state_.records.change().wheels.change_all();
   for (const Run& run : runs_) {
     Wheel<S>& w = wheels[run.slot];
     const S mass = state_.awake.properties[run.row - 1].mass;

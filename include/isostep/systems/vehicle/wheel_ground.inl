@@ -29,7 +29,7 @@ template <class S> void WheelForces<S>::begin_step() {
 
 /// The wheels of awake bodies, sorted by body: counted, then placed.
 template <class S> void WheelForces<S>::list_runs() {
-  const std::vector<Wheel<S>>& wheels = state_.force_records->wheels.all();
+  const std::vector<Wheel<S>>& wheels = state_.records->wheels.all();
   first_.assign(state_.awake.states.size() + 2, 0);
   for (const Wheel<S>& w : wheels) {
     if (w.body) ++first_[map_.row_of(w.body.slot) + 1];
@@ -74,7 +74,7 @@ template <class S> void WheelForces<S>::list_groups() {
   for (std::uint32_t g = 0; g < groups_.size(); ++g) {
     for (std::uint32_t i = groups_[g].first; i < groups_[g].end; ++i) runs_[i].group = g;
   }
-  const std::vector<Vehicle<S>>& vehicles = state_.force_records->vehicles.all();
+  const std::vector<Vehicle<S>>& vehicles = state_.records->vehicles.all();
   for (std::uint32_t slot = 0; slot < vehicles.size(); ++slot) {
     const std::uint32_t row = vehicles[slot].body ? map_.row_of(vehicles[slot].body.slot) : 0;
     Group* const group = group_of(row);
@@ -100,8 +100,7 @@ template <class S> auto WheelForces<S>::group_of(std::uint32_t row) -> Group* {
 /// changes.
 template <class S> void WheelForces<S>::find_who_ends_early() {
   for (Group& group : groups_) {
-    const bool locks =
-        group.vehicle != kNone && S(0) < state_.force_records->vehicles.all()[group.vehicle].differential_lock;
+    const bool locks = group.vehicle != kNone && S(0) < state_.records->vehicles.all()[group.vehicle].differential_lock;
     group.ends_early = !locks && group.engine.inertia == S(0);
   }
   for (const Run& run : runs_) {
@@ -128,7 +127,7 @@ template <class S> void WheelForces<S>::join_bars(const Group& group) {
 /// d: its axle points to the centre d / tan a beside that middle, for ackermann 1.
 template <class S> void WheelForces<S>::steer(const Group& group) {
   if (group.vehicle == kNone) return;
-  const Vehicle<S>& vehicle = state_.force_records->vehicles.all()[group.vehicle];
+  const Vehicle<S>& vehicle = state_.records->vehicles.all()[group.vehicle];
   if (vehicle.steer == S(0)) return;
   Vec3<S> sum = Vec3<S>::zero();
   int fixed = 0;

@@ -58,7 +58,7 @@ template <class S> S WheelForces<S>::side_of(const Run& run, const Vehicle<S>& v
 /// How many turns of the engine's shaft each wheel's and track's is.
 template <class S> void WheelForces<S>::gear_up(Group& group) {
   if (group.vehicle == kNone) return;
-  const Vehicle<S>& vehicle = state_.force_records->vehicles.all()[group.vehicle];
+  const Vehicle<S>& vehicle = state_.records->vehicles.all()[group.vehicle];
   S shares = S(0);
   for (std::uint32_t i = group.first; i < group.end; ++i) shares = saturating_add(shares, wheel(runs_[i]).drive_share);
   const S most = Limits<S>::mass_ratio();

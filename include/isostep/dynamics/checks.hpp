@@ -5,11 +5,10 @@
 #include "isostep/core/fault.hpp"
 #include "isostep/core/slot_map.hpp"
 #include "isostep/dynamics/body.hpp"
-#include "isostep/dynamics/joints/joint_kinds.hpp"
+#include "isostep/dynamics/settings.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/geometry/validate.hpp"
 #include "isostep/math/shortened.hpp"
-#include "isostep/store/settings.hpp"
 
 namespace isostep::detail {
 
@@ -142,20 +141,6 @@ template <class S> FaultReport fault_of_mass(S mass, Vec3<S> kappa) {
       .report();
 }
 
-/// What a kind of joint requires of its record; see JointOf.
-template <class S> struct JointRules {
-  JointMeasure measure;
-  std::uint32_t flags;
-  const char* flag_names;
-  FaultReport own;
-};
-template <class S> ISO_INLINE JointRules<S> rules_of(const JointProperties<S>& j) {
-  return visit_joint_type(j.type, [&](auto kind) ISO_INLINE_LAMBDA {
-    using Joint = typename decltype(kind)::template Of<S>;
-    return JointRules<S>{Joint::kMeasure, Joint::kFlags, Joint::kFlagNames, Joint::fault(j)};
-  });
-}
-
 /// Of what joints and AxisDrives have in common: where a limit and a spring's target are, up to `reach` [m] or [rad],
 /// and how fast a motor turns or slides.
 template <class S, class Drive> FaultReport fault_of_drive(const Drive& d, bool length, S reach, const char* expected) {
@@ -171,37 +156,6 @@ template <class S, class Drive> FaultReport fault_of_drive(const Drive& d, bool 
       .in_range(within(d.motor_speed, length ? Limits<S>::speed() : Limits<S>::angular_speed()), "motor_speed",
                 length ? "a size up to Limits::speed()" : "a size up to Limits::angular_speed()")
       .in_range(d.spring_damping <= kMaxDampingRatio<S>, "spring_damping", "0 to 64")
-      .report();
-}
-
-/// `substep_rate` [1/s].
-template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_t substep_rate) {
-  if (static_cast<std::uint32_t>(j.type) >= kJointTypes) return {Fault::bad_argument, "", "type", "one of JointType"};
-  const JointRules<S> rules = rules_of(j);
-  const bool length = rules.measure == JointMeasure::length, sprung = (j.flags & joint_flag::kSpring) != 0;
-  const S reach = length ? Limits<S>::position() : kMaxAngle<S>;
-  const char* expected = length ? "lengths up to Limits::position()" : "-2 pi to 2 pi";
-  return Checklist()
-      .finite(j.cone, "cone")
-      .finite(j.motor_torque, "motor_torque")
-      .finite(j.spring_frequency, "spring_frequency")
-      .finite(j.frame_a.position, "frame_a.position")
-      .finite(j.frame_b.position, "frame_b.position")
-      .in_range(within(j.frame_a.position, Limits<S>::position()), "frame_a.position", kWithinPosition)
-      .in_range(within(j.frame_b.position, Limits<S>::position()), "frame_b.position", kWithinPosition)
-      .proper(is_unit<S>(j.frame_a.orientation), "frame_a.orientation", kUnitLength)
-      .proper(is_unit<S>(j.frame_b.orientation), "frame_b.orientation", kUnitLength)
-      .also(fault_of_drive(j, length, reach, expected))
-      .in_range(S(0) <= j.cone && j.cone <= kMaxAngle<S>, "cone", "0 to 2 pi")
-      .proper((j.flags & ~rules.flags) == 0, "flags", rules.flag_names)
-      .proper(j.lower <= j.upper, "lower", "no more than upper")
-      .proper(length || (j.flags & joint_flag::kLimit) == 0 || j.upper - j.lower <= kMaxAngle<S>, "upper",
-              "no more than 2 pi above lower: a turn further is the same angle")
-      .also(rules.own)
-      .proper(S(0) <= j.motor_torque, "motor_torque", "0 or more")
-      .proper(!sprung || (S(0) < j.spring_frequency && j.spring_frequency <= S(substep_rate) * S(0.5)),
-              "spring_frequency", "above 0, up to half the sub-step rate")
-      .proper(!sprung || S(0) <= j.spring_damping, "spring_damping", "0 to 64")
       .report();
 }
 

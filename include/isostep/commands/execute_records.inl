@@ -1,0 +1,141 @@
+// The commands about records: forces that act from step to step, and what else is registered.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/commands/command_executor.hpp"
+
+namespace isostep {
+
+/// Whether the record's numbers, and what it names, keep the rules of its kind.
+template <class S> template <class Record> bool CommandExecutor<S>::check_record(const Record& record) {
+  using Rules = detail::RecordRules<Record>;
+  if (!journal_.accept(Rules::fault(record))) return false;
+  const detail::NamedBodies<S> bodies = Rules::bodies(record);
+  for (int i = 0; i < bodies.count; ++i) {
+    const detail::NamedBody<S>& named = bodies.all[i];
+    if (!named.body && named.may_be_null) continue;
+    if (!known(state_.body_slots, named.body, named.field)) return false;
+    const BodyProperties<S>& body = *map_.properties_of(named.body);
+    if (!detail::is_as_asked(body.type, named.must_be))
+      return journal_.refuse(named.must_be == detail::MustBe::dynamic
+                                 ? FaultReport{Fault::not_dynamic, "", named.field, "a dynamic one"}
+                                 : FaultReport{Fault::bad_argument, "", named.field, "a kinematic one"});
+    if (detail::overreaches(body, named))
+      return journal_.refuse({Fault::out_of_range, "", named.point_field, "kappa arm^2 up to Limits::leverage()"});
+  }
+  return check_joints(record) && journal_.accept(Rules::fault_at(record, place_of(record)));
+}
+/// Whether the joints that it names are there.
+template <class S> template <class Record> bool CommandExecutor<S>::check_joints(const Record& record) {
+  if constexpr (requires { record.joint; }) {
+    return known(state_.joint_slots, record.joint, "joint");
+  } else if constexpr (requires { record.joint_a; }) {
+    const detail::NamedJoints named = detail::joints_of(record);
+    for (int i = 0; i < 3; ++i) {
+      const bool optional = i == 2 && !named.all[i];
+      if (!optional && !known(state_.joint_slots, named.all[i], detail::NamedJoints::kFields[i])) return false;
+    }
+  }
+  return true;
+}
+template <class S>
+template <class Record>
+detail::RecordPlace<S> CommandExecutor<S>::place_of(const Record& record) const {
+  detail::RecordPlace<S> place = {state_.settings, {}, {}, {}};
+  const detail::NamedBodies<S> bodies = detail::RecordRules<Record>::bodies(record);
+  for (int i = 0; i < bodies.count; ++i) place.bodies[i] = map_.properties_of(bodies.all[i].body);
+  if (place.bodies[0] != nullptr) place.parts = map_.children_of(place.bodies[0]->shape);
+  const detail::NamedJoints joints = detail::joints_of(record);
+  for (int i = 0; i < 3; ++i) place.joints[i] = map_.properties_of(joints.all[i]);
+  return place;
+}
+
+/// Whether no record of another slot has what this one may not have in common with it.
+template <class S>
+template <class Record>
+bool CommandExecutor<S>::check_alone(const Record& record, std::uint32_t slot) {
+  using Rules = detail::RecordRules<Record>;
+  const auto& all = detail::registry_of(*state_.records, typename detail::RecordIdOf<Record>::Type{});
+  const auto another = [&](const auto& match) {
+    const auto id = all.id_where(match);
+    return id && id.slot != slot;
+  };
+  if constexpr (requires { Rules::key(record); }) {
+    const detail::RecordKey key = Rules::key(record);
+    const detail::OnlyOne rule = Rules::only_one(record);
+    if (another([&](const Record& other) { return Rules::key(other) == key; }))
+      return journal_.refuse({Fault::bad_argument, "", rule.field, rule.expected});
+  }
+  if constexpr (requires { Rules::kNoCarrier; }) {
+    const detail::NamedBodies<S> named = Rules::bodies(record);
+    const BodyId first = named.all[0].body, second = named.all[1].body;
+    if (another([&](const Record& other) { return detail::second_body_of(other) == first; }))
+      return journal_.refuse({Fault::bad_argument, "", named.all[0].field, Rules::kNoCarrier[0]});
+    if (another([&](const Record& other) { return detail::first_body_of(other) == second; }))
+      return journal_.refuse({Fault::bad_argument, "", named.all[1].field, Rules::kNoCarrier[1]});
+  }
+  return true;
+}
+
+/// What touches a body, and what sleeps on it as a step found it.
+template <class S> void CommandExecutor<S>::wake_what_rests_on(BodyId body) {
+  wake_.wake_touching(body.slot);
+  wake_.wake_held_by(body.slot);
+}
+
+/// Wakes what a record acts on.
+template <class S> template <class Record> void CommandExecutor<S>::wake_for_record(const Record& record) {
+  constexpr detail::Wakes kWakes = detail::RecordRules<Record>::kWakes;
+  if constexpr (kWakes == detail::Wakes::all) wake_.wake_all();
+  if constexpr (kWakes == detail::Wakes::named || kWakes == detail::Wakes::touching) {
+    for (const BodyId body : {detail::first_body_of(record), detail::second_body_of(record)}) {
+      if (!body) continue;
+      wake_.wake(body.slot);
+      wake_.reset_clock(body.slot);
+      if constexpr (kWakes == detail::Wakes::touching) wake_what_rests_on(body);
+    }
+    for (const JointId joint : detail::joints_of(record).all) {
+      if (joint) wake_.wake_joint(joint.slot);
+    }
+  }
+}
+
+template <class S> template <class Record> auto CommandExecutor<S>::add_record(const Record& record) {
+  using IdType = typename detail::RecordIdOf<Record>::Type;
+  if (!check_record(record) || !check_alone(record, ~0u)) return IdType{};
+  wake_for_record(record);
+  Record added = record;
+  if constexpr (requires { added.begin; }) added.begin = max(added.begin, state_.tick);
+  return detail::registry_of(state_.records.change(), IdType{}).add(added, state_.settings.id_space);
+}
+template <class S>
+template <class Record, class IdType>
+bool CommandExecutor<S>::set_record(IdType id, const Record& record) {
+  if (!known(detail::registry_of(*state_.records, id).slot_map(), id, "id") || !check_record(record) ||
+      !check_alone(record, id.slot))
+    return false;
+  wake_for_record(*detail::registry_of(*state_.records, id).find(id));
+  wake_for_record(record);
+  detail::registry_of(state_.records.change(), id).change(id) = record;
+  return true;
+}
+template <class S> template <class IdType> bool CommandExecutor<S>::remove_record(IdType id) {
+  if (!known(detail::registry_of(*state_.records, id).slot_map(), id, "id")) return false;
+  wake_for_record(*detail::registry_of(*state_.records, id).find(id));
+  return detail::registry_of(state_.records.change(), id).remove(id);
+}
+
+#define ISO_EXECUTE(name, Record, Id, S)                                                    \
+  template <class S> Id CommandExecutor<S>::execute(const AddRecord<Record>& command) {     \
+    return add_record(command.record);                                                      \
+  }                                                                                         \
+  template <class S> bool CommandExecutor<S>::execute(const SetRecordOf<Record>& command) { \
+    return set_record(command.id, command.record);                                          \
+  }                                                                                         \
+  template <class S> bool CommandExecutor<S>::execute(const RemoveRecord<Id>& command) {    \
+    return remove_record(command.id);                                                       \
+  }
+ISO_FOR_EACH_RECORD(ISO_EXECUTE, S)
+#undef ISO_EXECUTE
+
+}  // namespace isostep

@@ -1,0 +1,169 @@
+// RecordRules: what a kind of record says of itself beside its fields, in the kind's own file.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "isostep/core/fault.hpp"
+#include "isostep/core/id.hpp"
+#include "isostep/dynamics/body.hpp"
+#include "isostep/dynamics/checks.hpp"
+#include "isostep/dynamics/joints/joint_record.hpp"
+#include "isostep/dynamics/settings.hpp"
+#include "isostep/geometry/shape.hpp"
+
+// Each kind specialises RecordRules<Record>, from RecordDefaults<S>, with
+//   fault(record)            what its numbers must be; the only one without a default
+//   bodies(record), joints(record)   what it names: it goes with them
+//   fault_at(record, place)  what the bodies and joints that it names must be like
+//   only_one(record), key(record)    two records of a kind may not have one key; what is said of the second
+//   kNoCarrier               the first body of one record may not be the second of another; what is said of the two
+//   kWakes, kTies, kBears    see RecordDefaults
+// Commands, the validator of foreign states, sleep and random worlds ask these; a kind without rules does not compile.
+
+namespace isostep {
+
+/// The same for (a, b) and (b, a).
+ISO_INLINE constexpr std::uint64_t kinds_key(std::uint32_t a, std::uint32_t b) {
+  return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
+}
+
+}  // namespace isostep
+
+namespace isostep::detail {
+
+/// Which bodies wake as a record comes, changes or goes.
+enum class Wakes {
+  none,      // it only tells
+  named,     // those that it names, and the bodies of its joints
+  touching,  // those, and what touches them: it acts on it
+  all        // it acts on more than it names
+};
+
+enum class MustBe { any, dynamic, kinematic };
+/// A body that a record names: in which field, whether that may be null, of which type the body has to be, and where on
+/// it the force acts.
+template <class S> struct NamedBody {
+  BodyId body;
+  const char* field;
+  bool may_be_null;
+  MustBe must_be;
+  Vec3<S> point;  // [m] body frame
+  const char* point_field;
+};
+template <class S> struct NamedBodies {
+  NamedBody<S> all[2];
+  int count;
+};
+/// Of a record that is about a body as a whole.
+template <class S> ISO_INLINE NamedBodies<S> named_body(BodyId body, MustBe must_be) {
+  return {{{body, "body", false, must_be, Vec3<S>::zero(), ""}, {}}, 1};
+}
+/// Of a record that acts at a point of a dynamic body.
+template <class S> ISO_INLINE NamedBodies<S> named_point(BodyId body, Vec3<S> point, const char* field) {
+  return {{{body, "body", false, MustBe::dynamic, point, field}, {}}, 1};
+}
+ISO_INLINE constexpr bool is_as_asked(BodyType type, MustBe must_be) {
+  if (must_be == MustBe::any) return true;
+  return type == (must_be == MustBe::dynamic ? BodyType::dynamic : BodyType::kinematic);
+}
+/// Whether a force of the record acts too far from the centre of mass of the body that it names; a record without a
+/// point is about the body as a whole.
+template <class S> bool overreaches(const BodyProperties<S>& body, const NamedBody<S>& named) {
+  return *named.point_field != 0 && overreaches(body.kappa, body.principal, named.point - body.local_centre);
+}
+/// Null where a record names fewer; the first two it has to name.
+struct NamedJoints {
+  static constexpr const char* kFields[] = {"joint_a", "joint_b", "joint_c"};
+  JointId all[3];
+};
+
+/// What a record names, as a world has it; null where it names nothing.
+template <class S> struct RecordPlace {
+  const Settings<S>& settings;
+  const BodyProperties<S>* bodies[2];
+  std::span<const Child<S>> parts;  // of the shape of the first body
+  const JointProperties<S>* joints[3];
+};
+
+/// What two records of a kind may not have in common.
+struct RecordKey {
+  std::uint64_t first = 0, second = 0;
+  friend constexpr bool operator==(const RecordKey&, const RecordKey&) = default;
+};
+/// What is said of a second one.
+struct OnlyOne {
+  const char *field, *expected;
+};
+inline constexpr OnlyOne kOneABody = {"body", "a body that has no record yet"};
+inline constexpr OnlyOne kOneAJoint = {"joint", "a joint that has no record yet"};
+inline constexpr OnlyOne kOnePairOfKinds = {"kind_b", "a pair of kinds that has no record yet"};
+
+template <class Record> struct RecordRules;
+
+template <class S> struct RecordDefaults {
+  static constexpr Wakes kWakes = Wakes::named;
+  static constexpr bool kTies = false;   // bodies that it names sleep and wake together
+  static constexpr bool kBears = false;  // it holds bodies up or back, and ends where they come to rest
+  template <class Record> static ISO_INLINE NamedBodies<S> bodies(const Record&) { return {{}, 0}; }
+  template <class Record> static ISO_INLINE NamedJoints joints(const Record&) { return {}; }
+  template <class Record> static ISO_INLINE FaultReport fault_at(const Record&, const RecordPlace<S>&) { return {}; }
+};
+
+/// The bodies that a record names.
+template <class Record> ISO_INLINE BodyId first_body_of(const Record& record) {
+  return RecordRules<Record>::bodies(record).all[0].body;
+}
+template <class Record> ISO_INLINE BodyId second_body_of(const Record& record) {
+  return RecordRules<Record>::bodies(record).all[1].body;
+}
+template <class Record> ISO_INLINE NamedJoints joints_of(const Record& record) {
+  return RecordRules<Record>::joints(record);
+}
+
+// ---- what kinds ask of their numbers
+
+inline constexpr char kZeroOrMore[] = "0 or more", kPart[] = "0 to 1", kInput[] = "-1 to 1";
+inline constexpr char kLeastSize[] = "Limits::minimum_size() or more", kDirection[] = "a vector of length 1";
+
+template <class S> FaultReport fault_of_pose(const Pose<S>& pose) {
+  return Checklist()
+      .also(fault_of_place(pose.position, "pose.position"))
+      .proper(is_unit<S>(pose.orientation), "pose.orientation", kUnitLength)
+      .report();
+}
+/// Where a zone of any kind is.
+template <class Zone> FaultReport fault_of_region(const Zone& z) {
+  using S = decltype(z.half.x);
+  return Checklist()
+      .proper(z.shape <= decltype(z.shape)::box, "shape", "one of ZoneShape")
+      .also(fault_of_pose(z.pose))
+      .finite(z.half, "half")
+      .in_range(within(z.half, Limits<S>::position()), "half", "0 to Limits::position()")
+      .proper(S(0) <= z.half.x && S(0) <= z.half.y && S(0) <= z.half.z, "half", "0 to Limits::position()")
+      .report();
+}
+
+/// Further questions to a list, each about one number.
+template <class S> struct NumberChecks {
+  Checklist list;
+
+  void not_negative(S x, const char* field) { list.finite(x, field).proper(S(0) <= x, field, kZeroOrMore); }
+  void part(S x, const char* field) { list.finite(x, field).proper(S(0) <= x && x <= S(1), field, kPart); }
+  void input(S x, const char* field) { list.finite(x, field).proper(within(x, S(1)), field, kInput); }
+  void size(S x, const char* field) {
+    list.finite(x, field)
+        .in_range(x <= Limits<S>::extent(), field, "up to Limits::extent()")
+        .proper(Limits<S>::minimum_size() <= x, field, kLeastSize);
+  }
+  void grip(S x, const char* field) {
+    list.finite(x, field).in_range(x <= kMaxFriction<S>, field, "0 to 16").proper(S(0) <= x, field, "0 to 16");
+  }
+  void size_of_slip(S x, const char* field) {
+    list.finite(x, field).in_range(x <= S(4), field, "2^-10 to 4").proper(S(0x1p-10) <= x, field, "2^-10 to 4");
+  }
+  void direction(const Vec3<Unit<S>>& v, const char* field) { list.proper(is_direction<S>(v), field, kDirection); }
+};
+
+}  // namespace isostep::detail

@@ -1,0 +1,79 @@
+// RecordStore: the registries of all kinds of records, as a state holds them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "isostep/core/registry.hpp"
+#include "isostep/dynamics/records/record_list.hpp"
+
+namespace isostep {
+
+/// Of all kinds. Only commands change them: copies share them until one does.
+template <class S> struct RecordStore {
+#define ISO_REGISTRY(name, Record, Id, S) Registry<Record, Id> name##s;
+  ISO_FOR_EACH_RECORD(ISO_REGISTRY, S)
+#undef ISO_REGISTRY
+
+  // As the compiler makes them, but in one place: inlined into every command that changes records they are minutes of
+  // compiling.
+  RecordStore();
+  RecordStore(const RecordStore&);
+  ~RecordStore();
+  // No weak functions in each of the files that use them.
+  ISO_INLINE RecordStore(RecordStore&&) = default;
+  ISO_INLINE RecordStore& operator=(const RecordStore&) = default;
+  ISO_INLINE RecordStore& operator=(RecordStore&&) = default;
+
+  /// visit("name", registry) in the order of the list.
+  template <class Visitor, class Self> static ISO_INLINE void members(Visitor&& visit, Self&& self) {
+#define ISO_VISIT(name, Record, Id, S) visit(#name "s", self.name##s);
+    ISO_FOR_EACH_RECORD(ISO_VISIT, S)
+#undef ISO_VISIT
+  }
+  /// The same of the kinds whose bits are set: the first kind has the lowest.
+  template <class Visitor, class Self>
+  static ISO_INLINE void members_of(std::uint32_t kinds, Visitor&& visit, Self&& self) {
+#define ISO_VISIT(name, Record, Id, S)                   \
+  if ((kinds & 1u) != 0) visit(#name "s", self.name##s); \
+  kinds >>= 1;
+    ISO_FOR_EACH_RECORD(ISO_VISIT, S)
+#undef ISO_VISIT
+  }
+#define ISO_COUNT(name, Record, Id, S) +1
+  static constexpr std::uint32_t kKinds = 0 ISO_FOR_EACH_RECORD(ISO_COUNT, S);
+#undef ISO_COUNT
+  static_assert(kKinds < 32, "kinds() has a bit for each");
+  /// Bits of the kinds of which one was ever added: a state that has none hashes and writes nothing of them.
+  ISO_INLINE std::uint32_t kinds() const {
+    std::uint32_t kinds = 0, bit = 1;
+#define ISO_BIT(name, Record, Id, S)                            \
+  kinds |= name##s.slot_map().entries().size() == 0 ? 0u : bit; \
+  bit <<= 1;
+    ISO_FOR_EACH_RECORD(ISO_BIT, S)
+#undef ISO_BIT
+    return kinds;
+  }
+};
+
+namespace detail {
+/// The registry of an id's type.
+#define ISO_REGISTRY(name, Record, Id, S) \
+  template <class Records> ISO_INLINE auto& registry_of(Records& records, Id) { return records.name##s; }
+ISO_FOR_EACH_RECORD(ISO_REGISTRY, S)
+#undef ISO_REGISTRY
+/// The id of a kind of record.
+template <class Record> struct RecordIdOf;
+#define ISO_ID_OF(name, Record, Id, S) \
+  template <class S> struct RecordIdOf<Record> { using Type = Id; };
+ISO_FOR_EACH_RECORD(ISO_ID_OF, S)
+#undef ISO_ID_OF
+
+/// The record on that axis of a joint; null where there is none.
+template <class S> AxisDriveId drive_on(const RecordStore<S>& records, JointId joint, JointAxis axis) {
+  return records.axis_drives.id_where(
+      [&](const AxisDrive<S>& drive) { return drive.joint == joint && drive.axis == axis; });
+}
+}  // namespace detail
+
+}  // namespace isostep
