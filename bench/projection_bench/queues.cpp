@@ -42,7 +42,7 @@ class OneStep {
   template <class Queue> double run(WorstFirstResolver<S, Queue>& solver, std::uint64_t& hash) {
     std::copy(bodies_.begin(), bodies_.end(), state_.awake.states.begin());
     std::copy(contacts_.begin(), contacts_.end(), state_.contacts.begin());
-    const StepContext<S> context = solver_.context(phase_.geometry(), {}, tools_, false);
+    const StepContext<S> context = solver_.context(phase_.geometry(), {}, {}, {}, tools_, false);
     const auto before = std::chrono::steady_clock::now();
     solver.colour_constraints(context);
     solver.solve_substeps(context);

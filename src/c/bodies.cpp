@@ -184,6 +184,19 @@ template <class S> iso_status set_mass(iso_world* world, iso_body body, const vo
   });
 }
 
+template <class S> iso_status set_shape(iso_world* world, iso_body body, iso_shape shape, const void* mass) {
+  constexpr const char* kCall = "body_set_shape";
+  return in_world<S>(world, kCall, Access::changes, [&](auto& of) {
+    const BodyId id = id_of<BodyId>(body);
+    const ShapeId to = id_of<ShapeId>(shape);
+    if (mass == nullptr) return of.world.set_shape(id, to), kOk;
+    BodyMass<S> taken;
+    const iso_status status = take_sized(kCall, mass, taken);
+    if (status == kOk) of.world.set_shape(id, to, taken);
+    return status;
+  });
+}
+
 template <class Id> uint8_t exists(const iso_world* world, const char* call, std::uint64_t id) {
   bool there = false;
   in_any_world(world, call, Access::reads, [&](auto& of) {
@@ -284,6 +297,10 @@ uint8_t iso_joint_exists(const iso_world* world, iso_joint joint) {
   }                                                                                                                 \
   iso_status iso_##P##_body_set_mass(iso_world* world, iso_body body, const iso_##P##_body_mass* mass) {            \
     return set_mass<S>(world, body, mass);                                                                          \
+  }                                                                                                                 \
+  iso_status iso_##P##_body_set_shape(iso_world* world, iso_body body, iso_shape shape,                             \
+                                      const iso_##P##_body_mass* mass) {                                            \
+    return set_shape<S>(world, body, shape, mass);                                                                  \
   }                                                                                                                 \
   ISO_BODY_VECTORS(P, S, set_velocity, linear, angular, false, set_velocity)                                        \
   ISO_BODY_VECTORS(P, S, apply_force, force, torque, true, apply_force)                                             \

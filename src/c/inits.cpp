@@ -38,14 +38,14 @@ ISO_C_SIZED(ISO_F32, float)
 ISO_C_SIZED(ISO_F64, double)
 ISO_C_SIZED(ISO_Q16, Q16_16)
 ISO_C_SIZED(ISO_Q32, Q32_32)
-#define ISO_F32_RECORD(name, Type, Id, S) ISO_INIT(f32, name, Type)
-#define ISO_F64_RECORD(name, Type, Id, S) ISO_INIT(f64, name, Type)
-#define ISO_Q16_RECORD(name, Type, Id, S) ISO_INIT(q16, name, Type)
-#define ISO_Q32_RECORD(name, Type, Id, S) ISO_INIT(q32, name, Type)
-ISO_FOR_EACH_RECORD(ISO_F32_RECORD, float)
-ISO_FOR_EACH_RECORD(ISO_F64_RECORD, double)
-ISO_FOR_EACH_RECORD(ISO_Q16_RECORD, Q16_16)
-ISO_FOR_EACH_RECORD(ISO_Q32_RECORD, Q32_32)
+#define ISO_RECORD_INITS(P, S)                                                   \
+  ISO_FOR_EACH_RECORD_WITH(ISO_RECORD_INIT, P, S)                                \
+  ISO_FOR_EACH_INPUT_WITH(ISO_INPUT_INIT, P, S)                                  \
+  ISO_FOR_EACH_RECORD_STATE_WITH(ISO_STATE_INIT, P, S)
+#define ISO_RECORD_INIT(P, name, Type, Id, S) ISO_INIT(P, name, Type)
+#define ISO_INPUT_INIT(P, name, Type, Id, S) ISO_INIT(P, name##_input, Type)
+#define ISO_STATE_INIT(P, name, Type, Id, S) ISO_INIT(P, name##_state, Type)
+ISO_C_FAMILIES(ISO_RECORD_INITS)
 
 #define ISO_FAMILY(P, S)                   \
   ISO_PLAIN_INIT(P, material, Material<S>) \

@@ -60,6 +60,14 @@ iso_status ask_joint(const World& world, const char* call, iso_joint joint, cons
   if (!world.contains(id)) return refuse({Fault::stale_id, call, "joint", "a joint of this world"});
   return ask(world, id);
 }
+/// A setter of numbers: `set(world, joint)`.
+template <class S, class Set>
+iso_status change_joint(iso_world* world, const char* call, iso_joint joint, const Set& set) {
+  return in_world<S>(world, call, Access::changes, [&](auto& of) {
+    set(of.world, id_of<JointId>(joint));
+    return kOk;
+  });
+}
 template <class S, class Ask>
 iso_status of_joint(const iso_world* world, const char* call, iso_joint joint, const void* out, const Ask& ask) {
   return in_world<S>(world, call, Access::reads, [&](auto& of) { return ask_joint(of.world, call, joint, out, ask); });
@@ -209,6 +217,25 @@ iso_status iso_joint_get_axis_drive(const iso_world* world, iso_joint joint, iso
 ISO_C_FAMILIES(ISO_JOINTS)
 
 #define ISO_NUMBERED(P, S, N)                                                                                          \
+  iso_status iso_##P##_joint_set_limits(iso_world* world, iso_joint joint, N lower, N upper) {                         \
+    return change_joint<S>(world, "joint_set_limits", joint, [&](auto& w, JointId id) {                                \
+      w.set_limits(id, same_bits<S>(lower), same_bits<S>(upper));                                                      \
+    });                                                                                                                \
+  }                                                                                                                    \
+  iso_status iso_##P##_joint_set_motor(iso_world* world, iso_joint joint, N speed, N torque) {                         \
+    return change_joint<S>(world, "joint_set_motor", joint, [&](auto& w, JointId id) {                                 \
+      w.set_motor(id, same_bits<S>(speed), same_bits<S>(torque));                                                      \
+    });                                                                                                                \
+  }                                                                                                                    \
+  iso_status iso_##P##_joint_set_spring(iso_world* world, iso_joint joint, N frequency, N damping) {                   \
+    return change_joint<S>(world, "joint_set_spring", joint, [&](auto& w, JointId id) {                                \
+      w.set_spring(id, same_bits<S>(frequency), same_bits<S>(damping));                                                \
+    });                                                                                                                \
+  }                                                                                                                    \
+  iso_status iso_##P##_joint_set_target(iso_world* world, iso_joint joint, N target) {                                 \
+    return change_joint<S>(world, "joint_set_target", joint,                                                           \
+                           [&](auto& w, JointId id) { w.set_target(id, same_bits<S>(target)); });                      \
+  }                                                                                                                    \
   iso_status iso_##P##_joint_get_error(const iso_world* world, iso_joint joint, N* out) {                              \
     return get_error<S>(world, joint, out);                                                                            \
   }                                                                                                                    \

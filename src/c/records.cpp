@@ -33,6 +33,24 @@ template <class S, class Id> iso_status get_record(const iso_world* world, const
     return put_sized(call, out, *record);
   });
 }
+template <class S, class Input, class Id>
+iso_status set_input(iso_world* world, const char* call, iso_record id, const void* from) {
+  return in_world<S>(world, call, Access::changes, [&](auto& of) {
+    Input input;
+    const iso_status taken = take_sized(call, from, input);
+    if (taken == kOk) of.world.set_input(id_of<Id>(id), input);
+    return taken;
+  });
+}
+/// An input or a state, as `find(world, id)` has it.
+template <class S, class Id, class Find>
+iso_status get_part(const iso_world* world, const char* call, iso_record id, void* out, const Find& find) {
+  return in_world<S>(world, call, Access::reads, [&](auto& of) {
+    const auto* const part = find(of.world, id_of<Id>(id));
+    if (part == nullptr) return refuse({Fault::stale_id, call, "id", "a record of this world and kind"});
+    return put_sized(call, out, *part);
+  });
+}
 template <class Id> iso_status remove_record(iso_world* world, const char* call, iso_record id) {
   return in_any_world(world, call, Access::changes, [&](auto& of) {
     of.world.remove(id_of<Id>(id));
@@ -58,14 +76,24 @@ ISO_FOR_EACH_RECORD(ISO_REMOVE, unused)
   iso_status iso_##P##_get_##name(const iso_world* world, iso_record id, iso_##P##_##name* out) {      \
     return get_record<S, Id>(world, "get_" #name, id, out);                                            \
   }
-#define ISO_F32(name, Record, Id, S) ISO_RECORD(f32, name, Record, Id, S)
-#define ISO_F64(name, Record, Id, S) ISO_RECORD(f64, name, Record, Id, S)
-#define ISO_Q16(name, Record, Id, S) ISO_RECORD(q16, name, Record, Id, S)
-#define ISO_Q32(name, Record, Id, S) ISO_RECORD(q32, name, Record, Id, S)
-ISO_FOR_EACH_RECORD(ISO_F32, float)
-ISO_FOR_EACH_RECORD(ISO_F64, double)
-ISO_FOR_EACH_RECORD(ISO_Q16, Q16_16)
-ISO_FOR_EACH_RECORD(ISO_Q32, Q32_32)
+#define ISO_INPUT(P, name, Input, Id, S)                                                                         \
+  iso_status iso_##P##_set_##name##_input(iso_world* world, iso_record id, const iso_##P##_##name##_input* in) { \
+    return set_input<S, Input, Id>(world, "set_" #name "_input", id, in);                                        \
+  }                                                                                                              \
+  iso_status iso_##P##_get_##name##_input(const iso_world* world, iso_record id, iso_##P##_##name##_input* out) { \
+    return get_part<S, Id>(world, "get_" #name "_input", id, out,                                                \
+                           [](const auto& of, Id record) { return of.input(record); });                          \
+  }
+#define ISO_STATE(P, name, State, Id, S)                                                                         \
+  iso_status iso_##P##_get_##name##_state(const iso_world* world, iso_record id, iso_##P##_##name##_state* out) { \
+    return get_part<S, Id>(world, "get_" #name "_state", id, out,                                                \
+                           [](const auto& of, Id record) { return of.state(record); });                          \
+  }
+#define ISO_FAMILY(P, S)                         \
+  ISO_FOR_EACH_RECORD_WITH(ISO_RECORD, P, S)     \
+  ISO_FOR_EACH_INPUT_WITH(ISO_INPUT, P, S)       \
+  ISO_FOR_EACH_RECORD_STATE_WITH(ISO_STATE, P, S)
+ISO_C_FAMILIES(ISO_FAMILY)
 
 iso_status iso_break_bodies(iso_world* world, uint32_t most, iso_break_report* report) {
   constexpr const char* kCall = "break_bodies";

@@ -43,7 +43,7 @@ struct Game : iso::Composite<iso::World<S>, Jumps> {
     const auto capsule = world.add_shape(iso::Capsule{0.3, 0.6});
     for (int n : {0, 1}) {
       const auto body = world.create({.type = iso::kinematic, .shape = capsule, .position = {8 * n - 4, 1, n}});
-      walkers[n] = world.add(iso::Character<S>{.body = body});
+      walkers[n] = world.add(iso::CharacterSettings<S>{.body = body});
     }
   }
   void step(iso::InputView<Input> inputs) {
@@ -56,17 +56,17 @@ struct Game : iso::Composite<iso::World<S>, Jumps> {
                         0},
                        {0, 0, 0});  // what stands on it goes with it
     for (int n : {0, 1}) {
-      iso::Character<S> walker = *world.find(walkers[n]);
-      walker.move = {S(inputs[n].walk) * S(0.03125), 0, 0};
+      iso::CharacterInput<S> walk = *world.input(walkers[n]);  // a jump in the air waits for the ground
+      walk.move = {S(inputs[n].walk) * S(0.03125), 0, 0};
       if (inputs[n].jump != 0) {
-        walker.jump = 4;
+        walk.jump = 4;
         ++user.count;
       }
-      world.set(walkers[n], walker);
+      world.set_input(walkers[n], walk);
     }
     world.step();
   }
-  bool rides(int player) const { return world.find(walkers[player])->ground == lift; }
+  bool rides(int player) const { return world.state(walkers[player])->ground == lift; }
 };
 
 /// What a player does: walks to the lift, then to and fro on it, and jumps now and then.

@@ -90,7 +90,9 @@ const enums = Object.fromEntries(described.enums.filter(one => !one.flags).map(o
 const lists = {
   shapes: named(/^iso_f32_(.*)_primitive$/),
   joints: named(/^iso_f32_create_(.*)$/),
-  records: named(/^iso_f32_set_(.*)$/)
+  records: named(/^iso_f32_set_(.*)$/).filter(name => !name.endsWith('_input')),
+  inputs: named(/^iso_f32_set_(.*)_input$/),
+  states: named(/^iso_f32_get_(.*)_state$/)
 };
 const schema = {abi: described.abi, ...lists, flags, enums, structs: layouts()};
 
@@ -116,6 +118,8 @@ export const interfaceSchema = {
   shapes: ${literal(schema.shapes)},
   joints: ${literal(schema.joints)},
   records: ${literal(schema.records)},
+  inputs: ${literal(schema.inputs)},
+  states: ${literal(schema.states)},
   flags: {\n${lines(schema.flags)}\n  },
   enums: {\n${lines(schema.enums)}\n  },
   structs: {
@@ -158,8 +162,8 @@ function interfaceOf([name, {fields}]) {
   });
   return `export interface ${pascal(name)}${isOfNumbers(name) ? '<N = number>' : ''} {\n${rows.join('\n')}\n}`;
 }
-const mapOf = (name, kinds) => `export interface ${name}<N = number> {\n${kinds.map(kind =>
-  `  ${kind}: ${pascal(kind)}${isOfNumbers(kind) ? '<N>' : ''};`).join('\n')}\n}`;
+const mapOf = (name, kinds, end = '') => `export interface ${name}<N = number> {\n${kinds.map(kind =>
+  `  ${kind}: ${pascal(kind + end)}${isOfNumbers(kind + end) ? '<N>' : ''};`).join('\n')}\n}`;
 const types = `// The structs and enumerations of the C interface as TypeScript's.
 ${warning}
 export type Vec3<N = number> = [x: N, y: N, z: N];
@@ -174,6 +178,8 @@ ${Object.entries(schema.flags).map(([name, bits]) => `export interface ${pascal(
 ${mapOf('Shapes', schema.shapes)}
 ${mapOf('Joints', schema.joints)}
 ${mapOf('RecordKinds', schema.records)}
+${mapOf('RecordInputs', schema.inputs, '_input')}
+${mapOf('RecordStates', schema.states, '_state')}
 
 ${Object.entries(schema.structs).filter(([name]) => !internal.has(name)).map(interfaceOf).join('\n\n')}
 `;

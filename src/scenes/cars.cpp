@@ -52,11 +52,11 @@ template <class S> void drive_cars(World<S>& world) {
   const S turned = S(static_cast<int>(tick % kSwing)) * number(2 * 3.14159265358979323846 / kSwing);
   const auto ids = world.state().records->vehicles.slot_map().template ids<VehicleId>();
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    Vehicle<S> vehicle = *world.find(ids[i]);
-    vehicle.throttle = S(tick % kRound < kThrottle ? 1 : 0);
-    vehicle.brake = S(tick % kRound < kBrake ? 0 : 1);
-    vehicle.steer = sin(turned + S(static_cast<int>(i)));
-    world.set(ids[i], vehicle);
+    VehicleInput<S> driver;
+    driver.throttle = S(tick % kRound < kThrottle ? 1 : 0);
+    driver.brake = S(tick % kRound < kBrake ? 0 : 1);
+    driver.steer = sin(turned + S(static_cast<int>(i)));
+    world.set_input(ids[i], driver);
   }
 }
 

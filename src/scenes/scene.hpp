@@ -121,7 +121,7 @@ struct SceneField {
 };
 struct SceneRecord {
   std::string kind;                // as record_list.hpp names it
-  std::vector<SceneField> fields;  // those that differ from what the engine's record has
+  std::vector<SceneField> fields;  // of record and input, those that differ from the engine's
 };
 
 /// What happens between frames: closed, so that a scene file can name it. Peers know none of it.

@@ -15,15 +15,24 @@ constexpr const char* kRecordNames[] = {ISO_FOR_EACH_RECORD(ISO_NAME, double)};
 #undef ISO_NAME
 constexpr const char* kZoneShapes[] = {"everywhere", "sphere", "box"};
 constexpr const char* kBreakPatterns[] = {"eight_boxes", "grain", "radial", "voronoi"};
-constexpr const char* kFootings[] = {"airborne", "floor", "steep"};
 constexpr const char* kAxes[] = {"x", "y", "z", "swing_x", "swing_y", "twist"};
 
-/// visit(Record<S>{}) for the kind of that name. False: there is none.
+struct NoInput {
+  template <class Visitor, class Self> static constexpr void fields(Visitor&&, Self&&) {}
+};
+/// The input of the kind that has these ids.
+template <class Id, class S> struct InputOf { using Type = NoInput; };
+#define ISO_INPUT(name, Input, Id, S) \
+  template <class S> struct InputOf<Id, S> { using Type = Input; };
+ISO_FOR_EACH_INPUT(ISO_INPUT, S)
+#undef ISO_INPUT
+
+/// visit(Record<S>{}, its input or NoInput{}) for the kind of that name. False: there is none.
 template <class S, class Visit> bool visit_kind(const std::string& kind, const Visit& visit) {
-#define ISO_CASE(name, Record, Id, S) \
-  if (kind == #name) {                \
-    visit(Record{});                  \
-    return true;                      \
+#define ISO_CASE(name, Record, Id, S)                 \
+  if (kind == #name) {                                \
+    visit(Record{}, typename InputOf<Id, S>::Type{}); \
+    return true;                                      \
   }
   ISO_FOR_EACH_RECORD(ISO_CASE, S)
 #undef ISO_CASE
@@ -46,7 +55,6 @@ template <class T> constexpr bool is_name = std::is_enum_v<T>;
 /// The words of a choice.
 std::span<const char* const> words_of(ZoneShape) { return kZoneShapes; }
 std::span<const char* const> words_of(BreakPattern) { return kBreakPatterns; }
-std::span<const char* const> words_of(Footing) { return kFootings; }
 std::span<const char* const> words_of(JointAxis) { return kAxes; }
 
 Number whole(std::int64_t n) { return Number(std::to_string(n)); }
@@ -200,38 +208,61 @@ template <class S> class FieldBuilder {
   std::string place_;
 };
 
+template <class Input> bool gives_any_of(const SceneRecord& record, const Input& input) {
+  bool any = false;
+  visit_fields(input, [&](const char* name, const auto&) { any = any || find(record, name) != nullptr; });
+  return any;
+}
+template <class S, class Id, class Input> bool set_input(World<S>& world, Id id, const Input& input) {
+  if constexpr (std::is_same_v<Input, NoInput>) return true;
+  else return world.set_input(id, input);
+}
+
 }  // namespace
 
 SceneRecord read_record(const JsonNode& node, const std::string& place, std::size_t bodies, std::size_t joints) {
   ObjectReader reader(node, place);
   SceneRecord record = {kRecordNames[reader.choice("type", kRecordNames)], {}};
-  visit_kind<double>(record.kind, [&](auto kind) { visit_fields(kind, FieldReader(reader, bodies, joints, record)); });
+  const FieldReader read_field(reader, bodies, joints, record);
+  visit_kind<double>(record.kind, [&](auto settings, auto input) {
+    visit_fields(settings, read_field);
+    visit_fields(input, read_field);
+  });
   reader.finish();
   return record;
 }
 
 std::string text_of(const SceneRecord& record) {
   std::string text = "{\"type\": \"" + record.kind + '"';
-  visit_kind<double>(record.kind, [&](auto kind) {
-    visit_fields(kind, [&](const char* name, const auto& member) {
-      const SceneField* const field = find(record, name);
-      if (field != nullptr) text += std::string(", \"") + name + "\": " + text_of(member, field->numbers);
-    });
+  const auto write_field = [&](const char* name, const auto& member) {
+    const SceneField* const field = find(record, name);
+    if (field != nullptr) text += std::string(", \"") + name + "\": " + text_of(member, field->numbers);
+  };
+  visit_kind<double>(record.kind, [&](auto settings, auto input) {
+    visit_fields(settings, write_field);
+    visit_fields(input, write_field);
   });
   return text + "}";
 }
 
+namespace {
+template <class S>
+void add_record(World<S>& world, const SceneRecord& record, const SceneIds& ids, const std::string& place) {
+  const FieldBuilder<S> set_field(record, ids, place);
+  const bool known = visit_kind<S>(record.kind, [&](auto settings, auto input) {
+    visit_fields(settings, set_field);
+    visit_fields(input, set_field);
+    const auto id = world.add(settings);
+    if (id && (!gives_any_of(record, input) || set_input(world, id, input))) return;
+    throw SceneError(place, std::string("the record is refused: ") + describe(world.fault()));
+  });
+  if (!known) throw SceneError(place, "no record is called " + record.kind);
+}
+}  // namespace
+
 template <class S> void add_records(World<S>& world, const Scene& scene, const SceneIds& ids) {
-  for (std::size_t i = 0; i < scene.records.size(); ++i) {
-    const SceneRecord& record = scene.records[i];
-    const std::string place = "/records/" + std::to_string(i);
-    const bool known = visit_kind<S>(record.kind, [&](auto made) {
-      visit_fields(made, FieldBuilder<S>(record, ids, place));
-      if (world.add(made)) return;
-      throw SceneError(place, std::string("the record is refused: ") + describe(world.fault()));
-    });
-    if (!known) throw SceneError(place, "no record is called " + record.kind);
-  }
+  for (std::size_t i = 0; i < scene.records.size(); ++i)
+    add_record(world, scene.records[i], ids, "/records/" + std::to_string(i));
 }
 
 #define ISO_INSTANTIATE(S) template void add_records<S>(World<S>&, const Scene&, const SceneIds&);

@@ -91,15 +91,15 @@ template <class S> void play_street(World<S>& world, std::span<const StreetInput
   const auto walkers = records.characters.slot_map().template ids<CharacterId>();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const StreetInput& input = inputs[i];
-    Vehicle<S> car = *world.find(cars[i]);
-    car.throttle = part(input.throttle, share);
-    car.steer = part(input.steer, share);
-    car.brake = S((input.buttons & 2) != 0 ? 1 : 0);
-    world.set(cars[i], car);
-    Character<S> walker = *world.find(walkers[i]);
-    walker.move = {part(input.walk_x, speed), S(0), part(input.walk_z, speed)};
-    if ((input.buttons & 1) != 0) walker.jump = S(5);
-    world.set(walkers[i], walker);
+    VehicleInput<S> driver;
+    driver.throttle = part(input.throttle, share);
+    driver.steer = part(input.steer, share);
+    driver.brake = S((input.buttons & 2) != 0 ? 1 : 0);
+    world.set_input(cars[i], driver);
+    CharacterInput<S> walk = *world.input(walkers[i]);  // a jump in the air waits for the ground
+    walk.move = {part(input.walk_x, speed), S(0), part(input.walk_z, speed)};
+    if ((input.buttons & 1) != 0) walk.jump = S(5);
+    world.set_input(walkers[i], walk);
   }
 }
 template <class S> void play_street(World<S>& world) {

@@ -25,7 +25,7 @@ template <class S> void add_walkers(World<S>& world) {
   for (int n = 0; n < kWalkers; ++n) {
     const double column = n % kRow - 0.5 * (kRow - 1), row = n / kRow - 0.5 * (kRow - 1);
     body.position = {scalar<S>(kApart * column), scalar<S>(kAbove), scalar<S>(kApart * row)};
-    Character<S> walker;
+    CharacterSettings<S> walker;
     walker.body = world.create(body);
     walker.step_height = scalar<S>(0.4);
     world.add(walker);
@@ -48,10 +48,10 @@ template <class S> void lead_walkers(World<S>& world) {
   Draws draws(kSeed);
   for (std::uint64_t i = 0; i < (tick - kWalkersCome) / kWalkersTurn * kWalkers; ++i) draws.next();
   for (const CharacterId id : world.state().records->characters.slot_map().template ids<CharacterId>()) {
-    Character<S> walker = *world.find(id);
     const SinCos<S> way = sin_cos(scalar<S>(kTurn * draws.unit()));
-    walker.move = {scalar<S>(kSpeed) * way.cos, S(0), scalar<S>(kSpeed) * way.sin};
-    world.set(id, walker);
+    CharacterInput<S> walk;
+    walk.move = {scalar<S>(kSpeed) * way.cos, S(0), scalar<S>(kSpeed) * way.sin};
+    world.set_input(id, walk);
   }
 }
 

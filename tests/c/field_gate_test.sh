@@ -5,7 +5,7 @@
 set -u
 . "$1/tests/scratch.sh"
 header=isostep/store/events.hpp
-mkdir -p "$dir/include/isostep/world" || exit 1
+mkdir -p "$dir/include/isostep/store" || exit 1
 compile() { "$2" -std=c++20 -fsyntax-only "-I$dir/include" "-I$1/include" "-I$1/scalar/include" "-I$1/src/c" \
   "$1/src/c/layout_checks.cpp" 2>"$dir/err"; }
 

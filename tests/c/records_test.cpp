@@ -109,6 +109,8 @@ template <class S> void expect_all_round_trips() {
   ISO_C_PLAIN(ISO_PLAIN, S)
   ISO_C_SIZED(ISO_SIZED, S)
   ISO_FOR_EACH_RECORD(ISO_RECORD, S)
+  ISO_FOR_EACH_INPUT(ISO_RECORD, S)
+  ISO_FOR_EACH_RECORD_STATE(ISO_RECORD, S)
 #undef ISO_PLAIN
 #undef ISO_SIZED
 #undef ISO_RECORD
@@ -160,7 +162,7 @@ template <class S> struct Twins {
 
   template <class Record> Record naming() const {
     Record record;
-    const bool is_carried = std::is_same_v<Record, Character<S>>;
+    const bool is_carried = std::is_same_v<Record, CharacterSettings<S>>;
     if constexpr (requires { record.body; }) record.body = is_carried ? carried : a;
     if constexpr (requires { record.a; }) record.a = a;
     if constexpr (requires { record.b; }) record.b = b;
@@ -228,6 +230,65 @@ ISO_TEST(f32, float, ISO_F32)
 ISO_TEST(f64, double, ISO_F64)
 ISO_TEST(q16, Q16_16, ISO_Q16)
 ISO_TEST(q32, Q32_32, ISO_Q32)
+#undef ISO_TEST
+
+// ---- Settings, inputs, states
+
+/// C sets its own copy of the settings in every frame beside the input, C++ the input alone.
+template <class S, class SettingsC, class InputC, class Settings, class Input, class Add, class Set, class SetInput>
+iso_record expect_stale_settings_take_nothing_back(Twins<S>& twins, const Settings& settings, const Input& input,
+                                                   Add add, Set set, SetInput set_input) {
+  SettingsC settings_c;
+  InputC input_c;
+  EXPECT_EQ(init_sized<Settings>("", &settings_c, sizeof settings_c), kOk);
+  EXPECT_EQ(init_sized<Input>("", &input_c, sizeof input_c), kOk);
+  EXPECT_EQ(put_sized("", &settings_c, settings), kOk);
+  EXPECT_EQ(put_sized("", &input_c, input), kOk);
+  iso_record made = 0;
+  EXPECT_EQ(add(twins.c, &settings_c, &made), ISO_OK) << iso_last_error();
+  const auto id = twins.cpp.add(settings);
+  for (int frame = 0; frame < 60; ++frame) {
+    EXPECT_EQ(set(twins.c, made, &settings_c), ISO_OK) << iso_last_error();
+    EXPECT_EQ(set_input(twins.c, made, &input_c), ISO_OK) << iso_last_error();
+    EXPECT_TRUE(twins.cpp.set_input(id, input));
+    EXPECT_EQ(iso_world_step(twins.c, nullptr), ISO_OK);
+    twins.cpp.step();
+    EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash()) << frame;
+  }
+  return made;
+}
+
+#define ISO_TEST(P, S)                                                                                           \
+  TEST(CRecords, StaleSettingsTakeNothingBackIn_##P) {                                                           \
+    Twins<S> twins;                                                                                              \
+    iso_##P##_settings settings;                                                                                 \
+    iso_##P##_settings_init(&settings);                                                                          \
+    iso_world* world = nullptr;                                                                                  \
+    ASSERT_EQ(iso_##P##_world_create(&settings, &world), ISO_OK);                                                \
+    twins.copy_to(world);                                                                                        \
+    CharacterInput<S> walk;                                                                                      \
+    walk.move.x = S(1);                                                                                          \
+    const iso_record character =                                                                                 \
+        expect_stale_settings_take_nothing_back<S, iso_##P##_character, iso_##P##_character_input>(              \
+            twins, twins.naming<CharacterSettings<S>>(), walk, iso_##P##_add_character, iso_##P##_set_character, \
+            iso_##P##_set_character_input);                                                                      \
+    iso_##P##_character_state state;                                                                             \
+    iso_##P##_character_state_init(&state);                                                                      \
+    ASSERT_EQ(iso_##P##_get_character_state(world, character, &state), ISO_OK);                                  \
+    CharacterState<S> told;                                                                                      \
+    ASSERT_EQ(take_sized("", &state, told), kOk);                                                                \
+    EXPECT_LT(to_double(told.velocity.y), -5.0) << "it falls for a second";                                      \
+    VehicleInput<S> drive;                                                                                       \
+    drive.throttle = S(1);                                                                                       \
+    expect_stale_settings_take_nothing_back<S, iso_##P##_vehicle, iso_##P##_vehicle_input>(                      \
+        twins, twins.naming<VehicleSettings<S>>(), drive, iso_##P##_add_vehicle, iso_##P##_set_vehicle,          \
+        iso_##P##_set_vehicle_input);                                                                            \
+  }
+ISO_TEST(f32, float)
+ISO_TEST(f64, double)
+ISO_TEST(q16, Q16_16)
+ISO_TEST(q32, Q32_32)
+#undef ISO_TEST
 
 }  // namespace
 }  // namespace isostep::test

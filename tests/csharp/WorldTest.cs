@@ -22,6 +22,8 @@ internal static class WorldTest
             HelloFixed32.AnExceptionInAStepIsMadeGood);
         Each("records come and go", HelloF32.RecordsComeAndGo, HelloF64.RecordsComeAndGo, HelloFixed16.RecordsComeAndGo,
             HelloFixed32.RecordsComeAndGo);
+        Each("settings take nothing back", HelloF32.SettingsTakeNothingBack, HelloF64.SettingsTakeNothingBack,
+            HelloFixed16.SettingsTakeNothingBack, HelloFixed32.SettingsTakeNothingBack);
         Each("a recording is proved", HelloF32.ARecordingIsProved, HelloF64.ARecordingIsProved,
             HelloFixed16.ARecordingIsProved, HelloFixed32.ARecordingIsProved);
         Each("nothing is allocated a frame", HelloF32.NothingIsAllocatedAFrame, HelloF64.NothingIsAllocatedAFrame,

@@ -22,7 +22,7 @@ template <class S> class Movers {
     const ShapeId crate = world_.add_shape(Box{{0.5, 0.5, 0.5}}), capsule = world_.add_shape(Capsule{0.25, 0.5});
     for (int i = 0; i < 6; ++i) {
       create(crate, {S(2 * i), S(0.5), S(12)}, BodyType::dynamic, S(20));
-      Character<S> walker;
+      CharacterSettings<S> walker;
       walker.body = create(capsule, {S(2 * i), S(0.875), S(10)}, BodyType::kinematic, S(0));
       walkers_.push_back(world_.add(walker));
     }
@@ -30,15 +30,15 @@ template <class S> class Movers {
 
   void play(int frame) {
     for (const VehicleId id : vehicles_) {
-      Vehicle<S> vehicle = *world_.find(id);
-      vehicle.throttle = S(frame % 120 < 60 ? 1 : -1);
-      vehicle.steer = S(0.5);
-      EXPECT_TRUE(world_.set(id, vehicle));
+      VehicleInput<S> input;
+      input.throttle = S(frame % 120 < 60 ? 1 : -1);
+      input.steer = S(0.5);
+      EXPECT_TRUE(world_.set_input(id, input));
     }
     for (const CharacterId id : walkers_) {
-      Character<S> walker = *world_.find(id);
-      walker.move = {S(0), S(0), S(frame % 60 < 40 ? 2 : -4)};
-      EXPECT_TRUE(world_.set(id, walker));
+      CharacterInput<S> input;
+      input.move = {S(0), S(0), S(frame % 60 < 40 ? 2 : -4)};
+      EXPECT_TRUE(world_.set_input(id, input));
     }
     world_.step();
   }
@@ -54,12 +54,12 @@ template <class S> class Movers {
     return world_.create(body);
   }
   void add_vehicle(ShapeId shape, Vec3<S> at, S side, S base, S mass) {
-    Vehicle<S> vehicle;
+    VehicleSettings<S> vehicle;
     vehicle.body = create(shape, at, BodyType::dynamic, mass);
     vehicle.engine_torque = mass;
     vehicles_.push_back(world_.add(vehicle));
     for (int i = 0; i < 4; ++i) {
-      Wheel<S> wheel;
+      WheelSettings<S> wheel;
       wheel.body = vehicle.body;
       wheel.hard_point = {i % 2 == 0 ? side : -side, S(0), i < 2 ? base : -base};
       wheel.stiffness = mass * S(25);
@@ -87,9 +87,9 @@ TYPED_TEST(RecordAllocation, VehiclesAndCharactersMoveWithoutAny) {
   Movers<S> movers(world);
   for (int frame = 0; frame < 240; ++frame) movers.play(frame);
   std::uint32_t rolling = 0, walking = 0;
-  const RecordStore<S>& records = *world.state().records;
-  for (const Wheel<S>& wheel : records.wheels.all()) rolling += wheel.contact_body && wheel.spin != S(0) ? 1u : 0u;
-  for (const CharacterId id : movers.walkers()) walking += world.find(id)->footing == Footing::floor ? 1u : 0u;
+  for (const WheelState<S>& wheel : world.state().parts.wheel_states)
+    rolling += wheel.contact_body && wheel.spin != S(0) ? 1u : 0u;
+  for (const CharacterId id : movers.walkers()) walking += world.state(id)->footing == Footing::floor ? 1u : 0u;
   EXPECT_GT(rolling, 8u);
   EXPECT_GT(walking, 3u);
   const Count count;

@@ -253,8 +253,7 @@ template <class S> void ask_world(const Arguments<S>& x, Answers& to) {
   }
   Breakable<S> glass;
   glass.body = b;
-  glass.broken_by = S(1);
-  world.add(glass);
+  world.set_input(world.add(glass), {.impulse = S(1)});
   break_bodies(world, 64u);
   to.hash("break_bodies", world.hash());
 }

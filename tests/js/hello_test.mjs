@@ -17,6 +17,22 @@ for (const scalar of scalars) {
   equal(here.hashes.slice(0, 120), here.hashes.slice(120, 240), `${scalar}: after the rollback`);
   check(new Set(here.hashes).size > 200, `${scalar}: nothing happens`);
   equal([here.user, here.hardest], [42, hardest], `${scalar}: what the ray hits, how hard it lands`);
+  // Settings that are set in every frame take no input and no state back.
+  const walked = stale => {
+    const world = iso.createWorld();
+    const capsule = world.addShape('capsule', {radius: 0.5, halfHeight: 0.5});
+    const body = world.createBody({type: 'kinematic', shape: capsule, position: [0, 20, 0]});
+    const walker = world.add('character', {body, stepHeight: 0.25});
+    for (let frame = 0; frame < 60; ++frame) {
+      if (stale) world.set('character', walker, {stepHeight: 0.25});
+      world.setInput('character', walker, {move: [1, 0, 0]});
+      world.step();
+    }
+    check(world.state('character', walker).velocity[1] < -5, `${scalar}: a walker does not fall`);
+    equal(world.input('character', walker).move, [1, 0, 0], `${scalar}: its input`);
+    return world.hash;
+  };
+  equal(walked(true), walked(false), `${scalar}: stale settings`);
   const {sound, recordings, text} = iso.selfcheck();
   check(sound && recordings > 0, `${scalar}: ${text}`);
 }

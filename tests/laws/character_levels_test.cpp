@@ -43,11 +43,11 @@ template <class S> class Level {
   void play(World<S>& world, int frame) const {
     for (std::size_t k = 0; k < walkers.size(); ++k) {
       Dice dice(seed_ * 1009 + static_cast<std::uint64_t>(frame / 30) * 131 + k);
-      Character<S> c = *world.find(walkers[k]);
       const double x = dice.in(-kWalk, kWalk), z = dice.in(-kWalk, kWalk);
-      c.move = vec<S>(x, 0, z);
-      c.jump = num<S>(dice.one_in(3) && frame % 30 == 0 ? kJump : 0);
-      EXPECT_TRUE(world.set(walkers[k], c)) << describe(world.fault());
+      CharacterInput<S> input;
+      input.move = vec<S>(x, 0, z);
+      input.jump = num<S>(dice.one_in(3) && frame % 30 == 0 ? kJump : 0);
+      EXPECT_TRUE(world.set_input(walkers[k], input)) << describe(world.fault());
     }
     turn_movers(world, frame);
     world.step();
@@ -70,7 +70,7 @@ template <class S> class Level {
     BodyDefinition<S> d = moving<S>(capsule_, foot + D3{0, kMiddle + kSkin, 0});
     d.type = BodyType::kinematic;
     d.allow_sleep = false;
-    Character<S> c;
+    CharacterSettings<S> c;
     c.body = w.create(d);
     walkers.push_back(w.add(c));
     EXPECT_TRUE(walkers.back()) << describe(w.fault());
@@ -88,12 +88,12 @@ template <class S> class Level {
     BodyDefinition<S> d = moving<S>(add_box(w, 0.75, 0.25, 1.25), at);
     d.mass = S(400);
     d.allow_sleep = false;
-    Vehicle<S> vehicle;
+    VehicleSettings<S> vehicle;
     vehicle.body = w.create(d);
     vehicle.engine_torque = S(300);
     car_ = w.add(vehicle);
     for (int i = 0; i < 4; ++i) {
-      Wheel<S> wheel;
+      WheelSettings<S> wheel;
       wheel.body = vehicle.body;
       wheel.hard_point = vec<S>(i % 2 == 0 ? 0.6 : -0.6, 0, i < 2 ? 0.9 : -0.9);
       wheel.stiffness = S(10000);
@@ -110,10 +110,10 @@ template <class S> class Level {
     world.set_velocity(lift_, vec<S>(0, 1.5 * way, 0), Vec3<S>::zero());
     world.set_velocity(ferry_, vec<S>((frame / 60 + 1) / 2 % 2 == 0 ? 3 : -3, 0, 0), Vec3<S>::zero());
     world.set_velocity(door_, Vec3<S>::zero(), vec<S>(0, 1.25 * way, 0));
-    Vehicle<S> car = *world.find(car_);
-    car.throttle = num<S>(frame / 120 % 2 == 0 ? 1 : -1);
-    car.steer = num<S>(0.5 * way);
-    EXPECT_TRUE(world.set(car_, car)) << describe(world.fault());
+    VehicleInput<S> input;
+    input.throttle = num<S>(frame / 120 % 2 == 0 ? 1 : -1);
+    input.steer = num<S>(0.5 * way);
+    EXPECT_TRUE(world.set_input(car_, input)) << describe(world.fault());
   }
 
   std::uint64_t seed_;
@@ -139,7 +139,7 @@ TYPED_TEST(CharacterLevels, keep_everybody_between_their_walls_whatever_moves_in
         farthest = std::max({farthest, std::fabs(foot.x), std::fabs(foot.z)});
         lowest = std::min(lowest, foot.y);
         highest = std::max(highest, foot.y);
-        floor += level.w.find(id)->footing == Footing::floor;
+        floor += level.w.state(id)->footing == Footing::floor;
         ++frames;
       }
     }
@@ -207,11 +207,12 @@ TYPED_TEST(CharacterLevels, mirrored_starts_have_mirrored_ends) {
       const double x = (side == 0 ? 1 : -1) * (1 + k / 2 * 0.75), z = k % 2 * 1.25 - 0.5;
       BodyDefinition<S> d = moving<S>(capsule, {x, kMiddle + kSkin, z});
       d.type = BodyType::kinematic;
-      Character<S> c;
+      CharacterSettings<S> c;
       c.body = w.create(d);
-      c.move = vec<S>(side == 0 ? -2 : 2, 0, k % 2 == 0 ? 0.25 : -0.25);
       walkers[side].push_back(w.add(c));
       ASSERT_TRUE(walkers[side].back());
+      const Vec3<S> move = vec<S>(side == 0 ? -2 : 2, 0, k % 2 == 0 ? 0.25 : -0.25);
+      ASSERT_TRUE(w.set_input(walkers[side].back(), {move}));
     }
   }
   double nearest = 10;

@@ -1,4 +1,4 @@
-// Laws of characters' records: what is refused, what a body's filter says, and what a step leaves.
+// Laws of characters' records: what is refused, what a body's filter says, what a step leaves, and what a game sets.
 // SPDX-License-Identifier: MIT
 
 #include <algorithm>
@@ -18,6 +18,7 @@ TYPED_TEST(CharacterRecords, are_told_where_to_go_and_nobody_else_wakes) {
   this->walk(id, {1, 0, 0}, 120);
   EXPECT_EQ(this->w.counts().asleep, 1u);
   EXPECT_TRUE(this->w.set(id, *this->w.find(id)));
+  EXPECT_TRUE(this->w.set_input(id, *this->w.input(id)));
   EXPECT_EQ(this->w.counts().asleep, 1u);
   this->walk(id, {10, 0, 0}, 150);  // and into it
   EXPECT_EQ(this->w.counts().asleep, 0u);
@@ -28,7 +29,7 @@ TYPED_TEST(CharacterRecords, records_refuse_what_they_cannot_use) {
   using S = TypeParam;
   World<S>& world = this->w;
   const BodyId crate = this->box({1, 1, 1}, {0, 5, 0}, BodyType::dynamic, 10);
-  Character<S> c;
+  CharacterSettings<S> c;
   EXPECT_FALSE(world.add(c));
   c.body = crate;
   EXPECT_FALSE(world.add(c));
@@ -37,7 +38,7 @@ TYPED_TEST(CharacterRecords, records_refuse_what_they_cannot_use) {
   c = *world.find(id);
   EXPECT_FALSE(world.add(c)) << "one a body";
   const auto refused = [&](const char* field, const auto& change) {
-    Character<S> bad = *world.find(id);
+    CharacterSettings<S> bad = *world.find(id);
     change(bad);
     EXPECT_FALSE(world.set(id, bad)) << field;
     EXPECT_STREQ(world.fault().field, field);
@@ -49,10 +50,62 @@ TYPED_TEST(CharacterRecords, records_refuse_what_they_cannot_use) {
   refused("push_force", [](auto& b) { b.push_force = S(-1); });
   refused("air_acceleration", [](auto& b) { b.air_acceleration = S(-1); });
   refused("gravity_scale", [](auto& b) { b.gravity_scale = S(17); });
-  refused("move", [](auto& b) { b.move.x = Limits<S>::speed(); });
-  refused("jump", [](auto& b) { b.jump = S(-1); });
-  refused("footing", [](auto& b) { b.footing = static_cast<Footing>(3); });
-  refused("normal", [](auto& b) { b.normal.x = Unit<S>(0.5); });
+  const std::uint64_t before = world.hash();
+  const auto refused_input = [&](const char* field, const CharacterInput<S>& bad) {
+    EXPECT_FALSE(world.set_input(id, bad)) << field;
+    EXPECT_STREQ(world.fault().field, field);
+    EXPECT_EQ(world.hash(), before);
+  };
+  refused_input("move", {.move = {Limits<S>::speed(), S(0), S(0)}});
+  refused_input("jump", {.jump = S(-1)});
+  ASSERT_TRUE(world.remove(id));
+  EXPECT_FALSE(world.set_input(id, {}));
+  EXPECT_EQ(world.fault(), Fault::stale_id);
+  EXPECT_EQ(world.input(id), nullptr);
+  EXPECT_EQ(world.state(id), nullptr);
+}
+
+/// What a step writes is no field of the settings: who sets them from a copy of the first frame takes nothing back.
+TYPED_TEST(CharacterRecords, fall_and_walk_alike_whether_a_game_sets_their_settings_too) {
+  using S = TypeParam;
+  add_ground(this->w);
+  this->box({0.5, 0.15, 2}, {4, 0.15, 0});
+  const CharacterId id = this->walker({0, 2, 0});
+  const CharacterSettings<S> copy = *this->w.find(id);
+  typename World<S>::Snapshot start;
+  this->w.save(start);
+  World<S> other(settings<S>());
+  ASSERT_TRUE(other.load(start));
+  double lowest = 2, highest = 0;
+  for (int i = 0; i < 180; ++i) {
+    const CharacterInput<S> input = {vec<S>(2, 0, i % 40 < 20 ? 0.5 : -0.5), num<S>(i == 90 ? 4 : 0)};
+    ASSERT_TRUE(this->w.set_input(id, input));
+    ASSERT_TRUE(other.set(id, copy));
+    ASSERT_TRUE(other.set_input(id, input));
+    this->w.step(), other.step();
+    ASSERT_EQ(this->w.hash(), other.hash()) << i;
+    const double height = this->foot(id).y;
+    if (i < 90) lowest = std::min(lowest, height);
+    else highest = std::max(highest, height);
+  }
+  EXPECT_NEAR(lowest, 0, 0.01);  // it fell
+  EXPECT_GT(highest, 0.5);       // and jumped
+  EXPECT_GT(this->foot(id).x, 4);
+}
+
+TYPED_TEST(CharacterRecords, keep_an_input_until_another_but_a_jump_once) {
+  using S = TypeParam;
+  add_ground(this->w);
+  const CharacterId id = this->walker({0, 0, 0});
+  run(this->w, 2);
+  this->ask(id, {1, 0, 0}, 3);
+  run(this->w, 1);
+  EXPECT_EQ(this->footing(id), Footing::airborne);
+  EXPECT_EQ(this->w.input(id)->jump, S(0));
+  run(this->w, 119);
+  EXPECT_EQ(this->footing(id), Footing::floor);
+  EXPECT_EQ(this->w.input(id)->move, vec<S>(1, 0, 0));
+  EXPECT_GT(this->foot(id).x, 1);
 }
 
 /// Ground that a command puts elsewhere carries at any speed; what a character keeps of that is within the limits, so
@@ -71,7 +124,7 @@ TYPED_TEST(CharacterRecords, is_thrown_no_faster_than_the_limit_by_ground_that_j
     this->ask(id, {1, 0, 0}, jump);
     for (int i = 0; i < 5; ++i) {
       this->w.step();
-      const D3 v = real(this->w.find(id)->velocity);
+      const D3 v = real(this->w.state(id)->velocity);
       EXPECT_LE(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}), to_double(Limits<S>::speed())) << i;
       const std::vector<std::uint8_t> bytes = bytes_of(this->w);
       World<S> other(settings<S>());

@@ -62,7 +62,7 @@ TYPED_TEST(CharacterTrenches, are_stood_in_walked_along_and_jumped_out_of) {
     const CharacterId id = this->fallen({0.1, 2, 0.2});
     const std::string what = std::to_string(left) + ", " + std::to_string(right);
     EXPECT_EQ(this->footing(id), Footing::floor) << what;
-    EXPECT_LT(length(real(this->w.find(id)->velocity)), 0.01) << what;
+    EXPECT_LT(length(real(this->w.state(id)->velocity)), 0.01) << what;
     const D3 from = this->foot(id);
     EXPECT_TRUE(this->walk(id, {0, 0, 2}, 60)) << what;
     EXPECT_NEAR(this->foot(id).z - from.z, 2, 0.05) << what;

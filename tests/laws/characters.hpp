@@ -15,7 +15,7 @@ template <class S> class Characters : public ::testing::Test {
     BodyDefinition<S> d = moving<S>(capsule_, foot + D3{0, kRadius + kHalf + kSkin, 0});
     d.type = BodyType::kinematic;
     d.allow_sleep = false;
-    Character<S> c;
+    CharacterSettings<S> c;
     c.body = w.create(d);
     c.step_height = num<S>(0.4);
     const CharacterId id = w.add(c);
@@ -34,10 +34,7 @@ template <class S> class Characters : public ::testing::Test {
     return w.create(d);
   }
   void ask(CharacterId id, D3 move, double jump = 0) {
-    Character<S> c = *w.find(id);
-    c.move = vec<S>(move);
-    c.jump = num<S>(jump);
-    EXPECT_TRUE(w.set(id, c)) << describe(w.fault());
+    EXPECT_TRUE(w.set_input(id, {vec<S>(move), num<S>(jump)})) << describe(w.fault());
   }
   /// Walks on for so many steps; true while it never leaves the floor.
   bool walk(CharacterId id, D3 move, int steps) {
@@ -45,12 +42,12 @@ template <class S> class Characters : public ::testing::Test {
     for (int i = 0; i < steps; ++i) {
       ask(id, move);
       EXPECT_TRUE(w.step().clean()) << i;
-      grounded = grounded && w.find(id)->footing == Footing::floor;
+      grounded = grounded && footing(id) == Footing::floor;
     }
     return grounded;
   }
   D3 foot(CharacterId id) const { return real(w.pose(w.find(id)->body).position) - D3{0, kRadius + kHalf + kSkin, 0}; }
-  Footing footing(CharacterId id) const { return w.find(id)->footing; }
+  Footing footing(CharacterId id) const { return w.state(id)->footing; }
 
   static constexpr double kSkin = 1.0 / 64;
   World<S> w{settings<S>()};

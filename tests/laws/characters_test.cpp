@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "random/dice.hpp"
+#include "unit/world/edited_state.hpp"
 
 namespace isostep::test {
 namespace {
@@ -112,7 +113,7 @@ TYPED_TEST(Characters, stands_still_in_corners) {  // case 5
       this->walk(id, {5, 0, 0.5}, 1);
       EXPECT_LT(length(this->foot(id) - before), pick<TypeParam>(1e-4, 1e-4, 1e-3, 1e-4)) << opening << " " << i;
     }
-    EXPECT_EQ(this->w.find(id)->stuck, 0u);
+    EXPECT_EQ(this->w.state(id)->stuck, 0u);
   }
 }
 
@@ -125,7 +126,7 @@ TYPED_TEST(Characters, stops_where_a_ramp_meets_the_ceiling) {  // case 6
   this->walk(id, {3, 0, 0}, 180);
   EXPECT_LE(this->foot(id).y + 2 * (kRadius + kHalf), 3.5);
   EXPECT_GT(this->foot(id).y, 0.5);
-  EXPECT_EQ(this->w.find(id)->stuck, 0u);
+  EXPECT_EQ(this->w.state(id)->stuck, 0u);
 }
 
 TYPED_TEST(Characters, rides_platforms_that_move_and_turn) {  // case 7
@@ -145,7 +146,7 @@ TYPED_TEST(Characters, rides_platforms_that_move_and_turn) {  // case 7
     EXPECT_EQ(this->footing(id), Footing::floor);
     this->ask(id, {0, 0, 0}, 4);
     this->w.step();
-    EXPECT_NEAR(to_double(this->w.find(id)->velocity.x), speed.x, 0.3);
+    EXPECT_NEAR(to_double(this->w.state(id)->velocity.x), speed.x, 0.3);
     EXPECT_EQ(this->footing(id), Footing::airborne);
   }
 }
@@ -211,7 +212,7 @@ TYPED_TEST(Characters, is_stuck_between_a_lift_and_the_ceiling_and_passes_neithe
   std::uint32_t stuck = 0;
   for (int i = 0; i < 120; ++i) {
     this->w.step();
-    stuck = std::max(stuck, this->w.find(id)->stuck);
+    stuck = std::max(stuck, this->w.state(id)->stuck);
   }
   EXPECT_GT(stuck, 10u);
   EXPECT_LT(this->foot(id).y, 3.0);
@@ -223,7 +224,7 @@ TYPED_TEST(Characters, leaves_what_it_starts_in) {  // case 10
   const CharacterId id = this->walker({0, 0, 0});
   run(this->w, 10);
   EXPECT_LT(this->foot(id).x + kRadius, 0.1);
-  EXPECT_EQ(this->w.find(id)->stuck, 0u);
+  EXPECT_EQ(this->w.state(id)->stuck, 0u);
 }
 
 TYPED_TEST(Characters, passes_no_wall_however_fast) {  // case 11
@@ -235,10 +236,10 @@ TYPED_TEST(Characters, passes_no_wall_however_fast) {  // case 11
   for (int i = 0; i < 40; ++i) all.push_back(this->walker({dice.in(0, 3), dice.in(0, 4), 1.5 * i - 30}));
   for (int i = 0; i < 60; ++i) {
     for (const CharacterId id : all) this->ask(id, {pick<S>(50, 50, 30, 50), 0, 0});
-    for (const CharacterId id : all) {
-      Character<S> c = *this->w.find(id);
-      if (i == 0) c.velocity = vec<S>(pick<S>(50, 50, 30, 50), 0, 0);
-      this->w.set(id, c);
+    if (i == 0) {
+      edit_parts(this->w, [](RecordParts<S>& parts) {
+        for (CharacterState<S>& c : parts.character_states) c.velocity = vec<S>(pick<S>(50, 50, 30, 50), 0, 0);
+      });
     }
     this->w.step();
   }
@@ -269,7 +270,7 @@ TYPED_TEST(Characters, stays_in_a_shaft_that_is_filled_over_it) {  // case 9
     const D3 foot = this->foot(id);
     farthest = std::max({farthest, std::fabs(foot.x), std::fabs(foot.z)});
     lowest = std::min(lowest, foot.y);
-    stuck = std::max(stuck, this->w.find(id)->stuck);
+    stuck = std::max(stuck, this->w.state(id)->stuck);
   }
   EXPECT_GT(stuck, 10u);  // they do press
   EXPECT_LT(farthest, kRoom);
@@ -284,9 +285,8 @@ TYPED_TEST(Characters, a_crowd_in_a_corridor_keeps_apart_and_can_be_rolled_back)
   for (int i = 0; i < 24; ++i) all.push_back(this->walker({(i % 12) * 1.5 - 9.0, 0, i < 12 ? -0.7 : 0.7}));
   const auto drive = [&](World<S>& world, int i) {
     for (std::size_t k = 0; k < all.size(); ++k) {
-      Character<S> c = *world.find(all[k]);
-      c.move = vec<S>(k % 2 == 0 ? 3 : -3, 0, (i / 30 + static_cast<int>(k)) % 3 - 1);
-      world.set(all[k], c);
+      const Vec3<S> move = vec<S>(k % 2 == 0 ? 3 : -3, 0, (i / 30 + static_cast<int>(k)) % 3 - 1);
+      world.set_input(all[k], {move});
     }
     world.step();
   };

@@ -1,7 +1,7 @@
 // Laws of clutches: what passes between an engine with inertia and a car's wheels, against closed forms.
 // SPDX-License-Identifier: MIT
 
-#include "unit/world/worlds.hpp"
+#include "unit/world/edited_state.hpp"
 
 namespace isostep::test {
 namespace {
@@ -18,7 +18,7 @@ template <class S> class Clutches : public ::testing::Test {
     BodyDefinition<S> d = moving<S>(add_box(w, 0.9, 0.3, 2.1), {0, kHeight, 0});
     d.mass = num<S>(kMass);
     car = w.create(d);
-    Vehicle<S> v;
+    VehicleSettings<S> v;
     v.body = car;
     v.gears[0] = num<S>(kGear);
     v.gears[1] = S(0);
@@ -29,7 +29,7 @@ template <class S> class Clutches : public ::testing::Test {
     vehicle = w.add(v);
     EXPECT_TRUE(vehicle) << describe(w.fault());
     for (int i = 0; i < 4; ++i) {
-      Wheel<S> wheel;
+      WheelSettings<S> wheel;
       wheel.body = car;
       wheel.hard_point = vec<S>(i % 2 == 0 ? 0.8 : -0.8, 0, i < 2 ? 1.35 : -1.35);
       wheel.stiffness = S(30000);
@@ -39,22 +39,29 @@ template <class S> class Clutches : public ::testing::Test {
       EXPECT_TRUE(wheels[i]) << describe(w.fault());
     }
   }
-  template <class Change> void change(const Change& of) {
-    Vehicle<S> v = *w.find(vehicle);
-    of(v);
-    ASSERT_TRUE(w.set(vehicle, v)) << describe(w.fault());
+  template <class Change> void ask(const Change& of) {
+    VehicleInput<S> input = *w.input(vehicle);
+    of(input);
+    ASSERT_TRUE(w.set_input(vehicle, input)) << describe(w.fault());
+  }
+  void turn_engine(double spin) {
+    edit_parts(w, [&](RecordParts<S>& parts) { parts.vehicle_states[vehicle.slot].engine_spin = num<S>(spin); });
   }
   void turn_engine(double spin, double clutch) {
-    change([&](Vehicle<S>& v) { v.engine_spin = num<S>(spin), v.clutch = num<S>(clutch); });
+    turn_engine(spin);
+    ask([&](VehicleInput<S>& input) { input.clutch = num<S>(clutch); });
   }
   void press(double torque) {
-    change([&](Vehicle<S>& v) { v.engine_torque = num<S>(torque), v.throttle = S(1); });
+    VehicleSettings<S> v = *w.find(vehicle);
+    v.engine_torque = num<S>(torque);
+    ASSERT_TRUE(w.set(vehicle, v)) << describe(w.fault());
+    ask([](VehicleInput<S>& input) { input.throttle = S(1); });
   }
-  double engine() const { return to_double(w.find(vehicle)->engine_spin); }
-  double load() const { return to_double(w.find(vehicle)->clutch_load); }
+  double engine() const { return to_double(w.state(vehicle)->engine_spin); }
+  double load() const { return to_double(w.state(vehicle)->clutch_load); }
   double shaft() const {
     double sum = 0;
-    for (const WheelId id : wheels) sum += to_double(w.find(id)->spin);
+    for (const WheelId id : wheels) sum += to_double(w.state(id)->spin);
     return kGear * sum / 4;
   }
   double speed() const { return to_double(w.velocity(car).z); }
@@ -112,7 +119,7 @@ TYPED_TEST(Clutches, leaves_the_car_alone_while_the_engine_turns_up) {
   EXPECT_NEAR(this->speed(), 0, 1e-3);
   EXPECT_EQ(this->load(), 0);
   // Neutral is as good, with the clutch engaged.
-  this->change([](Vehicle<S>& v) { v.gear = 1, v.clutch = S(1), v.throttle = S(-1); });
+  this->ask([](VehicleInput<S>& input) { input.gear = 1, input.clutch = S(1), input.throttle = S(-1); });
   run(this->w, 60);
   EXPECT_NEAR(this->engine(), 0, 6);
   EXPECT_NEAR(this->speed(), 0, 1e-3);
@@ -122,7 +129,8 @@ TYPED_TEST(Clutches, leaves_the_car_alone_while_the_engine_turns_up) {
 TYPED_TEST(Clutches, accelerates_car_and_engine_together) {
   using S = TypeParam;
   for (const std::uint32_t gear : {0u, 2u}) {
-    this->change([&](Vehicle<S>& v) { v.gear = gear, v.engine_spin = S(0); });
+    this->ask([&](VehicleInput<S>& input) { input.gear = gear; });
+    this->turn_engine(0);
     this->w.set_velocity(this->car, vec<S>(0, 0, 0), vec<S>(0, 0, 0));
     this->press(100);
     run(this->w, 60);
@@ -148,7 +156,7 @@ TYPED_TEST(Clutches, slips_while_throttle_asks_for_more_than_it_bears) {
 TYPED_TEST(Clutches, stops_the_engine_of_a_car_with_its_brakes_on) {
   using S = TypeParam;
   this->turn_engine(100, 1);
-  this->change([](Vehicle<S>& v) { v.brake = S(1); });
+  this->ask([](VehicleInput<S>& input) { input.brake = S(1); });
   run(this->w, 12);
   EXPECT_NEAR(100 - this->engine(), this->kMost / this->kInertia / 5, 1);
   run(this->w, 60);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "unit/world/worlds.hpp"
+#include "unit/world/edited_state.hpp"
 
 namespace isostep::test {
 namespace {
@@ -35,7 +35,7 @@ template <class S> class Curbs : public ::testing::Test {
     const BodyId car = w.create(d);
     for (const double x : {-0.8, 0.8}) {
       for (const double along : {-kHalfBase, kHalfBase}) {
-        Wheel<S> wheel;
+        WheelSettings<S> wheel;
         wheel.body = car;
         wheel.hard_point = vec<S>(x, -0.1, along);
         wheel.free_length = num<S>(0.35);
@@ -43,10 +43,12 @@ template <class S> class Curbs : public ::testing::Test {
         wheel.damping = S(2400);
         wheel.radius = num<S>(m.radius);
         wheel.inertia = num<S>(m.radius < 0.4 ? 1 : 2);  // within Limits::leverage() of Q16.16
-        wheel.spin = num<S>(speed / m.radius);
         EXPECT_TRUE(w.add(wheel)) << describe(w.fault());
       }
     }
+    edit_parts(w, [&](RecordParts<S>& parts) {
+      for (WheelState<S>& wheel : parts.wheel_states) wheel.spin = num<S>(speed / m.radius);
+    });
     return car;
   }
   /// [m] How far its middle rises, from a tenth of a second before the curb till half a second after it.

@@ -48,8 +48,8 @@ TYPED_TEST(JointLoads, a_weight_pulls_with_its_weight_and_a_beam_turns_with_its_
       run(w, 120);
       const std::string what =
           std::string(kSolverNames[static_cast<int>(solver)]) + ", " + kJointNames[static_cast<int>(type)];
-      EXPECT_NEAR(to_double(w.find(load)->force), 20, 0.1) << what;
-      EXPECT_NEAR(to_double(w.find(load)->torque), beam ? 10 : 0, 0.1) << what;
+      EXPECT_NEAR(to_double(w.state(load)->force), 20, 0.1) << what;
+      EXPECT_NEAR(to_double(w.state(load)->torque), beam ? 10 : 0, 0.1) << what;
     }
   }
 }
@@ -69,7 +69,7 @@ TYPED_TEST(JointLoads, joints_that_lanes_solve_are_measured_like_others) {
   }
   run(w, 60);
   for (std::size_t i = 0; i < loads.size(); ++i)
-    EXPECT_NEAR(to_double(w.find(loads[i])->force), 10.0 * static_cast<double>(4 - i % 4), 0.1) << i;
+    EXPECT_NEAR(to_double(w.state(loads[i])->force), 10.0 * static_cast<double>(4 - i % 4), 0.1) << i;
 }
 
 /// A chain of twenty links of a kilogram under a top that bears 1.2 of them, and what happens to it.

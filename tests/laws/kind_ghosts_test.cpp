@@ -72,12 +72,12 @@ TYPED_TEST(KindGhosts, bullets_sensors_and_characters_ask_it_too) {
   this->ball({0, 8, 0}, 2);
   BodyDefinition<S> d = still<S>(this->w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.5)}), {3.5, 0, 1});
   d.type = BodyType::kinematic;
-  Character<S> character;
+  CharacterSettings<S> character;
   character.body = this->body(d, 2);
-  character.move = vec<S>(2, 0, 0);
-  character.velocity = vec<S>(2, 0, 0);
   character.air_acceleration = S(10);
-  ASSERT_TRUE(this->w.add(character)) << describe(this->w.fault());
+  const CharacterId walker = this->w.add(character);
+  ASSERT_TRUE(walker) << describe(this->w.fault());
+  ASSERT_TRUE(this->w.set_input(walker, {vec<S>(2, 0, 0)}));
   for (int i = 0; i < 60; ++i) {
     this->w.step();
     EXPECT_TRUE(this->w.events().sensor_begin.empty());

@@ -262,19 +262,14 @@ TYPED_TEST(OneWays, a_lift_takes_along_what_it_meets_from_below) {
 /// A character on the ground below a platform whose top is at 2.625 m.
 template <class S> struct Hero {
   Hero(World<S>& in, BodyId body, double skin) : w(in), stands(0.75 + skin) {
-    Character<S> hero;
+    CharacterSettings<S> hero;
     hero.body = body;
     hero.skin = num<S>(skin);
     id = w.add(hero);
     EXPECT_TRUE(id) << describe(w.fault());
   }
   double height() const { return to_double(w.pose(w.find(id)->body).position.y) - stands; }
-  void ask(D3 move, double jump) {
-    Character<S> hero = *w.find(id);
-    hero.move = vec<S>(move);
-    hero.jump = num<S>(jump);
-    EXPECT_TRUE(w.set(id, hero)) << describe(w.fault());
-  }
+  void ask(D3 move, double jump) { EXPECT_TRUE(w.set_input(id, {vec<S>(move), num<S>(jump)})) << describe(w.fault()); }
   /// Returns how high it came in so many steps [m].
   double jump(double speed, int steps) {
     ask({0, 0, 0}, speed);
@@ -307,12 +302,12 @@ TYPED_TEST(OneWays, a_character_jumps_up_through_stands_and_drops_through) {
     run(this->w, 3);
     EXPECT_NEAR(hero.jump(6.5, 120), 2.11, 0.1) << "its head is in, its feet are not above";
     EXPECT_NEAR(hero.height(), 0, 0.01);
-    ASSERT_EQ(this->w.find(hero.id)->footing, Footing::floor);
+    ASSERT_EQ(this->w.state(hero.id)->footing, Footing::floor);
     EXPECT_NEAR(hero.jump(8, 120), 3.2, 0.1);
     EXPECT_NEAR(hero.height(), 2.625, 0.01);
-    EXPECT_EQ(this->w.find(hero.id)->footing, Footing::floor);
-    EXPECT_EQ(this->w.find(hero.id)->ground, platform);
-    EXPECT_EQ(this->w.find(hero.id)->stuck, 0u);
+    EXPECT_EQ(this->w.state(hero.id)->footing, Footing::floor);
+    EXPECT_EQ(this->w.state(hero.id)->ground, platform);
+    EXPECT_EQ(this->w.state(hero.id)->stuck, 0u);
     hero.ask({1, 0, 0}, 0);
     for (int i = 0; i < 60; ++i) {
       this->w.step();

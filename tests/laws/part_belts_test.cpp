@@ -147,7 +147,7 @@ TYPED_TEST(PartBelts, a_character_rides_on_the_part_that_it_stands_on) {
     this->begin();
     const BodyId body = this->planks(2);
     this->drive(body, {2, 0, 0}, part);
-    Character<S> character;
+    CharacterSettings<S> character;
     BodyDefinition<S> d = still<S>(this->w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.5)}), {0, 0.765625, 2});
     d.type = BodyType::kinematic;
     character.body = this->w.create(d);
@@ -189,7 +189,7 @@ TYPED_TEST(PartBelts, refuse_what_is_no_part_and_change_nothing) {
   EXPECT_EQ(StateValidator<S>(state).broken_rule(), nullptr);
   SurfaceVelocity<S>& record = state.records.change().surface_velocitys.change_all()[id.slot];
   record.part = 0;
-  EXPECT_STREQ(StateValidator<S>(state).broken_rule(), "two belts have the same part");
+  EXPECT_STREQ(StateValidator<S>(state).broken_rule(), "two records of a kind are about the same");
   record.part = 2;
   EXPECT_NE(StateValidator<S>(state).broken_rule(), nullptr);
 }

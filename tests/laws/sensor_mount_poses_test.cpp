@@ -53,10 +53,10 @@ TYPED_TEST(SensorMountPoses, follow_characters_and_what_is_moved_to_a_target) {
   add_ground(this->w);
   BodyDefinition<S> d = still<S>(this->w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.5)}), {0, 0.765625, 0});
   d.type = BodyType::kinematic;
-  Character<S> character;
+  CharacterSettings<S> character;
   character.body = this->w.create(d);
-  character.move = vec<S>(2, 0, 1);
-  ASSERT_TRUE(this->w.add(character));
+  const CharacterId walker = this->w.add(character);
+  ASSERT_TRUE(walker && this->w.set_input(walker, {vec<S>(2, 0, 1)})) << describe(this->w.fault());
   this->feel(character.body, {0.5, 0, 0});
   for (int step = 0; step < 30; ++step) {
     this->w.step();
@@ -241,7 +241,7 @@ TYPED_TEST(SensorMountPoses, of_a_state_that_breaks_a_rule_are_not_read) {
     const char* rule = StateValidator<S>(state).broken_rule();
     return std::string(rule == nullptr ? "" : rule);
   };
-  EXPECT_EQ(rule_of({first, body, Pose<S>::identity()}), "two mounts have the same sensor");
+  EXPECT_EQ(rule_of({first, body, Pose<S>::identity()}), "two records of a kind are about the same");
   EXPECT_EQ(rule_of({this->sensor, first, Pose<S>::identity()}), "a sensor is mounted on one that is mounted");
   EXPECT_NE(rule_of({solid, body, Pose<S>::identity()}), "");
   EXPECT_NE(rule_of({this->sensor, {}, Pose<S>::identity()}), "");

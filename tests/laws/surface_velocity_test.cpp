@@ -190,7 +190,7 @@ TYPED_TEST(SurfaceVelocities, a_character_rides_and_jumps_off_with_its_speed) {
   this->drive(this->plank({20, 0.25, 20}, {0, -0.25, 0}), {2, 0, 0});
   BodyDefinition<S> d = still<S>(this->w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.5)}), {0, 0.765625, 0});
   d.type = BodyType::kinematic;
-  Character<S> character;
+  CharacterSettings<S> character;
   character.body = this->w.create(d);
   const CharacterId id = this->w.add(character);
   ASSERT_TRUE(id);
@@ -198,14 +198,13 @@ TYPED_TEST(SurfaceVelocities, a_character_rides_and_jumps_off_with_its_speed) {
   const double before = to_double(this->w.pose(character.body).position.x);
   run(this->w, 60);
   EXPECT_NEAR(to_double(this->w.pose(character.body).position.x) - before, 2, 0.01);
-  EXPECT_EQ(this->w.find(id)->footing, Footing::floor);
-  character = *this->w.find(id);
-  character.jump = S(3);
+  EXPECT_EQ(this->w.state(id)->footing, Footing::floor);
   character.air_acceleration = S(0);
   ASSERT_TRUE(this->w.set(id, character));
+  ASSERT_TRUE(this->w.set_input(id, {.jump = S(3)}));
   this->w.step();
-  EXPECT_EQ(this->w.find(id)->footing, Footing::airborne);
-  EXPECT_NEAR(to_double(this->w.find(id)->velocity.x), 2, 0.02);
+  EXPECT_EQ(this->w.state(id)->footing, Footing::airborne);
+  EXPECT_NEAR(to_double(this->w.state(id)->velocity.x), 2, 0.02);
 }
 
 TYPED_TEST(SurfaceVelocities, refuse_what_is_no_record_and_change_nothing) {

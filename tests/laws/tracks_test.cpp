@@ -1,7 +1,7 @@
 // Laws of tracks: wheels that roll as one, what drives, brakes and steers them, against closed forms.
 // SPDX-License-Identifier: MIT
 
-#include "unit/world/worlds.hpp"
+#include "unit/world/edited_state.hpp"
 
 namespace isostep::test {
 namespace {
@@ -19,48 +19,51 @@ template <class S> class Tracks : public ::testing::Test {
     d.mass = num<S>(kMass);
     d.allow_sleep = false;
     tank = w.create(d);
-    Vehicle<S> v;
+    VehicleSettings<S> v;
     v.body = tank;
     v.engine_torque = S(2400);
     v.brake_torque = S(6000);
     vehicle = w.add(v);
     EXPECT_TRUE(vehicle) << describe(w.fault());
     for (int i = 0; i < 6; ++i) {
-      Wheel<S> wheel;
+      WheelSettings<S> wheel;
       wheel.body = tank;
       wheel.hard_point = vec<S>(i < 3 ? kSide : -kSide, 0, 1 - i % 3);
       wheel.stiffness = S(20000);
       wheel.damping = S(1600);
       wheel.grip_across = num<S>(grip_across);
-      wheel.spin = num<S>(speed / kRadius);
       wheel.track = i < 3 ? 7 : 3;
       wheel.drive_share = wheel.brake_share = S(i % 3 == 2 ? 1 : 0);
       wheels[i] = w.add(wheel);
       EXPECT_TRUE(wheels[i]) << describe(w.fault());
     }
+    for (int i = 0; i < 6 && speed != 0; ++i) spin(i, speed / kRadius);
   }
   void renew() {
     World<S> fresh(settings<S>());
     w = std::move(fresh);
   }
   void control(double throttle, double brake, double steer) {
-    Vehicle<S> v = *w.find(vehicle);
-    v.throttle = num<S>(throttle);
-    v.brake = num<S>(brake);
-    v.steer = num<S>(steer);
-    ASSERT_TRUE(w.set(vehicle, v)) << describe(w.fault());
+    VehicleInput<S> input;
+    input.throttle = num<S>(throttle);
+    input.brake = num<S>(brake);
+    input.steer = num<S>(steer);
+    ASSERT_TRUE(w.set_input(vehicle, input)) << describe(w.fault());
   }
   template <class Change> void change(int i, const Change& of) {
-    Wheel<S> wheel = *w.find(wheels[i]);
+    WheelSettings<S> wheel = *w.find(wheels[i]);
     of(wheel);
     ASSERT_TRUE(w.set(wheels[i], wheel)) << describe(w.fault());
   }
+  void spin(int i, double spin) {
+    edit_parts(w, [&](RecordParts<S>& parts) { parts.wheel_states[wheels[i].slot].spin = num<S>(spin); });
+  }
   template <class Change> void change_vehicle(const Change& of) {
-    Vehicle<S> v = *w.find(vehicle);
+    VehicleSettings<S> v = *w.find(vehicle);
     of(v);
     ASSERT_TRUE(w.set(vehicle, v)) << describe(w.fault());
   }
-  double rim(int i) const { return to_double(w.find(wheels[i])->spin) * to_double(w.find(wheels[i])->radius); }
+  double rim(int i) const { return to_double(w.state(wheels[i])->spin) * to_double(w.find(wheels[i])->radius); }
   D3 place() const { return real(w.center_of_mass(tank)); }
   D3 speed() const { return real(w.velocity(tank)); }
   double yaw_rate() const { return to_double(w.angular_velocity(tank).y); }
@@ -82,7 +85,7 @@ TYPED_TEST_SUITE(Tracks, AllScalars);
 TYPED_TEST(Tracks, rolls_as_one_with_wheels_in_the_air) {
   using S = TypeParam;
   this->add_tank();
-  const auto lift = [](Wheel<S>& wheel) {
+  const auto lift = [](WheelSettings<S>& wheel) {
     wheel.hard_point.y = S(1);
     wheel.radius = num<S>(0.25);
     wheel.inertia = num<S>(0.5);
@@ -90,8 +93,8 @@ TYPED_TEST(Tracks, rolls_as_one_with_wheels_in_the_air) {
   for (const int i : this->kMiddle) this->change(i, lift);
   run(this->w, 120);
   for (const int i : this->kMiddle) {
-    EXPECT_FALSE(this->w.find(this->wheels[i])->contact_body);
-    this->change(i, [](Wheel<S>& wheel) { wheel.spin = S(40); });
+    EXPECT_FALSE(this->w.state(this->wheels[i])->contact_body);
+    this->spin(i, 40);
   }
   for (int step = 0; step < 120; ++step) {
     run(this->w, 1);
@@ -154,7 +157,7 @@ TYPED_TEST(Tracks, turns_on_the_spot_to_where_it_steers) {
 TYPED_TEST(Tracks, turns_forwards_by_the_outer_track) {
   using S = TypeParam;
   this->add_tank(0, 0.25);
-  this->change_vehicle([](Vehicle<S>& v) { v.engine_torque = S(4800); });
+  this->change_vehicle([](VehicleSettings<S>& v) { v.engine_torque = S(4800); });
   this->control(1, 0, 0.5);
   run(this->w, 60);
   EXPECT_GT(this->yaw_rate(), 0.2);
@@ -168,7 +171,7 @@ TYPED_TEST(Tracks, turns_without_throttle_by_a_locked_differential) {
   for (const int locked : {0, 1}) {
     this->renew();
     this->add_tank(4, 0.25);
-    this->change_vehicle([&](Vehicle<S>& v) { v.differential_lock = S(locked); });
+    this->change_vehicle([&](VehicleSettings<S>& v) { v.differential_lock = S(locked); });
     this->control(0, 0, 0.5);
     run(this->w, 30);
     if (locked == 0) {

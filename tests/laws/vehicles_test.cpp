@@ -1,7 +1,7 @@
 // Laws of vehicles: sag, braking, steering, grip, roll and drive against closed forms, on the car of scene S17.
 // SPDX-License-Identifier: MIT
 
-#include "unit/world/worlds.hpp"
+#include "unit/world/edited_state.hpp"
 
 namespace isostep::test {
 namespace {
@@ -18,15 +18,15 @@ template <class S> class Vehicles : public ::testing::Test {
     VehicleId vehicle;
     WheelId wheels[4];  // left front, right front, left rear, right rear
   };
-  static Vehicle<S> engine_of(BodyId body) {
-    Vehicle<S> v;
+  static VehicleSettings<S> engine_of(BodyId body) {
+    VehicleSettings<S> v;
     v.body = body;
     v.engine_torque = S(1200);
     v.brake_torque = S(1500);
     return v;
   }
-  static Wheel<S> wheel_of(BodyId body, double x, double z, double steer) {
-    Wheel<S> wheel;
+  static WheelSettings<S> wheel_of(BodyId body, double x, double z, double steer) {
+    WheelSettings<S> wheel;
     wheel.body = body;
     wheel.hard_point = vec<S>(x, 0, z);
     wheel.stiffness = S(30000);
@@ -48,23 +48,27 @@ template <class S> class Vehicles : public ::testing::Test {
     EXPECT_TRUE(car.vehicle) << describe(w.fault());
     const double x[] = {kSide, -kSide, kSide, -kSide}, z[] = {kHalfBase, kHalfBase, -kHalfBase, -kHalfBase};
     for (int i = 0; i < 4; ++i) {
-      Wheel<S> wheel = wheel_of(car.body, x[i], z[i], i < 2 ? 0.5 : 0);
-      wheel.spin = num<S>(speed / kWheelRadius);
-      car.wheels[i] = w.add(wheel);
+      car.wheels[i] = w.add(wheel_of(car.body, x[i], z[i], i < 2 ? 0.5 : 0));
       EXPECT_TRUE(car.wheels[i]) << describe(w.fault());
+    }
+    // It rolls from the first step on.
+    if (speed != 0) {
+      edit_parts(w, [&](RecordParts<S>& parts) {
+        for (const WheelId id : car.wheels) parts.wheel_states[id.slot].spin = num<S>(speed / kWheelRadius);
+      });
     }
     return car;
   }
   void control(const Car& car, double throttle, double brake, double steer = 0) {
-    Vehicle<S> v = *w.find(car.vehicle);
-    v.throttle = num<S>(throttle);
-    v.brake = num<S>(brake);
-    v.steer = num<S>(steer / 0.5);
-    ASSERT_TRUE(w.set(car.vehicle, v)) << describe(w.fault());
+    VehicleInput<S> input = *w.input(car.vehicle);
+    input.throttle = num<S>(throttle);
+    input.brake = num<S>(brake);
+    input.steer = num<S>(steer / 0.5);
+    ASSERT_TRUE(w.set_input(car.vehicle, input)) << describe(w.fault());
   }
   void set_curve(const Car& car, double peak_slip, double peak, double slide_slip, double slide) {
     for (const WheelId id : car.wheels) {
-      Wheel<S> wheel = *w.find(id);
+      WheelSettings<S> wheel = *w.find(id);
       wheel.peak_slip = num<S>(peak_slip);
       wheel.peak_grip = num<S>(peak);
       wheel.slide_slip = num<S>(slide_slip);
@@ -73,7 +77,7 @@ template <class S> class Vehicles : public ::testing::Test {
     }
   }
   void torque(const Car& car, double brakes) {
-    Vehicle<S> v = *w.find(car.vehicle);
+    VehicleSettings<S> v = *w.find(car.vehicle);
     v.brake_torque = num<S>(brakes);
     ASSERT_TRUE(w.set(car.vehicle, v)) << describe(w.fault());
   }
@@ -121,10 +125,10 @@ TYPED_TEST(Vehicles, springs_sag_by_the_weight_over_their_stiffness) {
   const auto car = this->add_car({0, 0.6, 0});
   run(this->w, 300);
   for (const WheelId id : car.wheels) {
-    EXPECT_NEAR(0.3 - to_double(this->w.find(id)->length), 0.1, 0.001);
-    EXPECT_NEAR(to_double(this->w.find(id)->load), 3000, 15);
-    EXPECT_NEAR(to_double(this->w.find(id)->spin), 0, 0.01);
-    EXPECT_TRUE(this->w.find(id)->contact_body);
+    EXPECT_NEAR(0.3 - to_double(this->w.state(id)->length), 0.1, 0.001);
+    EXPECT_NEAR(to_double(this->w.state(id)->load), 3000, 15);
+    EXPECT_NEAR(to_double(this->w.state(id)->spin), 0, 0.01);
+    EXPECT_TRUE(this->w.state(id)->contact_body);
   }
   EXPECT_NEAR(this->place(car).y, this->kHeight, 0.001);
   this->told("sag", 0.65 - this->place(car).y);
@@ -157,7 +161,7 @@ TYPED_TEST(Vehicles, brakes_at_the_slip_at_which_the_curve_bears_its_brakes) {
   const auto more = [&](double a) { return this->kMass * a * this->kHeight / (2 * this->kBase); };
   const double load = this->kMass * 10 / 4, front = 1.1 * (load + more(11)), rear = 1.1 * (load - more(11));
   for (const WheelId id : {car.wheels[2], car.wheels[3]}) {
-    Wheel<TypeParam> wheel = *this->w.find(id);
+    WheelSettings<TypeParam> wheel = *this->w.find(id);
     wheel.brake_share = num<TypeParam>(rear / front);
     ASSERT_TRUE(this->w.set(id, wheel));
   }
@@ -168,7 +172,7 @@ TYPED_TEST(Vehicles, brakes_at_the_slip_at_which_the_curve_bears_its_brakes) {
   double slip = 0;
   for (int i = 0; i < 60; ++i) {
     run(this->w, 1);
-    for (const WheelId id : car.wheels) slip += to_double(this->w.find(id)->slip) / 240;
+    for (const WheelId id : car.wheels) slip += to_double(this->w.state(id)->slip) / 240;
   }
   const double square = this->kWheelRadius * this->kWheelRadius, a = 11 / (1 + 4 / (this->kMass * square));
   const double mu_front = (front - a / square) / (load + more(a)), mu_rear = (rear - a / square) / (load - more(a));
@@ -189,10 +193,10 @@ TYPED_TEST(Vehicles, slides_with_locked_wheels_by_the_end_of_the_curve) {
   const double before = this->speed(car).z;
   run(this->w, 60);
   EXPECT_NEAR(before - this->speed(car).z, 7.5, 0.02 * 7.5);
-  for (const WheelId id : car.wheels) EXPECT_NEAR(to_double(this->w.find(id)->slip), 1, 0.01);
+  for (const WheelId id : car.wheels) EXPECT_NEAR(to_double(this->w.state(id)->slip), 1, 0.01);
   run(this->w, 180);
   EXPECT_LT(length(this->speed(car)), 0.01);
-  for (const WheelId id : car.wheels) EXPECT_NEAR(to_double(this->w.find(id)->slip), 0, 0.01);
+  for (const WheelId id : car.wheels) EXPECT_NEAR(to_double(this->w.state(id)->slip), 0, 0.01);
 }
 
 TYPED_TEST(Vehicles, steering_leads_the_rear_axle_round_a_circle) {
@@ -312,6 +316,41 @@ TYPED_TEST(Vehicles, asleep_wakes_with_what_its_ground_becomes) {
     run(this->w, 60);
     EXPECT_EQ(to_double(this->w.center_of_mass(car).y) < 0, filter);
   }
+}
+
+/// What a step writes is no field of the settings: who sets them from copies of the first frame takes nothing back.
+TYPED_TEST(Vehicles, drives_alike_whether_a_game_sets_its_settings_too) {
+  using S = TypeParam;
+  add_ground(this->w, 1);
+  const auto car = this->add_car({0, this->kHeight, 0});
+  VehicleSettings<S> engine = *this->w.find(car.vehicle);
+  engine.engine_torque = S(300);
+  engine.gears[0] = S(4);
+  engine.engine_inertia = num<S>(0.5);
+  engine.clutch_torque = S(200);
+  ASSERT_TRUE(this->w.set(car.vehicle, engine)) << describe(this->w.fault());
+  const WheelSettings<S> wheels[] = {*this->w.find(car.wheels[0]), *this->w.find(car.wheels[1]),
+                                     *this->w.find(car.wheels[2]), *this->w.find(car.wheels[3])};
+  typename World<S>::Snapshot start;
+  this->w.save(start);
+  World<S> other(settings<S>());
+  ASSERT_TRUE(other.load(start));
+  for (int i = 0; i < 180; ++i) {
+    VehicleInput<S> input;
+    input.throttle = S(i < 120 ? 1 : 0);
+    input.clutch = num<S>(i < 30 ? 0.5 : 1);
+    input.brake = num<S>(i < 150 ? 0 : 0.125);
+    input.steer = num<S>(i % 60 < 30 ? 0.25 : -0.25);
+    ASSERT_TRUE(this->w.set_input(car.vehicle, input)) << describe(this->w.fault());
+    ASSERT_TRUE(other.set(car.vehicle, engine));
+    for (int wheel = 0; wheel < 4; ++wheel) ASSERT_TRUE(other.set(car.wheels[wheel], wheels[wheel]));
+    ASSERT_TRUE(other.set_input(car.vehicle, input));
+    this->w.step(), other.step();
+    ASSERT_EQ(this->w.hash(), other.hash()) << i;
+  }
+  EXPECT_GT(this->place(car).z, 2);
+  EXPECT_GT(to_double(this->w.state(car.vehicle)->engine_spin), 10);
+  EXPECT_GT(to_double(this->w.state(car.wheels[0])->spin), 2);
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ constexpr char kProgram[] = "tests/lists/command_probe.cpp";
 class CommandList : public ListProbe {
  protected:
   void add_to_list() {
-    edit("include/isostep/commands/command.hpp", "  X(set_joint, SetJoint<S>, bool, S)",
-         "  X(set_joint, SetJoint<S>, bool, S) X(probe, Probe, bool, S)");
+    edit("include/isostep/commands/command.hpp", "  X(remove_shape, RemoveShape, bool, S)",
+         "  X(remove_shape, RemoveShape, bool, S) X(probe, Probe, bool, S)");
   }
   void add_record() {
     copy("tests/lists/probe_command.hpp", "include/isostep/world/probe_command.hpp");
@@ -54,7 +54,7 @@ TEST_F(CommandList, with_both_it_works) {
   add_to_list();
   add_record();
   add_body();
-  EXPECT_EQ(output_of(kProgram), "taken 1 again 0 probe.tick bytes 9 number 17 played 1 tick 3\n");
+  EXPECT_EQ(output_of(kProgram), "taken 1 again 0 probe.tick bytes 9 number 2 played 1 tick 3\n");
 }
 
 }  // namespace

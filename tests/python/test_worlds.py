@@ -72,6 +72,24 @@ class Values(unittest.TestCase):
             self.assertEqual((properties.material.friction, properties.material.restitution), (0.25, 0))
             self.assertEqual(isostep.World(scalar).settings.hz, 60, "defaults are C++'s")
 
+    def test_settings_take_no_input_and_no_state_back(self):
+        for scalar in isostep.SCALARS:
+            hashes = []
+            for stale in (False, True):
+                world = isostep.World(scalar)
+                capsule = world.add_shape("capsule", radius=0.5, half_height=0.5)
+                body = world.create_body(type="kinematic", shape=capsule, position=(0, 20, 0))
+                walker = world.add_record("character", body=body, step_height=0.25)
+                for _ in range(60):
+                    if stale:
+                        world.set_record("character", walker, step_height=0.25)
+                    world.set_input("character", walker, move=(1, 0, 0))
+                    world.step()
+                self.assertLess(world.get_state("character", walker).velocity.y, -5, "it falls for a second")
+                self.assertEqual(tuple(world.get_input("character", walker).move), (1, 0, 0))
+                hashes.append(world.hash)
+            self.assertEqual(hashes[0], hashes[1], scalar)
+
     def test_numbers_cross_by_their_bits(self):
         world = isostep.World("q32")
         shape = world.add_shape("sphere", radius=1)

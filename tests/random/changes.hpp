@@ -83,7 +83,7 @@ template <class S> class RandomChanges {
     Breakable<S> breakable;
     breakable.body = RandomForces<S>(w, dice).body();
     if (!breakable.body) return;
-    breakable.impulse = num<S>(dice.in(0.5, 8) * to_double(w.mass(breakable.body)));
+    breakable.break_impulse = num<S>(dice.in(0.5, 8) * to_double(w.mass(breakable.body)));
     breakable.pattern = static_cast<BreakPattern>(dice.below(4));
     breakable.most_pieces = 8 + dice.below(5);
     breakable.depth = 1 + dice.below(2);
@@ -108,16 +108,16 @@ template <class S> class RandomChanges {
       w.remove(id);
       return;
     }
-    Character<S> character = *w.find(id);
-    character.move = vec<S>(dice.arrow(0, 4));
-    character.jump = num<S>(dice.one_in(3) ? dice.in(1, 4) : 0);
-    w.set(id, character);
+    CharacterInput<S> input;
+    input.move = vec<S>(dice.arrow(0, 4));
+    input.jump = num<S>(dice.one_in(3) ? dice.in(1, 4) : 0);
+    w.set_input(id, input);
   }
   static void add_character(World<S>& w, Dice& dice) {
     BodyDefinition<S> d = still<S>(w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.5)}));
     d.type = BodyType::kinematic;
     d.allow_sleep = dice.one_in(2);
-    Character<S> character;
+    CharacterSettings<S> character;
     character.body = place_freely(w, dice, d, 0.75, {-4, 1, -4}, {4, 3, 4}, 0);
     character.push_force = num<S>(dice.in(0, 200));
     character.mass = num<S>(dice.in(0, 20));

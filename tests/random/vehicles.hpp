@@ -27,9 +27,7 @@ template <class S> class RandomVehicles {
     } else if (dice_.one_in(24) && !wheels.empty()) {
       world_.remove(wheels[dice_.below(static_cast<std::uint32_t>(wheels.size()))]);
     } else {
-      Vehicle<S> vehicle = *world_.find(id);
-      drive(vehicle);
-      world_.set(id, vehicle);
+      world_.set_input(id, drawn_input());
     }
   }
   bool has_room() const { return world_.state().records->vehicles.slot_map().template ids<VehicleId>().size() < 2; }
@@ -37,7 +35,7 @@ template <class S> class RandomVehicles {
  private:
   void build(BodyId body) {
     const double mass = to_double(world_.mass(body)), radius = dice_.in(0.125, 0.25);
-    Vehicle<S> vehicle;
+    VehicleSettings<S> vehicle;
     vehicle.body = body;
     vehicle.engine_torque = num<S>(mass * dice_.in(0, 2));
     vehicle.engine_speed = num<S>(kFastest / radius * dice_.in(0.25, 1));
@@ -47,13 +45,15 @@ template <class S> class RandomVehicles {
     vehicle.brake_torque = num<S>(mass * dice_.in(0, 4));
     vehicle.handbrake_torque = num<S>(mass * dice_.in(0, 4));
     vehicle.ackermann = num<S>(dice_.in(0, 1));
-    drive(vehicle);
+    const VehicleInput<S> input = drawn_input();
     if (dice_.one_in(2)) add_clutch(vehicle, mass, radius);
-    if (!world_.add(vehicle)) return;
+    const VehicleId id = world_.add(vehicle);
+    if (!id) return;
+    world_.set_input(id, input);
     const std::uint32_t wheels = 2 + dice_.below(5);
     const std::uint32_t tracks = dice_.below(3);  // none, two, or up to three of any wheels
     for (std::uint32_t i = 0; i < wheels; ++i) {
-      Wheel<S> wheel;
+      WheelSettings<S> wheel;
       wheel.body = body;
       wheel.hard_point = vec<S>(i % 2 == 0 ? 0.5 : -0.5, dice_.in(-0.125, 0.125), dice_.in(-1, 1));
       wheel.free_length = num<S>(dice_.in(0.125, 0.5));
@@ -79,18 +79,20 @@ template <class S> class RandomVehicles {
       world_.add(wheel);
     }
   }
-  void add_clutch(Vehicle<S>& vehicle, double mass, double radius) {
+  void add_clutch(VehicleSettings<S>& vehicle, double mass, double radius) {
     vehicle.engine_inertia = num<S>(mass * radius * radius * dice_.in(0.0625, 0.5));
     vehicle.clutch_torque = num<S>(mass * dice_.in(0, 4));
     vehicle.track_steer = num<S>(dice_.in(0, 2));
   }
-  void drive(Vehicle<S>& vehicle) {
-    vehicle.throttle = num<S>(dice_.in(-1, 1));
-    vehicle.brake = num<S>(dice_.one_in(3) ? dice_.in(0, 1) : 0);
-    vehicle.handbrake = num<S>(dice_.one_in(6) ? dice_.in(0, 1) : 0);
-    vehicle.steer = num<S>(dice_.in(-1, 1));
-    vehicle.gear = dice_.below(3);
-    vehicle.clutch = num<S>(dice_.one_in(2) ? dice_.in(0, 1) : 1);
+  VehicleInput<S> drawn_input() {
+    VehicleInput<S> input;
+    input.throttle = num<S>(dice_.in(-1, 1));
+    input.brake = num<S>(dice_.one_in(3) ? dice_.in(0, 1) : 0);
+    input.handbrake = num<S>(dice_.one_in(6) ? dice_.in(0, 1) : 0);
+    input.steer = num<S>(dice_.in(-1, 1));
+    input.gear = dice_.below(3);
+    input.clutch = num<S>(dice_.one_in(2) ? dice_.in(0, 1) : 1);
+    return input;
   }
 
   World<S>& world_;

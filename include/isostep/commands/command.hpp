@@ -167,6 +167,48 @@ template <class S> struct SetJoint {
   }
 };
 
+/// lower..upper holds from now on.
+template <class S> struct SetJointLimits {
+  JointId joint;
+  S lower, upper;  // [rad], [m] of a length
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("joint", self.joint);
+    visit("lower", self.lower);
+    visit("upper", self.upper);
+  }
+};
+/// A motor of that speed, as strong as that.
+template <class S> struct SetJointMotor {
+  JointId joint;
+  S speed;   // [rad/s], [m/s] along a length
+  S torque;  // [N m], [N] along a length; 0: no motor
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("joint", self.joint);
+    visit("speed", self.speed);
+    visit("torque", self.torque);
+  }
+};
+/// A spring that pulls to the joint's target.
+template <class S> struct SetJointSpring {
+  JointId joint;
+  S frequency;  // [Hz] 0: no spring
+  S damping;    // [1] ratio, 1 = critical
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("joint", self.joint);
+    visit("frequency", self.frequency);
+    visit("damping", self.damping);
+  }
+};
+/// Where the joint's spring pulls to.
+template <class S> struct SetJointTarget {
+  JointId joint;
+  S target;  // [rad], [m] of a length
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("joint", self.joint);
+    visit("target", self.target);
+  }
+};
+
 /// Other heights and materials for a rectangle of a height field: HeightPatch as a record. The shape's field becomes
 /// another one, with a name of its own, for all bodies of the shape; what is near wakes, and what it buries rises.
 struct SetHeights {
@@ -222,6 +264,17 @@ template <class S> struct SetMass {
     visit("mass", self.mass);
   }
 };
+/// Another shape for a body that exists; its origin stays where it is.
+template <class S> struct SetShape {
+  BodyId body;
+  ShapeId shape;
+  BodyMass<S> mass = {};  // of a dynamic one
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("body", self.body);
+    visit("shape", self.shape);
+    visit("mass", self.mass);
+  }
+};
 /// Its island falls asleep at once.
 struct SleepBody {
   BodyId body;
@@ -240,40 +293,48 @@ template <class S> struct MoveTo {
 };
 
 template <class Record> using SetRecordOf = SetRecord<Record, typename detail::RecordIdOf<Record>::Type>;
+template <class Input> using SetInputOf = SetInput<Input, typename detail::RecordIdOf<Input>::Type>;
 
 /// ISO_FOR_EACH_COMMAND(X, S) expands X(name, Type, Result, S) for each command: its name in faults, the record, and
 /// what `World<S>::apply` and `execute` return: an id of what was made, or whether it was accepted. To add
-/// one: its record above, its line here, its `execute`; see README.md. Each kind of record has three. The position is
-/// the number in replays.
-#define ISO_FOR_EACH_COMMAND(X, S)            \
-  X(add_shape, AddShape<S>, ShapeId, S)       \
-  X(remove_shape, RemoveShape, bool, S)       \
-  X(set_heights, SetHeights, bool, S)         \
-  X(create_body, CreateBody<S>, BodyId, S)    \
-  X(destroy_body, DestroyBody, bool, S)       \
-  X(wake_body, WakeBody, bool, S)             \
-  X(sleep_body, SleepBody, bool, S)           \
-  X(set_pose, SetPose<S>, bool, S)            \
-  X(move_to, MoveTo<S>, bool, S)              \
-  X(set_velocity, SetVelocity<S>, bool, S)    \
-  X(apply_force, ApplyForce<S>, bool, S)      \
-  X(apply_impulse, ApplyImpulse<S>, bool, S)  \
-  X(set_material, SetMaterial<S>, bool, S)    \
-  X(set_filter, SetFilter, bool, S)           \
-  X(set_motion, SetMotion<S>, bool, S)        \
-  X(set_user_data, SetUserData, bool, S)      \
-  X(set_enabled, SetEnabled, bool, S)         \
-  X(set_type, SetType<S>, bool, S)            \
-  X(set_mass, SetMass<S>, bool, S)            \
-  X(set_gravity, SetGravity<S>, bool, S)      \
-  X(create_joint, CreateJoint<S>, JointId, S) \
-  X(destroy_joint, DestroyJoint, bool, S)     \
-  X(set_joint, SetJoint<S>, bool, S)          \
-  ISO_FOR_EACH_RECORD_WITH(ISO_RECORD_COMMANDS, X, S)
+/// one: its record above, its line here, its `execute`; see README.md. Each kind of record has three, and one for its
+/// input. The position is the number in replays.
+#define ISO_FOR_EACH_COMMAND(X, S)                    \
+  X(add_shape, AddShape<S>, ShapeId, S)               \
+  X(remove_shape, RemoveShape, bool, S)               \
+  X(set_heights, SetHeights, bool, S)                 \
+  X(create_body, CreateBody<S>, BodyId, S)            \
+  X(destroy_body, DestroyBody, bool, S)               \
+  X(wake_body, WakeBody, bool, S)                     \
+  X(sleep_body, SleepBody, bool, S)                   \
+  X(set_pose, SetPose<S>, bool, S)                    \
+  X(move_to, MoveTo<S>, bool, S)                      \
+  X(set_velocity, SetVelocity<S>, bool, S)            \
+  X(apply_force, ApplyForce<S>, bool, S)              \
+  X(apply_impulse, ApplyImpulse<S>, bool, S)          \
+  X(set_material, SetMaterial<S>, bool, S)            \
+  X(set_filter, SetFilter, bool, S)                   \
+  X(set_motion, SetMotion<S>, bool, S)                \
+  X(set_user_data, SetUserData, bool, S)              \
+  X(set_enabled, SetEnabled, bool, S)                 \
+  X(set_type, SetType<S>, bool, S)                    \
+  X(set_mass, SetMass<S>, bool, S)                    \
+  X(set_shape, SetShape<S>, bool, S)                  \
+  X(set_gravity, SetGravity<S>, bool, S)              \
+  X(create_joint, CreateJoint<S>, JointId, S)         \
+  X(destroy_joint, DestroyJoint, bool, S)             \
+  X(set_joint, SetJoint<S>, bool, S)                  \
+  X(set_joint_limits, SetJointLimits<S>, bool, S)     \
+  X(set_joint_motor, SetJointMotor<S>, bool, S)       \
+  X(set_joint_spring, SetJointSpring<S>, bool, S)     \
+  X(set_joint_target, SetJointTarget<S>, bool, S)     \
+  ISO_FOR_EACH_RECORD_WITH(ISO_RECORD_COMMANDS, X, S) \
+  ISO_FOR_EACH_INPUT_WITH(ISO_INPUT_COMMAND, X, S)
 #define ISO_RECORD_COMMANDS(X, name, Record, Id, S) \
   X(add_##name, AddRecord<Record>, Id, S)           \
   X(set_##name, SetRecordOf<Record>, bool, S)       \
   X(remove_##name, RemoveRecord<Id>, bool, S)
+#define ISO_INPUT_COMMAND(X, name, Input, Id, S) X(set_##name##_input, SetInputOf<Input>, bool, S)
 
 #define ISO_TYPE(name, Type, Result, S) , Type
 template <class S> using Command = CommandVariant<void ISO_FOR_EACH_COMMAND(ISO_TYPE, S)>;

@@ -77,6 +77,7 @@ template <class S> class CommandExecutor {
   bool check_joints_of(std::uint32_t slot, const BodyProperties<S>& next);
   template <class Record> bool check_tie(const Record& record, std::uint32_t slot, const BodyProperties<S>& next);
   bool check_ends(const JointProperties<S>& joint);
+  template <class Change> bool change_joint(JointId joint, const Change& change);
   template <class Record> bool check_record(const Record& record);
   template <class Record> bool check_joints(const Record& record);
   template <class Record> detail::RecordPlace<S> place_of(const Record& record) const;
@@ -86,6 +87,7 @@ template <class S> class CommandExecutor {
   template <class Record> auto add_record(const Record& record);
   template <class Record, class IdType> bool set_record(IdType id, const Record& record);
   template <class IdType> bool remove_record(IdType id);
+  template <class IdType, class Input> bool set_input(IdType id, const Input& input);
 
   static BodyProperties<S> properties_of(const BodyDefinition<S>& definition);
   bool give_mass(const BodyMass<S>& mass, BodyProperties<S>& body);

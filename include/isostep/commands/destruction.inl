@@ -25,6 +25,7 @@ template <class S> void Destruction<S>::erase_marked() {
   if (marked_.empty()) return;
   tell_ends();
   erase_what_names_them();
+  std::erase_if(state_.moves, [&](const PendingMove<S>& m) { return is_marked(m.slot); });
   erase_joints();
   remove_records([&](const auto& record) {
     Turn turn = min(turn_of_body(detail::first_body_of(record)), turn_of_body(detail::second_body_of(record)));
@@ -77,7 +78,6 @@ template <class S> void Destruction<S>::erase_what_names_them() {
                 [&](const Contact<S>& c) { return is_marked(c.key.body_a) || is_marked(c.key.body_b); });
   std::erase_if(state_.overlaps, [&](SensorOverlap o) { return is_marked(o.sensor) || is_marked(o.other); });
   std::erase_if(state_.forces, [&](const PendingForce<S>& f) { return is_marked(f.slot); });
-  std::erase_if(state_.moves, [&](const PendingMove<S>& m) { return is_marked(m.slot); });
 }
 
 template <class S> void Destruction<S>::erase_records() {
@@ -167,10 +167,13 @@ template <class S> template <class TurnOf> void Destruction<S>::remove_records(c
   RecordStore<S>::members([&](const char*, const auto& registry) { any = any || find(registry); }, *state_.records);
   if (!any) return;
   RecordStore<S>::members(
-      [&](const char*, auto& registry) {
+      [&]<class Record, class IdType>(const char*, Registry<Record, IdType>& registry) {
         if (!find(registry)) return;
         sort(records_);
-        for (const Going& record : records_) registry.remove_at(record.slot);
+        for (const Going& record : records_) {
+          registry.remove_at(record.slot);
+          detail::renew_parts<IdType>(state_.parts, record.slot);
+        }
       },
       state_.records.change());
 }

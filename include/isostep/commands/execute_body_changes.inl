@@ -45,6 +45,7 @@ bool CommandExecutor<S>::check_tie(const Record& record, std::uint32_t slot, con
   for (int i = 0; i < bodies.count; ++i) {
     if (bodies.all[i].body && bodies.all[i].body.slot == slot) place.bodies[i] = &next;
   }
+  if (place.bodies[0] != nullptr) place.parts = map_.children_of(place.bodies[0]->shape);
   const FaultReport fault = detail::RecordRules<Record>::fault_at(record, place);
   if (fault.fault != Fault::not_dynamic) return journal_.accept(fault);
   return journal_.refuse({Fault::bad_argument, "", "type", "one that the body's springs may tie"});
@@ -106,12 +107,12 @@ template <class S> void CommandExecutor<S>::wake_coupled(std::uint32_t slot) {
 template <class S> void CommandExecutor<S>::leave_ground(std::uint32_t slot, const Pose<S>* from) {
   if (map_.properties_at(map_.location(slot)).type != BodyType::kinematic) return;
   const auto& characters = state_.records->characters;
-  const CharacterId id = characters.id_where([slot](const Character<S>& c) { return c.body.slot == slot; });
-  const Character<S>* const character = characters.find(id);
-  if (character == nullptr || !character->ground) return;
+  const CharacterId id = characters.id_where([slot](const CharacterSettings<S>& c) { return c.body.slot == slot; });
+  const CharacterSettings<S>* const character = characters.find(id);
+  if (character == nullptr || !state_.parts.character_states[id.slot].ground) return;
   const Vec3<S> at = map_.origin_pose_at(slot).position;
   if (from != nullptr && max_abs(saturating_subtract(at, from->position)) <= character->skin) return;
-  state_.records.change().characters.change(id).ground = {};
+  state_.parts.character_states[id.slot].ground = {};
 }
 
 /// Another body in place of one, in its slot: all that it touched has ended, joints begin without impulses.
@@ -119,7 +120,7 @@ template <class S>
 void CommandExecutor<S>::replace(std::uint32_t slot, BodyState<S> state, const BodyProperties<S>& next) {
   destruction_.part(slot);
   wake_coupled(slot);
-  leave_ground(slot);
+  if (next.shape == map_.properties_at(map_.location(slot)).shape) leave_ground(slot);
   for (std::size_t i = 0; i < state_.joints.states.size(); ++i) {
     const JointProperties<S>& joint = state_.joints.properties[i];
     if (joint.body_a != slot && joint.body_b != slot) continue;
@@ -170,6 +171,23 @@ template <class S> bool CommandExecutor<S>::execute(const SetMass<S>& command) {
   if (!give_mass_anew(command.mass, next) || !check_ties(slot, next)) return false;
   if (map_.is_enabled(slot)) wake_.wake_for_change(slot);
   map_.change_properties(slot) = next;
+  return true;
+}
+
+/// Contacts end and begin anew. The pose that a game sees, that of the body's origin, stays; a character stays on its
+/// ground.
+template <class S> bool CommandExecutor<S>::execute(const SetShape<S>& command) {
+  if (!known(command.body) || !known(state_.shape_slots, command.shape, "shape") || !accepts(command.mass))
+    return false;
+  const std::uint32_t slot = command.body.slot;
+  BodyProperties<S> next = map_.properties_at(map_.location(slot));
+  next.shape = command.shape.slot;
+  if (!give_mass(command.mass, next) || !check_ties(slot, next)) return false;
+  BodyState<S> state = map_.state_at(map_.location(slot));
+  const Pose<S> centre = BodyMap<S>::centre_pose(map_.origin_pose_at(slot), next.local_centre);
+  if (!journal_.accept(detail::fault_of_place(centre.position, "shape"))) return false;
+  state.centre = centre.position;
+  replace(slot, state, next);
   return true;
 }
 

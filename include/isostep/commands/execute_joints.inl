@@ -72,4 +72,38 @@ template <class S> bool CommandExecutor<S>::execute(const SetJoint<S>& command) 
   return true;
 }
 
+/// As SetJoint with what `change(properties)` changes.
+template <class S> template <class Change> bool CommandExecutor<S>::change_joint(JointId joint, const Change& change) {
+  if (!known(state_.joint_slots, joint, "joint")) return false;
+  JointProperties<S> next = *map_.properties_of(joint);
+  const auto set_flag = [&](std::uint32_t flag, bool on) { next.flags = on ? next.flags | flag : next.flags & ~flag; };
+  change(next, set_flag);
+  return execute(SetJoint<S>{joint, next});
+}
+template <class S> bool CommandExecutor<S>::execute(const SetJointLimits<S>& command) {
+  return change_joint(command.joint, [&](JointProperties<S>& joint, const auto& set_flag) {
+    set_flag(joint_flag::kLimit, true);
+    joint.lower = command.lower;
+    joint.upper = command.upper;
+  });
+}
+template <class S> bool CommandExecutor<S>::execute(const SetJointMotor<S>& command) {
+  return change_joint(command.joint, [&](JointProperties<S>& joint, const auto& set_flag) {
+    set_flag(joint_flag::kMotor, !(command.torque == S(0)));
+    joint.motor_speed = command.speed;
+    joint.motor_torque = command.torque;
+  });
+}
+template <class S> bool CommandExecutor<S>::execute(const SetJointSpring<S>& command) {
+  return change_joint(command.joint, [&](JointProperties<S>& joint, const auto& set_flag) {
+    set_flag(joint_flag::kSpring, !(command.frequency == S(0)));
+    joint.spring_frequency = command.frequency;
+    joint.spring_damping = command.damping;
+  });
+}
+template <class S> bool CommandExecutor<S>::execute(const SetJointTarget<S>& command) {
+  return change_joint(command.joint,
+                      [&](JointProperties<S>& joint, const auto&) { joint.spring_target = command.target; });
+}
+
 }  // namespace isostep

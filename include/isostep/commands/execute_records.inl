@@ -106,7 +106,9 @@ template <class S> template <class Record> auto CommandExecutor<S>::add_record(c
   wake_for_record(record);
   Record added = record;
   if constexpr (requires { added.begin; }) added.begin = max(added.begin, state_.tick);
-  return detail::registry_of(state_.records.change(), IdType{}).add(added, state_.settings.id_space);
+  const IdType id = detail::registry_of(state_.records.change(), IdType{}).add(added, state_.settings.id_space);
+  detail::renew_parts<IdType>(state_.parts, id.slot);
+  return id;
 }
 template <class S>
 template <class Record, class IdType>
@@ -122,7 +124,20 @@ bool CommandExecutor<S>::set_record(IdType id, const Record& record) {
 template <class S> template <class IdType> bool CommandExecutor<S>::remove_record(IdType id) {
   if (!known(detail::registry_of(*state_.records, id).slot_map(), id, "id")) return false;
   wake_for_record(*detail::registry_of(*state_.records, id).find(id));
-  return detail::registry_of(state_.records.change(), id).remove(id);
+  detail::registry_of(state_.records.change(), id).remove(id);
+  detail::renew_parts<IdType>(state_.parts, id.slot);
+  return true;
+}
+template <class S>
+template <class IdType, class Input>
+bool CommandExecutor<S>::set_input(IdType id, const Input& input) {
+  const auto& registry = detail::registry_of(*state_.records, id);
+  if (!known(registry.slot_map(), id, "id")) return false;
+  const auto& record = *registry.find(id);
+  if (!journal_.accept(detail::RecordRules<std::remove_cvref_t<decltype(record)>>::fault(input))) return false;
+  wake_for_record(record);
+  detail::inputs_of(state_.parts, id)[id.slot] = input;
+  return true;
 }
 
 #define ISO_EXECUTE(name, Record, Id, S)                                                    \
@@ -136,6 +151,12 @@ template <class S> template <class IdType> bool CommandExecutor<S>::remove_recor
     return remove_record(command.id);                                                       \
   }
 ISO_FOR_EACH_RECORD(ISO_EXECUTE, S)
+#undef ISO_EXECUTE
+#define ISO_EXECUTE(name, Input, Id, S)                                                   \
+  template <class S> bool CommandExecutor<S>::execute(const SetInputOf<Input>& command) { \
+    return set_input(command.id, command.input);                                          \
+  }
+ISO_FOR_EACH_INPUT(ISO_EXECUTE, S)
 #undef ISO_EXECUTE
 
 }  // namespace isostep

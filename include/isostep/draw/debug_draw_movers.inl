@@ -29,30 +29,31 @@ template <class S> class MoverSketch {
   }
 
  private:
-  ISO_INLINE void draw_wheel(std::uint32_t slot, const Wheel<S>& wheel) const {
+  ISO_INLINE void draw_wheel(std::uint32_t slot, const WheelSettings<S>& wheel) const {
+    const WheelState<S>& state = world_.state().parts.wheel_states[slot];
     const BodyView<S> body = world_.view(wheel.body);
     if (body.state == nullptr) return;
     const Quat<double> of_body = real(body.pose.orientation);
     const D up = -real(wheel.suspension), axle = real(wheel.axle_direction);
-    const Quat<double> steered = about(up, to_double(wheel.steered));
-    const Quat<double> turn = of_body * steered * about(axle, to_double(wheel.angle)) * from_y_to(axle);
+    const Quat<double> steered = about(up, to_double(state.steered));
+    const Quat<double> turn = of_body * steered * about(axle, to_double(state.angle)) * from_y_to(axle);
     DrawnWheel drawn = {};
     drawn.wheel = records_.wheels.slot_map().template id_of<WheelId>(slot);
     drawn.body = wheel.body;
     drawn.awake = world_.is_awake(wheel.body);
     const D origin = real(body.pose.position), hard_point = origin + to_matrix(of_body) * real(wheel.hard_point);
     put(hard_point, drawn.hard_point);
-    put(hard_point - to_matrix(of_body) * up * to_double(wheel.length), drawn.pose.position);
+    put(hard_point - to_matrix(of_body) * up * to_double(state.length), drawn.pose.position);
     const double parts[4] = {turn.x, turn.y, turn.z, turn.w};
     for (int i = 0; i < 4; ++i) drawn.pose.orientation[i] = static_cast<float>(parts[i]);
     drawn.radius = sketch_.number(wheel.radius);
-    drawn.spin = sketch_.number(wheel.spin);
-    drawn.ground = wheel.contact_body;
-    if (wheel.contact_body) draw_contact(wheel, to_matrix(of_body * steered) * axle, drawn);
+    drawn.spin = sketch_.number(state.spin);
+    drawn.ground = state.contact_body;
+    if (state.contact_body) draw_contact(state, to_matrix(of_body * steered) * axle, drawn);
     to_.wheel(drawn);
   }
   /// `axle` [1] world, steered.
-  ISO_INLINE void draw_contact(const Wheel<S>& wheel, D axle, DrawnWheel& drawn) const {
+  ISO_INLINE void draw_contact(const WheelState<S>& wheel, D axle, DrawnWheel& drawn) const {
     const D normal = real(wheel.contact_normal), forward = normalise(cross(axle, normal));
     const D grip = forward * to_double(wheel.along) + cross(normal, forward) * to_double(wheel.across);
     sketch_.point(wheel.contact_point, drawn.contact);
@@ -61,20 +62,21 @@ template <class S> class MoverSketch {
     for (int i = 0; i < 3; ++i) drawn.grip[i] = static_cast<float>(grip[i]);
   }
 
-  ISO_INLINE void draw_character(std::uint32_t slot, const Character<S>& character) const {
+  ISO_INLINE void draw_character(std::uint32_t slot, const CharacterSettings<S>& character) const {
+    const CharacterState<S>& state = world_.state().parts.character_states[slot];
     const BodyView<S> body = world_.view(character.body);
     if (body.state == nullptr) return;
     DrawnCharacter drawn = {};
     drawn.character = records_.characters.slot_map().template id_of<CharacterId>(slot);
     drawn.body = character.body;
-    drawn.footing = character.footing;
-    drawn.ground = character.ground;
-    sketch_.point(character.ground ? character.foot_at : body.pose.position, drawn.foot);
-    sketch_.vector(character.normal, drawn.normal);
+    drawn.footing = state.footing;
+    drawn.ground = state.ground;
+    sketch_.point(state.ground ? state.foot_at : body.pose.position, drawn.foot);
+    sketch_.vector(state.normal, drawn.normal);
     const double gravity = length(real(world_.settings().gravity)) * to_double(character.gravity_scale);
     drawn.weight = static_cast<float>(to_double(character.mass) * gravity);
-    sketch_.vector(character.velocity, drawn.velocity);
-    drawn.stuck = character.stuck;
+    sketch_.vector(state.velocity, drawn.velocity);
+    drawn.stuck = state.stuck;
     to_.character(drawn);
   }
 

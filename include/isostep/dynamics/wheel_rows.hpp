@@ -70,7 +70,7 @@ template <class S> struct Strut {
   Velocity<S> stop;  // [m/s] along the normal, at least: for the end of travel
 };
 
-/// What is left of a tyre's grip at a slip, or what it gains: Wheel::peak_slip and the others [1].
+/// What is left of a tyre's grip at a slip, or what it gains: WheelSettings::peak_slip and the others [1].
 template <class S> struct SlipCurve {
   S peak_slip, peak_grip, slide_slip, slide_grip;
 

@@ -35,7 +35,8 @@ template <class S> class Breaking {
   using U = Unit<S>;
 
  public:
-  Breaking(World<S>& world, const Breakable<S>& record) : world_(world), record_(record) {}
+  Breaking(World<S>& world, const Breakable<S>& record, const Blow<S>& blow)
+      : world_(world), record_(record), blow_(blow) {}
 
   /// [1] The pieces, or 0: the body is as it was.
   std::uint32_t run() {
@@ -61,7 +62,7 @@ template <class S> class Breaking {
     const std::optional<GridHull> solid = solid_of(child.primitive);
     if (!solid) return {};
     const Transform<S> frame = Transform<S>::of(child.pose);
-    const auto impact = grid_impact(*solid, to_local(frame, record_.hit_point), blow_in(frame));
+    const auto impact = grid_impact(*solid, to_local(frame, blow_.point), blow_in(frame));
     if (!impact.ok()) return {};
     FractureLimits limits;
     limits.most_pieces = record_.most_pieces;
@@ -71,7 +72,7 @@ template <class S> class Breaking {
   }
   /// [1] As a vector of S, which has digits enough for a direction.
   Vec3<S> blow_in(const Transform<S>& frame) const {
-    return transposed_times(frame.rotation, convert<S>(record_.hit_direction));
+    return transposed_times(frame.rotation, convert<S>(blow_.direction));
   }
   std::optional<GridHull> solid_of(const Primitive<S>& primitive) const {
     if (primitive.type == ShapeType::box) {
@@ -104,17 +105,15 @@ template <class S> class Breaking {
     Breakable<S> record = record_;
     record.body = piece;
     record.depth = record_.depth > 0 ? record_.depth - 1 : 0;
-    record.impulse = record_.impulse * divide_to<U>(mass, whole);
+    record.break_impulse = record_.break_impulse * divide_to<U>(mass, whole);
     record.owns_shape = true;
-    record.broken_by = S(0);
-    record.hit_point = Vec3<S>::zero();
-    record.hit_direction = Vec3<U>::zero();
     record.expires = record_.lifetime > 0 && mass < record_.small_mass ? world_.tick() + record_.lifetime : 0;
     if (record.depth > 0 || record.expires > 0) world_.add(record);
   }
 
   World<S>& world_;
   Breakable<S> record_;
+  Blow<S> blow_;
 };
 
 /// And its shape, if it has one of its own.
@@ -136,7 +135,7 @@ template <class S> BreakReport break_bodies(World<S>& world, std::uint32_t most)
     const Breakable<S>& record = *registry.find(id);
     const bool is_over = record.expires != 0 && record.expires <= world.tick();
     if (!world.is_enabled(record.body)) continue;
-    if (is_over || S(0) < record.broken_by) due.push_back(id);
+    if (is_over || S(0) < world.input(id)->impulse) due.push_back(id);
   }
   for (const BreakableId id : due) {
     const Breakable<S> record = *world.find(id);
@@ -146,16 +145,14 @@ template <class S> BreakReport break_bodies(World<S>& world, std::uint32_t most)
       continue;
     }
     if (report.broken + report.whole >= most) continue;
-    const std::uint32_t pieces = detail::Breaking<S>(world, record).run();
+    const std::uint32_t pieces = detail::Breaking<S>(world, record, *world.input(id)).run();
     report.pieces += pieces;
     if (pieces > 0) {
       ++report.broken;
       continue;
     }
     ++report.whole;
-    Breakable<S> kept = record;
-    kept.broken_by = S(0);
-    world.set(id, kept);
+    world.set_input(id, Blow<S>{});
   }
   return report;
 }

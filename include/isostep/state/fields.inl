@@ -158,12 +158,12 @@ template <class Visitor> class StateFields {
     if constexpr (Visitor::kEdits) list.change_arrays(visit_);
     else list.arrays(visit_);
   }
-  template <class Records> void records(Records& value) const {
+  template <class Records, class Parts> void records(Records& value, Parts& parts) const {
     using Value = std::remove_cvref_t<decltype(*value)>;
     const std::uint32_t kinds = value->kinds();
     if (kinds == 0) return;
-    if constexpr (Visitor::kEdits) Value::members_of(kinds, *this, value.change());
-    else Value::members_of(kinds, *this, *value);
+    if constexpr (Visitor::kEdits) Value::members_of(kinds, *this, value.change(), parts);
+    else Value::members_of(kinds, *this, *value, parts);
   }
   template <class Store> void store(const char* name, const Store& value) const { visit_(name, value->names()); }
   template <class List> void islands(const char* name, const List& list) const {

@@ -22,8 +22,8 @@
 //   visit("name", value)         a record with `fields`, a number, a SlotMap, a Registry, or a vector of records
 //   visit.bodies_in_pages(list)  StaticBodies, or another list of two arrays in pages that may be empty
 //   visit.islands("name", list)  a PagedArray of immutable objects, each with `sections(visit, self)` and `hash`
-//   visit.records(value)         Shared<T>: a word of which kinds T::kinds there are, then the registries of those,
-//                                which T::members_of visits
+//   visit.records(value, parts)  Shared<T>: a word of which kinds T::kinds there are, then the registries of those and
+//                                what belongs to them in `parts`, which T::members_of visits
 //   visit.store("name", value)   Shared<T>: names, by which content outside the state is known. Last of all
 
 namespace isostep::detail {
@@ -49,7 +49,8 @@ class StateHasher {
     combiner_.add(hash_records_by_fields(&record, 1));
   }
   template <class Record> ISO_INLINE void operator()(const char*, const std::vector<Record>& records) {
-    combiner_.add(hash_records(records.data(), records.size()));
+    if constexpr (kHasNoPadding<Record>) combiner_.add(hash_records(records.data(), records.size()));
+    else combiner_.add(hash_records_by_fields(records.data(), records.size()));
   }
   template <class Record, class Id> ISO_INLINE void operator()(const char*, const Registry<Record, Id>& registry) {
     combiner_.add(hash_slots(registry.slot_map()));
@@ -85,10 +86,10 @@ class StateHasher {
     }
     add_page(combiner_, list.pages() - 1);
   }
-  template <class Records> ISO_INLINE void records(const Shared<Records>& value) {
+  template <class Records, class Parts> ISO_INLINE void records(const Shared<Records>& value, const Parts& parts) {
     const std::uint32_t kinds = value->kinds();
     combiner_.add(kinds);
-    Records::members_of(kinds, *this, *value);
+    Records::members_of(kinds, *this, *value, parts);
   }
   template <class Store> ISO_INLINE void store(const char*, const Shared<Store>& value) {
     combiner_.add(value.remembered().get(
@@ -118,10 +119,16 @@ class StateSize {
   template <class List> ISO_INLINE void islands(const char*, const List& list) {
     bytes_ += list.pages() * sizeof(void*);
   }
-  template <class Records> ISO_INLINE void records(const Shared<Records>&) {}
+  template <class Records, class Parts> ISO_INLINE void records(const Shared<Records>& value, const Parts& parts) {
+    Records::members_of(
+        value->kinds(), [&](const char*, const auto& list) ISO_INLINE_LAMBDA { add(list); }, *value, parts);
+  }
   template <class Store> ISO_INLINE void store(const char*, const Shared<Store>&) {}
 
  private:
+  template <class Record> ISO_INLINE void add(const std::vector<Record>& list) { (*this)("", list); }
+  template <class Record, class Id> ISO_INLINE void add(const Registry<Record, Id>&) {}
+
   std::size_t bytes_ = 0;
 };
 
@@ -154,10 +161,10 @@ class StateWriter {
     writer_.write_count(list.size());
     for (const auto& island : list) std::remove_cvref_t<decltype(*island)>::sections(*this, *island);
   }
-  template <class Records> ISO_INLINE void records(const Shared<Records>& value) {
+  template <class Records, class Parts> ISO_INLINE void records(const Shared<Records>& value, const Parts& parts) {
     const std::uint32_t kinds = value->kinds();
     writer_.write(kinds);
-    Records::members_of(kinds, *this, *value);
+    Records::members_of(kinds, *this, *value, parts);
   }
   template <class Store> ISO_INLINE void store(const char*, const Shared<Store>& value) { value->write(writer_); }
 
@@ -205,10 +212,10 @@ template <class ReadStore = ReadNoStore> class StateReader {
       list.push_back(std::move(island));
     }
   }
-  template <class Records> ISO_INLINE void records(Shared<Records>& value) {
+  template <class Records, class Parts> ISO_INLINE void records(Shared<Records>& value, Parts& parts) {
     const auto kinds = reader_.read<std::uint32_t>();
     if (kinds >> Records::kKinds != 0) reader_.fail(ErrorCode::invalid, "records of unknown kinds");
-    if (reader_.ok() && kinds != 0) Records::members_of(kinds, *this, value.change());
+    if (reader_.ok() && kinds != 0) Records::members_of(kinds, *this, value.change(), parts);
   }
   template <class Store> ISO_INLINE void store(const char*, Shared<Store>& value) { read_store_(value.change()); }
 

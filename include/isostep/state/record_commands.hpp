@@ -1,4 +1,4 @@
-// The commands of records that are registered: every kind of them is added, set and removed in one way.
+// The commands of records: every kind of them is added, set and removed in one way, and told its input.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -18,6 +18,14 @@ template <class Record, class IdType> struct SetRecord {
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("id", self.id);
     visit("record", self.record);
+  }
+};
+template <class Input, class IdType> struct SetInput {
+  IdType id;
+  Input input;
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("id", self.id);
+    visit("input", self.input);
   }
 };
 template <class IdType> struct RemoveRecord {

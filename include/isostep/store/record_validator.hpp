@@ -66,6 +66,7 @@ template <class S> class RecordValidator {
     const std::vector<Record>& all = registry.all();
     if (all.size() != registry.slot_map().entries().size()) return "records are not one a slot";
     if (!detail::lie_in(registry.slot_map(), state_.settings.id_space)) return "a record's slot is of another id space";
+    if (!has_parts(registry)) return "a record's input or state is out of range";
     for (std::uint32_t slot = 0; slot < all.size(); ++slot) {
       if (!registry.is_taken(slot)) {
         if (!is_empty(all[slot])) return "a free record holds something";
@@ -84,6 +85,17 @@ template <class S> class RecordValidator {
       if (has_chain(all)) return "a sensor is mounted on one that is mounted";
     }
     return nullptr;
+  }
+  /// One a slot, those of free slots as new ones.
+  template <class Record, class IdType> bool has_parts(const Registry<Record, IdType>& registry) const {
+    bool good = true;
+    detail::for_each_part<IdType>(state_.parts, [&](const auto& parts) {
+      good = good && parts.size() == registry.all().size();
+      for (std::uint32_t slot = 0; good && slot < parts.size(); ++slot)
+        good = registry.is_taken(slot) ? detail::RecordRules<Record>::fault(parts[slot]) == Fault::none
+                                       : is_empty(parts[slot]);
+    });
+    return good;
   }
   template <class Record> static bool is_empty(const Record& record) {
     const Record none{};

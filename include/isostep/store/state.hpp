@@ -127,6 +127,7 @@ template <class S> struct WorldState {
   std::vector<PendingForce<S>> forces;
   std::vector<PendingMove<S>> moves;
   Shared<RecordStore<S>> records;
+  RecordParts<S> parts;  // of the records: inputs and states
   std::vector<SensorOverlap> overlaps;
   UntoldEvents untold;
   SleepingIslands<S> sleeping;
@@ -153,9 +154,22 @@ template <class S> struct WorldState {
     visit("untold_woke", self.untold.woke);
     visit("untold_sensors", self.untold.sensors);
     visit.islands("sleeping", self.sleeping);
-    visit.records(self.records);
+    visit.records(self.records, self.parts);
     visit.store("blobs", self.geometry);
   }
 };
+
+namespace detail {
+/// visit(wheel's body, its state) for each wheel that stands on something; both bodies exist.
+template <class S, class Visit>
+ISO_INLINE void for_each_standing_wheel(const WorldState<S>& state, const Visit& visit) {
+  const std::vector<WheelSettings<S>>& wheels = state.records->wheels.all();
+  for (std::uint32_t slot = 0; slot < wheels.size(); ++slot) {
+    const WheelState<S>& wheel = state.parts.wheel_states[slot];
+    if (state.body_slots.holds(wheels[slot].body) && state.body_slots.holds(wheel.contact_body))
+      visit(wheels[slot].body, wheel);
+  }
+}
+}  // namespace detail
 
 }  // namespace isostep

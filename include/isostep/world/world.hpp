@@ -114,6 +114,12 @@ template <class S> class World final {
   /// Mass and inertia of a dynamic body, as if it had been made with them. Velocity stays. Forces of
   /// this step that were applied before act as on the old mass.
   bool set_mass(BodyId body, const BodyMass<S>& mass);
+  /// Another shape: growth, crouching, damage. Id, origin's pose, velocity, joints and records stay; contacts end and
+  /// begin anew, and what overlaps then is pushed apart. Without a mass a dynamic body keeps its own, with the inertia
+  /// of the shape. Refused: a shape without a volume for a dynamic body, one that a record or joint of the body may not
+  /// have.
+  bool set_shape(BodyId body, ShapeId shape);
+  bool set_shape(BodyId body, ShapeId shape, const BodyMass<S>& mass);
   /// Puts a dynamic body and all that touches it or is tied to it to sleep at once: they stop, and lose what was asked
   /// of them for the next step. No event tells of it. Refused where one of them may not sleep, or the world's settings
   /// forbid it. What moves and touches them wakes them, in the next step if it does so now.
@@ -145,6 +151,11 @@ template <class S> class World final {
   JointId create(const JointDefinition<S>& joint);
   bool destroy(JointId joint);
   bool set_joint(JointId joint, const JointProperties<S>& properties);
+  /// Parts of it, of what joint_position() counts; set_joint has the rest. Drives of six-axis joints are AxisDrives.
+  bool set_limits(JointId joint, S lower, S upper);        // [rad] or [m]
+  bool set_motor(JointId joint, S speed, S torque);        // [rad/s], [N m] or [m/s], [N]; torque 0: no motor
+  bool set_spring(JointId joint, S frequency, S damping);  // [Hz], [1] 1 is critical; frequency 0: no spring
+  bool set_target(JointId joint, S target);                // [rad] or [m] that the spring pulls to
   const JointProperties<S>* joint(JointId joint) const;
   /// Distance between the joint's anchors, or for a distance joint its error [m]; 0 for a stale id.
   S joint_error(JointId joint) const;
@@ -167,6 +178,16 @@ template <class S> class World final {
   const Record* find(Id id) const;
   ISO_FOR_EACH_RECORD(ISO_RECORD, S)
 #undef ISO_RECORD
+  /// What a game asks of a record, until it asks something else; a new record has its default. Null: a stale id.
+#define ISO_INPUT(name, Input, Id, S)        \
+  bool set_input(Id id, const Input& input); \
+  const Input* input(Id id) const;
+  ISO_FOR_EACH_INPUT(ISO_INPUT, S)
+#undef ISO_INPUT
+  /// How the last step left a record. Null: a stale id.
+#define ISO_STATE(name, State, Id, S) const State* state(Id id) const;
+  ISO_FOR_EACH_RECORD_STATE(ISO_STATE, S)
+#undef ISO_STATE
 
   /// Every mutator above is one of these with its fields as arguments: command.hpp.
 #define ISO_APPLY(name, Type, Result, S) Result apply(const Type& command);

@@ -100,7 +100,7 @@ template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> childre
   }
   return apply(command);
 }
-#define ISO_FORCE(name, Record, Id, S)                                                                   \
+#define ISO_RECORD(name, Record, Id, S)                                                                  \
   template <class S> Id World<S>::add(const Record& record) { return apply(AddRecord<Record>{record}); } \
   template <class S> bool World<S>::set(Id id, const Record& record) {                                   \
     return apply(SetRecordOf<Record>{id, record});                                                       \
@@ -109,8 +109,25 @@ template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> childre
   template <class S> const Record* World<S>::find(Id id) const {                                         \
     return detail::registry_of(*engine_->state_.records, id).find(id);                                   \
   }
-ISO_FOR_EACH_RECORD(ISO_FORCE, S)
-#undef ISO_FORCE
+ISO_FOR_EACH_RECORD(ISO_RECORD, S)
+#undef ISO_RECORD
+#define ISO_INPUT(name, Input, Id, S)                                           \
+  template <class S> bool World<S>::set_input(Id id, const Input& input) {      \
+    return apply(SetInputOf<Input>{id, input});                                 \
+  }                                                                             \
+  template <class S> const Input* World<S>::input(Id id) const {                \
+    const WorldState<S>& state = engine_->state_;                               \
+    return find(id) == nullptr ? nullptr : &state.parts.name##_inputs[id.slot]; \
+  }
+ISO_FOR_EACH_INPUT(ISO_INPUT, S)
+#undef ISO_INPUT
+#define ISO_STATE(name, State, Id, S)                                           \
+  template <class S> const State* World<S>::state(Id id) const {                \
+    const WorldState<S>& state = engine_->state_;                               \
+    return find(id) == nullptr ? nullptr : &state.parts.name##_states[id.slot]; \
+  }
+ISO_FOR_EACH_RECORD_STATE(ISO_STATE, S)
+#undef ISO_STATE
 template <class S> bool World<S>::remove_shape(ShapeId shape) { return apply(RemoveShape{shape}); }
 template <class S> bool World<S>::set_heights(ShapeId shape, std::uint32_t child, const HeightPatch& patch) {
   return apply(SetHeights{shape,
@@ -161,6 +178,14 @@ template <class S> bool World<S>::set_enabled(BodyId body, bool enabled) {
 }
 template <class S> bool World<S>::set_type(BodyId body, BodyType type, const BodyMass<S>& mass) {
   return apply(SetType<S>{body, type, mass});
+}
+template <class S> bool World<S>::set_shape(BodyId body, ShapeId shape) {
+  BodyMass<S> mass;
+  mass.mass = this->mass(body);
+  return apply(SetShape<S>{body, shape, mass});
+}
+template <class S> bool World<S>::set_shape(BodyId body, ShapeId shape, const BodyMass<S>& mass) {
+  return apply(SetShape<S>{body, shape, mass});
 }
 template <class S> bool World<S>::set_mass(BodyId body, const BodyMass<S>& mass) {
   return apply(SetMass<S>{body, mass});

@@ -11,6 +11,18 @@ namespace isostep {
 
 template <class S> JointId World<S>::create(const JointProperties<S>& joint) { return apply(CreateJoint<S>{joint}); }
 template <class S> bool World<S>::destroy(JointId joint) { return apply(DestroyJoint{joint}); }
+template <class S> bool World<S>::set_limits(JointId joint, S lower, S upper) {
+  return apply(SetJointLimits<S>{joint, lower, upper});
+}
+template <class S> bool World<S>::set_motor(JointId joint, S speed, S torque) {
+  return apply(SetJointMotor<S>{joint, speed, torque});
+}
+template <class S> bool World<S>::set_spring(JointId joint, S frequency, S damping) {
+  return apply(SetJointSpring<S>{joint, frequency, damping});
+}
+template <class S> bool World<S>::set_target(JointId joint, S target) {
+  return apply(SetJointTarget<S>{joint, target});
+}
 template <class S> bool World<S>::set_joint(JointId joint, const JointProperties<S>& properties) {
   return apply(SetJoint<S>{joint, properties});
 }

@@ -162,6 +162,8 @@ std::string region_text(const Schema& schema) {
   text +=
       list_text("ISO_C_FOR_EACH_COMMON_SIZED", "The same of structs without numbers.", names_of(schema.common, true));
   text += list_text("ISO_C_FOR_EACH_RECORD", "Records that are registered with a world.", schema.records);
+  text += list_text("ISO_C_FOR_EACH_INPUT", "Those of them that have an input.", schema.inputs);
+  text += list_text("ISO_C_FOR_EACH_STATE", "Those of them of which a step writes a state.", schema.states);
   text += list_text("ISO_C_FOR_EACH_SHAPE", "Shapes that numbers describe.", schema.shapes);
   text += list_text("ISO_C_FOR_EACH_JOINT", "Joints by name.", schema.joints);
   return text;

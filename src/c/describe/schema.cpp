@@ -170,12 +170,18 @@ template <class S> Family describe_family(const char* prefix) {
 #define ISO_SIZED(name, Type, X) \
   structs.push_back(describe_struct<twin::name<S>, twin::name<Typed>, true>(#name, #Type));
 #define ISO_RECORD(name, Type, Id, X) ISO_SIZED(name, Type, X)
+#define ISO_INPUT(name, Type, Id, X) ISO_SIZED(name##_input, Type, X)
+#define ISO_STATE(name, Type, Id, X) ISO_SIZED(name##_state, Type, X)
   ISO_C_PLAIN(ISO_PLAIN, S)
   ISO_C_SIZED(ISO_SIZED, S)
   ISO_FOR_EACH_RECORD(ISO_RECORD, S)
+  ISO_FOR_EACH_INPUT(ISO_INPUT, S)
+  ISO_FOR_EACH_RECORD_STATE(ISO_STATE, S)
 #undef ISO_PLAIN
 #undef ISO_SIZED
 #undef ISO_RECORD
+#undef ISO_INPUT
+#undef ISO_STATE
   return family;
 }
 
@@ -207,12 +213,18 @@ Schema make_schema() {
     schema.enums.push_back(flags);
   }
 #define ISO_RECORD(name, Type, Id, S) schema.records.push_back(#name);
+#define ISO_INPUT(name, Type, Id, S) schema.inputs.push_back(#name);
+#define ISO_STATE(name, Type, Id, S) schema.states.push_back(#name);
 #define ISO_SHAPE(name, Type, S) schema.shapes.push_back(#name);
 #define ISO_JOINT(name, Type, S) schema.joints.push_back(#name);
   ISO_FOR_EACH_RECORD(ISO_RECORD, float)
+  ISO_FOR_EACH_INPUT(ISO_INPUT, float)
+  ISO_FOR_EACH_RECORD_STATE(ISO_STATE, float)
   ISO_C_SHAPES(ISO_SHAPE, float)
   ISO_C_JOINTS(ISO_JOINT, float)
 #undef ISO_RECORD
+#undef ISO_INPUT
+#undef ISO_STATE
 #undef ISO_SHAPE
 #undef ISO_JOINT
   return schema;

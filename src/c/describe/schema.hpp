@@ -48,7 +48,7 @@ struct Schema {
   std::vector<Family> families;
   std::vector<Struct> common;
   std::vector<Enum> enums;
-  std::vector<std::string> records, shapes, joints;  // names in the order of their lists
+  std::vector<std::string> records, inputs, states, shapes, joints;  // names in the order of their lists
 };
 
 Schema make_schema();

@@ -933,6 +933,8 @@ typedef struct iso_f32_force_zone {
   iso_f32_vec3 acceleration; /* [m/s^2] world */
   iso_f32_vec3 wind; /* [m/s] world */
   uint32_t mask; /* categories: Filter. The wind blows for all */
+  int32_t priority;
+  uint32_t replaces; /* zone_effect: what it hides, of zones of lower priority; 0: it adds to them */
 } iso_f32_force_zone;
 typedef struct iso_f32_attractor {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
@@ -1016,7 +1018,9 @@ typedef struct iso_f32_water {
   float wave_period; /* [s] */
   iso_f32_unit_vec3 wave_direction; /* [1] unit length; along the surface */
   uint32_t mask; /* categories: Filter */
-  uint8_t reserved1[4];
+  int32_t priority;
+  uint8_t replaces; /* hides water of lower priority from what it acts on */
+  uint8_t reserved1[7];
 } iso_f32_water;
 typedef struct iso_f32_drag {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
@@ -1041,6 +1045,19 @@ typedef struct iso_f32_aero_surface {
   uint8_t is_under_water; /* a keel, a water rudder, a hydrofoil */
   uint8_t reserved1[2];
 } iso_f32_aero_surface;
+typedef struct iso_f32_damping_zone {
+  uint32_t size; /* [bytes] of this struct, as _init sets it */
+  uint32_t reserved0;
+  iso_zone_shape shape;
+  iso_f32_pose pose; /* of a sphere the position alone */
+  iso_f32_vec3 half; /* [m] of a box; of a sphere x is the radius */
+  float linear; /* [1/s] of velocities */
+  float angular; /* [1/s] of angular velocities */
+  uint32_t mask; /* categories: Filter */
+  int32_t priority;
+  uint8_t replaces; /* hides zones of lower priority from what it acts on */
+  uint8_t reserved1[3];
+} iso_f32_damping_zone;
 typedef struct iso_f32_material_pair {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
   uint32_t reserved0;
@@ -1057,7 +1074,7 @@ typedef struct iso_f32_breakable {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
   uint32_t reserved0;
   iso_body body;
-  float impulse; /* [kg m/s] */
+  float break_impulse; /* [kg m/s] */
   iso_break_pattern pattern;
   uint32_t most_pieces; /* 2 to 256; of eight_boxes 8 or more */
   uint32_t depth; /* how often: 1: its pieces do not break; 0: it does not, but may expire */
@@ -1068,10 +1085,7 @@ typedef struct iso_f32_breakable {
   uint32_t lifetime; /* [steps] after so long; 0: all stay */
   uint64_t expires; /* [steps] World::tick() from which break_bodies() takes it away; 0: never */
   uint8_t owns_shape; /* break_bodies() removes the shape along with it: pieces have shapes of their own */
-  uint8_t reserved2[3];
-  float broken_by; /* [kg m/s] the mark; 0: whole */
-  iso_f32_vec3 hit_point; /* [m] body frame */
-  iso_f32_unit_vec3 hit_direction; /* [1] of the blow, into the body, body frame */
+  uint8_t reserved2[7];
 } iso_f32_breakable;
 typedef struct iso_f32_character {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
@@ -1082,20 +1096,9 @@ typedef struct iso_f32_character {
   float skin; /* [m] that it keeps from what is in its way */
   float mass; /* [kg] that its ground bears */
   float push_force; /* [N] */
-  float air_acceleration; /* [m/s^2] towards `move` while it is in the air */
+  float air_acceleration; /* [m/s^2] towards CharacterInput::move while it is in the air */
   float gravity_scale; /* [1] */
   uint32_t mask; /* categories in its way, of those that its body's Filter collides with */
-  iso_f32_vec3 move; /* [m/s] along the ground, world */
-  float jump; /* [m/s] upwards; 0 again once it has left the ground */
-  iso_footing footing; /* from here on: how the last step left it */
-  uint8_t reserved1[4];
-  iso_body ground; /* null: airborne, or put elsewhere since */
-  iso_f32_vec3 foot; /* [m] on the ground, in its body's frame */
-  iso_f32_vec3 foot_at; /* [m] the same, world */
-  iso_f32_vec3 velocity; /* [m/s] world */
-  iso_f32_unit_vec3 normal; /* [1] of the ground */
-  uint32_t stuck; /* [steps] in a row in which it could not leave what it overlaps */
-  uint8_t reserved2[4];
 } iso_f32_character;
 typedef struct iso_f32_vehicle {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
@@ -1104,7 +1107,6 @@ typedef struct iso_f32_vehicle {
   float engine_torque; /* [N m] at full throttle */
   float engine_speed; /* [rad/s] at which it has no torque left */
   float gears[8]; /* [1] 0: neutral; below 0: reverse */
-  uint32_t gear; /* of gears */
   float final_drive; /* [1] */
   float engine_inertia; /* [kg m^2] 0, or 2^-10 or more */
   float clutch_torque; /* [N m] at most, fully engaged */
@@ -1113,13 +1115,6 @@ typedef struct iso_f32_vehicle {
   float handbrake_torque; /* [N m] a wheel */
   float ackermann; /* [1] 0 to 1 */
   float track_steer; /* [1] 0 to 2 */
-  float throttle; /* [1] -1 to 1 */
-  float clutch; /* [1] 0: the engine runs alone, to 1: engaged */
-  float brake; /* [1] 0 to 1 */
-  float handbrake; /* [1] 0 to 1 */
-  float steer; /* [1] -1 to 1 */
-  float engine_spin; /* [rad/s] of its shaft, up to fastest_engine() */
-  float clutch_load; /* [N m] on the gears, in the last sub-step */
 } iso_f32_vehicle;
 typedef struct iso_f32_wheel {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
@@ -1147,19 +1142,6 @@ typedef struct iso_f32_wheel {
   uint32_t axle; /* of the anti-roll bar */
   float anti_roll; /* [N/m] the larger of the two counts */
   uint32_t track; /* 0: none */
-  float spin; /* [rad/s] about the axle, seen from the body */
-  float angle; /* [rad] that it has turned, 0 to 2 pi */
-  float steered; /* [rad] from axle_direction, counter-clockwise seen from above */
-  float length; /* [m] from the hard point to the wheel's middle */
-  float slip; /* [1] of the tyre: the mean of this and earlier sub-steps, the last counts a half */
-  uint8_t reserved1[4];
-  iso_body contact_body;
-  iso_f32_vec3 contact_point; /* [m] world */
-  iso_f32_unit_vec3 contact_normal; /* [1] of the ground, world */
-  float load; /* [N] along the normal */
-  float along; /* [N] on the body, forward */
-  float across; /* [N] on the body, normal x forward */
-  uint8_t reserved2[4];
 } iso_f32_wheel;
 typedef struct iso_f32_surface_velocity {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
@@ -1190,14 +1172,17 @@ typedef struct iso_f32_hit_report {
   float speed; /* [m/s] along the normal, as the step begins in which they first press on each other */
   uint8_t reserved1[4];
 } iso_f32_hit_report;
+typedef struct iso_f32_contact_report {
+  uint32_t size; /* [bytes] of this struct, as _init sets it */
+  uint32_t reserved0;
+  iso_body body;
+} iso_f32_contact_report;
 typedef struct iso_f32_joint_load {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
   uint32_t reserved0;
   iso_joint joint;
   float break_force; /* [N] 0: no force breaks it */
   float break_torque; /* [N m] 0: no torque breaks it */
-  float force; /* [N] on body b, of all the joint does; held at the format's end */
-  float torque; /* [N m] about b's origin of the joint; held at the format's end */
 } iso_f32_joint_load;
 typedef struct iso_f32_coupling {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
@@ -1231,36 +1216,12 @@ typedef struct iso_f32_axis_drive {
   float limit_frequency; /* [Hz] of limits that yield, up to half the sub-step rate; 0: hard ones */
   float limit_damping; /* [1] ratio, 1 = critical */
 } iso_f32_axis_drive;
-typedef struct iso_f32_move_target {
-  uint32_t size; /* [bytes] of this struct, as _init sets it */
-  uint32_t reserved0;
-  iso_body body;
-  iso_f32_pose pose; /* of the body's origin, world */
-  uint8_t reserved1[4];
-} iso_f32_move_target;
 typedef struct iso_f32_kind_ghost {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
   uint32_t reserved0;
   uint32_t kind_a; /* Material::kind, 1 or more */
   uint32_t kind_b; /* Material::kind, 1 or more */
 } iso_f32_kind_ghost;
-typedef struct iso_f32_ranked_zone {
-  uint32_t size; /* [bytes] of this struct, as _init sets it */
-  uint32_t reserved0;
-  iso_zone_shape shape;
-  iso_f32_pose pose; /* of a sphere the position alone */
-  iso_f32_vec3 half; /* [m] of a box; of a sphere x is the radius */
-  iso_f32_vec3 acceleration; /* [m/s^2] world */
-  iso_f32_vec3 wind; /* [m/s] world */
-  uint32_t mask; /* categories: Filter. The wind blows for all */
-  int32_t priority;
-  uint32_t replaces; /* zone_effect: what it hides, of zones of lower priority; 0: it adds to them */
-} iso_f32_ranked_zone;
-typedef struct iso_f32_contact_report {
-  uint32_t size; /* [bytes] of this struct, as _init sets it */
-  uint32_t reserved0;
-  iso_body body;
-} iso_f32_contact_report;
 typedef struct iso_f32_kind_response {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
   uint32_t reserved0;
@@ -1273,37 +1234,6 @@ typedef struct iso_f32_kind_response {
   float max_force; /* [N] along the normal; 0: any */
   uint8_t reserved1[4];
 } iso_f32_kind_response;
-typedef struct iso_f32_damping_zone {
-  uint32_t size; /* [bytes] of this struct, as _init sets it */
-  uint32_t reserved0;
-  iso_zone_shape shape;
-  iso_f32_pose pose; /* of a sphere the position alone */
-  iso_f32_vec3 half; /* [m] of a box; of a sphere x is the radius */
-  float linear; /* [1/s] of velocities */
-  float angular; /* [1/s] of angular velocities */
-  uint32_t mask; /* categories: Filter */
-  int32_t priority;
-  uint8_t replaces; /* hides zones of lower priority from what it acts on */
-  uint8_t reserved1[3];
-} iso_f32_damping_zone;
-typedef struct iso_f32_ranked_water {
-  uint32_t size; /* [bytes] of this struct, as _init sets it */
-  uint32_t reserved0;
-  float surface_height; /* [m] along up, of the water at rest */
-  float density; /* [kg/m^3] */
-  iso_f32_vec3 middle; /* [m] of the region: a box along the world's axes */
-  iso_f32_vec3 half; /* [m] all 0: everywhere */
-  iso_f32_vec3 current; /* [m/s] */
-  float linear_drag; /* [1/s] each of a kg of water displaced */
-  float quadratic_drag; /* [1/m] the same, times speed */
-  float angular_drag; /* [1/s] of the body's turning, each of its kg displaced */
-  float wave_height; /* [m] above the water at rest; 0: no wave */
-  float wave_length; /* [m] */
-  float wave_period; /* [s] */
-  iso_f32_unit_vec3 wave_direction; /* [1] unit length; along the surface */
-  uint32_t mask; /* categories: Filter */
-  int32_t priority;
-} iso_f32_ranked_water;
 typedef struct iso_f32_sensor_mount {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
   uint32_t reserved0;
@@ -1312,6 +1242,72 @@ typedef struct iso_f32_sensor_mount {
   iso_f32_pose frame; /* of the sensor's origin in the carrier's frame */
   uint8_t reserved1[4];
 } iso_f32_sensor_mount;
+typedef struct iso_f32_breakable_input {
+  uint32_t size; /* [bytes] of this struct, as _init sets it */
+  uint32_t reserved0;
+  float impulse; /* [kg m/s] 0: whole */
+  iso_f32_vec3 point; /* [m] body frame */
+  iso_f32_unit_vec3 direction; /* [1] into the body, body frame */
+  uint8_t reserved1[4];
+} iso_f32_breakable_input;
+typedef struct iso_f32_character_input {
+  uint32_t size; /* [bytes] of this struct, as _init sets it */
+  uint32_t reserved0;
+  iso_f32_vec3 move; /* [m/s] along the ground, world */
+  float jump; /* [m/s] upwards; 0 again once it has left the ground */
+} iso_f32_character_input;
+typedef struct iso_f32_vehicle_input {
+  uint32_t size; /* [bytes] of this struct, as _init sets it */
+  uint32_t reserved0;
+  float throttle; /* [1] -1 to 1 */
+  float clutch; /* [1] 0: the engine runs alone, to 1: engaged */
+  float brake; /* [1] 0 to 1 */
+  float handbrake; /* [1] 0 to 1 */
+  float steer; /* [1] -1 to 1 */
+  uint32_t gear; /* of VehicleSettings::gears */
+} iso_f32_vehicle_input;
+typedef struct iso_f32_character_state {
+  uint32_t size; /* [bytes] of this struct, as _init sets it */
+  uint32_t reserved0;
+  iso_footing footing;
+  uint8_t reserved1[4];
+  iso_body ground; /* null: airborne, or put elsewhere since */
+  uint32_t stuck; /* [steps] in a row in which it could not leave what it overlaps */
+  iso_f32_vec3 foot; /* [m] on the ground, in its body's frame */
+  iso_f32_vec3 foot_at; /* [m] the same, world */
+  iso_f32_vec3 velocity; /* [m/s] world */
+  iso_f32_unit_vec3 normal; /* [1] of the ground */
+  uint8_t reserved2[4];
+} iso_f32_character_state;
+typedef struct iso_f32_vehicle_state {
+  uint32_t size; /* [bytes] of this struct, as _init sets it */
+  uint32_t reserved0;
+  float engine_spin; /* [rad/s] of its shaft, up to fastest_engine() */
+  float clutch_load; /* [N m] on the gears, in the last sub-step */
+} iso_f32_vehicle_state;
+typedef struct iso_f32_wheel_state {
+  uint32_t size; /* [bytes] of this struct, as _init sets it */
+  uint32_t reserved0;
+  float spin; /* [rad/s] about the axle, seen from the body */
+  float angle; /* [rad] that it has turned, 0 to 2 pi */
+  float steered; /* [rad] from axle_direction, counter-clockwise seen from above */
+  float length; /* [m] from the hard point to the wheel's middle */
+  float slip; /* [1] of the tyre: the mean of this and earlier sub-steps, the last counts a half */
+  uint8_t reserved1[4];
+  iso_body contact_body;
+  iso_f32_vec3 contact_point; /* [m] world */
+  iso_f32_unit_vec3 contact_normal; /* [1] of the ground, world */
+  float load; /* [N] along the normal */
+  float along; /* [N] on the body, forward */
+  float across; /* [N] on the body, normal x forward */
+  uint8_t reserved2[4];
+} iso_f32_wheel_state;
+typedef struct iso_f32_joint_load_state {
+  uint32_t size; /* [bytes] of this struct, as _init sets it */
+  uint32_t reserved0;
+  float force; /* [N] on body b, of all the joint does; held at the format's end */
+  float torque; /* [N m] about b's origin of the joint; held at the format's end */
+} iso_f32_joint_load_state;
 
 /* F64: double. The members are those of F32. */
 typedef struct iso_f64_vec3 {
@@ -1527,7 +1523,8 @@ typedef struct iso_f64_box_query {
 } iso_f64_box_query;
 typedef struct iso_f64_force_zone {
   uint32_t size; uint32_t reserved0; iso_zone_shape shape; uint8_t reserved1[4]; iso_f64_pose pose; iso_f64_vec3 half;
-  iso_f64_vec3 acceleration; iso_f64_vec3 wind; uint32_t mask; uint8_t reserved2[4];
+  iso_f64_vec3 acceleration; iso_f64_vec3 wind; uint32_t mask; int32_t priority; uint32_t replaces;
+  uint8_t reserved2[4];
 } iso_f64_force_zone;
 typedef struct iso_f64_attractor {
   uint32_t size; uint32_t reserved0; iso_body body; iso_f64_vec3 point; double strength; double least_distance;
@@ -1553,7 +1550,8 @@ typedef struct iso_f64_explosion {
 typedef struct iso_f64_water {
   uint32_t size; uint32_t reserved0; double surface_height; double density; iso_f64_vec3 middle; iso_f64_vec3 half;
   iso_f64_vec3 current; double linear_drag; double quadratic_drag; double angular_drag; double wave_height;
-  double wave_length; double wave_period; iso_f64_unit_vec3 wave_direction; uint32_t mask; uint8_t reserved1[4];
+  double wave_length; double wave_period; iso_f64_unit_vec3 wave_direction; uint32_t mask; int32_t priority;
+  uint8_t replaces; uint8_t reserved1[7];
 } iso_f64_water;
 typedef struct iso_f64_drag {
   uint32_t size; uint32_t reserved0; iso_body body; double linear; double quadratic; double angular;
@@ -1563,36 +1561,35 @@ typedef struct iso_f64_aero_surface {
   iso_f64_mat3 low; iso_f64_mat3 high; double control; uint8_t is_quadratic; uint8_t is_under_water;
   uint8_t reserved1[6];
 } iso_f64_aero_surface;
+typedef struct iso_f64_damping_zone {
+  uint32_t size; uint32_t reserved0; iso_zone_shape shape; uint8_t reserved1[4]; iso_f64_pose pose; iso_f64_vec3 half;
+  double linear; double angular; uint32_t mask; int32_t priority; uint8_t replaces; uint8_t reserved2[7];
+} iso_f64_damping_zone;
 typedef struct iso_f64_material_pair {
   uint32_t size; uint32_t reserved0; uint32_t kind_a; uint32_t kind_b; double friction; double static_friction;
   double restitution; double rolling_resistance; double spin_resistance;
 } iso_f64_material_pair;
 typedef struct iso_f64_breakable {
-  uint32_t size; uint32_t reserved0; iso_body body; double impulse; iso_break_pattern pattern; uint32_t most_pieces;
-  uint32_t depth; uint8_t reserved1[4]; iso_f64_unit_vec3 grain; uint64_t seed; double small_mass; uint32_t lifetime;
-  uint8_t reserved2[4]; uint64_t expires; uint8_t owns_shape; uint8_t reserved3[7]; double broken_by;
-  iso_f64_vec3 hit_point; iso_f64_unit_vec3 hit_direction;
+  uint32_t size; uint32_t reserved0; iso_body body; double break_impulse; iso_break_pattern pattern;
+  uint32_t most_pieces; uint32_t depth; uint8_t reserved1[4]; iso_f64_unit_vec3 grain; uint64_t seed;
+  double small_mass; uint32_t lifetime; uint8_t reserved2[4]; uint64_t expires; uint8_t owns_shape;
+  uint8_t reserved3[7];
 } iso_f64_breakable;
 typedef struct iso_f64_character {
   uint32_t size; uint32_t reserved0; iso_body body; double step_height; double least_up; double skin; double mass;
   double push_force; double air_acceleration; double gravity_scale; uint32_t mask; uint8_t reserved1[4];
-  iso_f64_vec3 move; double jump; iso_footing footing; uint8_t reserved2[4]; iso_body ground; iso_f64_vec3 foot;
-  iso_f64_vec3 foot_at; iso_f64_vec3 velocity; iso_f64_unit_vec3 normal; uint32_t stuck; uint8_t reserved3[4];
 } iso_f64_character;
 typedef struct iso_f64_vehicle {
   uint32_t size; uint32_t reserved0; iso_body body; double engine_torque; double engine_speed; double gears[8];
-  uint32_t gear; uint8_t reserved1[4]; double final_drive; double engine_inertia; double clutch_torque;
-  double differential_lock; double brake_torque; double handbrake_torque; double ackermann; double track_steer;
-  double throttle; double clutch; double brake; double handbrake; double steer; double engine_spin; double clutch_load;
+  double final_drive; double engine_inertia; double clutch_torque; double differential_lock; double brake_torque;
+  double handbrake_torque; double ackermann; double track_steer;
 } iso_f64_vehicle;
 typedef struct iso_f64_wheel {
   uint32_t size; uint32_t reserved0; iso_body body; iso_f64_vec3 hard_point; iso_f64_unit_vec3 suspension;
   iso_f64_unit_vec3 axle_direction; double free_length; double travel; double stiffness; double damping; double radius;
   double inertia; double grip_along; double grip_across; double peak_slip; double peak_grip; double slide_slip;
   double slide_grip; double steer_angle; double drive_share; double brake_share; double handbrake_share; uint32_t axle;
-  uint8_t reserved1[4]; double anti_roll; uint32_t track; uint8_t reserved2[4]; double spin; double angle;
-  double steered; double length; double slip; iso_body contact_body; iso_f64_vec3 contact_point;
-  iso_f64_unit_vec3 contact_normal; double load; double along; double across;
+  uint8_t reserved1[4]; double anti_roll; uint32_t track; uint8_t reserved2[4];
 } iso_f64_wheel;
 typedef struct iso_f64_surface_velocity {
   uint32_t size; uint32_t reserved0; iso_body body; iso_f64_vec3 linear; iso_f64_vec3 angular; uint32_t part;
@@ -1607,9 +1604,11 @@ typedef struct iso_f64_one_way {
 typedef struct iso_f64_hit_report {
   uint32_t size; uint32_t reserved0; iso_body body; double speed;
 } iso_f64_hit_report;
+typedef struct iso_f64_contact_report {
+  uint32_t size; uint32_t reserved0; iso_body body;
+} iso_f64_contact_report;
 typedef struct iso_f64_joint_load {
-  uint32_t size; uint32_t reserved0; iso_joint joint; double break_force; double break_torque; double force;
-  double torque;
+  uint32_t size; uint32_t reserved0; iso_joint joint; double break_force; double break_torque;
 } iso_f64_joint_load;
 typedef struct iso_f64_coupling {
   uint32_t size; uint32_t reserved0; iso_joint joint_a; iso_joint joint_b; iso_joint joint_c; double ratio_a;
@@ -1620,36 +1619,41 @@ typedef struct iso_f64_axis_drive {
   uint8_t reserved1[2]; double lower; double upper; double motor_speed; double spring_target; double spring_frequency;
   double spring_damping; double force; double spring_mass; double limit_frequency; double limit_damping;
 } iso_f64_axis_drive;
-typedef struct iso_f64_move_target {
-  uint32_t size; uint32_t reserved0; iso_body body; iso_f64_pose pose;
-} iso_f64_move_target;
 typedef struct iso_f64_kind_ghost {
   uint32_t size; uint32_t reserved0; uint32_t kind_a; uint32_t kind_b;
 } iso_f64_kind_ghost;
-typedef struct iso_f64_ranked_zone {
-  uint32_t size; uint32_t reserved0; iso_zone_shape shape; uint8_t reserved1[4]; iso_f64_pose pose; iso_f64_vec3 half;
-  iso_f64_vec3 acceleration; iso_f64_vec3 wind; uint32_t mask; int32_t priority; uint32_t replaces;
-  uint8_t reserved2[4];
-} iso_f64_ranked_zone;
-typedef struct iso_f64_contact_report {
-  uint32_t size; uint32_t reserved0; iso_body body;
-} iso_f64_contact_report;
 typedef struct iso_f64_kind_response {
   uint32_t size; uint32_t reserved0; uint32_t kind_a; uint32_t kind_b; double inverse_mass_scale_a;
   double inverse_mass_scale_b; double inverse_inertia_scale_a; double inverse_inertia_scale_b; double max_force;
 } iso_f64_kind_response;
-typedef struct iso_f64_damping_zone {
-  uint32_t size; uint32_t reserved0; iso_zone_shape shape; uint8_t reserved1[4]; iso_f64_pose pose; iso_f64_vec3 half;
-  double linear; double angular; uint32_t mask; int32_t priority; uint8_t replaces; uint8_t reserved2[7];
-} iso_f64_damping_zone;
-typedef struct iso_f64_ranked_water {
-  uint32_t size; uint32_t reserved0; double surface_height; double density; iso_f64_vec3 middle; iso_f64_vec3 half;
-  iso_f64_vec3 current; double linear_drag; double quadratic_drag; double angular_drag; double wave_height;
-  double wave_length; double wave_period; iso_f64_unit_vec3 wave_direction; uint32_t mask; int32_t priority;
-} iso_f64_ranked_water;
 typedef struct iso_f64_sensor_mount {
   uint32_t size; uint32_t reserved0; iso_body sensor; iso_body on; iso_f64_pose frame;
 } iso_f64_sensor_mount;
+typedef struct iso_f64_breakable_input {
+  uint32_t size; uint32_t reserved0; double impulse; iso_f64_vec3 point; iso_f64_unit_vec3 direction;
+} iso_f64_breakable_input;
+typedef struct iso_f64_character_input {
+  uint32_t size; uint32_t reserved0; iso_f64_vec3 move; double jump;
+} iso_f64_character_input;
+typedef struct iso_f64_vehicle_input {
+  uint32_t size; uint32_t reserved0; double throttle; double clutch; double brake; double handbrake; double steer;
+  uint32_t gear; uint8_t reserved1[4];
+} iso_f64_vehicle_input;
+typedef struct iso_f64_character_state {
+  uint32_t size; uint32_t reserved0; iso_footing footing; uint8_t reserved1[4]; iso_body ground; uint32_t stuck;
+  uint8_t reserved2[4]; iso_f64_vec3 foot; iso_f64_vec3 foot_at; iso_f64_vec3 velocity; iso_f64_unit_vec3 normal;
+} iso_f64_character_state;
+typedef struct iso_f64_vehicle_state {
+  uint32_t size; uint32_t reserved0; double engine_spin; double clutch_load;
+} iso_f64_vehicle_state;
+typedef struct iso_f64_wheel_state {
+  uint32_t size; uint32_t reserved0; double spin; double angle; double steered; double length; double slip;
+  iso_body contact_body; iso_f64_vec3 contact_point; iso_f64_unit_vec3 contact_normal; double load; double along;
+  double across;
+} iso_f64_wheel_state;
+typedef struct iso_f64_joint_load_state {
+  uint32_t size; uint32_t reserved0; double force; double torque;
+} iso_f64_joint_load_state;
 
 /* Q16: q16.16. The members are those of F32. */
 typedef struct iso_q16_vec3 {
@@ -1865,7 +1869,7 @@ typedef struct iso_q16_box_query {
 } iso_q16_box_query;
 typedef struct iso_q16_force_zone {
   uint32_t size; uint32_t reserved0; iso_zone_shape shape; iso_q16_pose pose; iso_q16_vec3 half;
-  iso_q16_vec3 acceleration; iso_q16_vec3 wind; uint32_t mask;
+  iso_q16_vec3 acceleration; iso_q16_vec3 wind; uint32_t mask; int32_t priority; uint32_t replaces;
 } iso_q16_force_zone;
 typedef struct iso_q16_attractor {
   uint32_t size; uint32_t reserved0; iso_body body; iso_q16_vec3 point; int32_t strength; int32_t least_distance;
@@ -1892,7 +1896,8 @@ typedef struct iso_q16_explosion {
 typedef struct iso_q16_water {
   uint32_t size; uint32_t reserved0; int32_t surface_height; int32_t density; iso_q16_vec3 middle; iso_q16_vec3 half;
   iso_q16_vec3 current; int32_t linear_drag; int32_t quadratic_drag; int32_t angular_drag; int32_t wave_height;
-  int32_t wave_length; int32_t wave_period; iso_q16_unit_vec3 wave_direction; uint32_t mask; uint8_t reserved1[4];
+  int32_t wave_length; int32_t wave_period; iso_q16_unit_vec3 wave_direction; uint32_t mask; int32_t priority;
+  uint8_t replaces; uint8_t reserved1[7];
 } iso_q16_water;
 typedef struct iso_q16_drag {
   uint32_t size; uint32_t reserved0; iso_body body; int32_t linear; int32_t quadratic; int32_t angular;
@@ -1903,37 +1908,34 @@ typedef struct iso_q16_aero_surface {
   iso_q16_mat3 low; iso_q16_mat3 high; int32_t control; uint8_t is_quadratic; uint8_t is_under_water;
   uint8_t reserved1[2];
 } iso_q16_aero_surface;
+typedef struct iso_q16_damping_zone {
+  uint32_t size; uint32_t reserved0; iso_zone_shape shape; iso_q16_pose pose; iso_q16_vec3 half; int32_t linear;
+  int32_t angular; uint32_t mask; int32_t priority; uint8_t replaces; uint8_t reserved1[3];
+} iso_q16_damping_zone;
 typedef struct iso_q16_material_pair {
   uint32_t size; uint32_t reserved0; uint32_t kind_a; uint32_t kind_b; int32_t friction; int32_t static_friction;
   int32_t restitution; int32_t rolling_resistance; int32_t spin_resistance; uint8_t reserved1[4];
 } iso_q16_material_pair;
 typedef struct iso_q16_breakable {
-  uint32_t size; uint32_t reserved0; iso_body body; int32_t impulse; iso_break_pattern pattern; uint32_t most_pieces;
-  uint32_t depth; iso_q16_unit_vec3 grain; uint8_t reserved1[4]; uint64_t seed; int32_t small_mass; uint32_t lifetime;
-  uint64_t expires; uint8_t owns_shape; uint8_t reserved2[3]; int32_t broken_by; iso_q16_vec3 hit_point;
-  iso_q16_unit_vec3 hit_direction;
+  uint32_t size; uint32_t reserved0; iso_body body; int32_t break_impulse; iso_break_pattern pattern;
+  uint32_t most_pieces; uint32_t depth; iso_q16_unit_vec3 grain; uint8_t reserved1[4]; uint64_t seed;
+  int32_t small_mass; uint32_t lifetime; uint64_t expires; uint8_t owns_shape; uint8_t reserved2[7];
 } iso_q16_breakable;
 typedef struct iso_q16_character {
   uint32_t size; uint32_t reserved0; iso_body body; int32_t step_height; int32_t least_up; int32_t skin; int32_t mass;
-  int32_t push_force; int32_t air_acceleration; int32_t gravity_scale; uint32_t mask; iso_q16_vec3 move; int32_t jump;
-  iso_footing footing; uint8_t reserved1[4]; iso_body ground; iso_q16_vec3 foot; iso_q16_vec3 foot_at;
-  iso_q16_vec3 velocity; iso_q16_unit_vec3 normal; uint32_t stuck; uint8_t reserved2[4];
+  int32_t push_force; int32_t air_acceleration; int32_t gravity_scale; uint32_t mask;
 } iso_q16_character;
 typedef struct iso_q16_vehicle {
   uint32_t size; uint32_t reserved0; iso_body body; int32_t engine_torque; int32_t engine_speed; int32_t gears[8];
-  uint32_t gear; int32_t final_drive; int32_t engine_inertia; int32_t clutch_torque; int32_t differential_lock;
-  int32_t brake_torque; int32_t handbrake_torque; int32_t ackermann; int32_t track_steer; int32_t throttle;
-  int32_t clutch; int32_t brake; int32_t handbrake; int32_t steer; int32_t engine_spin; int32_t clutch_load;
+  int32_t final_drive; int32_t engine_inertia; int32_t clutch_torque; int32_t differential_lock; int32_t brake_torque;
+  int32_t handbrake_torque; int32_t ackermann; int32_t track_steer;
 } iso_q16_vehicle;
 typedef struct iso_q16_wheel {
   uint32_t size; uint32_t reserved0; iso_body body; iso_q16_vec3 hard_point; iso_q16_unit_vec3 suspension;
   iso_q16_unit_vec3 axle_direction; int32_t free_length; int32_t travel; int32_t stiffness; int32_t damping;
   int32_t radius; int32_t inertia; int32_t grip_along; int32_t grip_across; int32_t peak_slip; int32_t peak_grip;
   int32_t slide_slip; int32_t slide_grip; int32_t steer_angle; int32_t drive_share; int32_t brake_share;
-  int32_t handbrake_share; uint32_t axle; int32_t anti_roll; uint32_t track; int32_t spin; int32_t angle;
-  int32_t steered; int32_t length; int32_t slip; uint8_t reserved1[4]; iso_body contact_body;
-  iso_q16_vec3 contact_point; iso_q16_unit_vec3 contact_normal; int32_t load; int32_t along; int32_t across;
-  uint8_t reserved2[4];
+  int32_t handbrake_share; uint32_t axle; int32_t anti_roll; uint32_t track;
 } iso_q16_wheel;
 typedef struct iso_q16_surface_velocity {
   uint32_t size; uint32_t reserved0; iso_body body; iso_q16_vec3 linear; iso_q16_vec3 angular; uint32_t part;
@@ -1948,9 +1950,11 @@ typedef struct iso_q16_one_way {
 typedef struct iso_q16_hit_report {
   uint32_t size; uint32_t reserved0; iso_body body; int32_t speed; uint8_t reserved1[4];
 } iso_q16_hit_report;
+typedef struct iso_q16_contact_report {
+  uint32_t size; uint32_t reserved0; iso_body body;
+} iso_q16_contact_report;
 typedef struct iso_q16_joint_load {
-  uint32_t size; uint32_t reserved0; iso_joint joint; int32_t break_force; int32_t break_torque; int32_t force;
-  int32_t torque;
+  uint32_t size; uint32_t reserved0; iso_joint joint; int32_t break_force; int32_t break_torque;
 } iso_q16_joint_load;
 typedef struct iso_q16_coupling {
   uint32_t size; uint32_t reserved0; iso_joint joint_a; iso_joint joint_b; iso_joint joint_c; int32_t ratio_a;
@@ -1962,36 +1966,43 @@ typedef struct iso_q16_axis_drive {
   int32_t spring_frequency; int32_t spring_damping; int32_t force; int32_t spring_mass; int32_t limit_frequency;
   int32_t limit_damping;
 } iso_q16_axis_drive;
-typedef struct iso_q16_move_target {
-  uint32_t size; uint32_t reserved0; iso_body body; iso_q16_pose pose; uint8_t reserved1[4];
-} iso_q16_move_target;
 typedef struct iso_q16_kind_ghost {
   uint32_t size; uint32_t reserved0; uint32_t kind_a; uint32_t kind_b;
 } iso_q16_kind_ghost;
-typedef struct iso_q16_ranked_zone {
-  uint32_t size; uint32_t reserved0; iso_zone_shape shape; iso_q16_pose pose; iso_q16_vec3 half;
-  iso_q16_vec3 acceleration; iso_q16_vec3 wind; uint32_t mask; int32_t priority; uint32_t replaces;
-} iso_q16_ranked_zone;
-typedef struct iso_q16_contact_report {
-  uint32_t size; uint32_t reserved0; iso_body body;
-} iso_q16_contact_report;
 typedef struct iso_q16_kind_response {
   uint32_t size; uint32_t reserved0; uint32_t kind_a; uint32_t kind_b; int32_t inverse_mass_scale_a;
   int32_t inverse_mass_scale_b; int32_t inverse_inertia_scale_a; int32_t inverse_inertia_scale_b; int32_t max_force;
   uint8_t reserved1[4];
 } iso_q16_kind_response;
-typedef struct iso_q16_damping_zone {
-  uint32_t size; uint32_t reserved0; iso_zone_shape shape; iso_q16_pose pose; iso_q16_vec3 half; int32_t linear;
-  int32_t angular; uint32_t mask; int32_t priority; uint8_t replaces; uint8_t reserved1[3];
-} iso_q16_damping_zone;
-typedef struct iso_q16_ranked_water {
-  uint32_t size; uint32_t reserved0; int32_t surface_height; int32_t density; iso_q16_vec3 middle; iso_q16_vec3 half;
-  iso_q16_vec3 current; int32_t linear_drag; int32_t quadratic_drag; int32_t angular_drag; int32_t wave_height;
-  int32_t wave_length; int32_t wave_period; iso_q16_unit_vec3 wave_direction; uint32_t mask; int32_t priority;
-} iso_q16_ranked_water;
 typedef struct iso_q16_sensor_mount {
   uint32_t size; uint32_t reserved0; iso_body sensor; iso_body on; iso_q16_pose frame; uint8_t reserved1[4];
 } iso_q16_sensor_mount;
+typedef struct iso_q16_breakable_input {
+  uint32_t size; uint32_t reserved0; int32_t impulse; iso_q16_vec3 point; iso_q16_unit_vec3 direction;
+  uint8_t reserved1[4];
+} iso_q16_breakable_input;
+typedef struct iso_q16_character_input {
+  uint32_t size; uint32_t reserved0; iso_q16_vec3 move; int32_t jump;
+} iso_q16_character_input;
+typedef struct iso_q16_vehicle_input {
+  uint32_t size; uint32_t reserved0; int32_t throttle; int32_t clutch; int32_t brake; int32_t handbrake; int32_t steer;
+  uint32_t gear;
+} iso_q16_vehicle_input;
+typedef struct iso_q16_character_state {
+  uint32_t size; uint32_t reserved0; iso_footing footing; uint8_t reserved1[4]; iso_body ground; uint32_t stuck;
+  iso_q16_vec3 foot; iso_q16_vec3 foot_at; iso_q16_vec3 velocity; iso_q16_unit_vec3 normal; uint8_t reserved2[4];
+} iso_q16_character_state;
+typedef struct iso_q16_vehicle_state {
+  uint32_t size; uint32_t reserved0; int32_t engine_spin; int32_t clutch_load;
+} iso_q16_vehicle_state;
+typedef struct iso_q16_wheel_state {
+  uint32_t size; uint32_t reserved0; int32_t spin; int32_t angle; int32_t steered; int32_t length; int32_t slip;
+  uint8_t reserved1[4]; iso_body contact_body; iso_q16_vec3 contact_point; iso_q16_unit_vec3 contact_normal;
+  int32_t load; int32_t along; int32_t across; uint8_t reserved2[4];
+} iso_q16_wheel_state;
+typedef struct iso_q16_joint_load_state {
+  uint32_t size; uint32_t reserved0; int32_t force; int32_t torque;
+} iso_q16_joint_load_state;
 
 /* Q32: q32.32. The members are those of F32. */
 typedef struct iso_q32_vec3 {
@@ -2207,7 +2218,8 @@ typedef struct iso_q32_box_query {
 } iso_q32_box_query;
 typedef struct iso_q32_force_zone {
   uint32_t size; uint32_t reserved0; iso_zone_shape shape; uint8_t reserved1[4]; iso_q32_pose pose; iso_q32_vec3 half;
-  iso_q32_vec3 acceleration; iso_q32_vec3 wind; uint32_t mask; uint8_t reserved2[4];
+  iso_q32_vec3 acceleration; iso_q32_vec3 wind; uint32_t mask; int32_t priority; uint32_t replaces;
+  uint8_t reserved2[4];
 } iso_q32_force_zone;
 typedef struct iso_q32_attractor {
   uint32_t size; uint32_t reserved0; iso_body body; iso_q32_vec3 point; int64_t strength; int64_t least_distance;
@@ -2233,7 +2245,8 @@ typedef struct iso_q32_explosion {
 typedef struct iso_q32_water {
   uint32_t size; uint32_t reserved0; int64_t surface_height; int64_t density; iso_q32_vec3 middle; iso_q32_vec3 half;
   iso_q32_vec3 current; int64_t linear_drag; int64_t quadratic_drag; int64_t angular_drag; int64_t wave_height;
-  int64_t wave_length; int64_t wave_period; iso_q32_unit_vec3 wave_direction; uint32_t mask; uint8_t reserved1[4];
+  int64_t wave_length; int64_t wave_period; iso_q32_unit_vec3 wave_direction; uint32_t mask; int32_t priority;
+  uint8_t replaces; uint8_t reserved1[7];
 } iso_q32_water;
 typedef struct iso_q32_drag {
   uint32_t size; uint32_t reserved0; iso_body body; int64_t linear; int64_t quadratic; int64_t angular;
@@ -2243,28 +2256,28 @@ typedef struct iso_q32_aero_surface {
   iso_q32_mat3 low; iso_q32_mat3 high; int64_t control; uint8_t is_quadratic; uint8_t is_under_water;
   uint8_t reserved1[6];
 } iso_q32_aero_surface;
+typedef struct iso_q32_damping_zone {
+  uint32_t size; uint32_t reserved0; iso_zone_shape shape; uint8_t reserved1[4]; iso_q32_pose pose; iso_q32_vec3 half;
+  int64_t linear; int64_t angular; uint32_t mask; int32_t priority; uint8_t replaces; uint8_t reserved2[7];
+} iso_q32_damping_zone;
 typedef struct iso_q32_material_pair {
   uint32_t size; uint32_t reserved0; uint32_t kind_a; uint32_t kind_b; int64_t friction; int64_t static_friction;
   int64_t restitution; int64_t rolling_resistance; int64_t spin_resistance;
 } iso_q32_material_pair;
 typedef struct iso_q32_breakable {
-  uint32_t size; uint32_t reserved0; iso_body body; int64_t impulse; iso_break_pattern pattern; uint32_t most_pieces;
-  uint32_t depth; uint8_t reserved1[4]; iso_q32_unit_vec3 grain; uint64_t seed; int64_t small_mass; uint32_t lifetime;
-  uint8_t reserved2[4]; uint64_t expires; uint8_t owns_shape; uint8_t reserved3[7]; int64_t broken_by;
-  iso_q32_vec3 hit_point; iso_q32_unit_vec3 hit_direction;
+  uint32_t size; uint32_t reserved0; iso_body body; int64_t break_impulse; iso_break_pattern pattern;
+  uint32_t most_pieces; uint32_t depth; uint8_t reserved1[4]; iso_q32_unit_vec3 grain; uint64_t seed;
+  int64_t small_mass; uint32_t lifetime; uint8_t reserved2[4]; uint64_t expires; uint8_t owns_shape;
+  uint8_t reserved3[7];
 } iso_q32_breakable;
 typedef struct iso_q32_character {
   uint32_t size; uint32_t reserved0; iso_body body; int64_t step_height; int64_t least_up; int64_t skin; int64_t mass;
   int64_t push_force; int64_t air_acceleration; int64_t gravity_scale; uint32_t mask; uint8_t reserved1[4];
-  iso_q32_vec3 move; int64_t jump; iso_footing footing; uint8_t reserved2[4]; iso_body ground; iso_q32_vec3 foot;
-  iso_q32_vec3 foot_at; iso_q32_vec3 velocity; iso_q32_unit_vec3 normal; uint32_t stuck; uint8_t reserved3[4];
 } iso_q32_character;
 typedef struct iso_q32_vehicle {
   uint32_t size; uint32_t reserved0; iso_body body; int64_t engine_torque; int64_t engine_speed; int64_t gears[8];
-  uint32_t gear; uint8_t reserved1[4]; int64_t final_drive; int64_t engine_inertia; int64_t clutch_torque;
-  int64_t differential_lock; int64_t brake_torque; int64_t handbrake_torque; int64_t ackermann; int64_t track_steer;
-  int64_t throttle; int64_t clutch; int64_t brake; int64_t handbrake; int64_t steer; int64_t engine_spin;
-  int64_t clutch_load;
+  int64_t final_drive; int64_t engine_inertia; int64_t clutch_torque; int64_t differential_lock; int64_t brake_torque;
+  int64_t handbrake_torque; int64_t ackermann; int64_t track_steer;
 } iso_q32_vehicle;
 typedef struct iso_q32_wheel {
   uint32_t size; uint32_t reserved0; iso_body body; iso_q32_vec3 hard_point; iso_q32_unit_vec3 suspension;
@@ -2272,9 +2285,7 @@ typedef struct iso_q32_wheel {
   int64_t radius; int64_t inertia; int64_t grip_along; int64_t grip_across; int64_t peak_slip; int64_t peak_grip;
   int64_t slide_slip; int64_t slide_grip; int64_t steer_angle; int64_t drive_share; int64_t brake_share;
   int64_t handbrake_share; uint32_t axle; uint8_t reserved1[4]; int64_t anti_roll; uint32_t track;
-  uint8_t reserved2[4]; int64_t spin; int64_t angle; int64_t steered; int64_t length; int64_t slip;
-  iso_body contact_body; iso_q32_vec3 contact_point; iso_q32_unit_vec3 contact_normal; int64_t load; int64_t along;
-  int64_t across;
+  uint8_t reserved2[4];
 } iso_q32_wheel;
 typedef struct iso_q32_surface_velocity {
   uint32_t size; uint32_t reserved0; iso_body body; iso_q32_vec3 linear; iso_q32_vec3 angular; uint32_t part;
@@ -2289,9 +2300,11 @@ typedef struct iso_q32_one_way {
 typedef struct iso_q32_hit_report {
   uint32_t size; uint32_t reserved0; iso_body body; int64_t speed;
 } iso_q32_hit_report;
+typedef struct iso_q32_contact_report {
+  uint32_t size; uint32_t reserved0; iso_body body;
+} iso_q32_contact_report;
 typedef struct iso_q32_joint_load {
-  uint32_t size; uint32_t reserved0; iso_joint joint; int64_t break_force; int64_t break_torque; int64_t force;
-  int64_t torque;
+  uint32_t size; uint32_t reserved0; iso_joint joint; int64_t break_force; int64_t break_torque;
 } iso_q32_joint_load;
 typedef struct iso_q32_coupling {
   uint32_t size; uint32_t reserved0; iso_joint joint_a; iso_joint joint_b; iso_joint joint_c; int64_t ratio_a;
@@ -2303,36 +2316,41 @@ typedef struct iso_q32_axis_drive {
   int64_t spring_frequency; int64_t spring_damping; int64_t force; int64_t spring_mass; int64_t limit_frequency;
   int64_t limit_damping;
 } iso_q32_axis_drive;
-typedef struct iso_q32_move_target {
-  uint32_t size; uint32_t reserved0; iso_body body; iso_q32_pose pose;
-} iso_q32_move_target;
 typedef struct iso_q32_kind_ghost {
   uint32_t size; uint32_t reserved0; uint32_t kind_a; uint32_t kind_b;
 } iso_q32_kind_ghost;
-typedef struct iso_q32_ranked_zone {
-  uint32_t size; uint32_t reserved0; iso_zone_shape shape; uint8_t reserved1[4]; iso_q32_pose pose; iso_q32_vec3 half;
-  iso_q32_vec3 acceleration; iso_q32_vec3 wind; uint32_t mask; int32_t priority; uint32_t replaces;
-  uint8_t reserved2[4];
-} iso_q32_ranked_zone;
-typedef struct iso_q32_contact_report {
-  uint32_t size; uint32_t reserved0; iso_body body;
-} iso_q32_contact_report;
 typedef struct iso_q32_kind_response {
   uint32_t size; uint32_t reserved0; uint32_t kind_a; uint32_t kind_b; int64_t inverse_mass_scale_a;
   int64_t inverse_mass_scale_b; int64_t inverse_inertia_scale_a; int64_t inverse_inertia_scale_b; int64_t max_force;
 } iso_q32_kind_response;
-typedef struct iso_q32_damping_zone {
-  uint32_t size; uint32_t reserved0; iso_zone_shape shape; uint8_t reserved1[4]; iso_q32_pose pose; iso_q32_vec3 half;
-  int64_t linear; int64_t angular; uint32_t mask; int32_t priority; uint8_t replaces; uint8_t reserved2[7];
-} iso_q32_damping_zone;
-typedef struct iso_q32_ranked_water {
-  uint32_t size; uint32_t reserved0; int64_t surface_height; int64_t density; iso_q32_vec3 middle; iso_q32_vec3 half;
-  iso_q32_vec3 current; int64_t linear_drag; int64_t quadratic_drag; int64_t angular_drag; int64_t wave_height;
-  int64_t wave_length; int64_t wave_period; iso_q32_unit_vec3 wave_direction; uint32_t mask; int32_t priority;
-} iso_q32_ranked_water;
 typedef struct iso_q32_sensor_mount {
   uint32_t size; uint32_t reserved0; iso_body sensor; iso_body on; iso_q32_pose frame;
 } iso_q32_sensor_mount;
+typedef struct iso_q32_breakable_input {
+  uint32_t size; uint32_t reserved0; int64_t impulse; iso_q32_vec3 point; iso_q32_unit_vec3 direction;
+} iso_q32_breakable_input;
+typedef struct iso_q32_character_input {
+  uint32_t size; uint32_t reserved0; iso_q32_vec3 move; int64_t jump;
+} iso_q32_character_input;
+typedef struct iso_q32_vehicle_input {
+  uint32_t size; uint32_t reserved0; int64_t throttle; int64_t clutch; int64_t brake; int64_t handbrake; int64_t steer;
+  uint32_t gear; uint8_t reserved1[4];
+} iso_q32_vehicle_input;
+typedef struct iso_q32_character_state {
+  uint32_t size; uint32_t reserved0; iso_footing footing; uint8_t reserved1[4]; iso_body ground; uint32_t stuck;
+  uint8_t reserved2[4]; iso_q32_vec3 foot; iso_q32_vec3 foot_at; iso_q32_vec3 velocity; iso_q32_unit_vec3 normal;
+} iso_q32_character_state;
+typedef struct iso_q32_vehicle_state {
+  uint32_t size; uint32_t reserved0; int64_t engine_spin; int64_t clutch_load;
+} iso_q32_vehicle_state;
+typedef struct iso_q32_wheel_state {
+  uint32_t size; uint32_t reserved0; int64_t spin; int64_t angle; int64_t steered; int64_t length; int64_t slip;
+  iso_body contact_body; iso_q32_vec3 contact_point; iso_q32_unit_vec3 contact_normal; int64_t load; int64_t along;
+  int64_t across;
+} iso_q32_wheel_state;
+typedef struct iso_q32_joint_load_state {
+  uint32_t size; uint32_t reserved0; int64_t force; int64_t torque;
+} iso_q32_joint_load_state;
 
 /* What begins with its size, of a family. */
 #define ISO_C_FOR_EACH_SIZED(X, P) \
@@ -2342,10 +2360,11 @@ typedef struct iso_q32_sensor_mount {
   X(P, planar) X(P, rod) X(P, rope) X(P, wheel_joint) X(P, motor_joint) X(P, six_axis) X(P, ragdoll_settings) \
   X(P, ray_cast) X(P, shape_cast) X(P, overlap_query) X(P, point_query) X(P, box_query) X(P, force_zone) \
   X(P, attractor) X(P, body_spring) X(P, thruster) X(P, buoyancy) X(P, explosion) X(P, water) X(P, drag) \
-  X(P, aero_surface) X(P, material_pair) X(P, breakable) X(P, character) X(P, vehicle) X(P, wheel) \
-  X(P, surface_velocity) X(P, ghost) X(P, one_way) X(P, hit_report) X(P, joint_load) X(P, coupling) X(P, axis_drive) \
-  X(P, move_target) X(P, kind_ghost) X(P, ranked_zone) X(P, contact_report) X(P, kind_response) X(P, damping_zone) \
-  X(P, ranked_water) X(P, sensor_mount)
+  X(P, aero_surface) X(P, damping_zone) X(P, material_pair) X(P, breakable) X(P, character) X(P, vehicle) X(P, wheel) \
+  X(P, surface_velocity) X(P, ghost) X(P, one_way) X(P, hit_report) X(P, contact_report) X(P, joint_load) \
+  X(P, coupling) X(P, axis_drive) X(P, kind_ghost) X(P, kind_response) X(P, sensor_mount) X(P, breakable_input) \
+  X(P, character_input) X(P, vehicle_input) X(P, character_state) X(P, vehicle_state) X(P, wheel_state) \
+  X(P, joint_load_state)
 /* The same of structs without numbers. */
 #define ISO_C_FOR_EACH_COMMON_SIZED(X, P) \
   X(P, step_report) X(P, world_counts) X(P, break_report) X(P, fault_report) X(P, height_patch) X(P, height_grid) \
@@ -2354,10 +2373,15 @@ typedef struct iso_q32_sensor_mount {
 /* Records that are registered with a world. */
 #define ISO_C_FOR_EACH_RECORD(X, P) \
   X(P, force_zone) X(P, attractor) X(P, body_spring) X(P, thruster) X(P, buoyancy) X(P, explosion) X(P, water) \
-  X(P, drag) X(P, aero_surface) X(P, material_pair) X(P, breakable) X(P, character) X(P, vehicle) X(P, wheel) \
-  X(P, surface_velocity) X(P, ghost) X(P, one_way) X(P, hit_report) X(P, joint_load) X(P, coupling) X(P, axis_drive) \
-  X(P, move_target) X(P, kind_ghost) X(P, ranked_zone) X(P, contact_report) X(P, kind_response) X(P, damping_zone) \
-  X(P, ranked_water) X(P, sensor_mount)
+  X(P, drag) X(P, aero_surface) X(P, damping_zone) X(P, material_pair) X(P, breakable) X(P, character) X(P, vehicle) \
+  X(P, wheel) X(P, surface_velocity) X(P, ghost) X(P, one_way) X(P, hit_report) X(P, contact_report) X(P, joint_load) \
+  X(P, coupling) X(P, axis_drive) X(P, kind_ghost) X(P, kind_response) X(P, sensor_mount)
+/* Those of them that have an input. */
+#define ISO_C_FOR_EACH_INPUT(X, P) \
+  X(P, breakable) X(P, character) X(P, vehicle)
+/* Those of them of which a step writes a state. */
+#define ISO_C_FOR_EACH_STATE(X, P) \
+  X(P, character) X(P, vehicle) X(P, wheel) X(P, joint_load)
 /* Shapes that numbers describe. */
 #define ISO_C_FOR_EACH_SHAPE(X, P) \
   X(P, sphere) X(P, box) X(P, capsule) X(P, half_space) X(P, cylinder) X(P, cone)
@@ -2610,6 +2634,9 @@ ISO_API iso_status iso_replay_get_frame(const iso_replay* replay, uint64_t frame
   ISO_API iso_status iso_##P##_body_set_type(iso_world* world, iso_body body, iso_body_type type,                      \
                                              const iso_##P##_body_mass* mass);                                         \
   ISO_API iso_status iso_##P##_body_set_mass(iso_world* world, iso_body body, const iso_##P##_body_mass* mass);        \
+  /* Another shape; id, pose, joints and records stay. `mass`: null keeps that of a dynamic body. */                   \
+  ISO_API iso_status iso_##P##_body_set_shape(iso_world* world, iso_body body, iso_shape shape,                        \
+                                              const iso_##P##_body_mass* mass);                                        \
   /* The next step carries a kinematic body there. */                                                                  \
   ISO_API iso_status iso_##P##_body_move_to(iso_world* world, iso_body body, const iso_##P##_pose* pose);              \
   /* [N], [N m] over the next step; `torque` may be null. */                                                           \
@@ -2635,6 +2662,11 @@ ISO_API iso_status iso_replay_get_frame(const iso_replay* replay, uint64_t frame
   /* Limits, motor and spring; bodies, frames and type stay. */                                                        \
   ISO_API iso_status iso_##P##_joint_set(iso_world* world, iso_joint joint,                                            \
                                          const iso_##P##_joint_properties* properties);                                \
+  /* Parts of it: [rad] or [m]. Torque [N m] or [N], 0: no motor; frequency [Hz], 0: no spring. */                     \
+  ISO_API iso_status iso_##P##_joint_set_limits(iso_world* world, iso_joint joint, N lower, N upper);                  \
+  ISO_API iso_status iso_##P##_joint_set_motor(iso_world* world, iso_joint joint, N speed, N torque);                  \
+  ISO_API iso_status iso_##P##_joint_set_spring(iso_world* world, iso_joint joint, N frequency, N damping);            \
+  ISO_API iso_status iso_##P##_joint_set_target(iso_world* world, iso_joint joint, N target);                          \
   ISO_API iso_status iso_##P##_joint_get(const iso_world* world, iso_joint joint, iso_##P##_joint_properties* out);    \
   /* [m] between the anchors; of a distance joint its error. */                                                        \
   ISO_API iso_status iso_##P##_joint_get_error(const iso_world* world, iso_joint joint, N* out);                       \
@@ -2710,6 +2742,14 @@ ISO_API iso_status iso_replay_get_frame(const iso_replay* replay, uint64_t frame
   ISO_API iso_status iso_##P##_add_##name(iso_world* world, const iso_##P##_##name* record, iso_record* out);     \
   ISO_API iso_status iso_##P##_set_##name(iso_world* world, iso_record id, const iso_##P##_##name* record);       \
   ISO_API iso_status iso_##P##_get_##name(const iso_world* world, iso_record id, iso_##P##_##name* out);
+/* What a game asks of a record from frame to frame, until it asks something else: move and jump of a character, the
+   pedals of a vehicle. It stands apart from the record, so that setting one never takes back the other. */
+#define ISO_C_INPUT(P, name)                                                                                              \
+  ISO_API iso_status iso_##P##_set_##name##_input(iso_world* world, iso_record id, const iso_##P##_##name##_input* input); \
+  ISO_API iso_status iso_##P##_get_##name##_input(const iso_world* world, iso_record id, iso_##P##_##name##_input* out);
+/* How the last step left a record. */
+#define ISO_C_STATE(P, name) \
+  ISO_API iso_status iso_##P##_get_##name##_state(const iso_world* world, iso_record id, iso_##P##_##name##_state* out);
 /* A shape of the world; and as a primitive, for parts of compounds and for queries. */
 #define ISO_C_SHAPE(P, name)                                                                                      \
   ISO_API iso_status iso_##P##_add_##name(iso_world* world, const iso_##P##_##name* shape, iso_shape* out);       \
@@ -2720,7 +2760,9 @@ ISO_API iso_status iso_replay_get_frame(const iso_replay* replay, uint64_t frame
   ISO_C_FOR_EACH_SIZED(ISO_C_INIT, P)          \
   ISO_C_FOR_EACH_SHAPE(ISO_C_SHAPE, P)         \
   ISO_C_FOR_EACH_JOINT(ISO_C_JOINT, P)         \
-  ISO_C_FOR_EACH_RECORD(ISO_C_RECORD, P)
+  ISO_C_FOR_EACH_RECORD(ISO_C_RECORD, P)       \
+  ISO_C_FOR_EACH_INPUT(ISO_C_INPUT, P)         \
+  ISO_C_FOR_EACH_STATE(ISO_C_STATE, P)
 
 ISO_C_SCALARS(ISO_C_FUNCTIONS)
 ISO_C_SCALARS(ISO_C_LISTED_FUNCTIONS)

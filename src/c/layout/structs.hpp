@@ -104,9 +104,15 @@
 namespace isostep::c::twin {
 #define ISO_ALIAS(name, Type, S) template <class S> using name = Type;
 #define ISO_RECORD_ALIAS(name, Type, Id, S) template <class S> using name = Type;
+#define ISO_INPUT_ALIAS(name, Type, Id, S) template <class S> using name##_input = Type;
+#define ISO_STATE_ALIAS(name, Type, Id, S) template <class S> using name##_state = Type;
 ISO_C_PLAIN(ISO_ALIAS, S)
 ISO_C_SIZED(ISO_ALIAS, S)
 ISO_FOR_EACH_RECORD(ISO_RECORD_ALIAS, S)
+ISO_FOR_EACH_INPUT(ISO_INPUT_ALIAS, S)
+ISO_FOR_EACH_RECORD_STATE(ISO_STATE_ALIAS, S)
 #undef ISO_ALIAS
 #undef ISO_RECORD_ALIAS
+#undef ISO_INPUT_ALIAS
+#undef ISO_STATE_ALIAS
 }  // namespace isostep::c::twin

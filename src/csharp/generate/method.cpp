@@ -21,7 +21,8 @@ bool ends(const std::string& text, const std::string& with) {
 namespace {
 
 bool may_be_null(const std::string& function, const std::string& argument) {
-  return argument == "torque" || argument == "angular_impulse" || (argument == "mass" && function == "body_set_type");
+  if (argument == "mass") return function == "body_set_type" || function == "body_set_shape";
+  return argument == "torque" || argument == "angular_impulse";
 }
 
 /// "iso_body_get_state" is GetBodyState, "iso_world_get_counts" of a world GetCounts.

@@ -88,6 +88,16 @@ export class AskedWorld extends Handle {
     const name = this.calls.nameOf('records', kind);
     return this.run(`P_get_${name}`, id(record, 'record'), out(name));
   }
+  /** What a game asks of it: input('vehicle', id). */
+  input(kind, record) {
+    const name = `${this.calls.nameOf('inputs', kind)}_input`;
+    return this.run(`P_get_${name}`, id(record, 'record'), out(name));
+  }
+  /** How the last step left it: state('wheel', id). */
+  state(kind, record) {
+    const name = `${this.calls.nameOf('states', kind)}_state`;
+    return this.run(`P_get_${name}`, id(record, 'record'), out(name));
+  }
 
   // ---- queries, as of the last step or command
 

@@ -3,7 +3,7 @@
 
 import {AskedWorld} from './asked.js';
 import {given, id, out} from './calls.js';
-import {badValue} from './errors.js';
+import {badValue, within} from './errors.js';
 import {Handle} from './handle.js';
 
 export class World extends AskedWorld {
@@ -93,6 +93,11 @@ export class World extends AskedWorld {
     this.run('P_body_set_type', id(body, 'body'), number, given('body_mass', mass));
   }
   setMass(body, mass) { this.run('P_body_set_mass', id(body, 'body'), given('body_mass', mass)); }
+  /** Another shape; id, pose, joints and records stay. Without `mass` a dynamic body keeps its own. */
+  setShape(body, shape, mass) {
+    const weight = mass === undefined ? 0 : given('body_mass', mass);
+    this.run('P_body_set_shape', id(body, 'body'), id(shape, 'shape'), weight);
+  }
   /** The next step carries a kinematic body there. */
   moveTo(body, pose) { this.run('P_body_move_to', id(body, 'body'), given('pose', pose)); }
   /** [N], [N m] over the next step. */
@@ -127,6 +132,15 @@ export class World extends AskedWorld {
   createJointOf(properties) { return this.run('P_joint_create', given('joint_properties', properties), out('id')); }
   /** Limits, motor and spring; bodies, frames and type stay. */
   setJoint(joint, properties) { this.run('P_joint_set', id(joint, 'joint'), given('joint_properties', properties)); }
+  /** Parts of it: [rad] or [m]; a motor without torque, a spring without frequency is none. */
+  setLimits(joint, lower, upper) { this.#setNumbers('limits', joint, {lower, upper}); }
+  setMotor(joint, speed, torque) { this.#setNumbers('motor', joint, {speed, torque}); }
+  setSpring(joint, frequency, damping) { this.#setNumbers('spring', joint, {frequency, damping}); }
+  setTarget(joint, target) { this.#setNumbers('target', joint, {target}); }
+  #setNumbers(what, joint, numbers) {
+    const {word} = this.calls.numbers.scalar;
+    this.run(`P_joint_set_${what}`, id(joint, 'joint'), ...Object.entries(numbers).map(([name, x]) => word(x, name)));
+  }
   destroyJoint(joint) { this.run('joint_destroy', id(joint, 'joint')); }
   /** A figure of bodies and joints, one of each a bone: {bodies, joints}. A root's joint is 0n. */
   addRagdoll(bones, settings = {}) {
@@ -145,9 +159,17 @@ export class World extends AskedWorld {
     const name = this.calls.nameOf('records', kind);
     return this.run(`P_add_${name}`, given(name, record), out('id'));
   }
-  set(kind, record, value) {
-    const name = this.calls.nameOf('records', kind);
-    this.run(`P_set_${name}`, id(record, 'record'), given(name, value));
+  /** These members of it; the others stay, bit for bit. */
+  set(kind, record, changes) { this.#change(this.calls.nameOf('records', kind), record, changes); }
+  /** What a game asks of it until it asks something else: setInput('character', id, {move: [1, 0, 0]}). */
+  setInput(kind, record, changes) { this.#change(`${this.calls.nameOf('inputs', kind)}_input`, record, changes); }
+  #change(name, record, changes) {
+    const {calls} = this;
+    calls.begin();
+    const at = calls.sized(name);
+    this.runNow(`P_get_${name}`, id(record, 'record'), at);
+    within(`set_${name}`, () => calls.layout(name).write(calls.module.view, at, changes, ''));
+    this.runNow(`P_set_${name}`, record, at);
   }
   remove(kind, record) { this.run(`remove_${this.calls.nameOf('records', kind)}`, id(record, 'record')); }
   /** Pieces in place of bodies that a step broke, at most `most` bodies. Once a frame. */

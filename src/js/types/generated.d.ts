@@ -106,6 +106,7 @@ export interface RecordKinds<N = number> {
   water: Water<N>;
   drag: Drag<N>;
   aero_surface: AeroSurface<N>;
+  damping_zone: DampingZone<N>;
   material_pair: MaterialPair<N>;
   breakable: Breakable<N>;
   character: Character<N>;
@@ -115,17 +116,24 @@ export interface RecordKinds<N = number> {
   ghost: Ghost;
   one_way: OneWay<N>;
   hit_report: HitReport<N>;
+  contact_report: ContactReport;
   joint_load: JointLoad<N>;
   coupling: Coupling<N>;
   axis_drive: AxisDrive<N>;
-  move_target: MoveTarget<N>;
   kind_ghost: KindGhost;
-  ranked_zone: RankedZone<N>;
-  contact_report: ContactReport;
   kind_response: KindResponse<N>;
-  damping_zone: DampingZone<N>;
-  ranked_water: RankedWater<N>;
   sensor_mount: SensorMount<N>;
+}
+export interface RecordInputs<N = number> {
+  breakable: BreakableInput<N>;
+  character: CharacterInput<N>;
+  vehicle: VehicleInput<N>;
+}
+export interface RecordStates<N = number> {
+  character: CharacterState<N>;
+  vehicle: VehicleState<N>;
+  wheel: WheelState<N>;
+  joint_load: JointLoadState<N>;
 }
 
 export interface Filter {
@@ -1105,6 +1113,9 @@ export interface ForceZone<N = number> {
   wind: Vec3<N>;
   /** categories: Filter. The wind blows for all */
   mask: number;
+  priority: number;
+  /** zone_effect: what it hides, of zones of lower priority; 0: it adds to them */
+  replaces: number;
 }
 
 export interface Attractor<N = number> {
@@ -1225,6 +1236,9 @@ export interface Water<N = number> {
   waveDirection: Vec3<N>;
   /** categories: Filter */
   mask: number;
+  priority: number;
+  /** hides water of lower priority from what it acts on */
+  replaces: boolean;
 }
 
 export interface Drag<N = number> {
@@ -1254,6 +1268,23 @@ export interface AeroSurface<N = number> {
   isUnderWater: boolean;
 }
 
+export interface DampingZone<N = number> {
+  shape: ZoneShapeName;
+  /** of a sphere the position alone */
+  pose: Pose<N>;
+  /** [m] of a box; of a sphere x is the radius */
+  half: Vec3<N>;
+  /** [1/s] of velocities */
+  linear: N;
+  /** [1/s] of angular velocities */
+  angular: N;
+  /** categories: Filter */
+  mask: number;
+  priority: number;
+  /** hides zones of lower priority from what it acts on */
+  replaces: boolean;
+}
+
 export interface MaterialPair<N = number> {
   /** Material::kind, 1 or more */
   kindA: number;
@@ -1274,7 +1305,7 @@ export interface MaterialPair<N = number> {
 export interface Breakable<N = number> {
   body: bigint;
   /** [kg m/s] */
-  impulse: N;
+  breakImpulse: N;
   pattern: BreakPatternName;
   /** 2 to 256; of eight_boxes 8 or more */
   mostPieces: number;
@@ -1291,12 +1322,6 @@ export interface Breakable<N = number> {
   expires: bigint;
   /** break_bodies() removes the shape along with it: pieces have shapes of their own */
   ownsShape: boolean;
-  /** [kg m/s] the mark; 0: whole */
-  brokenBy: N;
-  /** [m] body frame */
-  hitPoint: Vec3<N>;
-  /** [1] of the blow, into the body, body frame */
-  hitDirection: Vec3<N>;
 }
 
 export interface Character<N = number> {
@@ -1311,30 +1336,12 @@ export interface Character<N = number> {
   mass: N;
   /** [N] */
   pushForce: N;
-  /** [m/s^2] towards `move` while it is in the air */
+  /** [m/s^2] towards CharacterInput::move while it is in the air */
   airAcceleration: N;
   /** [1] */
   gravityScale: N;
   /** categories in its way, of those that its body's Filter collides with */
   mask: number;
-  /** [m/s] along the ground, world */
-  move: Vec3<N>;
-  /** [m/s] upwards; 0 again once it has left the ground */
-  jump: N;
-  /** from here on: how the last step left it */
-  footing: FootingName;
-  /** null: airborne, or put elsewhere since */
-  ground: bigint;
-  /** [m] on the ground, in its body's frame */
-  foot: Vec3<N>;
-  /** [m] the same, world */
-  footAt: Vec3<N>;
-  /** [m/s] world */
-  velocity: Vec3<N>;
-  /** [1] of the ground */
-  normal: Vec3<N>;
-  /** [steps] in a row in which it could not leave what it overlaps */
-  stuck: number;
 }
 
 export interface Vehicle<N = number> {
@@ -1345,8 +1352,6 @@ export interface Vehicle<N = number> {
   engineSpeed: N;
   /** [1] 0: neutral; below 0: reverse */
   gears: N[];
-  /** of gears */
-  gear: number;
   /** [1] */
   finalDrive: N;
   /** [kg m^2] 0, or 2^-10 or more */
@@ -1363,20 +1368,6 @@ export interface Vehicle<N = number> {
   ackermann: N;
   /** [1] 0 to 2 */
   trackSteer: N;
-  /** [1] -1 to 1 */
-  throttle: N;
-  /** [1] 0: the engine runs alone, to 1: engaged */
-  clutch: N;
-  /** [1] 0 to 1 */
-  brake: N;
-  /** [1] 0 to 1 */
-  handbrake: N;
-  /** [1] -1 to 1 */
-  steer: N;
-  /** [rad/s] of its shaft, up to fastest_engine() */
-  engineSpin: N;
-  /** [N m] on the gears, in the last sub-step */
-  clutchLoad: N;
 }
 
 export interface Wheel<N = number> {
@@ -1425,27 +1416,6 @@ export interface Wheel<N = number> {
   antiRoll: N;
   /** 0: none */
   track: number;
-  /** [rad/s] about the axle, seen from the body */
-  spin: N;
-  /** [rad] that it has turned, 0 to 2 pi */
-  angle: N;
-  /** [rad] from axle_direction, counter-clockwise seen from above */
-  steered: N;
-  /** [m] from the hard point to the wheel's middle */
-  length: N;
-  /** [1] of the tyre: the mean of this and earlier sub-steps, the last counts a half */
-  slip: N;
-  contactBody: bigint;
-  /** [m] world */
-  contactPoint: Vec3<N>;
-  /** [1] of the ground, world */
-  contactNormal: Vec3<N>;
-  /** [N] along the normal */
-  load: N;
-  /** [N] on the body, forward */
-  along: N;
-  /** [N] on the body, normal x forward */
-  across: N;
 }
 
 export interface SurfaceVelocity<N = number> {
@@ -1477,16 +1447,16 @@ export interface HitReport<N = number> {
   speed: N;
 }
 
+export interface ContactReport {
+  body: bigint;
+}
+
 export interface JointLoad<N = number> {
   joint: bigint;
   /** [N] 0: no force breaks it */
   breakForce: N;
   /** [N m] 0: no torque breaks it */
   breakTorque: N;
-  /** [N] on body b, of all the joint does; held at the format's end */
-  force: N;
-  /** [N m] about b's origin of the joint; held at the format's end */
-  torque: N;
 }
 
 export interface Coupling<N = number> {
@@ -1530,38 +1500,11 @@ export interface AxisDrive<N = number> {
   limitDamping: N;
 }
 
-export interface MoveTarget<N = number> {
-  body: bigint;
-  /** of the body's origin, world */
-  pose: Pose<N>;
-}
-
 export interface KindGhost {
   /** Material::kind, 1 or more */
   kindA: number;
   /** Material::kind, 1 or more */
   kindB: number;
-}
-
-export interface RankedZone<N = number> {
-  shape: ZoneShapeName;
-  /** of a sphere the position alone */
-  pose: Pose<N>;
-  /** [m] of a box; of a sphere x is the radius */
-  half: Vec3<N>;
-  /** [m/s^2] world */
-  acceleration: Vec3<N>;
-  /** [m/s] world */
-  wind: Vec3<N>;
-  /** categories: Filter. The wind blows for all */
-  mask: number;
-  priority: number;
-  /** zone_effect: what it hides, of zones of lower priority; 0: it adds to them */
-  replaces: number;
-}
-
-export interface ContactReport {
-  body: bigint;
 }
 
 export interface KindResponse<N = number> {
@@ -1579,57 +1522,95 @@ export interface KindResponse<N = number> {
   maxForce: N;
 }
 
-export interface DampingZone<N = number> {
-  shape: ZoneShapeName;
-  /** of a sphere the position alone */
-  pose: Pose<N>;
-  /** [m] of a box; of a sphere x is the radius */
-  half: Vec3<N>;
-  /** [1/s] of velocities */
-  linear: N;
-  /** [1/s] of angular velocities */
-  angular: N;
-  /** categories: Filter */
-  mask: number;
-  priority: number;
-  /** hides zones of lower priority from what it acts on */
-  replaces: boolean;
-}
-
-export interface RankedWater<N = number> {
-  /** [m] along up, of the water at rest */
-  surfaceHeight: N;
-  /** [kg/m^3] */
-  density: N;
-  /** [m] of the region: a box along the world's axes */
-  middle: Vec3<N>;
-  /** [m] all 0: everywhere */
-  half: Vec3<N>;
-  /** [m/s] */
-  current: Vec3<N>;
-  /** [1/s] each of a kg of water displaced */
-  linearDrag: N;
-  /** [1/m] the same, times speed */
-  quadraticDrag: N;
-  /** [1/s] of the body's turning, each of its kg displaced */
-  angularDrag: N;
-  /** [m] above the water at rest; 0: no wave */
-  waveHeight: N;
-  /** [m] */
-  waveLength: N;
-  /** [s] */
-  wavePeriod: N;
-  /** [1] unit length; along the surface */
-  waveDirection: Vec3<N>;
-  /** categories: Filter */
-  mask: number;
-  priority: number;
-}
-
 export interface SensorMount<N = number> {
   sensor: bigint;
   /** the carrier: of any type */
   on: bigint;
   /** of the sensor's origin in the carrier's frame */
   frame: Pose<N>;
+}
+
+export interface BreakableInput<N = number> {
+  /** [kg m/s] 0: whole */
+  impulse: N;
+  /** [m] body frame */
+  point: Vec3<N>;
+  /** [1] into the body, body frame */
+  direction: Vec3<N>;
+}
+
+export interface CharacterInput<N = number> {
+  /** [m/s] along the ground, world */
+  move: Vec3<N>;
+  /** [m/s] upwards; 0 again once it has left the ground */
+  jump: N;
+}
+
+export interface VehicleInput<N = number> {
+  /** [1] -1 to 1 */
+  throttle: N;
+  /** [1] 0: the engine runs alone, to 1: engaged */
+  clutch: N;
+  /** [1] 0 to 1 */
+  brake: N;
+  /** [1] 0 to 1 */
+  handbrake: N;
+  /** [1] -1 to 1 */
+  steer: N;
+  /** of VehicleSettings::gears */
+  gear: number;
+}
+
+export interface CharacterState<N = number> {
+  footing: FootingName;
+  /** null: airborne, or put elsewhere since */
+  ground: bigint;
+  /** [steps] in a row in which it could not leave what it overlaps */
+  stuck: number;
+  /** [m] on the ground, in its body's frame */
+  foot: Vec3<N>;
+  /** [m] the same, world */
+  footAt: Vec3<N>;
+  /** [m/s] world */
+  velocity: Vec3<N>;
+  /** [1] of the ground */
+  normal: Vec3<N>;
+}
+
+export interface VehicleState<N = number> {
+  /** [rad/s] of its shaft, up to fastest_engine() */
+  engineSpin: N;
+  /** [N m] on the gears, in the last sub-step */
+  clutchLoad: N;
+}
+
+export interface WheelState<N = number> {
+  /** [rad/s] about the axle, seen from the body */
+  spin: N;
+  /** [rad] that it has turned, 0 to 2 pi */
+  angle: N;
+  /** [rad] from axle_direction, counter-clockwise seen from above */
+  steered: N;
+  /** [m] from the hard point to the wheel's middle */
+  length: N;
+  /** [1] of the tyre: the mean of this and earlier sub-steps, the last counts a half */
+  slip: N;
+  contactBody: bigint;
+  /** [m] world */
+  contactPoint: Vec3<N>;
+  /** [1] of the ground, world */
+  contactNormal: Vec3<N>;
+  /** [N] along the normal */
+  load: N;
+  /** [N] on the body, forward */
+  along: N;
+  /** [N] on the body, normal x forward */
+  across: N;
+}
+
+export interface JointLoadState<N = number> {
+  /** [N] on body b, of all the joint does; held at the format's end */
+  force: N;
+  /** [N m] about b's origin of the joint; held at the format's end */
+  torque: N;
 }

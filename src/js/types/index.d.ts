@@ -8,7 +8,8 @@ import type {
   BoxQuery, BreakReport, BroadPhaseName, Broke, Child, ClosestBody, ContactBegin, ContactHit, ContactPoint, Filter,
   GenreName, JointAxisName, JointBroke, JointFlagsBits, JointProperties, Joints, JointTypeName, Material, OverlapHit,
   OverlapQuery, PhaseName, PlayerStats, PointQuery, Pose, Primitive, ProposalName, RagdollBone, RagdollSettings,
-  RayCast, RayHit, RecordingName, RecordKinds, RenderPose, ReplayInfo, ReplayResult, SelfcheckResult, SensorEvent,
+  RayCast, RayHit, RecordingName, RecordInputs, RecordKinds, RecordStates, RenderPose, ReplayInfo, ReplayResult,
+  SelfcheckResult, SensorEvent,
   SessionConfig,
   SessionEvent, SessionStats, Settings, ShapeCast, ShapeHit, Shapes, ShapeTypeName, StepReport, Vec3, WorldCounts,
   ZoneEffectsBits
@@ -174,6 +175,7 @@ export interface World<N = number> extends Owned {
   setMotion(body: bigint, motion?: {gravityScale?: N, linearDamping?: N, angularDamping?: N, locks?: number}): void;
   setType(body: bigint, type: BodyTypeName, mass?: Given<BodyMass<N>>): void;
   setMass(body: bigint, mass: Given<BodyMass<N>>): void;
+  setShape(body: bigint, shape: bigint, mass?: Given<BodyMass<N>>): void;
   moveTo(body: bigint, pose: Given<Pose<N>>): void;
   /** [N], [N m] over the next step. */
   applyForce(body: bigint, force: ArrayLike<N>, torque?: ArrayLike<N>): void;
@@ -189,6 +191,10 @@ export interface World<N = number> extends Owned {
     JointProperties<N>;
   createJointOf(properties: Given<JointProperties<N>>): bigint;
   setJoint(joint: bigint, properties: Given<JointProperties<N>>): void;
+  setLimits(joint: bigint, lower: N, upper: N): void;
+  setMotor(joint: bigint, speed: N, torque: N): void;
+  setSpring(joint: bigint, frequency: N, damping: N): void;
+  setTarget(joint: bigint, target: N): void;
   destroyJoint(joint: bigint): void;
   hasJoint(joint: bigint): boolean;
   joints(): bigint[];
@@ -201,7 +207,13 @@ export interface World<N = number> extends Owned {
 
   /** Records: what acts from step to step. */
   add<K extends keyof RecordKinds<N>>(kind: K, record: Given<RecordKinds<N>[K]>): bigint;
-  set<K extends keyof RecordKinds<N>>(kind: K, record: bigint, value: Given<RecordKinds<N>[K]>): void;
+  /** These members of it; the others stay, bit for bit. */
+  set<K extends keyof RecordKinds<N>>(kind: K, record: bigint, changes: Given<RecordKinds<N>[K]>): void;
+  /** What a game asks of it, until it asks something else. */
+  setInput<K extends keyof RecordInputs<N>>(kind: K, record: bigint, changes: Given<RecordInputs<N>[K]>): void;
+  input<K extends keyof RecordInputs<N>>(kind: K, record: bigint): RecordInputs<N>[K];
+  /** How the last step left it. */
+  state<K extends keyof RecordStates<N>>(kind: K, record: bigint): RecordStates<N>[K];
   get<K extends keyof RecordKinds<N>>(kind: K, record: bigint): RecordKinds<N>[K];
   remove(kind: keyof RecordKinds<N>, record: bigint): void;
   breakBodies(most: number): BreakReport;

@@ -224,6 +224,18 @@ class World(Handle):
         """These members of it; the others stay, bit for bit."""
         self.call(f"set_{kind}", record, self.get_record(kind, record).set(**changes))
 
+    def get_input(self, kind, record):
+        """What a game asks of a record until it asks something else: of a breakable, character or vehicle."""
+        return self.call(f"get_{kind}_input", record)
+
+    def set_input(self, kind, record, **changes):
+        """These members of its input; the others stay."""
+        self.call(f"set_{kind}_input", record, self.get_input(kind, record).set(**changes))
+
+    def get_state(self, kind, record):
+        """How the last step left a record: a character, joint_load, vehicle or wheel."""
+        return self.call(f"get_{kind}_state", record)
+
     def remove_record(self, kind, record):
         self.call(f"remove_{kind}", record)
 

@@ -94,7 +94,7 @@ void add_blows(Scene& scene) {
   scene.records.push_back({"material_pair", {{"kind_a", {1}}, {"kind_b", {2}}, {"friction", {0.125}}}});
   scene.records.push_back(
       {"breakable",
-       {{"body", {cube}}, {"impulse", {10}}, {"most_pieces", {8}}, {"small_mass", {4}}, {"lifetime", {60}}}});
+       {{"body", {cube}}, {"break_impulse", {10}}, {"most_pieces", {8}}, {"small_mass", {4}}, {"lifetime", {60}}}});
   scene.records.push_back({"explosion",
                            {{"centre", {12, 0.25, 0}},
                             {"begin", {30}},

@@ -16,7 +16,7 @@ SceneBody ball(Point at, double radius, double mass, Point velocity) {
 SceneRecord breakable(double body, double impulse, double pattern, double pieces, double depth = 1) {
   return {"breakable",
           {{"body", {body}},
-           {"impulse", {impulse}},
+           {"break_impulse", {impulse}},
            {"pattern", {pattern}},
            {"most_pieces", {pieces}},
            {"depth", {depth}},

@@ -35,6 +35,12 @@ template <class S> RowKey key_of(const Contact<S>& contact) {
 }
 inline RowKey key_of(const SensorOverlap& overlap) { return {{overlap.sensor, overlap.other}}; }
 
+/// Every kind of records, whichever the state has: two states are visited alike.
+template <class Visitor, class Records, class Parts>
+void members_of_all(Visitor& visit, const Records& records, const Parts& parts) {
+  Records::members_of((1u << Records::kKinds) - 1, visit, records, parts);
+}
+
 /// The rows of two arrays that have one key; where an array has no keys, of one index.
 template <class Array> class RowPairs {
  public:
@@ -78,8 +84,8 @@ class RowKeys {
   }
   template <class List> void bodies_in_pages(const List& list) { list.arrays(*this); }
   template <class List> void islands(const char*, const List&) {}
-  template <class Records> void records(const Records& value) {
-    std::remove_cvref_t<decltype(*value)>::members(*this, *value);
+  template <class Records, class Parts> void records(const Records& value, const Parts& parts) {
+    members_of_all(*this, *value, parts);
   }
   template <class Store> void store(const char*, const Store&) {}
 
@@ -105,8 +111,8 @@ struct MemberList {
   template <class T> void operator()(const char*, const T& member) { members.push_back(&member); }
   template <class List> void bodies_in_pages(const List& list) { members.push_back(&list); }
   template <class List> void islands(const char*, const List& list) { members.push_back(&list); }
-  template <class Records> void records(const Records& value) {
-    std::remove_cvref_t<decltype(*value)>::members(*this, *value);
+  template <class Records, class Parts> void records(const Records& value, const Parts& parts) {
+    members_of_all(*this, *value, parts);
   }
   template <class Store> void store(const char*, const Store& value) { members.push_back(&value); }
 };
@@ -147,8 +153,8 @@ class StateDiffer {
       });
     });
   }
-  template <class Records> void records(const Records& value) {
-    std::remove_cvref_t<decltype(*value)>::members(*this, *value);
+  template <class Records, class Parts> void records(const Records& value, const Parts& parts) {
+    members_of_all(*this, *value, parts);
   }
   template <class Store> void store(const char* name, const Store& a) {
     rows(PathPart{outer_, name, 0}, name, a->names(), other(a)->names());

@@ -27,7 +27,7 @@ template <class S> class Breakables : public ::testing::Test {
                              std::uint32_t depth = 1) {
     Breakable<S> b;
     b.body = body;
-    b.impulse = num<S>(impulse);
+    b.break_impulse = num<S>(impulse);
     b.pattern = pattern;
     b.most_pieces = pattern == BreakPattern::eight_boxes ? 8 : 16;
     b.depth = depth;
@@ -68,7 +68,7 @@ TYPED_TEST(Breakables, break_above_their_impulse_and_not_below) {
     const BodyId hitter = this->ball({0, 0.5, 1.5}, {0, 0, -speed});
     const bool broken = this->step_until_broken(120);
     EXPECT_EQ(broken, speed > 5);
-    EXPECT_EQ(this->world_.find(id)->broken_by > S(0), broken);
+    EXPECT_EQ(this->world_.input(id)->impulse > S(0), broken);
     if (broken) {
       const Broke<S> told = this->world_.events().broke[0];
       EXPECT_EQ(told.body, body);
@@ -76,7 +76,7 @@ TYPED_TEST(Breakables, break_above_their_impulse_and_not_below) {
       EXPECT_GT(to_double(told.impulse), 50);
       EXPECT_NEAR(to_double(told.point.z), 0.5, 0.1);
       EXPECT_LT(to_double(told.direction.z), -0.9);
-      EXPECT_EQ(this->world_.find(id)->broken_by, told.impulse);
+      EXPECT_EQ(this->world_.input(id)->impulse, told.impulse);
     }
     const BreakReport report = break_bodies(this->world_);
     EXPECT_EQ(report.broken, broken ? 1u : 0u);
@@ -128,8 +128,9 @@ TYPED_TEST(Breakables, small_pieces_expire_with_their_shapes) {
   const BodyId body = this->crate({0, 0.5, 0});
   const BreakableId id = this->make_breakable(body, 10);
   Breakable<S> record = *this->world_.find(id);
-  record.small_mass = S(100), record.lifetime = 30, record.broken_by = S(1);  // broken without a blow
+  record.small_mass = S(100), record.lifetime = 30;
   ASSERT_TRUE(this->world_.set(id, record));
+  ASSERT_TRUE(this->world_.set_input(id, {.impulse = S(1)}));  // broken without a blow
   EXPECT_EQ(break_bodies(this->world_).pieces, 8u);
   EXPECT_GT(this->world_.counts().shapes, shapes + 1);
   std::uint32_t expired = 0;
@@ -146,9 +147,7 @@ TYPED_TEST(Breakables, so_many_break_at_once_and_the_rest_after_them) {
   using S = TypeParam;
   for (int n = 0; n < 6; ++n) {
     const BreakableId id = this->make_breakable(this->crate({2.0 * n, 0.5, 0}), 10);
-    Breakable<S> marked = *this->world_.find(id);
-    marked.broken_by = S(1);
-    ASSERT_TRUE(this->world_.set(id, marked));
+    ASSERT_TRUE(this->world_.set_input(id, {.impulse = S(1)}));
   }
   for (const std::uint32_t expected : {4u, 2u, 0u}) EXPECT_EQ(break_bodies(this->world_, 4).broken, expected);
 }
@@ -160,7 +159,7 @@ TYPED_TEST(Breakables, what_cannot_break_stays_whole) {
   ASSERT_TRUE(this->step_until_broken(120));
   EXPECT_EQ(break_bodies(this->world_).whole, 1u);
   EXPECT_TRUE(this->world_.contains(body));
-  EXPECT_EQ(this->world_.find(id)->broken_by, S(0));
+  EXPECT_EQ(this->world_.input(id)->impulse, S(0));
 }
 
 TYPED_TEST(Breakables, marks_and_pieces_are_state) {
@@ -205,20 +204,25 @@ TYPED_TEST(Breakables, bad_numbers_are_named) {
   };
   refused(
       "body", [](Breakable<S>& b) { b.body = {}; }, Fault::null_id);
-  refused("impulse", [](Breakable<S>& b) { b.impulse = S(-1); });
+  refused("break_impulse", [](Breakable<S>& b) { b.break_impulse = S(-1); });
   refused("pattern", [](Breakable<S>& b) { b.pattern = static_cast<BreakPattern>(4); });
   refused("most_pieces", [](Breakable<S>& b) { b.most_pieces = 7; });
   refused("most_pieces", [](Breakable<S>& b) { b.most_pieces = 257; });
   refused("depth", [](Breakable<S>& b) { b.depth = 17; });
   refused("grain", [](Breakable<S>& b) { b.grain = Vec3<Unit<S>>::zero(); });
   refused("small_mass", [](Breakable<S>& b) { b.small_mass = S(-1); });
-  refused("broken_by", [](Breakable<S>& b) { b.broken_by = S(-1); });
-  refused(
-      "hit_point", [](Breakable<S>& b) { b.hit_point.x = highest<S>(); }, Fault::out_of_range);
-  refused("hit_direction", [](Breakable<S>& b) { b.hit_direction.x = Unit<S>(0.5); });
-  EXPECT_TRUE(this->world_.state().records->untouched());
-  this->make_breakable(body, 1);
+  EXPECT_EQ(this->world_.state().records->kinds(), 0u);
+  const BreakableId id = this->make_breakable(body, 1);
   refused("body", [](Breakable<S>&) {});  // has a record
+  const auto refused_input = [&](const char* field, const Blow<S>& blow, Fault fault = Fault::bad_argument) {
+    EXPECT_FALSE(this->world_.set_input(id, blow)) << field;
+    EXPECT_STREQ(this->world_.fault().field, field);
+    EXPECT_EQ(this->world_.fault().fault, fault) << field;
+    EXPECT_EQ(this->world_.input(id)->impulse, S(0));
+  };
+  refused_input("impulse", {.impulse = S(-1)});
+  refused_input("point", {.impulse = S(1), .point = {highest<S>(), S(0), S(0)}}, Fault::out_of_range);
+  refused_input("direction", {.impulse = S(1), .direction = {Unit<S>(0.5), Unit<S>(0), Unit<S>(0)}});
 }
 
 TYPED_TEST(Breakables, what_is_disabled_breaks_once_it_is_not) {
@@ -227,11 +231,8 @@ TYPED_TEST(Breakables, what_is_disabled_breaks_once_it_is_not) {
   BodyDefinition<S> d = moving<S>(add_box(w, 0.5, 0.5, 0.5), {0, 2, 0});
   d.mass = S(10);
   const BodyId crate = w.create(d);
-  this->make_breakable(crate, 1);
-  Breakable<S> marked = w.state().records->breakables.all()[0];
-  marked.broken_by = S(2);
-  marked.hit_direction = {Unit<S>(0), Unit<S>(-1), Unit<S>(0)};
-  ASSERT_TRUE(w.set(w.state().records->breakables.slot_map().template ids<BreakableId>()[0], marked))
+  const BreakableId id = this->make_breakable(crate, 1);
+  ASSERT_TRUE(w.set_input(id, {.impulse = S(2), .direction = {Unit<S>(0), Unit<S>(-1), Unit<S>(0)}}))
       << describe(w.fault());
   ASSERT_TRUE(w.set_enabled(crate, false));
   break_bodies(w, 8);

@@ -131,12 +131,11 @@ TEST(Pages, RecordWheelsAndWhatTheyBear) {
   std::vector<WheelId> wheels;
   for (const double z : {1.0, -1.0}) {
     for (const double x : {0.5, -0.5}) {
-      Wheel<double> wheel;
+      WheelSettings<double> wheel;
       wheel.body = chassis;
       wheel.hard_point = {x, 0, z};
       wheel.stiffness = 5000;
       wheel.damping = 400;
-      wheel.spin = 4 / wheel.radius;
       wheels.push_back(world.add(wheel));
     }
   }
@@ -172,7 +171,7 @@ TEST(Pages, RecordWheelsAndWhatTheyBear) {
 TEST(Pages, RecordWhatCharactersStandOn) {
   Balls balls({});
   World<double>& world = balls.world;
-  Character<double> walker;
+  CharacterSettings<double> walker;
   walker.body =
       world.create({.type = BodyType::kinematic, .shape = world.add_shape(Capsule{0.25, 0.5}), .position = {2, 1, 3}});
   world.add(walker);

@@ -6,7 +6,7 @@
 
 #include "isostep/collision/query/closest_point.hpp"
 #include "isostep/particles/particle_state.hpp"
-#include "unit/world/worlds.hpp"
+#include "unit/world/edited_state.hpp"
 
 namespace isostep::test {
 namespace {
@@ -301,15 +301,13 @@ template <class S> struct Cart {
     d.orientation = turn<S>({0, 1, 0}, turned);
     d.mass = S(40);
     body = world.create(d);
-    Vehicle<S> vehicle;
+    VehicleSettings<S> vehicle;
     vehicle.body = body;
     vehicle.brake_torque = S(200);
-    vehicle.brake = S(1);
-    vehicle.steer = S(1);
-    EXPECT_TRUE(world.add(vehicle));
+    EXPECT_TRUE(world.set_input(world.add(vehicle), {.brake = S(1), .steer = S(1)})) << describe(world.fault());
     const double x[] = {0, 0.5, -0.5}, z[] = {1, -1, -1};
     for (int i = 0; i < 3; ++i) {
-      Wheel<S> wheel;
+      WheelSettings<S> wheel;
       wheel.body = body;
       wheel.hard_point = vec<S>(x[i], 0, z[i]);
       wheel.stiffness = S(i == 0 ? 4000 : 2000);  // half of the weight is in front
@@ -365,9 +363,7 @@ TYPED_TEST(DebugDraws, TurnsWheelsAsTheyRollAndTellsTheirGrip) {
   Cart<S> cart;
   const WheelId id = cart.wheels[1];
   run(cart.world, 60);
-  Wheel<S> wheel = *cart.world.find(id);
-  wheel.angle = num<S>(kPi / 2);
-  ASSERT_TRUE(cart.world.set(id, wheel));
+  edit_parts(cart.world, [&](RecordParts<S>& parts) { parts.wheel_states[id.slot].angle = num<S>(kPi / 2); });
   const Told before = told(cart.world);
   const D3 still = axis_of(before.wheels[2].pose, {0, 0, 1}), turned = axis_of(before.wheels[1].pose, {0, 0, 1});
   EXPECT_NEAR(still.y, 0, 0.02);
@@ -400,7 +396,7 @@ TYPED_TEST(DebugDraws, TellsCharactersAndWhatTheyStandOn) {
   const BodyId ground = world.create(floor);
   BodyDefinition<S> d = moving<S>(world.add_shape(Capsule<S>{S(0.25), S(0.5)}), {0, 0.875, 0});
   d.type = BodyType::kinematic;
-  Character<S> walker;
+  CharacterSettings<S> walker;
   walker.body = world.create(d);
   const CharacterId id = world.add(walker);
   ASSERT_TRUE(id);

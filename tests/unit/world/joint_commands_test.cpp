@@ -102,7 +102,7 @@ TYPED_TEST(JointCommands, a_state_in_which_an_axis_has_two_drives_is_not_valid) 
   WorldState<S> state = w.state();
   EXPECT_EQ(StateValidator<S>(state).broken_rule(), nullptr);
   state.records.change().axis_drives.change_all()[0].axis = JointAxis::twist;
-  EXPECT_STREQ(StateValidator<S>(state).broken_rule(), "two drives have the same axis of a joint");
+  EXPECT_STREQ(StateValidator<S>(state).broken_rule(), "two records of a kind are about the same");
 }
 
 }  // namespace

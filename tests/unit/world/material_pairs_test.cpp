@@ -130,9 +130,9 @@ TYPED_TEST(MaterialPairs, a_state_with_two_records_of_the_same_kinds_or_a_bad_on
   };
   EXPECT_EQ(rule_of([](auto&, auto&) {}), "");
   EXPECT_EQ(rule_of([](auto& all, auto&) { std::swap(all[2].kind_a, all[2].kind_b), all[2].kind_a = 2; }),
-            "two pairs have the same kinds");
-  EXPECT_EQ(rule_of([](auto& all, auto&) { all[1].kind_a = 1; }), "a free pair names a kind");
-  EXPECT_EQ(rule_of([](auto& all, auto&) { all[0].friction = S(-1); }), "a force record is out of range");
+            "two records of a kind are about the same");
+  EXPECT_EQ(rule_of([](auto& all, auto&) { all[1].kind_a = 1; }), "a free record holds something");
+  EXPECT_EQ(rule_of([](auto& all, auto&) { all[0].friction = S(-1); }), "a record is out of range");
   EXPECT_EQ(rule_of([](auto&, auto& s) { s.restitution_threshold = S(-1); }), "settings out of range");
 }
 

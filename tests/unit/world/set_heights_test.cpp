@@ -68,7 +68,7 @@ TYPED_TEST(SetHeightsOf, a_car_over_a_pit_wakes_and_one_beside_it_sleeps_on) {
     const BodyId chassis = this->world.create(d);
     for (const double x : {-0.4, 0.4}) {
       for (const double z : {-0.4, 0.4}) {
-        Wheel<S> wheel;
+        WheelSettings<S> wheel;
         wheel.body = chassis;
         wheel.hard_point = vec<S>(x, 0, z);
         wheel.stiffness = S(5000);

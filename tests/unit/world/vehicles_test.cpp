@@ -3,6 +3,7 @@
 
 #include "isostep/replay/recorder.hpp"
 #include "isostep/state/verify.hpp"
+#include "isostep/store/state_validator.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -12,8 +13,8 @@ template <class S> class VehicleRecords : public ::testing::Test {
  protected:
   static constexpr double kMass = 400;
 
-  static Wheel<S> wheel_of(BodyId body, int i) {
-    Wheel<S> wheel;
+  static WheelSettings<S> wheel_of(BodyId body, int i) {
+    WheelSettings<S> wheel;
     wheel.body = body;
     wheel.hard_point = vec<S>(i % 2 == 0 ? 0.8 : -0.8, 0, i < 2 ? 1.25 : -1.25);
     wheel.stiffness = S(10000);
@@ -27,8 +28,8 @@ template <class S> class VehicleRecords : public ::testing::Test {
     d.mass = num<S>(mass);
     return w.create(d);
   }
-  Vehicle<S> vehicle_of(BodyId body) const {
-    Vehicle<S> v;
+  VehicleSettings<S> vehicle_of(BodyId body) const {
+    VehicleSettings<S> v;
     v.body = body;
     v.engine_torque = S(300);
     v.brake_torque = S(600);
@@ -42,20 +43,20 @@ template <class S> class VehicleRecords : public ::testing::Test {
     return body;
   }
   void control(double throttle, double brake, double steer = 0) {
-    Vehicle<S> v = *w.find(vehicle);
-    v.throttle = num<S>(throttle);
-    v.brake = num<S>(brake);
-    v.steer = num<S>(steer);
-    EXPECT_TRUE(w.set(vehicle, v));
+    VehicleInput<S> input = *w.input(vehicle);
+    input.throttle = num<S>(throttle);
+    input.brake = num<S>(brake);
+    input.steer = num<S>(steer);
+    EXPECT_TRUE(w.set_input(vehicle, input));
   }
   /// A track on each side, and an engine behind a clutch that slips while it starts.
   void add_tracks_and_clutch() {
     for (int i = 0; i < 4; ++i) {
-      Wheel<S> wheel = *w.find(wheels[i]);
+      WheelSettings<S> wheel = *w.find(wheels[i]);
       wheel.track = i % 2 == 0 ? 1 : 2;
       EXPECT_TRUE(w.set(wheels[i], wheel));
     }
-    Vehicle<S> v = *w.find(vehicle);
+    VehicleSettings<S> v = *w.find(vehicle);
     v.engine_inertia = num<S>(0.5);
     v.clutch_torque = S(200);
     EXPECT_TRUE(w.set(vehicle, v));
@@ -66,6 +67,18 @@ template <class S> class VehicleRecords : public ::testing::Test {
     EXPECT_FALSE(w.add(record)) << field;
     EXPECT_STREQ(w.fault().field, field);
   }
+  template <class Change> void expect_input_fault(VehicleId id, const char* field, const Change& change) {
+    VehicleInput<S> input;
+    change(input);
+    EXPECT_FALSE(w.set_input(id, input)) << field;
+    EXPECT_STREQ(w.fault().field, field);
+  }
+  /// Whether a state read from outside may have that.
+  template <class Change> bool is_valid_with(const Change& change) {
+    WorldState<S> state = w.state();
+    change(state.parts);
+    return StateValidator<S>(state).broken_rule() == nullptr;
+  }
 
   World<S> w{settings<S>()};
   VehicleId vehicle;
@@ -75,44 +88,52 @@ TYPED_TEST_SUITE(VehicleRecords, AllScalars);
 
 TYPED_TEST(VehicleRecords, name_what_is_wrong_with_a_vehicle) {
   using S = TypeParam;
-  using V = Vehicle<S>;
+  using V = VehicleSettings<S>;
+  using I = VehicleInput<S>;
   const V v = this->vehicle_of(this->add_body({0, 2, 0}));
   this->expect_fault(v, "body", [&](V& r) { r.body = {}; });
   this->expect_fault(v, "body", [&](V& r) { r.body = add_ground(this->w); });
   this->expect_fault(v, "engine_torque", [](V& r) { r.engine_torque = S(-1); });
   this->expect_fault(v, "engine_speed", [](V& r) { r.engine_speed = S(-1); });
-  this->expect_fault(v, "gear", [](V& r) { r.gear = kMostGears; });
   this->expect_fault(v, "differential_lock", [](V& r) { r.differential_lock = S(2); });
   this->expect_fault(v, "brake_torque", [](V& r) { r.brake_torque = S(-1); });
   this->expect_fault(v, "handbrake_torque", [](V& r) { r.handbrake_torque = S(-1); });
   this->expect_fault(v, "ackermann", [](V& r) { r.ackermann = S(2); });
-  this->expect_fault(v, "throttle", [](V& r) { r.throttle = S(-2); });
-  this->expect_fault(v, "brake", [](V& r) { r.brake = S(2); });
-  this->expect_fault(v, "handbrake", [](V& r) { r.handbrake = S(-1); });
-  this->expect_fault(v, "steer", [](V& r) { r.steer = S(2); });
   this->expect_fault(v, "engine_inertia", [](V& r) { r.engine_inertia = S(-1); });
   this->expect_fault(v, "engine_inertia", [](V& r) { r.engine_inertia = S(0x1p-11); });
   this->expect_fault(v, "clutch_torque", [](V& r) { r.clutch_torque = S(-1); });
-  this->expect_fault(v, "clutch", [](V& r) { r.clutch = S(-1); });
-  this->expect_fault(v, "clutch", [](V& r) { r.clutch = S(2); });
   this->expect_fault(v, "track_steer", [](V& r) { r.track_steer = S(-1); });
   this->expect_fault(v, "track_steer", [](V& r) { r.track_steer = S(3); });
-  this->expect_fault(v, "engine_spin", [](V& r) { r.engine_spin = fastest_engine<S>() * S(2); });
-  EXPECT_TRUE(this->w.add(v));
+  const VehicleId id = this->w.add(v);
+  ASSERT_TRUE(id);
   this->expect_fault(v, "body", [](V&) {});
+  const std::uint64_t before = this->w.hash();
+  this->expect_input_fault(id, "gear", [](I& i) { i.gear = kMostGears; });
+  this->expect_input_fault(id, "throttle", [](I& i) { i.throttle = S(-2); });
+  this->expect_input_fault(id, "brake", [](I& i) { i.brake = S(2); });
+  this->expect_input_fault(id, "handbrake", [](I& i) { i.handbrake = S(-1); });
+  this->expect_input_fault(id, "steer", [](I& i) { i.steer = S(2); });
+  this->expect_input_fault(id, "clutch", [](I& i) { i.clutch = S(-1); });
+  this->expect_input_fault(id, "clutch", [](I& i) { i.clutch = S(2); });
+  EXPECT_EQ(this->w.hash(), before);
+  const auto is_valid_with = [&](const auto& change) {
+    return this->is_valid_with([&](RecordParts<S>& parts) { change(parts.vehicle_states[id.slot]); });
+  };
+  EXPECT_TRUE(is_valid_with([](VehicleState<S>&) {}));
+  EXPECT_FALSE(is_valid_with([](VehicleState<S>& s) { s.engine_spin = fastest_engine<S>() * S(2); }));
   if constexpr (kIsFixed<S>) return;
   const S infinite = from_bits<S>(to_bits(highest<S>()) + 1);
   this->expect_fault(v, "gears", [&](V& r) { r.gears[3] = infinite; });
   this->expect_fault(v, "final_drive", [&](V& r) { r.final_drive = infinite; });
-  this->expect_fault(v, "engine_spin", [&](V& r) { r.engine_spin = infinite; });
   this->expect_fault(v, "engine_inertia", [&](V& r) { r.engine_inertia = infinite; });
   this->expect_fault(v, "clutch_torque", [&](V& r) { r.clutch_torque = infinite; });
-  this->expect_fault(v, "clutch_load", [&](V& r) { r.clutch_load = infinite; });
+  EXPECT_FALSE(is_valid_with([&](VehicleState<S>& s) { s.engine_spin = infinite; }));
+  EXPECT_FALSE(is_valid_with([&](VehicleState<S>& s) { s.clutch_load = infinite; }));
 }
 
 TYPED_TEST(VehicleRecords, name_what_is_wrong_with_a_wheel) {
   using S = TypeParam;
-  using W = Wheel<S>;
+  using W = WheelSettings<S>;
   using U = Unit<S>;
   const W wheel = this->wheel_of(this->add_body({0, 2, 0}), 0);
   this->expect_fault(wheel, "body", [&](W& r) { r.body = {}; });
@@ -133,16 +154,21 @@ TYPED_TEST(VehicleRecords, name_what_is_wrong_with_a_wheel) {
   this->expect_fault(wheel, "brake_share", [](W& r) { r.brake_share = S(2); });
   this->expect_fault(wheel, "handbrake_share", [](W& r) { r.handbrake_share = S(2); });
   this->expect_fault(wheel, "anti_roll", [](W& r) { r.anti_roll = S(-1); });
-  this->expect_fault(wheel, "angle", [](W& r) { r.angle = S(7); });
-  this->expect_fault(wheel, "steered", [](W& r) { r.steered = S(-7); });
-  this->expect_fault(wheel, "slip", [](W& r) { r.slip = S(5); });
   this->expect_fault(wheel, "peak_slip", [](W& r) { r.peak_slip = S(0); });
   this->expect_fault(wheel, "peak_grip", [](W& r) { r.peak_grip = S(-1); });
   this->expect_fault(wheel, "slide_slip", [](W& r) { r.slide_slip = r.peak_slip; });
   this->expect_fault(wheel, "slide_slip", [](W& r) { r.slide_slip = S(5); });
   this->expect_fault(wheel, "slide_grip", [](W& r) { r.slide_grip = S(17); });
-  this->expect_fault(wheel, "load", [](W& r) { r.load = S(-1); });
-  EXPECT_TRUE(this->w.add(wheel));
+  const WheelId id = this->w.add(wheel);
+  ASSERT_TRUE(id);
+  const auto is_valid_with = [&](const auto& change) {
+    return this->is_valid_with([&](RecordParts<S>& parts) { change(parts.wheel_states[id.slot]); });
+  };
+  EXPECT_TRUE(is_valid_with([](WheelState<S>&) {}));
+  EXPECT_FALSE(is_valid_with([](WheelState<S>& s) { s.angle = S(7); }));
+  EXPECT_FALSE(is_valid_with([](WheelState<S>& s) { s.steered = S(-7); }));
+  EXPECT_FALSE(is_valid_with([](WheelState<S>& s) { s.slip = S(5); }));
+  EXPECT_FALSE(is_valid_with([](WheelState<S>& s) { s.load = S(-1); }));
   if constexpr (std::is_same_v<S, Q16_16>)
     this->expect_fault(wheel, "inertia", [](W& r) { r.inertia = num<S>(0.125); });
 }
@@ -157,17 +183,17 @@ TYPED_TEST(VehicleRecords, go_on_alike_after_a_snapshot_and_from_the_portable_fo
     if (tracked) this->add_tracks_and_clutch();
     this->control(1, 0, 0.5);
     run(this->w, 45);
-    EXPECT_EQ(to_double(this->w.find(this->vehicle)->engine_spin) > 1, tracked);
+    EXPECT_EQ(to_double(this->w.state(this->vehicle)->engine_spin) > 1, tracked);
     typename World<S>::Snapshot middle;
     this->w.save(middle);
     const auto bytes = bytes_of(this->w);
     const auto drive_on = [&](World<S>& world) {
       for (int i = 0; i < 90; ++i) {
-        Vehicle<S> v = *world.find(this->vehicle);
-        v.brake = S(i > 45 ? 1 : 0);
-        v.steer = S(i % 2);
-        v.clutch = num<S>(i % 30 < 10 ? 0 : 1);
-        world.set(this->vehicle, v);
+        VehicleInput<S> input = *world.input(this->vehicle);
+        input.brake = S(i > 45 ? 1 : 0);
+        input.steer = S(i % 2);
+        input.clutch = num<S>(i % 30 < 10 ? 0 : 1);
+        world.set_input(this->vehicle, input);
         world.step();
       }
       return world.hash();
@@ -190,13 +216,13 @@ TYPED_TEST(VehicleRecords, tell_how_far_their_wheels_are_steered) {
   run(this->w, 2);
   const double base = 2.5, side = 0.8, middle = base / std::tan(0.5);
   const double expected[] = {std::atan(base / (middle - side)), std::atan(base / (middle + side)), 0, 0};
-  for (int i = 0; i < 4; ++i) EXPECT_NEAR(to_double(this->w.find(this->wheels[i])->steered), expected[i], 1e-3) << i;
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(to_double(this->w.state(this->wheels[i])->steered), expected[i], 1e-3) << i;
   this->control(0, 1, -1);
   run(this->w, 2);
-  EXPECT_NEAR(to_double(this->w.find(this->wheels[0])->steered), -expected[1], 1e-3);
+  EXPECT_NEAR(to_double(this->w.state(this->wheels[0])->steered), -expected[1], 1e-3);
   this->control(0, 1, 0);
   run(this->w, 2);
-  EXPECT_EQ(to_double(this->w.find(this->wheels[0])->steered), 0);
+  EXPECT_EQ(to_double(this->w.state(this->wheels[0])->steered), 0);
 }
 
 TYPED_TEST(VehicleRecords, stand_by_every_solver) {
@@ -228,10 +254,12 @@ TYPED_TEST(VehicleRecords, sleep_with_their_ground_and_wake_by_their_inputs) {
   this->w.destroy(ground);
   run(this->w, 30);
   EXPECT_LT(this->height(car), 0);
-  EXPECT_FALSE(this->w.find(this->wheels[0])->contact_body);
+  EXPECT_FALSE(this->w.state(this->wheels[0])->contact_body);
   this->w.destroy(car);
   EXPECT_EQ(this->w.find(this->wheels[0]), nullptr);
   EXPECT_EQ(this->w.find(this->vehicle), nullptr);
+  EXPECT_EQ(this->w.input(this->vehicle), nullptr);
+  EXPECT_EQ(this->w.state(this->wheels[0]), nullptr);
 }
 
 TYPED_TEST(VehicleRecords, push_the_ground_back) {
@@ -259,7 +287,7 @@ TYPED_TEST(VehicleRecords, stop_at_the_end_of_their_travel) {
   add_ground(this->w, 1);
   const BodyId car = this->add_car({0, 0.6, 0});
   for (const WheelId id : this->wheels) {
-    Wheel<TypeParam> wheel = *this->w.find(id);
+    WheelSettings<TypeParam> wheel = *this->w.find(id);
     wheel.stiffness = TypeParam(0);
     wheel.damping = TypeParam(0);
     wheel.travel = num<TypeParam>(0.125);
@@ -279,7 +307,7 @@ TYPED_TEST(VehicleRecords, lean_less_with_a_bar) {
     add_ground(this->w, 1);
     const BodyId car = this->add_car({0, 0.55, 0});
     for (int i = 0; i < 4 && bar != 0; ++i) {
-      Wheel<S> wheel = *this->w.find(this->wheels[i]);
+      WheelSettings<S> wheel = *this->w.find(this->wheels[i]);
       wheel.axle = i < 2 ? 1 : 2;
       wheel.anti_roll = S(5000);
       this->w.set(this->wheels[i], wheel);
@@ -300,7 +328,7 @@ TYPED_TEST(VehicleRecords, end_at_the_speed_of_their_engine_and_drive_backwards)
   using S = TypeParam;
   add_ground(this->w, 1);
   const BodyId car = this->add_car({0, 0.55, 0});
-  Vehicle<S> v = *this->w.find(this->vehicle);
+  VehicleSettings<S> v = *this->w.find(this->vehicle);
   v.engine_speed = S(20);
   v.gears[0] = S(2);
   v.gears[1] = S(-2);
@@ -309,9 +337,9 @@ TYPED_TEST(VehicleRecords, end_at_the_speed_of_their_engine_and_drive_backwards)
   this->control(1, 0);
   run(this->w, 480);
   EXPECT_NEAR(to_double(this->w.velocity(car).z), 10 * 0.35, 0.06);
-  v.gear = 1;
-  this->w.set(this->vehicle, v);
-  this->control(1, 0);
+  VehicleInput<S> input = *this->w.input(this->vehicle);
+  input.gear = 1;
+  ASSERT_TRUE(this->w.set_input(this->vehicle, input));
   run(this->w, 960);
   EXPECT_NEAR(to_double(this->w.velocity(car).z), -10 * 0.35, 0.06);
 }
@@ -325,19 +353,19 @@ TYPED_TEST(VehicleRecords, spin_freely_at_one_side_unless_locked) {
     add_ground(this->w, 1);
     const BodyId car = this->add_car({0, 0.55, 0});
     for (int i = 0; i < 4; i += 2) {
-      Wheel<S> wheel = *this->w.find(this->wheels[i]);
+      WheelSettings<S> wheel = *this->w.find(this->wheels[i]);
       wheel.grip_along = S(0);
       this->w.set(this->wheels[i], wheel);
     }
-    Vehicle<S> v = *this->w.find(this->vehicle);
+    VehicleSettings<S> v = *this->w.find(this->vehicle);
     v.differential_lock = S(locked);
     v.engine_speed = S(40);
     this->w.set(this->vehicle, v);
     this->control(1, 0);
     run(this->w, 60);
     reached[locked] = length(real(this->w.velocity(car)));
-    const double slick = to_double(this->w.find(this->wheels[2])->spin);
-    const double firm = to_double(this->w.find(this->wheels[3])->spin);
+    const double slick = to_double(this->w.state(this->wheels[2])->spin);
+    const double firm = to_double(this->w.state(this->wheels[3])->spin);
     if (locked != 0) EXPECT_NEAR(slick, firm, 1);
     else EXPECT_GT(slick, firm + 10);
   }

@@ -13,14 +13,14 @@ using BreakableId = Id<struct BreakableTag>;
 /// Of fracture_pattern.hpp, with numbers that follow from most_pieces.
 enum class BreakPattern : std::uint32_t { eight_boxes, grain, radial, voronoi };
 
-/// A dynamic body of one box or hull. A step in which the contacts with another body give it more than `impulse`, all
-/// along their normals together, marks it: broken_by and where; events().broke tells it. break_bodies(world)
-/// (fracture/breaking.hpp) then puts pieces in place of what is marked, by commands, so that they are recorded
-/// and rolled back. The mark is state: whoever loads a snapshot finds it again. To break a body without a blow, set it.
-/// Pieces are breakable in their turn, `depth` counts down, and each breaks at the same change of speed.
+/// A dynamic body of one box or hull. A step in which the contacts with another body give it more than break_impulse,
+/// all along their normals together, marks it by a Blow; events().broke tells it. break_bodies(world)
+/// (fracture/breaking.hpp) then puts pieces in place of what is marked, by commands, so that they are recorded and
+/// rolled back. The mark is state: whoever loads a snapshot finds it again. Pieces are breakable in their turn, `depth`
+/// counts down, and each breaks at the same change of speed.
 template <class S> struct Breakable {
   BodyId body = {};
-  S impulse = S(1);  // [kg m/s]
+  S break_impulse = S(1);  // [kg m/s]
   BreakPattern pattern = BreakPattern::eight_boxes;
   std::uint32_t most_pieces = 8;  // 2 to 256; of eight_boxes 8 or more
   std::uint32_t depth = 1;        // how often: 1: its pieces do not break; 0: it does not, but may expire
@@ -30,13 +30,10 @@ template <class S> struct Breakable {
   std::uint32_t lifetime = 0;  // [steps] after so long; 0: all stay
   std::uint64_t expires = 0;   // [steps] World::tick() from which break_bodies() takes it away; 0: never
   bool owns_shape = false;     // break_bodies() removes the shape along with it: pieces have shapes of their own
-  S broken_by = S(0);          // [kg m/s] the mark; 0: whole
-  Vec3<S> hit_point = {S(0), S(0), S(0)};                              // [m] body frame
-  Vec3<Unit<S>> hit_direction = {Unit<S>(0), Unit<S>(0), Unit<S>(0)};  // [1] of the blow, into the body, body frame
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
-    visit("impulse", self.impulse);
+    visit("break_impulse", self.break_impulse);
     visit("pattern", self.pattern);
     visit("most_pieces", self.most_pieces);
     visit("depth", self.depth);
@@ -46,9 +43,19 @@ template <class S> struct Breakable {
     visit("lifetime", self.lifetime);
     visit("expires", self.expires);
     visit("owns_shape", self.owns_shape);
-    visit("broken_by", self.broken_by);
-    visit("hit_point", self.hit_point);
-    visit("hit_direction", self.hit_direction);
+  }
+};
+
+/// What breaks it: a step writes that, or a game to break it without a blow, as its input.
+template <class S> struct Blow {
+  S impulse = S(0);                                                // [kg m/s] 0: whole
+  Vec3<S> point = {S(0), S(0), S(0)};                              // [m] body frame
+  Vec3<Unit<S>> direction = {Unit<S>(0), Unit<S>(0), Unit<S>(0)};  // [1] into the body, body frame
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
+    visit("impulse", self.impulse);
+    visit("point", self.point);
+    visit("direction", self.direction);
   }
 };
 
@@ -61,19 +68,23 @@ template <class S> struct RecordRules<Breakable<S>> : RecordDefaults<S> {
     constexpr std::uint32_t kMostPieces = 256, kMostDepth = 16;
     const bool boxes = b.pattern == BreakPattern::eight_boxes;
     return Checklist()
-        .finite(b.impulse, "impulse")
+        .finite(b.break_impulse, "break_impulse")
         .finite(b.small_mass, "small_mass")
-        .finite(b.broken_by, "broken_by")
-        .also(fault_of_place(b.hit_point, "hit_point"))
         .proper(b.pattern <= BreakPattern::voronoi, "pattern", "one of BreakPattern")
         .proper((boxes ? 8u : 2u) <= b.most_pieces && b.most_pieces <= kMostPieces, "most_pieces",
                 "2 to 256, of eight_boxes 8 or more")
         .proper(b.depth <= kMostDepth, "depth", "0 to 16")
         .proper(is_direction<S>(b.grain), "grain", "a vector of length 1")
-        .proper(S(0) <= b.impulse, "impulse", kZeroOrMore)
+        .proper(S(0) <= b.break_impulse, "break_impulse", kZeroOrMore)
         .proper(S(0) <= b.small_mass, "small_mass", kZeroOrMore)
-        .proper(S(0) <= b.broken_by, "broken_by", kZeroOrMore)
-        .proper(b.hit_direction == Vec3<Unit<S>>::zero() || is_direction<S>(b.hit_direction), "hit_direction",
+        .report();
+  }
+  static FaultReport fault(const Blow<S>& b) {
+    return Checklist()
+        .finite(b.impulse, "impulse")
+        .also(fault_of_place(b.point, "point"))
+        .proper(S(0) <= b.impulse, "impulse", kZeroOrMore)
+        .proper(b.direction == Vec3<Unit<S>>::zero() || is_direction<S>(b.direction), "direction",
                 "a vector of length 1, or 0")
         .report();
   }

@@ -10,20 +10,27 @@ namespace isostep {
 
 using JointLoadId = Id<struct JointLoadTag>;
 
-/// Measures a joint: every step writes `force` and `torque`, means over its sub-steps, so that their number does not
+/// Measures a joint: every step writes JointLoadState, means over its sub-steps, so that their number does not
 /// decide what breaks. A step in which one of them is above its limit destroys the joint, and this record with it;
 /// events().joint_broke tells it. A joint has one record of these at most. What sleeps is not measured.
 template <class S> struct JointLoad {
   JointId joint = {};
   S break_force = S(0);   // [N] 0: no force breaks it
   S break_torque = S(0);  // [N m] 0: no torque breaks it
-  S force = S(0);         // [N] on body b, of all the joint does; held at the format's end
-  S torque = S(0);        // [N m] about b's origin of the joint; held at the format's end
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("joint", self.joint);
     visit("break_force", self.break_force);
     visit("break_torque", self.break_torque);
+  }
+};
+
+/// What the joint bore in the last step.
+template <class S> struct JointLoadState {
+  S force = S(0);   // [N] on body b, of all the joint does; held at the format's end
+  S torque = S(0);  // [N m] about b's origin of the joint; held at the format's end
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("force", self.force);
     visit("torque", self.torque);
   }
@@ -38,6 +45,10 @@ template <class S> struct RecordRules<JointLoad<S>> : RecordDefaults<S> {
     NumberChecks<S> checks;
     checks.not_negative(l.break_force, "break_force");
     checks.not_negative(l.break_torque, "break_torque");
+    return checks.list.report();
+  }
+  static FaultReport fault(const JointLoadState<S>& l) {
+    NumberChecks<S> checks;
     checks.not_negative(l.force, "force");
     checks.not_negative(l.torque, "torque");
     return checks.list.report();

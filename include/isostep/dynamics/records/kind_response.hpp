@@ -51,7 +51,7 @@ template <class S> struct RecordRules<KindResponse<S>> : RecordDefaults<S> {
   static constexpr Wakes kWakes = Wakes::all;
   static FaultReport fault(const KindResponse<S>& r) {
     constexpr const char *kMass = "0, or 2^-8 to 1", *kOne = "above 0 where inverse_mass_scale_a is 0",
-                         *kPart = "0 to 1", *kSame = "that of a, for both are of one kind";
+                         *kSame = "that of a, for both are of one kind";
     const auto is_mass_scale = [](S x) { return x == S(0) || (S(0x1p-8) <= x && x <= S(1)); };
     const bool same = r.kind_a == r.kind_b;
     return Checklist()

@@ -46,9 +46,9 @@
   R(X, damping_zone, DampingZone<S>, DampingZoneId, S)             \
   R(X, material_pair, MaterialPair<S>, MaterialPairId, S)          \
   R(X, breakable, Breakable<S>, BreakableId, S)                    \
-  R(X, character, Character<S>, CharacterId, S)                    \
-  R(X, vehicle, Vehicle<S>, VehicleId, S)                          \
-  R(X, wheel, Wheel<S>, WheelId, S)                                \
+  R(X, character, CharacterSettings<S>, CharacterId, S)            \
+  R(X, vehicle, VehicleSettings<S>, VehicleId, S)                  \
+  R(X, wheel, WheelSettings<S>, WheelId, S)                        \
   R(X, surface_velocity, SurfaceVelocity<S>, SurfaceVelocityId, S) \
   R(X, ghost, Ghost<S>, GhostId, S)                                \
   R(X, one_way, OneWay<S>, OneWayId, S)                            \
@@ -64,3 +64,19 @@
 /// R(name, Record, Id, S) for each kind.
 #define ISO_FOR_EACH_RECORD(R, S) ISO_FOR_EACH_RECORD_WITH(ISO_RECORD_ALONE, R, S)
 #define ISO_RECORD_ALONE(R, name, Record, Id, S) R(name, Record, Id, S)
+
+/// What a game asks of a record from frame to frame: R(X, name, Input, Id, S). Such a kind has one command more,
+/// set_name_input.
+#define ISO_FOR_EACH_INPUT_WITH(R, X, S)             \
+  R(X, breakable, Blow<S>, BreakableId, S)           \
+  R(X, character, CharacterInput<S>, CharacterId, S) \
+  R(X, vehicle, VehicleInput<S>, VehicleId, S)
+#define ISO_FOR_EACH_INPUT(R, S) ISO_FOR_EACH_INPUT_WITH(ISO_RECORD_ALONE, R, S)
+
+/// What a step writes of a record: R(X, name, State, Id, S).
+#define ISO_FOR_EACH_RECORD_STATE_WITH(R, X, S)      \
+  R(X, character, CharacterState<S>, CharacterId, S) \
+  R(X, vehicle, VehicleState<S>, VehicleId, S)       \
+  R(X, wheel, WheelState<S>, WheelId, S)             \
+  R(X, joint_load, JointLoadState<S>, JointLoadId, S)
+#define ISO_FOR_EACH_RECORD_STATE(R, S) ISO_FOR_EACH_RECORD_STATE_WITH(ISO_RECORD_ALONE, R, S)

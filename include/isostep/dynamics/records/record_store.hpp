@@ -3,11 +3,47 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "isostep/core/registry.hpp"
 #include "isostep/dynamics/records/record_list.hpp"
 
 namespace isostep {
+
+/// Inputs and states of records, each by the slot of its record; those of free slots are as new ones. A step writes
+/// them, so every copy of a state has its own.
+template <class S> struct RecordParts {
+#define ISO_INPUT(name, Input, Id, S) std::vector<Input> name##_inputs;
+  ISO_FOR_EACH_INPUT(ISO_INPUT, S)
+#undef ISO_INPUT
+#define ISO_STATE(name, State, Id, S) std::vector<State> name##_states;
+  ISO_FOR_EACH_RECORD_STATE(ISO_STATE, S)
+#undef ISO_STATE
+};
+
+namespace detail {
+/// The array of a kind's inputs or states, by the type of its ids: what has none has no such call.
+#define ISO_INPUT(name, Input, Id, S) \
+  template <class Parts> ISO_INLINE auto& inputs_of(Parts& parts, Id) { return parts.name##_inputs; }
+ISO_FOR_EACH_INPUT(ISO_INPUT, S)
+#undef ISO_INPUT
+#define ISO_STATE(name, State, Id, S) \
+  template <class Parts> ISO_INLINE auto& states_of(Parts& parts, Id) { return parts.name##_states; }
+ISO_FOR_EACH_RECORD_STATE(ISO_STATE, S)
+#undef ISO_STATE
+/// visit(array) of the inputs and states that a kind has.
+template <class IdType, class Parts, class Visit> ISO_INLINE void for_each_part(Parts& parts, const Visit& visit) {
+  if constexpr (requires { inputs_of(parts, IdType{}); }) visit(inputs_of(parts, IdType{}));
+  if constexpr (requires { states_of(parts, IdType{}); }) visit(states_of(parts, IdType{}));
+}
+/// A record in that slot begins or has ended.
+template <class IdType, class S> ISO_INLINE void renew_parts(RecordParts<S>& parts, std::uint32_t slot) {
+  for_each_part<IdType>(parts, [slot](auto& array) ISO_INLINE_LAMBDA {
+    if (array.size() <= slot) array.resize(slot + 1);
+    array[slot] = {};
+  });
+}
+}  // namespace detail
 
 /// Of all kinds. Only commands change them: copies share them until one does.
 template <class S> struct RecordStore {
@@ -31,11 +67,17 @@ template <class S> struct RecordStore {
     ISO_FOR_EACH_RECORD(ISO_VISIT, S)
 #undef ISO_VISIT
   }
-  /// The same of the kinds whose bits are set: the first kind has the lowest.
-  template <class Visitor, class Self>
-  static ISO_INLINE void members_of(std::uint32_t kinds, Visitor&& visit, Self&& self) {
-#define ISO_VISIT(name, Record, Id, S)                   \
-  if ((kinds & 1u) != 0) visit(#name "s", self.name##s); \
+  /// The same of the kinds whose bits are set, the first kind has the lowest; after each its inputs and states.
+  template <class Visitor, class Self, class Parts>
+  static ISO_INLINE void members_of(std::uint32_t kinds, Visitor&& visit, Self&& self, Parts& parts) {
+#define ISO_VISIT(name, Record, Id, S)                          \
+  if ((kinds & 1u) != 0) {                                      \
+    visit(#name "s", self.name##s);                             \
+    if constexpr (requires { detail::inputs_of(parts, Id{}); }) \
+      visit(#name "_inputs", detail::inputs_of(parts, Id{}));   \
+    if constexpr (requires { detail::states_of(parts, Id{}); }) \
+      visit(#name "_states", detail::states_of(parts, Id{}));   \
+  }                                                             \
   kinds >>= 1;
     ISO_FOR_EACH_RECORD(ISO_VISIT, S)
 #undef ISO_VISIT
@@ -62,11 +104,12 @@ namespace detail {
   template <class Records> ISO_INLINE auto& registry_of(Records& records, Id) { return records.name##s; }
 ISO_FOR_EACH_RECORD(ISO_REGISTRY, S)
 #undef ISO_REGISTRY
-/// The id of a kind of record.
+/// The id of a kind of record, or of its input.
 template <class Record> struct RecordIdOf;
 #define ISO_ID_OF(name, Record, Id, S) \
   template <class S> struct RecordIdOf<Record> { using Type = Id; };
 ISO_FOR_EACH_RECORD(ISO_ID_OF, S)
+ISO_FOR_EACH_INPUT(ISO_ID_OF, S)
 #undef ISO_ID_OF
 
 /// The record on that axis of a joint; null where there is none.

@@ -13,7 +13,7 @@ using SensorMountId = Id<struct SensorMountTag>;
 /// The sensor is where its carrier is: at `on`'s pose times the frame, as a step begins and ends. So a body gets a
 /// sensor with a filter and an id of its own in SensorEvents, without mass and contacts; the carrier keeps every bit of
 /// its motion. In the step the sensor has the carrier's velocity at its place; between steps it stands still. What else
-/// would move it - a pose or velocity that is set, a target, a Character - is of no account.
+/// would move it - a pose or velocity that is set, a move, a character - is of no account.
 /// Seen:    as of any sensor, what is there as the step begins: a carrier that is put elsewhere sees there in the next
 ///          step. Never the carrier itself. While that is disabled the sensor sees nothing.
 /// Sleep:   a sensor is always awake, so it sees on while its carrier sleeps, and wakes nobody.

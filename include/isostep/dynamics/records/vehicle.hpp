@@ -27,28 +27,25 @@ template <class S> ISO_INLINE constexpr S fastest_engine() {
 ///                 their speeds with a torque of at most clutch * clutch_torque, which the engine loses and the shaft
 ///                 gets. In neutral it passes on nothing. Nothing else slows the engine down, and it runs while the
 ///                 body is awake and has wheels. 0: its shaft is that of the wheels, without inertia.
-///   differential  torque * gear * final_drive, of which no more than Limits::mass_ratio() counts, divided by
-///                 Wheel::drive_share. What differential_lock says is the part of the difference in speed between
+///   differential  torque * gear * final_drive, of which no more than Limits::mass_ratio() counts, divided by the
+///                 wheels' drive_share. What differential_lock says is the part of the difference in speed between
 ///                 driven wheels that it takes in each iteration: 0: open, 1: locked.
-///   brakes        at each wheel brake * brake_torque * Wheel::brake_share and the same of the handbrake, against its
-///                 spin
-///   steering      each wheel turns by steer * Wheel::steer_angle, counter-clockwise seen from above where positive.
-///                 Of that ackermann 1 makes the angle of a wheel in the middle between left and right: all axles point
-///                 to one centre, on the line through the wheels that are not steered. 0: each by the same angle.
+///   brakes        at each wheel brake * brake_torque * its brake_share and the same of the handbrake, against its spin
+///   steering      each wheel turns by steer * its steer_angle, counter-clockwise seen from above where positive. Of
+///                 that ackermann 1 makes the angle of a wheel in the middle between left and right: all axles point to
+///                 one centre, on the line through the wheels that are not steered. 0: each by the same angle.
 ///   tracks        the drive of each track on the side to which steer turns, left where positive, is geared by
 ///                 1 - track_steer * |steer|: its share of the torque is that times as much, a turn of it counts that
 ///                 much for the shaft, and a differential that is locked holds its speed to that part of the others'.
 ///                 0: it rolls freely; -1, as track_steer 2 has it at full steer: it runs backwards, and the body
 ///                 turns on the spot. Throttle or a locked differential turns the body, steer alone does not. A
 ///                 track's side is that of its wheel with the lowest slot, against the body's centre of mass.
-/// A game sets it as often as its inputs change; that wakes the body. From engine_spin on a step writes, if there is a
-/// clutch.
-template <class S> struct Vehicle {
+/// Inputs stand in VehicleInput; setting them wakes the body.
+template <class S> struct VehicleSettings {
   BodyId body = {};
   S engine_torque = S(0);                                                  // [N m] at full throttle
   S engine_speed = S(600);                                                 // [rad/s] at which it has no torque left
   S gears[kMostGears] = {S(1), S(0), S(0), S(0), S(0), S(0), S(0), S(0)};  // [1] 0: neutral; below 0: reverse
-  std::uint32_t gear = 0;                                                  // of gears
   S final_drive = S(1);                                                    // [1]
   S engine_inertia = S(0);                                                 // [kg m^2] 0, or 2^-10 or more
   S clutch_torque = S(0);                                                  // [N m] at most, fully engaged
@@ -57,20 +54,12 @@ template <class S> struct Vehicle {
   S handbrake_torque = S(0);                                               // [N m] a wheel
   S ackermann = S(1);                                                      // [1] 0 to 1
   S track_steer = S(2);                                                    // [1] 0 to 2
-  S throttle = S(0);                                                       // [1] -1 to 1
-  S clutch = S(1);       // [1] 0: the engine runs alone, to 1: engaged
-  S brake = S(0);        // [1] 0 to 1
-  S handbrake = S(0);    // [1] 0 to 1
-  S steer = S(0);        // [1] -1 to 1
-  S engine_spin = S(0);  // [rad/s] of its shaft, up to fastest_engine()
-  S clutch_load = S(0);  // [N m] on the gears, in the last sub-step
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
     visit("engine_torque", self.engine_torque);
     visit("engine_speed", self.engine_speed);
     visit("gears", self.gears);
-    visit("gear", self.gear);
     visit("final_drive", self.final_drive);
     visit("engine_inertia", self.engine_inertia);
     visit("clutch_torque", self.clutch_torque);
@@ -79,11 +68,34 @@ template <class S> struct Vehicle {
     visit("handbrake_torque", self.handbrake_torque);
     visit("ackermann", self.ackermann);
     visit("track_steer", self.track_steer);
+  }
+};
+
+/// What a vehicle's driver does, until told otherwise.
+template <class S> struct VehicleInput {
+  S throttle = S(0);       // [1] -1 to 1
+  S clutch = S(1);         // [1] 0: the engine runs alone, to 1: engaged
+  S brake = S(0);          // [1] 0 to 1
+  S handbrake = S(0);      // [1] 0 to 1
+  S steer = S(0);          // [1] -1 to 1
+  std::uint32_t gear = 0;  // of VehicleSettings::gears
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("throttle", self.throttle);
     visit("clutch", self.clutch);
     visit("brake", self.brake);
     visit("handbrake", self.handbrake);
     visit("steer", self.steer);
+    visit("gear", self.gear);
+  }
+};
+
+/// How the last step left a vehicle that has a clutch.
+template <class S> struct VehicleState {
+  S engine_spin = S(0);  // [rad/s] of its shaft, up to fastest_engine()
+  S clutch_load = S(0);  // [N m] on the gears, in the last sub-step
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("engine_spin", self.engine_spin);
     visit("clutch_load", self.clutch_load);
   }
@@ -104,8 +116,7 @@ template <class S> struct Vehicle {
 ///   track       wheels of a body with the same `track` other than 0 roll as fast as one another, spin times radius, as
 ///               in a chain without mass: torques, brakes and tyres of each turn all of them
 /// The ground bears the opposite of each force. All are solved in every sub-step, together for all wheels of a body.
-/// From `spin` on a step writes; contact_body is null, and load, along and across are 0, where the wheel meets nothing.
-template <class S> struct Wheel {
+template <class S> struct WheelSettings {
   BodyId body = {};
   Vec3<S> hard_point = {S(0), S(0), S(0)};                           // [m] body frame: the wheel's middle at length 0
   Vec3<Unit<S>> suspension = {Unit<S>(0), Unit<S>(-1), Unit<S>(0)};  // [1] body frame, unit length: down
@@ -129,17 +140,6 @@ template <class S> struct Wheel {
   std::uint32_t axle = 0;    // of the anti-roll bar
   S anti_roll = S(0);        // [N/m] the larger of the two counts
   std::uint32_t track = 0;   // 0: none
-  S spin = S(0);             // [rad/s] about the axle, seen from the body
-  S angle = S(0);            // [rad] that it has turned, 0 to 2 pi
-  S steered = S(0);          // [rad] from axle_direction, counter-clockwise seen from above
-  S length = S(0);           // [m] from the hard point to the wheel's middle
-  S slip = S(0);             // [1] of the tyre: the mean of this and earlier sub-steps, the last counts a half
-  BodyId contact_body = {};
-  Vec3<S> contact_point = {S(0), S(0), S(0)};                           // [m] world
-  Vec3<Unit<S>> contact_normal = {Unit<S>(0), Unit<S>(0), Unit<S>(0)};  // [1] of the ground, world
-  S load = S(0);                                                        // [N] along the normal
-  S along = S(0);                                                       // [N] on the body, forward
-  S across = S(0);                                                      // [N] on the body, normal x forward
 
   template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("body", self.body);
@@ -165,6 +165,24 @@ template <class S> struct Wheel {
     visit("axle", self.axle);
     visit("anti_roll", self.anti_roll);
     visit("track", self.track);
+  }
+};
+
+/// How the last step left a wheel; contact_body is null, and load, along and across are 0, where it meets nothing.
+template <class S> struct WheelState {
+  S spin = S(0);     // [rad/s] about the axle, seen from the body
+  S angle = S(0);    // [rad] that it has turned, 0 to 2 pi
+  S steered = S(0);  // [rad] from axle_direction, counter-clockwise seen from above
+  S length = S(0);   // [m] from the hard point to the wheel's middle
+  S slip = S(0);     // [1] of the tyre: the mean of this and earlier sub-steps, the last counts a half
+  BodyId contact_body = {};
+  Vec3<S> contact_point = {S(0), S(0), S(0)};                           // [m] world
+  Vec3<Unit<S>> contact_normal = {Unit<S>(0), Unit<S>(0), Unit<S>(0)};  // [1] of the ground, world
+  S load = S(0);                                                        // [N] along the normal
+  S along = S(0);                                                       // [N] on the body, forward
+  S across = S(0);                                                      // [N] on the body, normal x forward
+
+  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
     visit("spin", self.spin);
     visit("angle", self.angle);
     visit("steered", self.steered);
@@ -183,13 +201,12 @@ template <class S> struct Wheel {
 
 namespace isostep::detail {
 
-template <class S> struct RecordRules<Vehicle<S>> : RecordDefaults<S> {
-  static FaultReport fault(const Vehicle<S>& v) {
+template <class S> struct RecordRules<VehicleSettings<S>> : RecordDefaults<S> {
+  static FaultReport fault(const VehicleSettings<S>& v) {
     NumberChecks<S> checks;
     checks.not_negative(v.engine_torque, "engine_torque");
     checks.not_negative(v.engine_speed, "engine_speed");
     for (const S gear : v.gears) checks.list.finite(gear, "gears");
-    checks.list.proper(v.gear < kMostGears, "gear", "0 to 7");
     checks.list.finite(v.final_drive, "final_drive");
     checks.list.finite(v.engine_inertia, "engine_inertia")
         .proper(v.engine_inertia == S(0) || S(0x1p-10) <= v.engine_inertia, "engine_inertia", "0, or 2^-10 or more");
@@ -200,23 +217,32 @@ template <class S> struct RecordRules<Vehicle<S>> : RecordDefaults<S> {
     checks.part(v.ackermann, "ackermann");
     checks.list.finite(v.track_steer, "track_steer")
         .proper(S(0) <= v.track_steer && v.track_steer <= S(2), "track_steer", "0 to 2");
+    return checks.list.report();
+  }
+  static FaultReport fault(const VehicleInput<S>& v) {
+    NumberChecks<S> checks;
     checks.input(v.throttle, "throttle");
     checks.part(v.clutch, "clutch");
     checks.part(v.brake, "brake");
     checks.part(v.handbrake, "handbrake");
     checks.input(v.steer, "steer");
-    checks.list.finite(v.engine_spin, "engine_spin")
-        .in_range(within(v.engine_spin, fastest_engine<S>()), "engine_spin", "a size up to fastest_engine()");
-    checks.list.finite(v.clutch_load, "clutch_load");
+    checks.list.proper(v.gear < kMostGears, "gear", "0 to 7");
     return checks.list.report();
   }
-  static NamedBodies<S> bodies(const Vehicle<S>& v) { return named_body<S>(v.body, MustBe::dynamic); }
-  static constexpr OnlyOne only_one(const Vehicle<S>&) { return kOneABody; }
-  static RecordKey key(const Vehicle<S>& r) { return {r.body.slot}; }
+  static FaultReport fault(const VehicleState<S>& v) {
+    return Checklist()
+        .finite(v.engine_spin, "engine_spin")
+        .in_range(within(v.engine_spin, fastest_engine<S>()), "engine_spin", "a size up to fastest_engine()")
+        .finite(v.clutch_load, "clutch_load")
+        .report();
+  }
+  static NamedBodies<S> bodies(const VehicleSettings<S>& v) { return named_body<S>(v.body, MustBe::dynamic); }
+  static constexpr OnlyOne only_one(const VehicleSettings<S>&) { return kOneABody; }
+  static RecordKey key(const VehicleSettings<S>& r) { return {r.body.slot}; }
 };
 
-template <class S> struct RecordRules<Wheel<S>> : RecordDefaults<S> {
-  static FaultReport fault(const Wheel<S>& w) {
+template <class S> struct RecordRules<WheelSettings<S>> : RecordDefaults<S> {
+  static FaultReport fault(const WheelSettings<S>& w) {
     constexpr S kMostSteer = S(1.570796326794896619);  // [rad]
     NumberChecks<S> checks;
     checks.list.also(fault_of_place(w.hard_point, "hard_point"));
@@ -244,6 +270,10 @@ template <class S> struct RecordRules<Wheel<S>> : RecordDefaults<S> {
     checks.part(w.brake_share, "brake_share");
     checks.part(w.handbrake_share, "handbrake_share");
     checks.not_negative(w.anti_roll, "anti_roll");
+    return checks.list.report();
+  }
+  static FaultReport fault(const WheelState<S>& w) {
+    NumberChecks<S> checks;
     checks.list.finite(w.spin, "spin").finite(w.angle, "angle").finite(w.length, "length");
     checks.list.finite(w.steered, "steered");
     checks.list.finite(w.slip, "slip").proper(S(0) <= w.slip && w.slip <= S(4), "slip", "0 to 4");
@@ -254,9 +284,9 @@ template <class S> struct RecordRules<Wheel<S>> : RecordDefaults<S> {
     checks.list.finite(w.along, "along").finite(w.across, "across");
     return checks.list.report();
   }
-  static NamedBodies<S> bodies(const Wheel<S>& w) { return named_point(w.body, w.hard_point, "hard_point"); }
+  static NamedBodies<S> bodies(const WheelSettings<S>& w) { return named_point(w.body, w.hard_point, "hard_point"); }
   /// Whether tyre and body are within the range of masses that one row bears.
-  static FaultReport fault_at(const Wheel<S>& w, const RecordPlace<S>& place) {
+  static FaultReport fault_at(const WheelSettings<S>& w, const RecordPlace<S>& place) {
     return Checklist()
         .in_range(rim_give(place.bodies[0]->mass, w.radius, w.inertia) <= Limits<S>::leverage(), "inertia",
                   "mass radius^2 / inertia up to Limits::leverage()")

@@ -42,6 +42,9 @@ template <class S> ISO_INLINE Vec3<S> along(const Direction<S>& d, S size) {
 template <class S> ISO_INLINE Direction<S> heading(Vec3<S> v) { return direction_of(v.x, v.y, v.z); }
 }  // namespace detail
 
+/// A character as a step moves it: what it is, what it is to do, how it was left. The walk writes the last two.
+template <class S> struct Walker : CharacterSettings<S>, CharacterInput<S>, CharacterState<S> {};
+
 /// What a character met that may be pushed.
 template <class S> struct CharacterTouch {
   BodyId body;
@@ -54,8 +57,8 @@ template <class S> struct WalkMemory {
   std::vector<NearContact<S>> contacts, first;  // as they are now, and as they were at the first look
 };
 
-/// Input:   a record, its body's pose, what is around it. Output: the record as the step leaves it, way(), what it
-///          touched on its way.
+/// Input:   a character, its body's pose, what is around it. Output: the character as the step leaves it, way(), what
+///          it touched on its way.
 template <class S> class CharacterWalk {
  public:
   struct Place {
@@ -66,7 +69,7 @@ template <class S> class CharacterWalk {
     std::int32_t hz;
   };
   CharacterWalk(Surroundings<S>& around, const Place& place, std::span<const std::uint8_t> walks, WalkMemory<S>& memory,
-                Character<S>& character);
+                Walker<S>& character);
 
   /// `carried` [m]: how far the ground under its foot has moved.
   void run(Vec3<S> carried);
@@ -130,7 +133,7 @@ template <class S> class CharacterWalk {
   Place place_;
   std::span<const std::uint8_t> walks_;  // by body slot: of obstacle
   WalkMemory<S>& memory_;
-  Character<S>& character_;
+  Walker<S>& character_;
   Vec3<S> start_, at_;   // [m] of the body's origin
   Vec3<S> contacts_at_;  // [m] likewise, where memory_.contacts were found
   Vec3<S> foot_;

@@ -8,7 +8,7 @@ namespace isostep {
 
 template <class S>
 CharacterWalk<S>::CharacterWalk(Surroundings<S>& around, const Place& place, std::span<const std::uint8_t> walks,
-                                WalkMemory<S>& memory, Character<S>& character)
+                                WalkMemory<S>& memory, Walker<S>& character)
     : around_(around),
       place_(place),
       walks_(walks),

@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// Input:   the world as the step leaves it, and the Character records.
+/// Input:   the world as the step leaves it, and the characters.
 /// Output:  their bodies' poses, what the records tell, and forces for the next step on what they push and stand on.
 /// Order:   all look at the world before any moves, slot by slot; then all are put where they go, likewise.
 /// Keeps:   nothing from step to step but memory.
@@ -38,7 +38,7 @@ template <class S> class Characters {
   };
   struct Move {
     std::uint32_t record;  // slot
-    Character<S> character;
+    Walker<S> character;
     Vec3<S> way;  // [m]
   };
   using Place = typename CharacterWalk<S>::Place;
@@ -48,13 +48,13 @@ template <class S> class Characters {
     ShapeId shape;
     Pose<S> pose;  // of the body's origin
   };
-  static QueryFilter seen_by(const Character<S>& character);
-  void find_passed(const Character<S>& character, const Asking& asking);
-  bool is_above(const Character<S>& character, const Asking& asking, const OneWay<S>& way);
+  static QueryFilter seen_by(const Walker<S>& character);
+  void find_passed(const Walker<S>& character, const Asking& asking);
+  bool is_above(const Walker<S>& character, const Asking& asking, const OneWay<S>& way);
   S highest_of(BodyId body, Vec3<Unit<S>> axis) const;
   Vec3<S> local_to(BodyId body, Vec3<S> point) const;
-  void push_touched(const CharacterWalk<S>& walk, const Character<S>& character);
-  void bear(const Character<S>& character);
+  void push_touched(const CharacterWalk<S>& walk, const Walker<S>& character);
+  void bear(const Walker<S>& character);
   void put(const Move& move);
   void push(const Push& push);
 

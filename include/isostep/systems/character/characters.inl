@@ -16,7 +16,7 @@ namespace isostep {
 
 namespace detail {
 /// The part of its ground whose surface is nearest to its foot, of equals the first.
-template <class S> std::uint32_t part_under(const BodyMap<S>& map, const Character<S>& character) {
+template <class S> std::uint32_t part_under(const BodyMap<S>& map, const Walker<S>& character) {
   const std::span<const Child<S>> parts = map.children_of(map.properties_of(character.ground)->shape);
   std::uint32_t nearest = 0;
   S least = highest<S>();
@@ -31,7 +31,7 @@ template <class S> std::uint32_t part_under(const BodyMap<S>& map, const Charact
 }
 /// The surface that it stands on: its part's record, else its body's; null where there is none.
 template <class S>
-const SurfaceVelocity<S>* belt_under(const WorldState<S>& state, const BodyMap<S>& map, const Character<S>& character) {
+const SurfaceVelocity<S>* belt_under(const WorldState<S>& state, const BodyMap<S>& map, const Walker<S>& character) {
   const SurfaceVelocity<S>* of_body = nullptr;
   std::uint32_t part = kEveryPart;  // not asked for yet
   for (const SurfaceVelocity<S>& belt : state.records->surface_velocitys.all()) {
@@ -47,7 +47,7 @@ const SurfaceVelocity<S>* belt_under(const WorldState<S>& state, const BodyMap<S
 }
 /// [m] a step by which the surface of the ground runs under its foot.
 template <class S>
-Vec3<S> carried_by_belt(const WorldState<S>& state, const BodyMap<S>& map, const Character<S>& character) {
+Vec3<S> carried_by_belt(const WorldState<S>& state, const BodyMap<S>& map, const Walker<S>& character) {
   const SurfaceVelocity<S>* const belt = belt_under(state, map, character);
   if (belt == nullptr) return Vec3<S>::zero();
   const Vec3<S> speed = held_within(belt->linear + saturated_cross(belt->angular, character.foot), Limits<S>::speed());
@@ -56,7 +56,7 @@ Vec3<S> carried_by_belt(const WorldState<S>& state, const BodyMap<S>& map, const
 }
 /// [m] how far the point of the ground has moved that the character stands on. What is fixed does not, but for belts.
 template <class S>
-Vec3<S> carried_by_ground(const WorldState<S>& state, const BodyMap<S>& map, const Character<S>& character) {
+Vec3<S> carried_by_ground(const WorldState<S>& state, const BodyMap<S>& map, const Walker<S>& character) {
   if (!state.body_slots.holds(character.ground)) return Vec3<S>::zero();
   const Vec3<S> by_belt = carried_by_belt(state, map, character);
   if (map.location(character.ground.slot).set == Location::kStatic) return by_belt;
@@ -89,17 +89,19 @@ template <class S> void Characters<S>::update() {
     if (records.is_taken(slot) && map_.is_enabled(records.all()[slot].body.slot)) walk(slot);
   }
   if (moves_.empty()) return;
-  std::vector<Character<S>>& changed = state_.records.change().characters.change_all();
   for (const Move& move : moves_) {
-    changed[move.record] = move.character;
-    detail::keep_finite(changed[move.record]);
+    CharacterInput<S>& input = state_.parts.character_inputs[move.record] = move.character;
+    CharacterState<S>& state = state_.parts.character_states[move.record] = move.character;
+    detail::keep_finite(input);
+    detail::keep_finite(state);
     put(move);
   }
   for (const Push& each : pushes_) push(each);
 }
 
 template <class S> void Characters<S>::walk(std::uint32_t slot) {
-  Character<S> character = state_.records->characters.all()[slot];
+  Walker<S> character = {state_.records->characters.all()[slot], state_.parts.character_inputs[slot],
+                         state_.parts.character_states[slot]};
   const Settings<S>& settings = state_.settings;
   const Asking asking = {state_.shape_slots.template id_of<ShapeId>(map_.properties_of(character.body)->shape),
                          map_.origin_pose_at(character.body.slot)};
@@ -123,7 +125,7 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
 }
 
 /// All that it does not pass.
-template <class S> QueryFilter Characters<S>::seen_by(const Character<S>& character) {
+template <class S> QueryFilter Characters<S>::seen_by(const Walker<S>& character) {
   QueryFilter filter;
   filter.mask = character.mask;
   filter.ignore = character.body;
@@ -131,7 +133,7 @@ template <class S> QueryFilter Characters<S>::seen_by(const Character<S>& charac
 }
 
 /// Its ghosts, kinds that its own passes, and the one-way bodies that it is not above of.
-template <class S> void Characters<S>::find_passed(const Character<S>& character, const Asking& asking) {
+template <class S> void Characters<S>::find_passed(const Walker<S>& character, const Asking& asking) {
   passed_.clear();
   passed_kinds_.clear();
   const std::uint32_t kind = map_.properties_of(character.body)->material.kind;
@@ -152,7 +154,7 @@ template <class S> void Characters<S>::find_passed(const Character<S>& character
 /// By the highest point of the body along its axis; or, where the body is not flat, by what is near. A body that rises
 /// may have overtaken the character's lowest point in this step.
 template <class S>
-bool Characters<S>::is_above(const Character<S>& character, const Asking& asking, const OneWay<S>& way) {
+bool Characters<S>::is_above(const Walker<S>& character, const Asking& asking, const OneWay<S>& way) {
   if (character.footing == Footing::floor && character.ground == way.body) return true;
   const S hz = S(state_.settings.hz);
   const Pose<S> pose = map_.origin_pose_at(way.body.slot);
@@ -197,7 +199,7 @@ template <class S> Vec3<S> Characters<S>::local_to(BodyId body, Vec3<S> point) c
 }
 
 /// Against what is in its way, until that is as fast as the character wants to be.
-template <class S> void Characters<S>::push_touched(const CharacterWalk<S>& walk, const Character<S>& character) {
+template <class S> void Characters<S>::push_touched(const CharacterWalk<S>& walk, const Walker<S>& character) {
   const Vec3<S> wanted = character.footing == Footing::floor ? character.move : character.velocity;
   for (const CharacterTouch<S>& touch : walk.touches()) {
     const Location at = map_.location(touch.body.slot);
@@ -211,7 +213,7 @@ template <class S> void Characters<S>::push_touched(const CharacterWalk<S>& walk
 }
 
 /// Dynamic ground has its weight.
-template <class S> void Characters<S>::bear(const Character<S>& character) {
+template <class S> void Characters<S>::bear(const Walker<S>& character) {
   if (character.footing != Footing::floor) return;
   if (map_.properties_at(map_.location(character.ground.slot)).type != BodyType::dynamic) return;
   const S weight =

@@ -82,7 +82,8 @@ template <class S> void PairRules<S>::add_mounts(std::span<const std::uint64_t> 
 /// [m] that a character keeps from what is in its way; 0 of other bodies.
 template <class S> S PairRules<S>::skin_of(BodyId body) const {
   const auto& characters = state_.records->characters;
-  const CharacterId id = characters.id_where([&](const Character<S>& character) { return character.body == body; });
+  const CharacterId id =
+      characters.id_where([&](const CharacterSettings<S>& character) { return character.body == body; });
   return id ? characters.find(id)->skin : S(0);
 }
 

@@ -22,7 +22,7 @@ template <class S> class BreakEvents {
   void collect(const SolvedContacts<S>& contacts, Events<S>& events);
 
  private:
-  struct Blow {
+  struct Hit {
     S impulse;            // [kg m/s] 0: none
     std::size_t contact;  // the first of the pair
     bool on_b;
@@ -33,7 +33,7 @@ template <class S> class BreakEvents {
   WorldState<S>& state_;
   const BodyMap<S>& map_;
   std::vector<std::uint32_t> record_of_;  // by body slot: 1 + the record's, or 0
-  std::vector<Blow> blows_;               // by record slot
+  std::vector<Hit> blows_;                // by record slot
 };
 
 #define ISO_EXTERN(S) extern template class BreakEvents<S>;

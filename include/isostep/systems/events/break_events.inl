@@ -13,7 +13,7 @@ template <class S> void BreakEvents<S>::collect(const SolvedContacts<S>& contact
   const auto& records = state_.records->breakables;
   if (records.all().empty()) return;
   record_of_.assign(state_.body_slots.entries().size(), 0);
-  blows_.assign(records.all().size(), Blow{S(0), 0, false});
+  blows_.assign(records.all().size(), Hit{S(0), 0, false});
   for (std::uint32_t slot = 0; slot < records.all().size(); ++slot) {
     if (records.is_taken(slot) && records.all()[slot].depth > 0) record_of_[records.all()[slot].body.slot] = slot + 1;
   }
@@ -34,15 +34,15 @@ template <class S> void BreakEvents<S>::weigh(const SolvedContacts<S>& contacts,
   for (const bool on_b : {false, true}) {
     const std::uint32_t record = record_of_[on_b ? key.body_b : key.body_a];
     if (record == 0) continue;
-    const Breakable<S>& breakable = state_.records->breakables.all()[record - 1];
-    Blow& blow = blows_[record - 1];
-    if (breakable.impulse < impulse && breakable.broken_by < impulse && blow.impulse < impulse)
-      blow = {impulse, first, on_b};
+    const S break_impulse = state_.records->breakables.all()[record - 1].break_impulse;
+    const S broken_by = state_.parts.breakable_inputs[record - 1].impulse;
+    Hit& blow = blows_[record - 1];
+    if (break_impulse < impulse && broken_by < impulse && blow.impulse < impulse) blow = {impulse, first, on_b};
   }
 }
 
 template <class S> void BreakEvents<S>::mark(const SolvedContacts<S>& contacts, std::uint32_t slot, Events<S>& events) {
-  const Blow& blow = blows_[slot];
+  const Hit& blow = blows_[slot];
   const ContactGeometry<S>& geometry = contacts.geometry[blow.contact];
   const std::uint32_t points = contacts.now[blow.contact].count;
   const S share = S(1) / S(static_cast<int>(max(points, 1u)));
@@ -50,14 +50,15 @@ template <class S> void BreakEvents<S>::mark(const SolvedContacts<S>& contacts, 
   for (std::uint32_t i = 0; i < points; ++i)
     arm += (blow.on_b ? geometry.points[i].arm_b : geometry.points[i].arm_a) * share;
   const Vec3<Unit<S>> direction = blow.on_b ? geometry.normal : -geometry.normal;
-  Breakable<S>& breakable = state_.records.change().breakables.change_all()[slot];
+  const Breakable<S>& breakable = state_.records->breakables.all()[slot];
+  Blow<S>& mark = state_.parts.breakable_inputs[slot];
   const Location at = map_.location(breakable.body.slot);
   const BodyState<S>& body = map_.state_at(at);
   const Mat3<Unit<S>> turn = to_matrix(body.orientation);
-  breakable.broken_by = blow.impulse;
-  breakable.hit_point = transposed_times(turn, arm) + map_.properties_at(at).local_centre;
-  breakable.hit_direction = transposed_times(turn, direction);
-  detail::keep_finite(breakable);
+  mark.impulse = blow.impulse;
+  mark.point = transposed_times(turn, arm) + map_.properties_at(at).local_centre;
+  mark.direction = transposed_times(turn, direction);
+  detail::keep_finite(mark);
   events.broke.push_back({breakable.body, blow.impulse, body.centre + arm, direction});
 }
 

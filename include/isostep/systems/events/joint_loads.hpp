@@ -29,7 +29,7 @@ template <class S> class JointLoads {
   void update(Events<S>& events);
 
  private:
-  bool measure(JointLoad<S>& load) const;
+  bool measure(const JointLoad<S>& load, JointLoadState<S>& state) const;
 
   WorldState<S>& state_;
   const BodyMap<S>& map_;

@@ -16,7 +16,7 @@ template <class S> std::span<JointImpulse<S>> JointLoads<S>::impulses() {
 }
 
 /// Writes what it bore. True: that breaks it.
-template <class S> bool JointLoads<S>::measure(JointLoad<S>& load) const {
+template <class S> bool JointLoads<S>::measure(const JointLoad<S>& load, JointLoadState<S>& state) const {
   const Location at = map_.joint_location(load.joint.slot);
   if (at.is_asleep()) return false;
   const JointImpulse<S>& impulse = impulses_[at.index];
@@ -24,27 +24,28 @@ template <class S> bool JointLoads<S>::measure(JointLoad<S>& load) const {
   const auto mass_of = [&](std::uint32_t slot) { return detail::mass_of_row(state_, map_.row_of(slot)); };
   const S mass = reduced_mass(mass_of(joint.body_a), mass_of(joint.body_b)), hz = S(state_.settings.hz);
   const auto size_of = [&](Vec3<S> v) { return saturate_to<S>(product(mass, saturate_to<S>(product(length(v), hz)))); };
-  load.force = size_of(impulse.linear);
-  load.torque = size_of(impulse.angular);
-  detail::keep_finite(load);
+  state.force = size_of(impulse.linear);
+  state.torque = size_of(impulse.angular);
+  detail::keep_finite(state);
   const auto breaks = [](S limit, S size) { return S(0) < limit && limit < size; };
-  return breaks(load.break_force, load.force) || breaks(load.break_torque, load.torque);
+  return breaks(load.break_force, state.force) || breaks(load.break_torque, state.torque);
 }
 
 template <class S> void JointLoads<S>::update(Events<S>& events) {
   if (impulses_.empty()) return;
   broken_.clear();
-  auto& loads = state_.records.change().joint_loads;
+  const auto& loads = state_.records->joint_loads;
   for (std::uint32_t slot = 0; slot < loads.all().size(); ++slot) {
     if (!loads.is_taken(slot)) continue;
-    JointLoad<S>& load = loads.change_all()[slot];
-    if (!measure(load)) continue;
+    const JointLoad<S>& load = loads.all()[slot];
+    JointLoadState<S>& state = state_.parts.joint_load_states[slot];
+    if (!measure(load, state)) continue;
     const JointProperties<S>& joint = *map_.properties_of(load.joint);
     const auto id = [](std::uint32_t body, std::uint32_t generation) {
       return body == kNoBody ? BodyId{} : BodyId{body, generation};
     };
     broken_.push_back({load.joint, id(joint.body_a, joint.generation_a), id(joint.body_b, joint.generation_b),
-                       joint.user_data, load.force, load.torque});
+                       joint.user_data, state.force, state.torque});
   }
   for (const JointBroke<S>& broke : broken_) {
     events.joint_broke.push_back(broke);

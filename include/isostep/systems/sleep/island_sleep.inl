@@ -192,10 +192,8 @@ template <class S> void IslandSleep<S>::tie_coupled(const Coupling<S>& coupling)
 
 /// visit(slot of a wheel's body, slot of the ground)
 template <class S> template <class Visit> void IslandSleep<S>::for_each_wheel_on_ground(const Visit& visit) const {
-  for (const Wheel<S>& wheel : state_.records->wheels.all()) {
-    if (state_.body_slots.holds(wheel.body) && state_.body_slots.holds(wheel.contact_body))
-      visit(wheel.body.slot, wheel.contact_body.slot);
-  }
+  detail::for_each_standing_wheel(
+      state_, [&](BodyId body, const WheelState<S>& wheel) { visit(body.slot, wheel.contact_body.slot); });
 }
 
 /// How long all bodies of an island have rested.

@@ -47,11 +47,10 @@ template <class S> bool IslandWake<S>::wake_touched() {
     touched_.push_back(map_.location(pair_a(pair)).is_asleep() ? pair_a(pair) : pair_b(pair));
   }
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) find_run_over(i);
-  for (const Wheel<S>& wheel : state_.records->wheels.all()) {
-    if (!state_.body_slots.holds(wheel.body) || !state_.body_slots.holds(wheel.contact_body)) continue;
-    if (map_.location(wheel.body.slot).set != Location::kAwake) continue;
+  detail::for_each_standing_wheel(state_, [&](BodyId body, const WheelState<S>& wheel) {
+    if (map_.location(body.slot).set != Location::kAwake) return;
     if (map_.location(wheel.contact_body.slot).is_asleep()) touched_.push_back(wheel.contact_body.slot);
-  }
+  });
   wake(touched_);
   return !touched_.empty();
 }
@@ -151,16 +150,16 @@ template <class S> void IslandWake<S>::wake_held_by(std::uint32_t slot) {
     if (spring.a && spring.b && (spring.a.slot == slot || spring.b.slot == slot))
       wake(spring.a.slot == slot ? spring.b.slot : spring.a.slot);
   }
-  for (const Wheel<S>& wheel : state_.records->wheels.all()) {
-    if (wheel.body && wheel.contact_body && wheel.contact_body.slot == slot) wake(wheel.body.slot);
-  }
+  detail::for_each_standing_wheel(state_, [&](BodyId body, const WheelState<S>& wheel) {
+    if (wheel.contact_body.slot == slot) wake(body.slot);
+  });
 }
 
 template <class S> void IslandWake<S>::wake_wheels_on(std::uint32_t slot, const Aabb<S>& box) {
-  for (const Wheel<S>& wheel : state_.records->wheels.all()) {
-    const bool is_on = wheel.body && wheel.contact_body && wheel.contact_body.slot == slot;
-    if (is_on && overlap(box, {wheel.contact_point, wheel.contact_point})) wake(wheel.body.slot);
-  }
+  detail::for_each_standing_wheel(state_, [&](BodyId body, const WheelState<S>& wheel) {
+    const bool is_on = wheel.contact_body.slot == slot;
+    if (is_on && overlap(box, {wheel.contact_point, wheel.contact_point})) wake(body.slot);
+  });
 }
 
 template <class S> std::uint32_t IslandWake<S>::wake_joint(std::uint32_t slot) {

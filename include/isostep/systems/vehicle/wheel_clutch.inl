@@ -7,12 +7,13 @@
 
 namespace isostep {
 
-template <class S> void WheelForces<S>::begin_engine(Group& group, const Vehicle<S>& vehicle) const {
+template <class S> void WheelForces<S>::begin_engine(Group& group) const {
+  const VehicleState<S>& was = state_.parts.vehicle_states[group.vehicle];
   group.engine = {};
-  group.engine.inertia = vehicle.engine_inertia;
-  group.engine.most = times(vehicle.clutch, vehicle.clutch_torque);
-  group.engine.spin = vehicle.engine_spin;
-  group.engine.clutch = vehicle.clutch_load;
+  group.engine.inertia = vehicle(group).engine_inertia;
+  group.engine.most = times(input(group).clutch, vehicle(group).clutch_torque);
+  group.engine.spin = was.engine_spin;
+  group.engine.clutch = was.clutch_load;
 }
 
 /// [rad/s] The engine's speed after a sub-step of that torque.
@@ -22,9 +23,9 @@ template <class S> S WheelForces<S>::spun(const Engine& engine, S speed, S torqu
 }
 
 /// Throttle turns the engine, and the clutch bears what it bore in the sub-step before.
-template <class S> void WheelForces<S>::turn_engine(Group& group, const Vehicle<S>& vehicle) {
+template <class S> void WheelForces<S>::turn_engine(Group& group) {
   Engine& engine = group.engine;
-  const S torque = engine_torque(vehicle, {engine.spin, divide_to<S>(S(1), engine.inertia)});
+  const S torque = engine_torque(group, {engine.spin, divide_to<S>(S(1), engine.inertia)});
   const S before = group.geared ? clamp(engine.clutch, -engine.most, engine.most) : S(0);
   engine.free = spun(engine, engine.spin, torque);
   engine.clutch = S(0);
@@ -59,12 +60,12 @@ template <class S> void WheelForces<S>::end_engines() {
   constexpr S kChanging = S(0x1p-6);  // [rad/s] in a step
   for (const Group& group : groups_) {
     if (group.vehicle == kNone || group.engine.inertia == S(0)) continue;
-    Vehicle<S>& vehicle = state_.records.change().vehicles.change_all()[group.vehicle];
-    const S change = saturating_subtract(group.engine.spin, vehicle.engine_spin);
+    VehicleState<S>& state = state_.parts.vehicle_states[group.vehicle];
+    const S change = saturating_subtract(group.engine.spin, state.engine_spin);
     if (kChanging < abs(change)) state_.awake.states[group.row - 1].sleep_clock = 0;
-    vehicle.engine_spin = group.engine.spin;
-    vehicle.clutch_load = group.engine.clutch;
-    detail::keep_finite(vehicle);
+    state.engine_spin = group.engine.spin;
+    state.clutch_load = group.engine.clutch;
+    detail::keep_finite(state);
   }
 }
 

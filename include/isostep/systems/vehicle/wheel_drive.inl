@@ -13,11 +13,13 @@ template <class S> void WheelForces<S>::turn(const Run& run, V& rim, S torque) c
 }
 
 /// How much the brakes can do.
-template <class S> void WheelForces<S>::set_brakes(const Group& group, const Vehicle<S>& vehicle) {
+template <class S> void WheelForces<S>::set_brakes(const Group& group) {
+  const VehicleSettings<S>& set = vehicle(group);
+  const VehicleInput<S>& asked = input(group);
   for (std::uint32_t i = group.first; i < group.end; ++i) {
-    const Wheel<S>& w = wheel(runs_[i]);
-    const S torque = saturating_add(times(times(vehicle.brake, vehicle.brake_torque), w.brake_share),
-                                    times(times(vehicle.handbrake, vehicle.handbrake_torque), w.handbrake_share));
+    const WheelSettings<S>& w = wheel(runs_[i]);
+    const S torque = saturating_add(times(times(asked.brake, set.brake_torque), w.brake_share),
+                                    times(times(asked.handbrake, set.handbrake_torque), w.handbrake_share));
     Run& leader = runs_[runs_[i].leader];
     turn(leader, leader.spin.brake, leads(runs_[i]) ? torque : times(torque, runs_[i].to_leader));
   }
@@ -39,12 +41,14 @@ auto WheelForces<S>::shaft_of(const Group& group, const Rim& rim_of) const -> Sh
 }
 
 /// What throttle asks for, or what brings the shaft to engine_speed within the sub-step, where that is less.
-template <class S> S WheelForces<S>::engine_torque(const Vehicle<S>& vehicle, const Shaft& shaft) const {
-  const S asked = times(vehicle.throttle, vehicle.engine_torque);
-  const S end = vehicle.throttle < S(0) ? -vehicle.engine_speed : vehicle.engine_speed;
+template <class S> S WheelForces<S>::engine_torque(const Group& group, const Shaft& shaft) const {
+  const VehicleSettings<S>& set = vehicle(group);
+  const S throttle = input(group).throttle;
+  const S asked = times(throttle, set.engine_torque);
+  const S end = throttle < S(0) ? -set.engine_speed : set.engine_speed;
   const S rest = saturating_subtract(end, shaft.speed);
   const S limit = S(0) < shaft.give ? times(divide_to<S>(rest, shaft.give), S(rate_)) : asked;
-  return vehicle.throttle < S(0) ? min(S(0), max(asked, limit)) : max(S(0), min(asked, limit));
+  return throttle < S(0) ? min(S(0), max(asked, limit)) : max(S(0), min(asked, limit));
 }
 
 template <class S> void WheelForces<S>::push_shaft(const Group& group, S torque) {
@@ -57,18 +61,17 @@ template <class S> void WheelForces<S>::push_shaft(const Group& group, S torque)
 /// Torque on the driven wheels or on the engine, and brakes.
 template <class S> void WheelForces<S>::drive(Group& group) {
   if (group.vehicle == kNone) return;
-  const Vehicle<S>& vehicle = state_.records->vehicles.all()[group.vehicle];
-  set_brakes(group, vehicle);
-  if (S(0) < group.engine.inertia) return turn_engine(group, vehicle);
-  if (!group.geared || vehicle.throttle == S(0)) return;
-  push_shaft(group, engine_torque(vehicle, shaft_of(group, [](const Run& run) { return run.spin.rim; })));
+  set_brakes(group);
+  if (S(0) < group.engine.inertia) return turn_engine(group);
+  if (!group.geared || input(group).throttle == S(0)) return;
+  push_shaft(group, engine_torque(group, shaft_of(group, [](const Run& run) { return run.spin.rim; })));
 }
 
 /// Takes of the differences in speed of driven wheels and tracks; the torque that does it acts between them, and what
 /// steering does not gear otherwise keeps what it turns with together.
 template <class S> void WheelForces<S>::lock(const Group& group) {
   if (group.vehicle == kNone) return;
-  const S locked = state_.records->vehicles.all()[group.vehicle].differential_lock;
+  const S locked = vehicle(group).differential_lock;
   if (!(S(0) < locked)) return;
   const auto is_driven = [&](const Run& run) { return leads(run) && run.driven; };
   const auto speed_of = [&](const Run& run) { return divide_to<S>(end_of(run), wheel(run).radius); };

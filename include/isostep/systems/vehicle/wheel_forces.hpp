@@ -16,10 +16,10 @@
 
 namespace isostep {
 
-/// Input:   the records of wheels and vehicles, the bodies as a sub-step finds them and what else is about to
+/// Input:   wheels and vehicles, the bodies as a sub-step finds them and what else is about to
 ///          accelerate them; the broad phase, for the ground below each wheel: once a step, and in
 ///          every sub-step where it is no plane as far as the wheel gets in the step.
-/// Output:  an impulse for each awake body and its ground; the wheels' records from `spin` on.
+/// Output:  an impulse for each awake body and its ground; the states of wheels and vehicles.
 /// Keeps:   nothing from step to step but memory.
 /// Order:   bodies ascending by slot, the wheels of each ascending by slot. Each iteration solves all of them once, so
 ///          that wheels of bodies which stand on one another agree too: the first wheels of all bodies, then the
@@ -89,7 +89,7 @@ template <class S> class WheelForces {
     detail::WheelSpin<S> spin;        // of the leader: what all of them share
     S inertia;                        // [kg m^2] likewise, about the leader's axle
     S drive;                          // [1] likewise: turns of the engine's shaft by one of that axle
-    S side;                           // [1] likewise: what steering makes of that: 1, or Vehicle::track_steer
+    S side;                           // [1] likewise: what steering makes of that: 1, or VehicleSettings::track_steer
     bool driven;                      // likewise
     S angle, steered, length;         // [rad], [rad], [m]
     // As the sub-step finds it.
@@ -99,7 +99,7 @@ template <class S> class WheelForces {
     S lean;  // [1] length by distance from the ground: 1 or more
     detail::Strut<S> strut;
     S grip_along, grip_across;  // [1] mu at the slip of the sub-step before
-    S slip;                     // [1] Wheel::slip
+    S slip;                     // [1] WheelState::slip
     V load, push_along, push_across;
   };
   /// An engine behind a clutch, in this sub-step.
@@ -147,7 +147,10 @@ template <class S> class WheelForces {
   bool is_uneven(const Run& run, const Stance& at, const Ground& ground);
   bool bears(std::uint32_t body, std::uint32_t ground) const;
   // wheel_forces.inl
-  const Wheel<S>& wheel(const Run& run) const { return state_.records->wheels.all()[run.slot]; }
+  const WheelSettings<S>& wheel(const Run& run) const { return state_.records->wheels.all()[run.slot]; }
+  // Of a group that has one.
+  const VehicleSettings<S>& vehicle(const Group& group) const { return state_.records->vehicles.all()[group.vehicle]; }
+  const VehicleInput<S>& input(const Group& group) const { return state_.parts.vehicle_inputs[group.vehicle]; }
   bool leads(const Run& run) const { return &runs_[run.leader] == &run; }
   static ISO_INLINE S times(S a, S b) { return saturate_to<S>(product(a, b)); }
   void place(Run& run, const Mat3<U>& turn);
@@ -166,19 +169,19 @@ template <class S> class WheelForces {
   void join(Run& leader, Run& run) const;
   detail::WheelSpin<S> spin_of(const Run& run) const;
   V end_of(const Run& run) const;
-  S side_of(const Run& run, const Vehicle<S>& vehicle) const;
+  S side_of(const Run& run, const Group& group) const;
   void gear_up(Group& group);
   // wheel_drive.inl
   void drive(Group& group);
-  void set_brakes(const Group& group, const Vehicle<S>& vehicle);
+  void set_brakes(const Group& group);
   template <class Rim> Shaft shaft_of(const Group& group, const Rim& rim_of) const;
-  S engine_torque(const Vehicle<S>& vehicle, const Shaft& shaft) const;
+  S engine_torque(const Group& group, const Shaft& shaft) const;
   void push_shaft(const Group& group, S torque);
   void lock(const Group& group);
   void turn(const Run& run, V& rim, S torque) const;
   // wheel_clutch.inl
-  void begin_engine(Group& group, const Vehicle<S>& vehicle) const;
-  void turn_engine(Group& group, const Vehicle<S>& vehicle);
+  void begin_engine(Group& group) const;
+  void turn_engine(Group& group);
   S spun(const Engine& engine, S speed, S torque) const;
   void bear(Group& group, S torque);
   void engage(Group& group);

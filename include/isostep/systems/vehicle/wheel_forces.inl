@@ -49,7 +49,7 @@ auto WheelForces<S>::solve(const SolverBodies<S>& bodies, const std::vector<Acce
 template <class S> void WheelForces<S>::place(Run& run, const Mat3<U>& turn) {
   run.touches = false;
   run.spin.brake = V(0);
-  const Wheel<S>& w = wheel(run);
+  const WheelSettings<S>& w = wheel(run);
   run.length = w.free_length;
   if (!run.met) return;
   const bool stands = run.ground == 0;  // the ground
@@ -87,7 +87,7 @@ template <class S> void WheelForces<S>::place(Run& run, const Mat3<U>& turn) {
 
 /// Spring, damper, bar and stop at a length, and the tyre's grip.
 template <class S> void WheelForces<S>::compress(Run& run, S length) const {
-  const Wheel<S>& w = wheel(run);
+  const WheelSettings<S>& w = wheel(run);
   const S mass = bodies_->mass[run.row].mass;
   const S stiffness = divide_to<S>(saturating_add(w.stiffness, run.anti_roll), mass);  // [1/s^2]
   run.length = length;
@@ -210,14 +210,13 @@ template <class S> void WheelForces<S>::tell(const Group& group) {
 template <class S> void WheelForces<S>::end_step() {
   if (runs_.empty()) return;
   end_engines();
-  std::vector<Wheel<S>>& wheels = state_.records.change().wheels.change_all();
   for (const Run& run : runs_) {
-    Wheel<S>& w = wheels[run.slot];
+    WheelState<S>& w = state_.parts.wheel_states[run.slot];
     const S mass = state_.awake.properties[run.row - 1].mass;
     const auto force = [&](V impulse) {
       return saturate_to<S>(product(mass, saturate_to<S>(product(impulse, S(rate_)))));
     };
-    w.spin = divide_to<S>(run.spin.rim, w.radius);
+    w.spin = divide_to<S>(run.spin.rim, wheel(run).radius);
     w.angle = run.angle;
     w.steered = run.steered;
     w.length = run.length;

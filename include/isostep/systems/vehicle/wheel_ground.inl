@@ -29,9 +29,9 @@ template <class S> void WheelForces<S>::begin_step() {
 
 /// The wheels of awake bodies, sorted by body: counted, then placed.
 template <class S> void WheelForces<S>::list_runs() {
-  const std::vector<Wheel<S>>& wheels = state_.records->wheels.all();
+  const std::vector<WheelSettings<S>>& wheels = state_.records->wheels.all();
   first_.assign(state_.awake.states.size() + 2, 0);
-  for (const Wheel<S>& w : wheels) {
+  for (const WheelSettings<S>& w : wheels) {
     if (w.body) ++first_[map_.row_of(w.body.slot) + 1];
   }
   first_[1] = 0;  // row 0: what sleeps
@@ -46,7 +46,8 @@ template <class S> void WheelForces<S>::list_runs() {
   for (std::uint32_t slot = 0; slot < wheels.size(); ++slot) {
     const std::uint32_t row = wheels[slot].body ? map_.row_of(wheels[slot].body.slot) : 0;
     if (row == 0) continue;
-    const Wheel<S>& w = wheels[slot];
+    const WheelSettings<S>& w = wheels[slot];
+    const WheelState<S>& was = state_.parts.wheel_states[slot];
     Run& run = runs_[first_[row]];
     run = {};
     run.leader = first_[row]++;
@@ -57,15 +58,15 @@ template <class S> void WheelForces<S>::list_runs() {
     run.row = row;
     run.partner = run.vehicle = kNone;
     run.axle = w.axle_direction;
-    run.angle = w.angle;
-    run.slip = w.slip;
+    run.angle = was.angle;
+    run.slip = was.slip;
     const S mass = state_.awake.properties[row - 1].mass;
     run.spin.give = detail::rim_give(mass, w.radius, w.inertia);
-    run.spin.rim = saturate_to<V>(product(w.spin, w.radius));
+    run.spin.rim = saturate_to<V>(product(was.spin, w.radius));
     const auto warm = [&](S force) { return divide_to<V>(divide_to<S>(force, mass), rate); };
-    run.load = warm(w.load);
-    run.push_along = warm(w.along);
-    run.push_across = warm(w.across);
+    run.load = warm(was.load);
+    run.push_along = warm(was.along);
+    run.push_across = warm(was.across);
   }
 }
 
@@ -74,7 +75,7 @@ template <class S> void WheelForces<S>::list_groups() {
   for (std::uint32_t g = 0; g < groups_.size(); ++g) {
     for (std::uint32_t i = groups_[g].first; i < groups_[g].end; ++i) runs_[i].group = g;
   }
-  const std::vector<Vehicle<S>>& vehicles = state_.records->vehicles.all();
+  const std::vector<VehicleSettings<S>>& vehicles = state_.records->vehicles.all();
   for (std::uint32_t slot = 0; slot < vehicles.size(); ++slot) {
     const std::uint32_t row = vehicles[slot].body ? map_.row_of(vehicles[slot].body.slot) : 0;
     Group* const group = group_of(row);
@@ -100,7 +101,7 @@ template <class S> auto WheelForces<S>::group_of(std::uint32_t row) -> Group* {
 /// changes.
 template <class S> void WheelForces<S>::find_who_ends_early() {
   for (Group& group : groups_) {
-    const bool locks = group.vehicle != kNone && S(0) < state_.records->vehicles.all()[group.vehicle].differential_lock;
+    const bool locks = group.vehicle != kNone && S(0) < vehicle(group).differential_lock;
     group.ends_early = !locks && group.engine.inertia == S(0);
   }
   for (const Run& run : runs_) {
@@ -114,7 +115,7 @@ template <class S> void WheelForces<S>::find_who_ends_early() {
 template <class S> void WheelForces<S>::join_bars(const Group& group) {
   for (std::uint32_t i = group.first; i < group.end; ++i) {
     for (std::uint32_t j = i + 1; j < group.end && runs_[i].partner == kNone; ++j) {
-      const Wheel<S>&a = wheel(runs_[i]), &b = wheel(runs_[j]);
+      const WheelSettings<S>&a = wheel(runs_[i]), &b = wheel(runs_[j]);
       if (a.axle == 0 || a.axle != b.axle || runs_[j].partner != kNone) continue;
       runs_[i].partner = j;
       runs_[j].partner = i;
@@ -127,8 +128,8 @@ template <class S> void WheelForces<S>::join_bars(const Group& group) {
 /// d: its axle points to the centre d / tan a beside that middle, for ackermann 1.
 template <class S> void WheelForces<S>::steer(const Group& group) {
   if (group.vehicle == kNone) return;
-  const Vehicle<S>& vehicle = state_.records->vehicles.all()[group.vehicle];
-  if (vehicle.steer == S(0)) return;
+  const S turned = input(group).steer, ackermann = vehicle(group).ackermann;
+  if (turned == S(0)) return;
   Vec3<S> sum = Vec3<S>::zero();
   int fixed = 0;
   for (std::uint32_t i = group.first; i < group.end; ++i) {
@@ -138,12 +139,12 @@ template <class S> void WheelForces<S>::steer(const Group& group) {
   }
   const Vec3<S> middle = fixed == 0 ? sum : (sum / S(fixed)) * S(64);
   for (std::uint32_t i = group.first; i < group.end; ++i) {
-    const Wheel<S>& w = wheel(runs_[i]);
+    const WheelSettings<S>& w = wheel(runs_[i]);
     if (w.steer_angle == S(0)) continue;
-    const SinCos<U> a = sin_cos_to<U>(saturate_to<S>(product(vehicle.steer, w.steer_angle)));
+    const SinCos<U> a = sin_cos_to<U>(saturate_to<S>(product(turned, w.steer_angle)));
     const Vec3<U> forward = cross(w.suspension, w.axle_direction);
     const Vec3<S> from = fixed == 0 ? Vec3<S>::zero() : w.hard_point - middle;
-    const S d = dot(from, forward), x = dot(from, w.axle_direction) * clamp(convert<U>(vehicle.ackermann), U(0), U(1));
+    const S d = dot(from, forward), x = dot(from, w.axle_direction) * clamp(convert<U>(ackermann), U(0), U(1));
     const bool is_beside = abs(d) < Limits<S>::minimum_size();
     const S before = is_beside ? S(1) : abs(d), beside = is_beside ? S(0) : d < S(0) ? -x : x;
     const S towards = before * a.cos - beside * a.sin, against = before * a.sin;
@@ -172,7 +173,7 @@ template <class S> auto WheelForces<S>::stance_of(const Run& run) const -> Stanc
   return {state.centre + rotate(state.orientation, local), rotate(state.orientation, wheel(run).suspension)};
 }
 template <class S> auto WheelForces<S>::search_of(const Run& run, const Stance& at) const -> Search {
-  const Wheel<S>& w = wheel(run);
+  const WheelSettings<S>& w = wheel(run);
   const S first = w.free_length - w.travel - w.radius, way = w.travel + w.radius + w.radius;
   const Vec3<S> start = at.hard_point + at.down * first, along = at.down * way;
   return {start, along, grow(Aabb<S>{min(start, start + along), max(start, start + along)}, w.radius)};
@@ -227,7 +228,7 @@ template <class S> void WheelForces<S>::stand_on(Run& run, const Ground& ground)
 
 /// [m] Of the suspension, where the wheel touches that plane; free_length over no ground.
 template <class S> S WheelForces<S>::length_over(const Run& run, const Stance& at, const Ground& ground) const {
-  const Wheel<S>& w = wheel(run);
+  const WheelSettings<S>& w = wheel(run);
   const U facing = ground.body ? -dot(at.down, ground.normal) : U(0);
   if (facing < kLeastFacing) return w.free_length;
   const S height = dot(at.hard_point - ground.point, ground.normal) - w.radius;

@@ -48,27 +48,27 @@ template <class S> Velocity<S> WheelForces<S>::end_of(const Run& run) const {
 }
 
 /// [1] By which steering multiplies the drive of a track.
-template <class S> S WheelForces<S>::side_of(const Run& run, const Vehicle<S>& vehicle) const {
-  const Wheel<S>& w = wheel(run);
+template <class S> S WheelForces<S>::side_of(const Run& run, const Group& group) const {
+  const WheelSettings<S>& w = wheel(run);
   if (w.track == 0) return S(1);
   const S left = dot(w.hard_point - state_.awake.properties[run.row - 1].local_centre, w.axle_direction);
-  const bool is_inner = vehicle.steer < S(0) ? left < S(0) : S(0) < left;
-  return is_inner ? S(1) - times(vehicle.track_steer, abs(vehicle.steer)) : S(1);
+  const S steer = input(group).steer;
+  const bool is_inner = steer < S(0) ? left < S(0) : S(0) < left;
+  return is_inner ? S(1) - times(vehicle(group).track_steer, abs(steer)) : S(1);
 }
 /// How many turns of the engine's shaft each wheel's and track's is.
 template <class S> void WheelForces<S>::gear_up(Group& group) {
   if (group.vehicle == kNone) return;
-  const Vehicle<S>& vehicle = state_.records->vehicles.all()[group.vehicle];
   S shares = S(0);
   for (std::uint32_t i = group.first; i < group.end; ++i) shares = saturating_add(shares, wheel(runs_[i]).drive_share);
   const S most = Limits<S>::mass_ratio();
-  const S ratio = clamp(times(vehicle.gears[vehicle.gear], vehicle.final_drive), -most, most);
+  const S ratio = clamp(times(vehicle(group).gears[input(group).gear], vehicle(group).final_drive), -most, most);
   group.geared = S(0) < shares && !(ratio == S(0));
-  begin_engine(group, vehicle);
+  begin_engine(group);
   for (std::uint32_t i = group.first; i < group.end; ++i) {
     Run &run = runs_[i], &leader = runs_[run.leader];
     const S share = wheel(run).drive_share;
-    if (leads(run)) run.side = side_of(run, vehicle);
+    if (leads(run)) run.side = side_of(run, group);
     leader.driven = leader.driven || S(0) < share;
     if (!group.geared) continue;
     const S part = times(times(divide_to<S>(share, shares), ratio), leader.side);

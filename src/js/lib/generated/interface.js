@@ -6,7 +6,9 @@ export const interfaceSchema = {
   abi: 0,
   shapes: ["sphere", "box", "capsule", "half_space", "cylinder", "cone"],
   joints: ["ball", "constant_velocity", "fixed", "universal", "angular", "hinge", "slider", "cylindrical", "planar", "rod", "rope", "wheel_joint", "motor_joint", "six_axis"],
-  records: ["force_zone", "attractor", "body_spring", "thruster", "buoyancy", "explosion", "water", "drag", "aero_surface", "material_pair", "breakable", "character", "vehicle", "wheel", "surface_velocity", "ghost", "one_way", "hit_report", "joint_load", "coupling", "axis_drive", "move_target", "kind_ghost", "ranked_zone", "contact_report", "kind_response", "damping_zone", "ranked_water", "sensor_mount"],
+  records: ["force_zone", "attractor", "body_spring", "thruster", "buoyancy", "explosion", "water", "drag", "aero_surface", "damping_zone", "material_pair", "breakable", "character", "vehicle", "wheel", "surface_velocity", "ghost", "one_way", "hit_report", "contact_report", "joint_load", "coupling", "axis_drive", "kind_ghost", "kind_response", "sensor_mount"],
+  inputs: ["breakable", "character", "vehicle"],
+  states: ["character", "vehicle", "wheel", "joint_load"],
   flags: {
     bodyFlags: {sensor: 1, allowSleep: 2, collide: 4, bullet: 16, disabled: 32, lockX: 256, lockY: 512, lockZ: 1024, lockAngularX: 2048, lockAngularY: 4096, lockAngularZ: 8192, allLocks: 16128},
     jointFlags: {collideConnected: 1, limit: 2, motor: 4, spring: 8, cone: 16, lockX: 256, lockY: 512, lockZ: 1024, lockSwingX: 2048, lockSwingY: 4096, lockTwist: 8192, lockPoint: 1792, lockSwing: 6144, lockTurns: 14336},
@@ -725,13 +727,15 @@ export const interfaceSchema = {
       ["box", "aabb", 8],
       ["filter", "query_filter", [32, 56]]
     ]},
-    force_zone: {size: [80, 152], sized: true, init: "P_force_zone_init_sized", fields: [
+    force_zone: {size: [88, 160], sized: true, init: "P_force_zone_init_sized", fields: [
       ["shape", "zone_shape", 8],
       ["pose", "pose", [12, 16]],
       ["half", "vec3", [40, 72]],
       ["acceleration", "vec3", [52, 96]],
       ["wind", "vec3", [64, 120]],
-      ["mask", "u32", [76, 144]]
+      ["mask", "u32", [76, 144]],
+      ["priority", "i32", [80, 148]],
+      ["replaces", "u32", [84, 152]]
     ]},
     attractor: {size: [48, 72], sized: true, init: "P_attractor_init_sized", fields: [
       ["body", "id", 8],
@@ -783,7 +787,7 @@ export const interfaceSchema = {
       ["isShielded", "bool", [84, 144]],
       ["mask", "u32", [88, 148]]
     ]},
-    water: {size: [96, 176], sized: true, init: "P_water_init_sized", fields: [
+    water: {size: [104, 184], sized: true, init: "P_water_init_sized", fields: [
       ["surfaceHeight", "number", 8],
       ["density", "number", [12, 16]],
       ["middle", "vec3", [16, 24]],
@@ -796,7 +800,9 @@ export const interfaceSchema = {
       ["waveLength", "number", [68, 128]],
       ["wavePeriod", "number", [72, 136]],
       ["waveDirection", "unit_vec3", [76, 144]],
-      ["mask", "u32", [88, 168]]
+      ["mask", "u32", [88, 168]],
+      ["priority", "i32", [92, 172]],
+      ["replaces", "bool", [96, 176]]
     ]},
     drag: {size: [32, 40], sized: true, init: "P_drag_init_sized", fields: [
       ["body", "id", 8],
@@ -815,6 +821,16 @@ export const interfaceSchema = {
       ["isQuadratic", "bool", [156, 296]],
       ["isUnderWater", "bool", [157, 297]]
     ]},
+    damping_zone: {size: [72, 128], sized: true, init: "P_damping_zone_init_sized", fields: [
+      ["shape", "zone_shape", 8],
+      ["pose", "pose", [12, 16]],
+      ["half", "vec3", [40, 72]],
+      ["linear", "number", [52, 96]],
+      ["angular", "number", [56, 104]],
+      ["mask", "u32", [60, 112]],
+      ["priority", "i32", [64, 116]],
+      ["replaces", "bool", [68, 120]]
+    ]},
     material_pair: {size: [40, 56], sized: true, init: "P_material_pair_init_sized", fields: [
       ["kindA", "u32", 8],
       ["kindB", "u32", 12],
@@ -824,9 +840,9 @@ export const interfaceSchema = {
       ["rollingResistance", "number", [28, 40]],
       ["spinResistance", "number", [32, 48]]
     ]},
-    breakable: {size: [104, 160], sized: true, init: "P_breakable_init_sized", fields: [
+    breakable: {size: [80, 104], sized: true, init: "P_breakable_init_sized", fields: [
       ["body", "id", 8],
-      ["impulse", "number", 16],
+      ["breakImpulse", "number", 16],
       ["pattern", "break_pattern", [20, 24]],
       ["mostPieces", "u32", [24, 28]],
       ["depth", "u32", [28, 32]],
@@ -835,12 +851,9 @@ export const interfaceSchema = {
       ["smallMass", "number", [56, 72]],
       ["lifetime", "u32", [60, 80]],
       ["expires", "u64", [64, 88]],
-      ["ownsShape", "bool", [72, 96]],
-      ["brokenBy", "number", [76, 104]],
-      ["hitPoint", "vec3", [80, 112]],
-      ["hitDirection", "unit_vec3", [92, 136]]
+      ["ownsShape", "bool", [72, 96]]
     ]},
-    character: {size: [136, 232], sized: true, init: "P_character_init_sized", fields: [
+    character: {size: [48, 80], sized: true, init: "P_character_init_sized", fields: [
       ["body", "id", 8],
       ["stepHeight", "number", 16],
       ["leastUp", "number", [20, 24]],
@@ -849,40 +862,23 @@ export const interfaceSchema = {
       ["pushForce", "number", [32, 48]],
       ["airAcceleration", "number", [36, 56]],
       ["gravityScale", "number", [40, 64]],
-      ["mask", "u32", [44, 72]],
-      ["move", "vec3", [48, 80]],
-      ["jump", "number", [60, 104]],
-      ["footing", "footing", [64, 112]],
-      ["ground", "id", [72, 120]],
-      ["foot", "vec3", [80, 128]],
-      ["footAt", "vec3", [92, 152]],
-      ["velocity", "vec3", [104, 176]],
-      ["normal", "unit_vec3", [116, 200]],
-      ["stuck", "u32", [128, 224]]
+      ["mask", "u32", [44, 72]]
     ]},
-    vehicle: {size: [120, 224], sized: true, init: "P_vehicle_init_sized", fields: [
+    vehicle: {size: [88, 160], sized: true, init: "P_vehicle_init_sized", fields: [
       ["body", "id", 8],
       ["engineTorque", "number", 16],
       ["engineSpeed", "number", [20, 24]],
       ["gears", "number", [24, 32], 8],
-      ["gear", "u32", [56, 96]],
-      ["finalDrive", "number", [60, 104]],
-      ["engineInertia", "number", [64, 112]],
-      ["clutchTorque", "number", [68, 120]],
-      ["differentialLock", "number", [72, 128]],
-      ["brakeTorque", "number", [76, 136]],
-      ["handbrakeTorque", "number", [80, 144]],
-      ["ackermann", "number", [84, 152]],
-      ["trackSteer", "number", [88, 160]],
-      ["throttle", "number", [92, 168]],
-      ["clutch", "number", [96, 176]],
-      ["brake", "number", [100, 184]],
-      ["handbrake", "number", [104, 192]],
-      ["steer", "number", [108, 200]],
-      ["engineSpin", "number", [112, 208]],
-      ["clutchLoad", "number", [116, 216]]
+      ["finalDrive", "number", [56, 96]],
+      ["engineInertia", "number", [60, 104]],
+      ["clutchTorque", "number", [64, 112]],
+      ["differentialLock", "number", [68, 120]],
+      ["brakeTorque", "number", [72, 128]],
+      ["handbrakeTorque", "number", [76, 136]],
+      ["ackermann", "number", [80, 144]],
+      ["trackSteer", "number", [84, 152]]
     ]},
-    wheel: {size: [200, 360], sized: true, init: "P_wheel_init_sized", fields: [
+    wheel: {size: [128, 240], sized: true, init: "P_wheel_init_sized", fields: [
       ["body", "id", 8],
       ["hardPoint", "vec3", 16],
       ["suspension", "unit_vec3", [28, 40]],
@@ -905,18 +901,7 @@ export const interfaceSchema = {
       ["handbrakeShare", "number", [112, 208]],
       ["axle", "u32", [116, 216]],
       ["antiRoll", "number", [120, 224]],
-      ["track", "u32", [124, 232]],
-      ["spin", "number", [128, 240]],
-      ["angle", "number", [132, 248]],
-      ["steered", "number", [136, 256]],
-      ["length", "number", [140, 264]],
-      ["slip", "number", [144, 272]],
-      ["contactBody", "id", [152, 280]],
-      ["contactPoint", "vec3", [160, 288]],
-      ["contactNormal", "unit_vec3", [172, 312]],
-      ["load", "number", [184, 336]],
-      ["along", "number", [188, 344]],
-      ["across", "number", [192, 352]]
+      ["track", "u32", [124, 232]]
     ]},
     surface_velocity: {size: [48, 72], sized: true, init: "P_surface_velocity_init_sized", fields: [
       ["body", "id", 8],
@@ -937,12 +922,13 @@ export const interfaceSchema = {
       ["body", "id", 8],
       ["speed", "number", 16]
     ]},
-    joint_load: {size: [32, 48], sized: true, init: "P_joint_load_init_sized", fields: [
+    contact_report: {size: 16, sized: true, init: "P_contact_report_init_sized", fields: [
+      ["body", "id", 8]
+    ]},
+    joint_load: {size: [24, 32], sized: true, init: "P_joint_load_init_sized", fields: [
       ["joint", "id", 8],
       ["breakForce", "number", 16],
-      ["breakTorque", "number", [20, 24]],
-      ["force", "number", [24, 32]],
-      ["torque", "number", [28, 40]]
+      ["breakTorque", "number", [20, 24]]
     ]},
     coupling: {size: [56, 72], sized: true, init: "P_coupling_init_sized", fields: [
       ["jointA", "id", 8],
@@ -970,26 +956,9 @@ export const interfaceSchema = {
       ["limitFrequency", "number", [56, 88]],
       ["limitDamping", "number", [60, 96]]
     ]},
-    move_target: {size: [48, 72], sized: true, init: "P_move_target_init_sized", fields: [
-      ["body", "id", 8],
-      ["pose", "pose", 16]
-    ]},
     kind_ghost: {size: 16, sized: true, init: "P_kind_ghost_init_sized", fields: [
       ["kindA", "u32", 8],
       ["kindB", "u32", 12]
-    ]},
-    ranked_zone: {size: [88, 160], sized: true, init: "P_ranked_zone_init_sized", fields: [
-      ["shape", "zone_shape", 8],
-      ["pose", "pose", [12, 16]],
-      ["half", "vec3", [40, 72]],
-      ["acceleration", "vec3", [52, 96]],
-      ["wind", "vec3", [64, 120]],
-      ["mask", "u32", [76, 144]],
-      ["priority", "i32", [80, 148]],
-      ["replaces", "u32", [84, 152]]
-    ]},
-    contact_report: {size: 16, sized: true, init: "P_contact_report_init_sized", fields: [
-      ["body", "id", 8]
     ]},
     kind_response: {size: [40, 56], sized: true, init: "P_kind_response_init_sized", fields: [
       ["kindA", "u32", 8],
@@ -1000,36 +969,57 @@ export const interfaceSchema = {
       ["inverseInertiaScaleB", "number", [28, 40]],
       ["maxForce", "number", [32, 48]]
     ]},
-    damping_zone: {size: [72, 128], sized: true, init: "P_damping_zone_init_sized", fields: [
-      ["shape", "zone_shape", 8],
-      ["pose", "pose", [12, 16]],
-      ["half", "vec3", [40, 72]],
-      ["linear", "number", [52, 96]],
-      ["angular", "number", [56, 104]],
-      ["mask", "u32", [60, 112]],
-      ["priority", "i32", [64, 116]],
-      ["replaces", "bool", [68, 120]]
-    ]},
-    ranked_water: {size: [96, 176], sized: true, init: "P_ranked_water_init_sized", fields: [
-      ["surfaceHeight", "number", 8],
-      ["density", "number", [12, 16]],
-      ["middle", "vec3", [16, 24]],
-      ["half", "vec3", [28, 48]],
-      ["current", "vec3", [40, 72]],
-      ["linearDrag", "number", [52, 96]],
-      ["quadraticDrag", "number", [56, 104]],
-      ["angularDrag", "number", [60, 112]],
-      ["waveHeight", "number", [64, 120]],
-      ["waveLength", "number", [68, 128]],
-      ["wavePeriod", "number", [72, 136]],
-      ["waveDirection", "unit_vec3", [76, 144]],
-      ["mask", "u32", [88, 168]],
-      ["priority", "i32", [92, 172]]
-    ]},
     sensor_mount: {size: [56, 80], sized: true, init: "P_sensor_mount_init_sized", fields: [
       ["sensor", "id", 8],
       ["on", "id", 16],
       ["frame", "pose", 24]
+    ]},
+    breakable_input: {size: [40, 64], sized: true, init: "P_breakable_input_init_sized", fields: [
+      ["impulse", "number", 8],
+      ["point", "vec3", [12, 16]],
+      ["direction", "unit_vec3", [24, 40]]
+    ]},
+    character_input: {size: [24, 40], sized: true, init: "P_character_input_init_sized", fields: [
+      ["move", "vec3", 8],
+      ["jump", "number", [20, 32]]
+    ]},
+    vehicle_input: {size: [32, 56], sized: true, init: "P_vehicle_input_init_sized", fields: [
+      ["throttle", "number", 8],
+      ["clutch", "number", [12, 16]],
+      ["brake", "number", [16, 24]],
+      ["handbrake", "number", [20, 32]],
+      ["steer", "number", [24, 40]],
+      ["gear", "u32", [28, 48]]
+    ]},
+    character_state: {size: [80, 128], sized: true, init: "P_character_state_init_sized", fields: [
+      ["footing", "footing", 8],
+      ["ground", "id", 16],
+      ["stuck", "u32", 24],
+      ["foot", "vec3", [28, 32]],
+      ["footAt", "vec3", [40, 56]],
+      ["velocity", "vec3", [52, 80]],
+      ["normal", "unit_vec3", [64, 104]]
+    ]},
+    vehicle_state: {size: [16, 24], sized: true, init: "P_vehicle_state_init_sized", fields: [
+      ["engineSpin", "number", 8],
+      ["clutchLoad", "number", [12, 16]]
+    ]},
+    wheel_state: {size: [80, 128], sized: true, init: "P_wheel_state_init_sized", fields: [
+      ["spin", "number", 8],
+      ["angle", "number", [12, 16]],
+      ["steered", "number", [16, 24]],
+      ["length", "number", [20, 32]],
+      ["slip", "number", [24, 40]],
+      ["contactBody", "id", [32, 48]],
+      ["contactPoint", "vec3", [40, 56]],
+      ["contactNormal", "unit_vec3", [52, 80]],
+      ["load", "number", [64, 104]],
+      ["along", "number", [68, 112]],
+      ["across", "number", [72, 120]]
+    ]},
+    joint_load_state: {size: [16, 24], sized: true, init: "P_joint_load_state_init_sized", fields: [
+      ["force", "number", 8],
+      ["torque", "number", [12, 16]]
     ]}
   }
 };

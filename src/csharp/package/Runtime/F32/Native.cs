@@ -104,6 +104,11 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_body_set_mass(IntPtr world, ulong body, F32.BodyMass* mass);
 
+        /// <summary>Another shape; id, pose, joints and records stay. `mass`: null keeps that of a dynamic
+        /// body.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_body_set_shape(IntPtr world, ulong body, ulong shape, F32.BodyMass* mass);
+
         /// <summary>The next step carries a kinematic body there.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_body_move_to(IntPtr world, ulong body, F32.Pose* pose);
@@ -142,6 +147,21 @@ namespace Isostep
         /// <summary>Limits, motor and spring; bodies, frames and type stay.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_joint_set(IntPtr world, ulong joint, F32.JointProperties* properties);
+
+        /// <summary>Parts of it: [rad] or [m]. Torque [N m] or [N], 0: no motor; frequency [Hz], 0: no
+        /// spring.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_joint_set_limits(IntPtr world, ulong joint, float lower, float upper);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_joint_set_motor(IntPtr world, ulong joint, float speed, float torque);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_joint_set_spring(IntPtr world, ulong joint, float frequency,
+            float damping);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_joint_set_target(IntPtr world, ulong joint, float target);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_joint_get(IntPtr world, ulong joint, F32.JointProperties* @out);
@@ -388,6 +408,9 @@ namespace Isostep
         public static extern Status iso_f32_aero_surface_init_sized(F32.AeroSurface* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_damping_zone_init_sized(F32.DampingZone* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_material_pair_init_sized(F32.MaterialPair* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -415,6 +438,9 @@ namespace Isostep
         public static extern Status iso_f32_hit_report_init_sized(F32.HitReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_contact_report_init_sized(F32.ContactReport* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_joint_load_init_sized(F32.JointLoad* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -424,28 +450,34 @@ namespace Isostep
         public static extern Status iso_f32_axis_drive_init_sized(F32.AxisDrive* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_move_target_init_sized(F32.MoveTarget* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_kind_ghost_init_sized(F32.KindGhost* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_ranked_zone_init_sized(F32.RankedZone* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_contact_report_init_sized(F32.ContactReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_kind_response_init_sized(F32.KindResponse* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_damping_zone_init_sized(F32.DampingZone* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_ranked_water_init_sized(F32.RankedWater* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_sensor_mount_init_sized(F32.SensorMount* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_breakable_input_init_sized(F32.BreakableInput* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_character_input_init_sized(F32.CharacterInput* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_vehicle_input_init_sized(F32.VehicleInput* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_character_state_init_sized(F32.CharacterState* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_vehicle_state_init_sized(F32.VehicleState* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_wheel_state_init_sized(F32.WheelState* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_joint_load_state_init_sized(F32.JointLoadState* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_add_sphere(IntPtr world, F32.Sphere* shape, ShapeId* @out);
@@ -608,6 +640,15 @@ namespace Isostep
         public static extern Status iso_f32_get_aero_surface(IntPtr world, ulong id, F32.AeroSurface* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_add_damping_zone(IntPtr world, F32.DampingZone* record, RecordId* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_set_damping_zone(IntPtr world, ulong id, F32.DampingZone* record);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_get_damping_zone(IntPtr world, ulong id, F32.DampingZone* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_add_material_pair(IntPtr world, F32.MaterialPair* record, RecordId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -690,6 +731,16 @@ namespace Isostep
         public static extern Status iso_f32_get_hit_report(IntPtr world, ulong id, F32.HitReport* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_add_contact_report(IntPtr world, F32.ContactReport* record,
+            RecordId* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_set_contact_report(IntPtr world, ulong id, F32.ContactReport* record);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_get_contact_report(IntPtr world, ulong id, F32.ContactReport* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_add_joint_load(IntPtr world, F32.JointLoad* record, RecordId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -717,15 +768,6 @@ namespace Isostep
         public static extern Status iso_f32_get_axis_drive(IntPtr world, ulong id, F32.AxisDrive* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_add_move_target(IntPtr world, F32.MoveTarget* record, RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_set_move_target(IntPtr world, ulong id, F32.MoveTarget* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_get_move_target(IntPtr world, ulong id, F32.MoveTarget* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_add_kind_ghost(IntPtr world, F32.KindGhost* record, RecordId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -733,25 +775,6 @@ namespace Isostep
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_get_kind_ghost(IntPtr world, ulong id, F32.KindGhost* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_add_ranked_zone(IntPtr world, F32.RankedZone* record, RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_set_ranked_zone(IntPtr world, ulong id, F32.RankedZone* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_get_ranked_zone(IntPtr world, ulong id, F32.RankedZone* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_add_contact_report(IntPtr world, F32.ContactReport* record,
-            RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_set_contact_report(IntPtr world, ulong id, F32.ContactReport* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_get_contact_report(IntPtr world, ulong id, F32.ContactReport* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_add_kind_response(IntPtr world, F32.KindResponse* record, RecordId* @out);
@@ -763,24 +786,6 @@ namespace Isostep
         public static extern Status iso_f32_get_kind_response(IntPtr world, ulong id, F32.KindResponse* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_add_damping_zone(IntPtr world, F32.DampingZone* record, RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_set_damping_zone(IntPtr world, ulong id, F32.DampingZone* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_get_damping_zone(IntPtr world, ulong id, F32.DampingZone* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_add_ranked_water(IntPtr world, F32.RankedWater* record, RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_set_ranked_water(IntPtr world, ulong id, F32.RankedWater* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f32_get_ranked_water(IntPtr world, ulong id, F32.RankedWater* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_add_sensor_mount(IntPtr world, F32.SensorMount* record, RecordId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -788,5 +793,35 @@ namespace Isostep
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_get_sensor_mount(IntPtr world, ulong id, F32.SensorMount* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_set_breakable_input(IntPtr world, ulong id, F32.BreakableInput* input);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_get_breakable_input(IntPtr world, ulong id, F32.BreakableInput* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_set_character_input(IntPtr world, ulong id, F32.CharacterInput* input);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_get_character_input(IntPtr world, ulong id, F32.CharacterInput* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_set_vehicle_input(IntPtr world, ulong id, F32.VehicleInput* input);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_get_vehicle_input(IntPtr world, ulong id, F32.VehicleInput* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_get_character_state(IntPtr world, ulong id, F32.CharacterState* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_get_vehicle_state(IntPtr world, ulong id, F32.VehicleState* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_get_wheel_state(IntPtr world, ulong id, F32.WheelState* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_get_joint_load_state(IntPtr world, ulong id, F32.JointLoadState* @out);
     }
 }

@@ -1261,6 +1261,9 @@ namespace Isostep.F32
         public Vec3 Wind;
         /// <summary>Categories: Filter. The wind blows for all</summary>
         public uint Mask;
+        public int Priority;
+        /// <summary>Zone_effect: what it hides, of zones of lower priority; 0: it adds to them</summary>
+        public uint Replaces;
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static ForceZone Sized()
@@ -1461,7 +1464,11 @@ namespace Isostep.F32
         public UnitVec3 WaveDirection;
         /// <summary>Categories: Filter</summary>
         public uint Mask;
-        private fixed byte reserved1[4];
+        public int Priority;
+        private byte replaces;
+        /// <summary>Hides water of lower priority from what it acts on</summary>
+        public bool Replaces { get { return replaces != 0; } set { replaces = (byte)(value ? 1 : 0); } }
+        private fixed byte reserved1[7];
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static Water Sized()
@@ -1528,6 +1535,37 @@ namespace Isostep.F32
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct DampingZone
+    {
+        private uint size;
+        private uint reserved0;
+        public ZoneShape Shape;
+        /// <summary>Of a sphere the position alone</summary>
+        public Pose Pose;
+        /// <summary>[m] of a box; of a sphere x is the radius</summary>
+        public Vec3 Half;
+        /// <summary>[1/s] of velocities</summary>
+        public float Linear;
+        /// <summary>[1/s] of angular velocities</summary>
+        public float Angular;
+        /// <summary>Categories: Filter</summary>
+        public uint Mask;
+        public int Priority;
+        private byte replaces;
+        /// <summary>Hides zones of lower priority from what it acts on</summary>
+        public bool Replaces { get { return replaces != 0; } set { replaces = (byte)(value ? 1 : 0); } }
+        private fixed byte reserved1[3];
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static DampingZone Sized()
+        {
+            DampingZone result = new DampingZone();
+            result.size = (uint)sizeof(DampingZone);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct MaterialPair
     {
         private uint size;
@@ -1564,7 +1602,7 @@ namespace Isostep.F32
         private uint reserved0;
         public BodyId Body;
         /// <summary>[kg m/s]</summary>
-        public float Impulse;
+        public float BreakImpulse;
         public BreakPattern Pattern;
         /// <summary>2 to 256; of eight_boxes 8 or more</summary>
         public uint MostPieces;
@@ -1583,13 +1621,7 @@ namespace Isostep.F32
         private byte ownsShape;
         /// <summary>Break_bodies() removes the shape along with it: pieces have shapes of their own</summary>
         public bool OwnsShape { get { return ownsShape != 0; } set { ownsShape = (byte)(value ? 1 : 0); } }
-        private fixed byte reserved2[3];
-        /// <summary>[kg m/s] the mark; 0: whole</summary>
-        public float BrokenBy;
-        /// <summary>[m] body frame</summary>
-        public Vec3 HitPoint;
-        /// <summary>[1] of the blow, into the body, body frame</summary>
-        public UnitVec3 HitDirection;
+        private fixed byte reserved2[7];
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static Breakable Sized()
@@ -1616,32 +1648,12 @@ namespace Isostep.F32
         public float Mass;
         /// <summary>[N]</summary>
         public float PushForce;
-        /// <summary>[m/s^2] towards `move` while it is in the air</summary>
+        /// <summary>[m/s^2] towards CharacterInput::move while it is in the air</summary>
         public float AirAcceleration;
         /// <summary>[1]</summary>
         public float GravityScale;
         /// <summary>Categories in its way, of those that its body's Filter collides with</summary>
         public uint Mask;
-        /// <summary>[m/s] along the ground, world</summary>
-        public Vec3 Move;
-        /// <summary>[m/s] upwards; 0 again once it has left the ground</summary>
-        public float Jump;
-        /// <summary>From here on: how the last step left it</summary>
-        public Footing Footing;
-        private fixed byte reserved1[4];
-        /// <summary>Null: airborne, or put elsewhere since</summary>
-        public BodyId Ground;
-        /// <summary>[m] on the ground, in its body's frame</summary>
-        public Vec3 Foot;
-        /// <summary>[m] the same, world</summary>
-        public Vec3 FootAt;
-        /// <summary>[m/s] world</summary>
-        public Vec3 Velocity;
-        /// <summary>[1] of the ground</summary>
-        public UnitVec3 Normal;
-        /// <summary>[steps] in a row in which it could not leave what it overlaps</summary>
-        public uint Stuck;
-        private fixed byte reserved2[4];
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static Character Sized()
@@ -1664,8 +1676,6 @@ namespace Isostep.F32
         public float EngineSpeed;
         /// <summary>[1] 0: neutral; below 0: reverse</summary>
         public fixed float Gears[8];
-        /// <summary>Of gears</summary>
-        public uint Gear;
         /// <summary>[1]</summary>
         public float FinalDrive;
         /// <summary>[kg m^2] 0, or 2^-10 or more</summary>
@@ -1682,20 +1692,6 @@ namespace Isostep.F32
         public float Ackermann;
         /// <summary>[1] 0 to 2</summary>
         public float TrackSteer;
-        /// <summary>[1] -1 to 1</summary>
-        public float Throttle;
-        /// <summary>[1] 0: the engine runs alone, to 1: engaged</summary>
-        public float Clutch;
-        /// <summary>[1] 0 to 1</summary>
-        public float Brake;
-        /// <summary>[1] 0 to 1</summary>
-        public float Handbrake;
-        /// <summary>[1] -1 to 1</summary>
-        public float Steer;
-        /// <summary>[rad/s] of its shaft, up to fastest_engine()</summary>
-        public float EngineSpin;
-        /// <summary>[N m] on the gears, in the last sub-step</summary>
-        public float ClutchLoad;
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static Vehicle Sized()
@@ -1756,29 +1752,6 @@ namespace Isostep.F32
         public float AntiRoll;
         /// <summary>0: none</summary>
         public uint Track;
-        /// <summary>[rad/s] about the axle, seen from the body</summary>
-        public float Spin;
-        /// <summary>[rad] that it has turned, 0 to 2 pi</summary>
-        public float Angle;
-        /// <summary>[rad] from axle_direction, counter-clockwise seen from above</summary>
-        public float Steered;
-        /// <summary>[m] from the hard point to the wheel's middle</summary>
-        public float Length;
-        /// <summary>[1] of the tyre: the mean of this and earlier sub-steps, the last counts a half</summary>
-        public float Slip;
-        private fixed byte reserved1[4];
-        public BodyId ContactBody;
-        /// <summary>[m] world</summary>
-        public Vec3 ContactPoint;
-        /// <summary>[1] of the ground, world</summary>
-        public UnitVec3 ContactNormal;
-        /// <summary>[N] along the normal</summary>
-        public float Load;
-        /// <summary>[N] on the body, forward</summary>
-        public float Along;
-        /// <summary>[N] on the body, normal x forward</summary>
-        public float Across;
-        private fixed byte reserved2[4];
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static Wheel Sized()
@@ -1869,6 +1842,22 @@ namespace Isostep.F32
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct ContactReport
+    {
+        private uint size;
+        private uint reserved0;
+        public BodyId Body;
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static ContactReport Sized()
+        {
+            ContactReport result = new ContactReport();
+            result.size = (uint)sizeof(ContactReport);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct JointLoad
     {
         private uint size;
@@ -1878,10 +1867,6 @@ namespace Isostep.F32
         public float BreakForce;
         /// <summary>[N m] 0: no torque breaks it</summary>
         public float BreakTorque;
-        /// <summary>[N] on body b, of all the joint does; held at the format's end</summary>
-        public float Force;
-        /// <summary>[N m] about b's origin of the joint; held at the format's end</summary>
-        public float Torque;
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static JointLoad Sized()
@@ -1962,25 +1947,6 @@ namespace Isostep.F32
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct MoveTarget
-    {
-        private uint size;
-        private uint reserved0;
-        public BodyId Body;
-        /// <summary>Of the body's origin, world</summary>
-        public Pose Pose;
-        private fixed byte reserved1[4];
-
-        /// <summary>With its size set and all else 0: what the library fills in.</summary>
-        internal static MoveTarget Sized()
-        {
-            MoveTarget result = new MoveTarget();
-            result.size = (uint)sizeof(MoveTarget);
-            return result;
-        }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct KindGhost
     {
         private uint size;
@@ -1995,51 +1961,6 @@ namespace Isostep.F32
         {
             KindGhost result = new KindGhost();
             result.size = (uint)sizeof(KindGhost);
-            return result;
-        }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct RankedZone
-    {
-        private uint size;
-        private uint reserved0;
-        public ZoneShape Shape;
-        /// <summary>Of a sphere the position alone</summary>
-        public Pose Pose;
-        /// <summary>[m] of a box; of a sphere x is the radius</summary>
-        public Vec3 Half;
-        /// <summary>[m/s^2] world</summary>
-        public Vec3 Acceleration;
-        /// <summary>[m/s] world</summary>
-        public Vec3 Wind;
-        /// <summary>Categories: Filter. The wind blows for all</summary>
-        public uint Mask;
-        public int Priority;
-        /// <summary>Zone_effect: what it hides, of zones of lower priority; 0: it adds to them</summary>
-        public uint Replaces;
-
-        /// <summary>With its size set and all else 0: what the library fills in.</summary>
-        internal static RankedZone Sized()
-        {
-            RankedZone result = new RankedZone();
-            result.size = (uint)sizeof(RankedZone);
-            return result;
-        }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct ContactReport
-    {
-        private uint size;
-        private uint reserved0;
-        public BodyId Body;
-
-        /// <summary>With its size set and all else 0: what the library fills in.</summary>
-        internal static ContactReport Sized()
-        {
-            ContactReport result = new ContactReport();
-            result.size = (uint)sizeof(ContactReport);
             return result;
         }
     }
@@ -2073,79 +1994,6 @@ namespace Isostep.F32
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct DampingZone
-    {
-        private uint size;
-        private uint reserved0;
-        public ZoneShape Shape;
-        /// <summary>Of a sphere the position alone</summary>
-        public Pose Pose;
-        /// <summary>[m] of a box; of a sphere x is the radius</summary>
-        public Vec3 Half;
-        /// <summary>[1/s] of velocities</summary>
-        public float Linear;
-        /// <summary>[1/s] of angular velocities</summary>
-        public float Angular;
-        /// <summary>Categories: Filter</summary>
-        public uint Mask;
-        public int Priority;
-        private byte replaces;
-        /// <summary>Hides zones of lower priority from what it acts on</summary>
-        public bool Replaces { get { return replaces != 0; } set { replaces = (byte)(value ? 1 : 0); } }
-        private fixed byte reserved1[3];
-
-        /// <summary>With its size set and all else 0: what the library fills in.</summary>
-        internal static DampingZone Sized()
-        {
-            DampingZone result = new DampingZone();
-            result.size = (uint)sizeof(DampingZone);
-            return result;
-        }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct RankedWater
-    {
-        private uint size;
-        private uint reserved0;
-        /// <summary>[m] along up, of the water at rest</summary>
-        public float SurfaceHeight;
-        /// <summary>[kg/m^3]</summary>
-        public float Density;
-        /// <summary>[m] of the region: a box along the world's axes</summary>
-        public Vec3 Middle;
-        /// <summary>[m] all 0: everywhere</summary>
-        public Vec3 Half;
-        /// <summary>[m/s]</summary>
-        public Vec3 Current;
-        /// <summary>[1/s] each of a kg of water displaced</summary>
-        public float LinearDrag;
-        /// <summary>[1/m] the same, times speed</summary>
-        public float QuadraticDrag;
-        /// <summary>[1/s] of the body's turning, each of its kg displaced</summary>
-        public float AngularDrag;
-        /// <summary>[m] above the water at rest; 0: no wave</summary>
-        public float WaveHeight;
-        /// <summary>[m]</summary>
-        public float WaveLength;
-        /// <summary>[s]</summary>
-        public float WavePeriod;
-        /// <summary>[1] unit length; along the surface</summary>
-        public UnitVec3 WaveDirection;
-        /// <summary>Categories: Filter</summary>
-        public uint Mask;
-        public int Priority;
-
-        /// <summary>With its size set and all else 0: what the library fills in.</summary>
-        internal static RankedWater Sized()
-        {
-            RankedWater result = new RankedWater();
-            result.size = (uint)sizeof(RankedWater);
-            return result;
-        }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct SensorMount
     {
         private uint size;
@@ -2162,6 +2010,180 @@ namespace Isostep.F32
         {
             SensorMount result = new SensorMount();
             result.size = (uint)sizeof(SensorMount);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct BreakableInput
+    {
+        private uint size;
+        private uint reserved0;
+        /// <summary>[kg m/s] 0: whole</summary>
+        public float Impulse;
+        /// <summary>[m] body frame</summary>
+        public Vec3 Point;
+        /// <summary>[1] into the body, body frame</summary>
+        public UnitVec3 Direction;
+        private fixed byte reserved1[4];
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static BreakableInput Sized()
+        {
+            BreakableInput result = new BreakableInput();
+            result.size = (uint)sizeof(BreakableInput);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct CharacterInput
+    {
+        private uint size;
+        private uint reserved0;
+        /// <summary>[m/s] along the ground, world</summary>
+        public Vec3 Move;
+        /// <summary>[m/s] upwards; 0 again once it has left the ground</summary>
+        public float Jump;
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static CharacterInput Sized()
+        {
+            CharacterInput result = new CharacterInput();
+            result.size = (uint)sizeof(CharacterInput);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct VehicleInput
+    {
+        private uint size;
+        private uint reserved0;
+        /// <summary>[1] -1 to 1</summary>
+        public float Throttle;
+        /// <summary>[1] 0: the engine runs alone, to 1: engaged</summary>
+        public float Clutch;
+        /// <summary>[1] 0 to 1</summary>
+        public float Brake;
+        /// <summary>[1] 0 to 1</summary>
+        public float Handbrake;
+        /// <summary>[1] -1 to 1</summary>
+        public float Steer;
+        /// <summary>Of VehicleSettings::gears</summary>
+        public uint Gear;
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static VehicleInput Sized()
+        {
+            VehicleInput result = new VehicleInput();
+            result.size = (uint)sizeof(VehicleInput);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct CharacterState
+    {
+        private uint size;
+        private uint reserved0;
+        public Footing Footing;
+        private fixed byte reserved1[4];
+        /// <summary>Null: airborne, or put elsewhere since</summary>
+        public BodyId Ground;
+        /// <summary>[steps] in a row in which it could not leave what it overlaps</summary>
+        public uint Stuck;
+        /// <summary>[m] on the ground, in its body's frame</summary>
+        public Vec3 Foot;
+        /// <summary>[m] the same, world</summary>
+        public Vec3 FootAt;
+        /// <summary>[m/s] world</summary>
+        public Vec3 Velocity;
+        /// <summary>[1] of the ground</summary>
+        public UnitVec3 Normal;
+        private fixed byte reserved2[4];
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static CharacterState Sized()
+        {
+            CharacterState result = new CharacterState();
+            result.size = (uint)sizeof(CharacterState);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct VehicleState
+    {
+        private uint size;
+        private uint reserved0;
+        /// <summary>[rad/s] of its shaft, up to fastest_engine()</summary>
+        public float EngineSpin;
+        /// <summary>[N m] on the gears, in the last sub-step</summary>
+        public float ClutchLoad;
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static VehicleState Sized()
+        {
+            VehicleState result = new VehicleState();
+            result.size = (uint)sizeof(VehicleState);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct WheelState
+    {
+        private uint size;
+        private uint reserved0;
+        /// <summary>[rad/s] about the axle, seen from the body</summary>
+        public float Spin;
+        /// <summary>[rad] that it has turned, 0 to 2 pi</summary>
+        public float Angle;
+        /// <summary>[rad] from axle_direction, counter-clockwise seen from above</summary>
+        public float Steered;
+        /// <summary>[m] from the hard point to the wheel's middle</summary>
+        public float Length;
+        /// <summary>[1] of the tyre: the mean of this and earlier sub-steps, the last counts a half</summary>
+        public float Slip;
+        private fixed byte reserved1[4];
+        public BodyId ContactBody;
+        /// <summary>[m] world</summary>
+        public Vec3 ContactPoint;
+        /// <summary>[1] of the ground, world</summary>
+        public UnitVec3 ContactNormal;
+        /// <summary>[N] along the normal</summary>
+        public float Load;
+        /// <summary>[N] on the body, forward</summary>
+        public float Along;
+        /// <summary>[N] on the body, normal x forward</summary>
+        public float Across;
+        private fixed byte reserved2[4];
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static WheelState Sized()
+        {
+            WheelState result = new WheelState();
+            result.size = (uint)sizeof(WheelState);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct JointLoadState
+    {
+        private uint size;
+        private uint reserved0;
+        /// <summary>[N] on body b, of all the joint does; held at the format's end</summary>
+        public float Force;
+        /// <summary>[N m] about b's origin of the joint; held at the format's end</summary>
+        public float Torque;
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static JointLoadState Sized()
+        {
+            JointLoadState result = new JointLoadState();
+            result.size = (uint)sizeof(JointLoadState);
             return result;
         }
     }

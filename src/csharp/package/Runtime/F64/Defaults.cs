@@ -173,6 +173,19 @@ namespace Isostep.F64
         }
     }
 
+    public unsafe partial struct BreakableInput
+    {
+        public static BreakableInput Default
+        {
+            get
+            {
+                BreakableInput result = new BreakableInput();
+                IsostepException.Check(Native.iso_f64_breakable_input_init_sized(&result, (UIntPtr)sizeof(BreakableInput)));
+                return result;
+            }
+        }
+    }
+
     public unsafe partial struct Buoyancy
     {
         public static Buoyancy Default
@@ -207,6 +220,32 @@ namespace Isostep.F64
             {
                 Character result = new Character();
                 IsostepException.Check(Native.iso_f64_character_init_sized(&result, (UIntPtr)sizeof(Character)));
+                return result;
+            }
+        }
+    }
+
+    public unsafe partial struct CharacterInput
+    {
+        public static CharacterInput Default
+        {
+            get
+            {
+                CharacterInput result = new CharacterInput();
+                IsostepException.Check(Native.iso_f64_character_input_init_sized(&result, (UIntPtr)sizeof(CharacterInput)));
+                return result;
+            }
+        }
+    }
+
+    public unsafe partial struct CharacterState
+    {
+        public static CharacterState Default
+        {
+            get
+            {
+                CharacterState result = new CharacterState();
+                IsostepException.Check(Native.iso_f64_character_state_init_sized(&result, (UIntPtr)sizeof(CharacterState)));
                 return result;
             }
         }
@@ -479,6 +518,19 @@ namespace Isostep.F64
         }
     }
 
+    public unsafe partial struct JointLoadState
+    {
+        public static JointLoadState Default
+        {
+            get
+            {
+                JointLoadState result = new JointLoadState();
+                IsostepException.Check(Native.iso_f64_joint_load_state_init_sized(&result, (UIntPtr)sizeof(JointLoadState)));
+                return result;
+            }
+        }
+    }
+
     public unsafe partial struct JointProperties
     {
         public static JointProperties Default
@@ -557,19 +609,6 @@ namespace Isostep.F64
         }
     }
 
-    public unsafe partial struct MoveTarget
-    {
-        public static MoveTarget Default
-        {
-            get
-            {
-                MoveTarget result = new MoveTarget();
-                IsostepException.Check(Native.iso_f64_move_target_init_sized(&result, (UIntPtr)sizeof(MoveTarget)));
-                return result;
-            }
-        }
-    }
-
     public unsafe partial struct OneWay
     {
         public static OneWay Default
@@ -643,32 +682,6 @@ namespace Isostep.F64
             {
                 RagdollSettings result = new RagdollSettings();
                 IsostepException.Check(Native.iso_f64_ragdoll_settings_init_sized(&result, (UIntPtr)sizeof(RagdollSettings)));
-                return result;
-            }
-        }
-    }
-
-    public unsafe partial struct RankedWater
-    {
-        public static RankedWater Default
-        {
-            get
-            {
-                RankedWater result = new RankedWater();
-                IsostepException.Check(Native.iso_f64_ranked_water_init_sized(&result, (UIntPtr)sizeof(RankedWater)));
-                return result;
-            }
-        }
-    }
-
-    public unsafe partial struct RankedZone
-    {
-        public static RankedZone Default
-        {
-            get
-            {
-                RankedZone result = new RankedZone();
-                IsostepException.Check(Native.iso_f64_ranked_zone_init_sized(&result, (UIntPtr)sizeof(RankedZone)));
                 return result;
             }
         }
@@ -843,6 +856,32 @@ namespace Isostep.F64
         }
     }
 
+    public unsafe partial struct VehicleInput
+    {
+        public static VehicleInput Default
+        {
+            get
+            {
+                VehicleInput result = new VehicleInput();
+                IsostepException.Check(Native.iso_f64_vehicle_input_init_sized(&result, (UIntPtr)sizeof(VehicleInput)));
+                return result;
+            }
+        }
+    }
+
+    public unsafe partial struct VehicleState
+    {
+        public static VehicleState Default
+        {
+            get
+            {
+                VehicleState result = new VehicleState();
+                IsostepException.Check(Native.iso_f64_vehicle_state_init_sized(&result, (UIntPtr)sizeof(VehicleState)));
+                return result;
+            }
+        }
+    }
+
     public unsafe partial struct Water
     {
         public static Water Default
@@ -877,6 +916,19 @@ namespace Isostep.F64
             {
                 WheelJoint result = new WheelJoint();
                 IsostepException.Check(Native.iso_f64_wheel_joint_init_sized(&result, (UIntPtr)sizeof(WheelJoint)));
+                return result;
+            }
+        }
+    }
+
+    public unsafe partial struct WheelState
+    {
+        public static WheelState Default
+        {
+            get
+            {
+                WheelState result = new WheelState();
+                IsostepException.Check(Native.iso_f64_wheel_state_init_sized(&result, (UIntPtr)sizeof(WheelState)));
                 return result;
             }
         }

@@ -104,6 +104,11 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_body_set_mass(IntPtr world, ulong body, F64.BodyMass* mass);
 
+        /// <summary>Another shape; id, pose, joints and records stay. `mass`: null keeps that of a dynamic
+        /// body.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_body_set_shape(IntPtr world, ulong body, ulong shape, F64.BodyMass* mass);
+
         /// <summary>The next step carries a kinematic body there.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_body_move_to(IntPtr world, ulong body, F64.Pose* pose);
@@ -142,6 +147,21 @@ namespace Isostep
         /// <summary>Limits, motor and spring; bodies, frames and type stay.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_joint_set(IntPtr world, ulong joint, F64.JointProperties* properties);
+
+        /// <summary>Parts of it: [rad] or [m]. Torque [N m] or [N], 0: no motor; frequency [Hz], 0: no
+        /// spring.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_joint_set_limits(IntPtr world, ulong joint, double lower, double upper);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_joint_set_motor(IntPtr world, ulong joint, double speed, double torque);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_joint_set_spring(IntPtr world, ulong joint, double frequency,
+            double damping);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_joint_set_target(IntPtr world, ulong joint, double target);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_joint_get(IntPtr world, ulong joint, F64.JointProperties* @out);
@@ -388,6 +408,9 @@ namespace Isostep
         public static extern Status iso_f64_aero_surface_init_sized(F64.AeroSurface* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_damping_zone_init_sized(F64.DampingZone* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_material_pair_init_sized(F64.MaterialPair* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -415,6 +438,9 @@ namespace Isostep
         public static extern Status iso_f64_hit_report_init_sized(F64.HitReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_contact_report_init_sized(F64.ContactReport* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_joint_load_init_sized(F64.JointLoad* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -424,28 +450,34 @@ namespace Isostep
         public static extern Status iso_f64_axis_drive_init_sized(F64.AxisDrive* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_move_target_init_sized(F64.MoveTarget* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_kind_ghost_init_sized(F64.KindGhost* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_ranked_zone_init_sized(F64.RankedZone* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_contact_report_init_sized(F64.ContactReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_kind_response_init_sized(F64.KindResponse* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_damping_zone_init_sized(F64.DampingZone* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_ranked_water_init_sized(F64.RankedWater* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_sensor_mount_init_sized(F64.SensorMount* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_breakable_input_init_sized(F64.BreakableInput* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_character_input_init_sized(F64.CharacterInput* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_vehicle_input_init_sized(F64.VehicleInput* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_character_state_init_sized(F64.CharacterState* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_vehicle_state_init_sized(F64.VehicleState* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_wheel_state_init_sized(F64.WheelState* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_joint_load_state_init_sized(F64.JointLoadState* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_add_sphere(IntPtr world, F64.Sphere* shape, ShapeId* @out);
@@ -608,6 +640,15 @@ namespace Isostep
         public static extern Status iso_f64_get_aero_surface(IntPtr world, ulong id, F64.AeroSurface* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_add_damping_zone(IntPtr world, F64.DampingZone* record, RecordId* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_set_damping_zone(IntPtr world, ulong id, F64.DampingZone* record);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_get_damping_zone(IntPtr world, ulong id, F64.DampingZone* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_add_material_pair(IntPtr world, F64.MaterialPair* record, RecordId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -690,6 +731,16 @@ namespace Isostep
         public static extern Status iso_f64_get_hit_report(IntPtr world, ulong id, F64.HitReport* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_add_contact_report(IntPtr world, F64.ContactReport* record,
+            RecordId* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_set_contact_report(IntPtr world, ulong id, F64.ContactReport* record);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_get_contact_report(IntPtr world, ulong id, F64.ContactReport* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_add_joint_load(IntPtr world, F64.JointLoad* record, RecordId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -717,15 +768,6 @@ namespace Isostep
         public static extern Status iso_f64_get_axis_drive(IntPtr world, ulong id, F64.AxisDrive* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_add_move_target(IntPtr world, F64.MoveTarget* record, RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_set_move_target(IntPtr world, ulong id, F64.MoveTarget* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_get_move_target(IntPtr world, ulong id, F64.MoveTarget* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_add_kind_ghost(IntPtr world, F64.KindGhost* record, RecordId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -733,25 +775,6 @@ namespace Isostep
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_get_kind_ghost(IntPtr world, ulong id, F64.KindGhost* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_add_ranked_zone(IntPtr world, F64.RankedZone* record, RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_set_ranked_zone(IntPtr world, ulong id, F64.RankedZone* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_get_ranked_zone(IntPtr world, ulong id, F64.RankedZone* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_add_contact_report(IntPtr world, F64.ContactReport* record,
-            RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_set_contact_report(IntPtr world, ulong id, F64.ContactReport* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_get_contact_report(IntPtr world, ulong id, F64.ContactReport* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_add_kind_response(IntPtr world, F64.KindResponse* record, RecordId* @out);
@@ -763,24 +786,6 @@ namespace Isostep
         public static extern Status iso_f64_get_kind_response(IntPtr world, ulong id, F64.KindResponse* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_add_damping_zone(IntPtr world, F64.DampingZone* record, RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_set_damping_zone(IntPtr world, ulong id, F64.DampingZone* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_get_damping_zone(IntPtr world, ulong id, F64.DampingZone* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_add_ranked_water(IntPtr world, F64.RankedWater* record, RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_set_ranked_water(IntPtr world, ulong id, F64.RankedWater* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_f64_get_ranked_water(IntPtr world, ulong id, F64.RankedWater* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_add_sensor_mount(IntPtr world, F64.SensorMount* record, RecordId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -788,5 +793,35 @@ namespace Isostep
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_get_sensor_mount(IntPtr world, ulong id, F64.SensorMount* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_set_breakable_input(IntPtr world, ulong id, F64.BreakableInput* input);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_get_breakable_input(IntPtr world, ulong id, F64.BreakableInput* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_set_character_input(IntPtr world, ulong id, F64.CharacterInput* input);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_get_character_input(IntPtr world, ulong id, F64.CharacterInput* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_set_vehicle_input(IntPtr world, ulong id, F64.VehicleInput* input);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_get_vehicle_input(IntPtr world, ulong id, F64.VehicleInput* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_get_character_state(IntPtr world, ulong id, F64.CharacterState* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_get_vehicle_state(IntPtr world, ulong id, F64.VehicleState* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_get_wheel_state(IntPtr world, ulong id, F64.WheelState* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_get_joint_load_state(IntPtr world, ulong id, F64.JointLoadState* @out);
     }
 }

@@ -106,6 +106,12 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_body_set_mass(IntPtr world, ulong body, Fixed16.BodyMass* mass);
 
+        /// <summary>Another shape; id, pose, joints and records stay. `mass`: null keeps that of a dynamic
+        /// body.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_body_set_shape(IntPtr world, ulong body, ulong shape,
+            Fixed16.BodyMass* mass);
+
         /// <summary>The next step carries a kinematic body there.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_body_move_to(IntPtr world, ulong body, Fixed16.Pose* pose);
@@ -144,6 +150,20 @@ namespace Isostep
         /// <summary>Limits, motor and spring; bodies, frames and type stay.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_joint_set(IntPtr world, ulong joint, Fixed16.JointProperties* properties);
+
+        /// <summary>Parts of it: [rad] or [m]. Torque [N m] or [N], 0: no motor; frequency [Hz], 0: no
+        /// spring.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_joint_set_limits(IntPtr world, ulong joint, int lower, int upper);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_joint_set_motor(IntPtr world, ulong joint, int speed, int torque);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_joint_set_spring(IntPtr world, ulong joint, int frequency, int damping);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_joint_set_target(IntPtr world, ulong joint, int target);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_joint_get(IntPtr world, ulong joint, Fixed16.JointProperties* @out);
@@ -393,6 +413,9 @@ namespace Isostep
         public static extern Status iso_q16_aero_surface_init_sized(Fixed16.AeroSurface* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_damping_zone_init_sized(Fixed16.DampingZone* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_material_pair_init_sized(Fixed16.MaterialPair* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -420,6 +443,9 @@ namespace Isostep
         public static extern Status iso_q16_hit_report_init_sized(Fixed16.HitReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_contact_report_init_sized(Fixed16.ContactReport* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_joint_load_init_sized(Fixed16.JointLoad* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -429,28 +455,34 @@ namespace Isostep
         public static extern Status iso_q16_axis_drive_init_sized(Fixed16.AxisDrive* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_move_target_init_sized(Fixed16.MoveTarget* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_kind_ghost_init_sized(Fixed16.KindGhost* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_ranked_zone_init_sized(Fixed16.RankedZone* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_contact_report_init_sized(Fixed16.ContactReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_kind_response_init_sized(Fixed16.KindResponse* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_damping_zone_init_sized(Fixed16.DampingZone* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_ranked_water_init_sized(Fixed16.RankedWater* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_sensor_mount_init_sized(Fixed16.SensorMount* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_breakable_input_init_sized(Fixed16.BreakableInput* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_character_input_init_sized(Fixed16.CharacterInput* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_vehicle_input_init_sized(Fixed16.VehicleInput* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_character_state_init_sized(Fixed16.CharacterState* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_vehicle_state_init_sized(Fixed16.VehicleState* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_wheel_state_init_sized(Fixed16.WheelState* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_joint_load_state_init_sized(Fixed16.JointLoadState* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_add_sphere(IntPtr world, Fixed16.Sphere* shape, ShapeId* @out);
@@ -617,6 +649,16 @@ namespace Isostep
         public static extern Status iso_q16_get_aero_surface(IntPtr world, ulong id, Fixed16.AeroSurface* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_add_damping_zone(IntPtr world, Fixed16.DampingZone* record,
+            RecordId* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_set_damping_zone(IntPtr world, ulong id, Fixed16.DampingZone* record);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_get_damping_zone(IntPtr world, ulong id, Fixed16.DampingZone* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_add_material_pair(IntPtr world, Fixed16.MaterialPair* record,
             RecordId* @out);
 
@@ -702,6 +744,16 @@ namespace Isostep
         public static extern Status iso_q16_get_hit_report(IntPtr world, ulong id, Fixed16.HitReport* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_add_contact_report(IntPtr world, Fixed16.ContactReport* record,
+            RecordId* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_set_contact_report(IntPtr world, ulong id, Fixed16.ContactReport* record);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_get_contact_report(IntPtr world, ulong id, Fixed16.ContactReport* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_add_joint_load(IntPtr world, Fixed16.JointLoad* record, RecordId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -729,15 +781,6 @@ namespace Isostep
         public static extern Status iso_q16_get_axis_drive(IntPtr world, ulong id, Fixed16.AxisDrive* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_add_move_target(IntPtr world, Fixed16.MoveTarget* record, RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_set_move_target(IntPtr world, ulong id, Fixed16.MoveTarget* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_get_move_target(IntPtr world, ulong id, Fixed16.MoveTarget* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_add_kind_ghost(IntPtr world, Fixed16.KindGhost* record, RecordId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -745,25 +788,6 @@ namespace Isostep
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_get_kind_ghost(IntPtr world, ulong id, Fixed16.KindGhost* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_add_ranked_zone(IntPtr world, Fixed16.RankedZone* record, RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_set_ranked_zone(IntPtr world, ulong id, Fixed16.RankedZone* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_get_ranked_zone(IntPtr world, ulong id, Fixed16.RankedZone* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_add_contact_report(IntPtr world, Fixed16.ContactReport* record,
-            RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_set_contact_report(IntPtr world, ulong id, Fixed16.ContactReport* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_get_contact_report(IntPtr world, ulong id, Fixed16.ContactReport* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_add_kind_response(IntPtr world, Fixed16.KindResponse* record,
@@ -776,26 +800,6 @@ namespace Isostep
         public static extern Status iso_q16_get_kind_response(IntPtr world, ulong id, Fixed16.KindResponse* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_add_damping_zone(IntPtr world, Fixed16.DampingZone* record,
-            RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_set_damping_zone(IntPtr world, ulong id, Fixed16.DampingZone* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_get_damping_zone(IntPtr world, ulong id, Fixed16.DampingZone* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_add_ranked_water(IntPtr world, Fixed16.RankedWater* record,
-            RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_set_ranked_water(IntPtr world, ulong id, Fixed16.RankedWater* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q16_get_ranked_water(IntPtr world, ulong id, Fixed16.RankedWater* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_add_sensor_mount(IntPtr world, Fixed16.SensorMount* record,
             RecordId* @out);
 
@@ -804,5 +808,38 @@ namespace Isostep
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q16_get_sensor_mount(IntPtr world, ulong id, Fixed16.SensorMount* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_set_breakable_input(IntPtr world, ulong id,
+            Fixed16.BreakableInput* input);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_get_breakable_input(IntPtr world, ulong id, Fixed16.BreakableInput* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_set_character_input(IntPtr world, ulong id,
+            Fixed16.CharacterInput* input);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_get_character_input(IntPtr world, ulong id, Fixed16.CharacterInput* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_set_vehicle_input(IntPtr world, ulong id, Fixed16.VehicleInput* input);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_get_vehicle_input(IntPtr world, ulong id, Fixed16.VehicleInput* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_get_character_state(IntPtr world, ulong id, Fixed16.CharacterState* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_get_vehicle_state(IntPtr world, ulong id, Fixed16.VehicleState* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_get_wheel_state(IntPtr world, ulong id, Fixed16.WheelState* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q16_get_joint_load_state(IntPtr world, ulong id,
+            Fixed16.JointLoadState* @out);
     }
 }

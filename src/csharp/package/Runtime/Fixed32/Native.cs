@@ -106,6 +106,12 @@ namespace Isostep
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_body_set_mass(IntPtr world, ulong body, Fixed32.BodyMass* mass);
 
+        /// <summary>Another shape; id, pose, joints and records stay. `mass`: null keeps that of a dynamic
+        /// body.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_body_set_shape(IntPtr world, ulong body, ulong shape,
+            Fixed32.BodyMass* mass);
+
         /// <summary>The next step carries a kinematic body there.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_body_move_to(IntPtr world, ulong body, Fixed32.Pose* pose);
@@ -144,6 +150,20 @@ namespace Isostep
         /// <summary>Limits, motor and spring; bodies, frames and type stay.</summary>
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_joint_set(IntPtr world, ulong joint, Fixed32.JointProperties* properties);
+
+        /// <summary>Parts of it: [rad] or [m]. Torque [N m] or [N], 0: no motor; frequency [Hz], 0: no
+        /// spring.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_joint_set_limits(IntPtr world, ulong joint, long lower, long upper);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_joint_set_motor(IntPtr world, ulong joint, long speed, long torque);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_joint_set_spring(IntPtr world, ulong joint, long frequency, long damping);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_joint_set_target(IntPtr world, ulong joint, long target);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_joint_get(IntPtr world, ulong joint, Fixed32.JointProperties* @out);
@@ -393,6 +413,9 @@ namespace Isostep
         public static extern Status iso_q32_aero_surface_init_sized(Fixed32.AeroSurface* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_damping_zone_init_sized(Fixed32.DampingZone* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_material_pair_init_sized(Fixed32.MaterialPair* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -420,6 +443,9 @@ namespace Isostep
         public static extern Status iso_q32_hit_report_init_sized(Fixed32.HitReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_contact_report_init_sized(Fixed32.ContactReport* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_joint_load_init_sized(Fixed32.JointLoad* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -429,28 +455,34 @@ namespace Isostep
         public static extern Status iso_q32_axis_drive_init_sized(Fixed32.AxisDrive* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_move_target_init_sized(Fixed32.MoveTarget* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_kind_ghost_init_sized(Fixed32.KindGhost* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_ranked_zone_init_sized(Fixed32.RankedZone* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_contact_report_init_sized(Fixed32.ContactReport* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_kind_response_init_sized(Fixed32.KindResponse* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_damping_zone_init_sized(Fixed32.DampingZone* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_ranked_water_init_sized(Fixed32.RankedWater* @out, UIntPtr size);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_sensor_mount_init_sized(Fixed32.SensorMount* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_breakable_input_init_sized(Fixed32.BreakableInput* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_character_input_init_sized(Fixed32.CharacterInput* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_vehicle_input_init_sized(Fixed32.VehicleInput* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_character_state_init_sized(Fixed32.CharacterState* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_vehicle_state_init_sized(Fixed32.VehicleState* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_wheel_state_init_sized(Fixed32.WheelState* @out, UIntPtr size);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_joint_load_state_init_sized(Fixed32.JointLoadState* @out, UIntPtr size);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_add_sphere(IntPtr world, Fixed32.Sphere* shape, ShapeId* @out);
@@ -617,6 +649,16 @@ namespace Isostep
         public static extern Status iso_q32_get_aero_surface(IntPtr world, ulong id, Fixed32.AeroSurface* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_add_damping_zone(IntPtr world, Fixed32.DampingZone* record,
+            RecordId* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_set_damping_zone(IntPtr world, ulong id, Fixed32.DampingZone* record);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_get_damping_zone(IntPtr world, ulong id, Fixed32.DampingZone* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_add_material_pair(IntPtr world, Fixed32.MaterialPair* record,
             RecordId* @out);
 
@@ -702,6 +744,16 @@ namespace Isostep
         public static extern Status iso_q32_get_hit_report(IntPtr world, ulong id, Fixed32.HitReport* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_add_contact_report(IntPtr world, Fixed32.ContactReport* record,
+            RecordId* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_set_contact_report(IntPtr world, ulong id, Fixed32.ContactReport* record);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_get_contact_report(IntPtr world, ulong id, Fixed32.ContactReport* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_add_joint_load(IntPtr world, Fixed32.JointLoad* record, RecordId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -729,15 +781,6 @@ namespace Isostep
         public static extern Status iso_q32_get_axis_drive(IntPtr world, ulong id, Fixed32.AxisDrive* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_add_move_target(IntPtr world, Fixed32.MoveTarget* record, RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_set_move_target(IntPtr world, ulong id, Fixed32.MoveTarget* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_get_move_target(IntPtr world, ulong id, Fixed32.MoveTarget* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_add_kind_ghost(IntPtr world, Fixed32.KindGhost* record, RecordId* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -745,25 +788,6 @@ namespace Isostep
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_get_kind_ghost(IntPtr world, ulong id, Fixed32.KindGhost* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_add_ranked_zone(IntPtr world, Fixed32.RankedZone* record, RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_set_ranked_zone(IntPtr world, ulong id, Fixed32.RankedZone* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_get_ranked_zone(IntPtr world, ulong id, Fixed32.RankedZone* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_add_contact_report(IntPtr world, Fixed32.ContactReport* record,
-            RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_set_contact_report(IntPtr world, ulong id, Fixed32.ContactReport* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_get_contact_report(IntPtr world, ulong id, Fixed32.ContactReport* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_add_kind_response(IntPtr world, Fixed32.KindResponse* record,
@@ -776,26 +800,6 @@ namespace Isostep
         public static extern Status iso_q32_get_kind_response(IntPtr world, ulong id, Fixed32.KindResponse* @out);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_add_damping_zone(IntPtr world, Fixed32.DampingZone* record,
-            RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_set_damping_zone(IntPtr world, ulong id, Fixed32.DampingZone* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_get_damping_zone(IntPtr world, ulong id, Fixed32.DampingZone* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_add_ranked_water(IntPtr world, Fixed32.RankedWater* record,
-            RecordId* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_set_ranked_water(IntPtr world, ulong id, Fixed32.RankedWater* record);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_q32_get_ranked_water(IntPtr world, ulong id, Fixed32.RankedWater* @out);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_add_sensor_mount(IntPtr world, Fixed32.SensorMount* record,
             RecordId* @out);
 
@@ -804,5 +808,38 @@ namespace Isostep
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_get_sensor_mount(IntPtr world, ulong id, Fixed32.SensorMount* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_set_breakable_input(IntPtr world, ulong id,
+            Fixed32.BreakableInput* input);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_get_breakable_input(IntPtr world, ulong id, Fixed32.BreakableInput* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_set_character_input(IntPtr world, ulong id,
+            Fixed32.CharacterInput* input);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_get_character_input(IntPtr world, ulong id, Fixed32.CharacterInput* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_set_vehicle_input(IntPtr world, ulong id, Fixed32.VehicleInput* input);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_get_vehicle_input(IntPtr world, ulong id, Fixed32.VehicleInput* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_get_character_state(IntPtr world, ulong id, Fixed32.CharacterState* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_get_vehicle_state(IntPtr world, ulong id, Fixed32.VehicleState* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_get_wheel_state(IntPtr world, ulong id, Fixed32.WheelState* @out);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_get_joint_load_state(IntPtr world, ulong id,
+            Fixed32.JointLoadState* @out);
     }
 }

@@ -1256,6 +1256,9 @@ namespace Isostep.Fixed32
         public Vec3 Wind;
         /// <summary>Categories: Filter. The wind blows for all</summary>
         public uint Mask;
+        public int Priority;
+        /// <summary>Zone_effect: what it hides, of zones of lower priority; 0: it adds to them</summary>
+        public uint Replaces;
         private fixed byte reserved2[4];
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
@@ -1454,7 +1457,11 @@ namespace Isostep.Fixed32
         public UnitVec3 WaveDirection;
         /// <summary>Categories: Filter</summary>
         public uint Mask;
-        private fixed byte reserved1[4];
+        public int Priority;
+        private byte replaces;
+        /// <summary>Hides water of lower priority from what it acts on</summary>
+        public bool Replaces { get { return replaces != 0; } set { replaces = (byte)(value ? 1 : 0); } }
+        private fixed byte reserved1[7];
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static Water Sized()
@@ -1520,6 +1527,38 @@ namespace Isostep.Fixed32
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct DampingZone
+    {
+        private uint size;
+        private uint reserved0;
+        public ZoneShape Shape;
+        private fixed byte reserved1[4];
+        /// <summary>Of a sphere the position alone</summary>
+        public Pose Pose;
+        /// <summary>[m] of a box; of a sphere x is the radius</summary>
+        public Vec3 Half;
+        /// <summary>[1/s] of velocities</summary>
+        public Q32 Linear;
+        /// <summary>[1/s] of angular velocities</summary>
+        public Q32 Angular;
+        /// <summary>Categories: Filter</summary>
+        public uint Mask;
+        public int Priority;
+        private byte replaces;
+        /// <summary>Hides zones of lower priority from what it acts on</summary>
+        public bool Replaces { get { return replaces != 0; } set { replaces = (byte)(value ? 1 : 0); } }
+        private fixed byte reserved2[7];
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static DampingZone Sized()
+        {
+            DampingZone result = new DampingZone();
+            result.size = (uint)sizeof(DampingZone);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct MaterialPair
     {
         private uint size;
@@ -1555,7 +1594,7 @@ namespace Isostep.Fixed32
         private uint reserved0;
         public BodyId Body;
         /// <summary>[kg m/s]</summary>
-        public Q32 Impulse;
+        public Q32 BreakImpulse;
         public BreakPattern Pattern;
         /// <summary>2 to 256; of eight_boxes 8 or more</summary>
         public uint MostPieces;
@@ -1576,12 +1615,6 @@ namespace Isostep.Fixed32
         /// <summary>Break_bodies() removes the shape along with it: pieces have shapes of their own</summary>
         public bool OwnsShape { get { return ownsShape != 0; } set { ownsShape = (byte)(value ? 1 : 0); } }
         private fixed byte reserved3[7];
-        /// <summary>[kg m/s] the mark; 0: whole</summary>
-        public Q32 BrokenBy;
-        /// <summary>[m] body frame</summary>
-        public Vec3 HitPoint;
-        /// <summary>[1] of the blow, into the body, body frame</summary>
-        public UnitVec3 HitDirection;
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static Breakable Sized()
@@ -1608,33 +1641,13 @@ namespace Isostep.Fixed32
         public Q32 Mass;
         /// <summary>[N]</summary>
         public Q32 PushForce;
-        /// <summary>[m/s^2] towards `move` while it is in the air</summary>
+        /// <summary>[m/s^2] towards CharacterInput::move while it is in the air</summary>
         public Q32 AirAcceleration;
         /// <summary>[1]</summary>
         public Q32 GravityScale;
         /// <summary>Categories in its way, of those that its body's Filter collides with</summary>
         public uint Mask;
         private fixed byte reserved1[4];
-        /// <summary>[m/s] along the ground, world</summary>
-        public Vec3 Move;
-        /// <summary>[m/s] upwards; 0 again once it has left the ground</summary>
-        public Q32 Jump;
-        /// <summary>From here on: how the last step left it</summary>
-        public Footing Footing;
-        private fixed byte reserved2[4];
-        /// <summary>Null: airborne, or put elsewhere since</summary>
-        public BodyId Ground;
-        /// <summary>[m] on the ground, in its body's frame</summary>
-        public Vec3 Foot;
-        /// <summary>[m] the same, world</summary>
-        public Vec3 FootAt;
-        /// <summary>[m/s] world</summary>
-        public Vec3 Velocity;
-        /// <summary>[1] of the ground</summary>
-        public UnitVec3 Normal;
-        /// <summary>[steps] in a row in which it could not leave what it overlaps</summary>
-        public uint Stuck;
-        private fixed byte reserved3[4];
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static Character Sized()
@@ -1675,9 +1688,6 @@ namespace Isostep.Fixed32
             if ((uint)index >= 8) throw new ArgumentOutOfRangeException("index");
             fixed (Q32* first = &Gears0) first[index] = value;
         }
-        /// <summary>Of gears</summary>
-        public uint Gear;
-        private fixed byte reserved1[4];
         /// <summary>[1]</summary>
         public Q32 FinalDrive;
         /// <summary>[kg m^2] 0, or 2^-10 or more</summary>
@@ -1694,20 +1704,6 @@ namespace Isostep.Fixed32
         public Q32 Ackermann;
         /// <summary>[1] 0 to 2</summary>
         public Q32 TrackSteer;
-        /// <summary>[1] -1 to 1</summary>
-        public Q32 Throttle;
-        /// <summary>[1] 0: the engine runs alone, to 1: engaged</summary>
-        public Q32 Clutch;
-        /// <summary>[1] 0 to 1</summary>
-        public Q32 Brake;
-        /// <summary>[1] 0 to 1</summary>
-        public Q32 Handbrake;
-        /// <summary>[1] -1 to 1</summary>
-        public Q32 Steer;
-        /// <summary>[rad/s] of its shaft, up to fastest_engine()</summary>
-        public Q32 EngineSpin;
-        /// <summary>[N m] on the gears, in the last sub-step</summary>
-        public Q32 ClutchLoad;
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static Vehicle Sized()
@@ -1770,27 +1766,6 @@ namespace Isostep.Fixed32
         /// <summary>0: none</summary>
         public uint Track;
         private fixed byte reserved2[4];
-        /// <summary>[rad/s] about the axle, seen from the body</summary>
-        public Q32 Spin;
-        /// <summary>[rad] that it has turned, 0 to 2 pi</summary>
-        public Q32 Angle;
-        /// <summary>[rad] from axle_direction, counter-clockwise seen from above</summary>
-        public Q32 Steered;
-        /// <summary>[m] from the hard point to the wheel's middle</summary>
-        public Q32 Length;
-        /// <summary>[1] of the tyre: the mean of this and earlier sub-steps, the last counts a half</summary>
-        public Q32 Slip;
-        public BodyId ContactBody;
-        /// <summary>[m] world</summary>
-        public Vec3 ContactPoint;
-        /// <summary>[1] of the ground, world</summary>
-        public UnitVec3 ContactNormal;
-        /// <summary>[N] along the normal</summary>
-        public Q32 Load;
-        /// <summary>[N] on the body, forward</summary>
-        public Q32 Along;
-        /// <summary>[N] on the body, normal x forward</summary>
-        public Q32 Across;
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static Wheel Sized()
@@ -1880,6 +1855,22 @@ namespace Isostep.Fixed32
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct ContactReport
+    {
+        private uint size;
+        private uint reserved0;
+        public BodyId Body;
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static ContactReport Sized()
+        {
+            ContactReport result = new ContactReport();
+            result.size = (uint)sizeof(ContactReport);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct JointLoad
     {
         private uint size;
@@ -1889,10 +1880,6 @@ namespace Isostep.Fixed32
         public Q32 BreakForce;
         /// <summary>[N m] 0: no torque breaks it</summary>
         public Q32 BreakTorque;
-        /// <summary>[N] on body b, of all the joint does; held at the format's end</summary>
-        public Q32 Force;
-        /// <summary>[N m] about b's origin of the joint; held at the format's end</summary>
-        public Q32 Torque;
 
         /// <summary>With its size set and all else 0: what the library fills in.</summary>
         internal static JointLoad Sized()
@@ -1972,24 +1959,6 @@ namespace Isostep.Fixed32
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct MoveTarget
-    {
-        private uint size;
-        private uint reserved0;
-        public BodyId Body;
-        /// <summary>Of the body's origin, world</summary>
-        public Pose Pose;
-
-        /// <summary>With its size set and all else 0: what the library fills in.</summary>
-        internal static MoveTarget Sized()
-        {
-            MoveTarget result = new MoveTarget();
-            result.size = (uint)sizeof(MoveTarget);
-            return result;
-        }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct KindGhost
     {
         private uint size;
@@ -2004,53 +1973,6 @@ namespace Isostep.Fixed32
         {
             KindGhost result = new KindGhost();
             result.size = (uint)sizeof(KindGhost);
-            return result;
-        }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct RankedZone
-    {
-        private uint size;
-        private uint reserved0;
-        public ZoneShape Shape;
-        private fixed byte reserved1[4];
-        /// <summary>Of a sphere the position alone</summary>
-        public Pose Pose;
-        /// <summary>[m] of a box; of a sphere x is the radius</summary>
-        public Vec3 Half;
-        /// <summary>[m/s^2] world</summary>
-        public Vec3 Acceleration;
-        /// <summary>[m/s] world</summary>
-        public Vec3 Wind;
-        /// <summary>Categories: Filter. The wind blows for all</summary>
-        public uint Mask;
-        public int Priority;
-        /// <summary>Zone_effect: what it hides, of zones of lower priority; 0: it adds to them</summary>
-        public uint Replaces;
-        private fixed byte reserved2[4];
-
-        /// <summary>With its size set and all else 0: what the library fills in.</summary>
-        internal static RankedZone Sized()
-        {
-            RankedZone result = new RankedZone();
-            result.size = (uint)sizeof(RankedZone);
-            return result;
-        }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct ContactReport
-    {
-        private uint size;
-        private uint reserved0;
-        public BodyId Body;
-
-        /// <summary>With its size set and all else 0: what the library fills in.</summary>
-        internal static ContactReport Sized()
-        {
-            ContactReport result = new ContactReport();
-            result.size = (uint)sizeof(ContactReport);
             return result;
         }
     }
@@ -2083,80 +2005,6 @@ namespace Isostep.Fixed32
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct DampingZone
-    {
-        private uint size;
-        private uint reserved0;
-        public ZoneShape Shape;
-        private fixed byte reserved1[4];
-        /// <summary>Of a sphere the position alone</summary>
-        public Pose Pose;
-        /// <summary>[m] of a box; of a sphere x is the radius</summary>
-        public Vec3 Half;
-        /// <summary>[1/s] of velocities</summary>
-        public Q32 Linear;
-        /// <summary>[1/s] of angular velocities</summary>
-        public Q32 Angular;
-        /// <summary>Categories: Filter</summary>
-        public uint Mask;
-        public int Priority;
-        private byte replaces;
-        /// <summary>Hides zones of lower priority from what it acts on</summary>
-        public bool Replaces { get { return replaces != 0; } set { replaces = (byte)(value ? 1 : 0); } }
-        private fixed byte reserved2[7];
-
-        /// <summary>With its size set and all else 0: what the library fills in.</summary>
-        internal static DampingZone Sized()
-        {
-            DampingZone result = new DampingZone();
-            result.size = (uint)sizeof(DampingZone);
-            return result;
-        }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe partial struct RankedWater
-    {
-        private uint size;
-        private uint reserved0;
-        /// <summary>[m] along up, of the water at rest</summary>
-        public Q32 SurfaceHeight;
-        /// <summary>[kg/m^3]</summary>
-        public Q32 Density;
-        /// <summary>[m] of the region: a box along the world's axes</summary>
-        public Vec3 Middle;
-        /// <summary>[m] all 0: everywhere</summary>
-        public Vec3 Half;
-        /// <summary>[m/s]</summary>
-        public Vec3 Current;
-        /// <summary>[1/s] each of a kg of water displaced</summary>
-        public Q32 LinearDrag;
-        /// <summary>[1/m] the same, times speed</summary>
-        public Q32 QuadraticDrag;
-        /// <summary>[1/s] of the body's turning, each of its kg displaced</summary>
-        public Q32 AngularDrag;
-        /// <summary>[m] above the water at rest; 0: no wave</summary>
-        public Q32 WaveHeight;
-        /// <summary>[m]</summary>
-        public Q32 WaveLength;
-        /// <summary>[s]</summary>
-        public Q32 WavePeriod;
-        /// <summary>[1] unit length; along the surface</summary>
-        public UnitVec3 WaveDirection;
-        /// <summary>Categories: Filter</summary>
-        public uint Mask;
-        public int Priority;
-
-        /// <summary>With its size set and all else 0: what the library fills in.</summary>
-        internal static RankedWater Sized()
-        {
-            RankedWater result = new RankedWater();
-            result.size = (uint)sizeof(RankedWater);
-            return result;
-        }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct SensorMount
     {
         private uint size;
@@ -2172,6 +2020,178 @@ namespace Isostep.Fixed32
         {
             SensorMount result = new SensorMount();
             result.size = (uint)sizeof(SensorMount);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct BreakableInput
+    {
+        private uint size;
+        private uint reserved0;
+        /// <summary>[kg m/s] 0: whole</summary>
+        public Q32 Impulse;
+        /// <summary>[m] body frame</summary>
+        public Vec3 Point;
+        /// <summary>[1] into the body, body frame</summary>
+        public UnitVec3 Direction;
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static BreakableInput Sized()
+        {
+            BreakableInput result = new BreakableInput();
+            result.size = (uint)sizeof(BreakableInput);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct CharacterInput
+    {
+        private uint size;
+        private uint reserved0;
+        /// <summary>[m/s] along the ground, world</summary>
+        public Vec3 Move;
+        /// <summary>[m/s] upwards; 0 again once it has left the ground</summary>
+        public Q32 Jump;
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static CharacterInput Sized()
+        {
+            CharacterInput result = new CharacterInput();
+            result.size = (uint)sizeof(CharacterInput);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct VehicleInput
+    {
+        private uint size;
+        private uint reserved0;
+        /// <summary>[1] -1 to 1</summary>
+        public Q32 Throttle;
+        /// <summary>[1] 0: the engine runs alone, to 1: engaged</summary>
+        public Q32 Clutch;
+        /// <summary>[1] 0 to 1</summary>
+        public Q32 Brake;
+        /// <summary>[1] 0 to 1</summary>
+        public Q32 Handbrake;
+        /// <summary>[1] -1 to 1</summary>
+        public Q32 Steer;
+        /// <summary>Of VehicleSettings::gears</summary>
+        public uint Gear;
+        private fixed byte reserved1[4];
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static VehicleInput Sized()
+        {
+            VehicleInput result = new VehicleInput();
+            result.size = (uint)sizeof(VehicleInput);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct CharacterState
+    {
+        private uint size;
+        private uint reserved0;
+        public Footing Footing;
+        private fixed byte reserved1[4];
+        /// <summary>Null: airborne, or put elsewhere since</summary>
+        public BodyId Ground;
+        /// <summary>[steps] in a row in which it could not leave what it overlaps</summary>
+        public uint Stuck;
+        private fixed byte reserved2[4];
+        /// <summary>[m] on the ground, in its body's frame</summary>
+        public Vec3 Foot;
+        /// <summary>[m] the same, world</summary>
+        public Vec3 FootAt;
+        /// <summary>[m/s] world</summary>
+        public Vec3 Velocity;
+        /// <summary>[1] of the ground</summary>
+        public UnitVec3 Normal;
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static CharacterState Sized()
+        {
+            CharacterState result = new CharacterState();
+            result.size = (uint)sizeof(CharacterState);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct VehicleState
+    {
+        private uint size;
+        private uint reserved0;
+        /// <summary>[rad/s] of its shaft, up to fastest_engine()</summary>
+        public Q32 EngineSpin;
+        /// <summary>[N m] on the gears, in the last sub-step</summary>
+        public Q32 ClutchLoad;
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static VehicleState Sized()
+        {
+            VehicleState result = new VehicleState();
+            result.size = (uint)sizeof(VehicleState);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct WheelState
+    {
+        private uint size;
+        private uint reserved0;
+        /// <summary>[rad/s] about the axle, seen from the body</summary>
+        public Q32 Spin;
+        /// <summary>[rad] that it has turned, 0 to 2 pi</summary>
+        public Q32 Angle;
+        /// <summary>[rad] from axle_direction, counter-clockwise seen from above</summary>
+        public Q32 Steered;
+        /// <summary>[m] from the hard point to the wheel's middle</summary>
+        public Q32 Length;
+        /// <summary>[1] of the tyre: the mean of this and earlier sub-steps, the last counts a half</summary>
+        public Q32 Slip;
+        public BodyId ContactBody;
+        /// <summary>[m] world</summary>
+        public Vec3 ContactPoint;
+        /// <summary>[1] of the ground, world</summary>
+        public UnitVec3 ContactNormal;
+        /// <summary>[N] along the normal</summary>
+        public Q32 Load;
+        /// <summary>[N] on the body, forward</summary>
+        public Q32 Along;
+        /// <summary>[N] on the body, normal x forward</summary>
+        public Q32 Across;
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static WheelState Sized()
+        {
+            WheelState result = new WheelState();
+            result.size = (uint)sizeof(WheelState);
+            return result;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct JointLoadState
+    {
+        private uint size;
+        private uint reserved0;
+        /// <summary>[N] on body b, of all the joint does; held at the format's end</summary>
+        public Q32 Force;
+        /// <summary>[N m] about b's origin of the joint; held at the format's end</summary>
+        public Q32 Torque;
+
+        /// <summary>With its size set and all else 0: what the library fills in.</summary>
+        internal static JointLoadState Sized()
+        {
+            JointLoadState result = new JointLoadState();
+            result.size = (uint)sizeof(JointLoadState);
             return result;
         }
     }

@@ -116,6 +116,14 @@ namespace Isostep.Fixed32
             Check(Native.iso_q32_body_set_mass(Pointer, body.Value, &mass));
         }
 
+        /// <summary>Another shape; id, pose, joints and records stay. `mass`: null keeps that of a dynamic
+        /// body.</summary>
+        public void SetBodyShape(BodyId body, ShapeId shape, BodyMass? mass = null)
+        {
+            BodyMass massValue = mass.GetValueOrDefault();
+            Check(Native.iso_q32_body_set_shape(Pointer, body.Value, shape.Value, mass.HasValue ? &massValue : null));
+        }
+
         /// <summary>The next step carries a kinematic body there.</summary>
         public void MoveBodyTo(BodyId body, Pose pose)
         {
@@ -174,6 +182,28 @@ namespace Isostep.Fixed32
         public void SetJoint(JointId joint, JointProperties properties)
         {
             Check(Native.iso_q32_joint_set(Pointer, joint.Value, &properties));
+        }
+
+        /// <summary>Parts of it: [rad] or [m]. Torque [N m] or [N], 0: no motor; frequency [Hz], 0: no
+        /// spring.</summary>
+        public void SetJointLimits(JointId joint, Q32 lower, Q32 upper)
+        {
+            Check(Native.iso_q32_joint_set_limits(Pointer, joint.Value, lower.Raw, upper.Raw));
+        }
+
+        public void SetJointMotor(JointId joint, Q32 speed, Q32 torque)
+        {
+            Check(Native.iso_q32_joint_set_motor(Pointer, joint.Value, speed.Raw, torque.Raw));
+        }
+
+        public void SetJointSpring(JointId joint, Q32 frequency, Q32 damping)
+        {
+            Check(Native.iso_q32_joint_set_spring(Pointer, joint.Value, frequency.Raw, damping.Raw));
+        }
+
+        public void SetJointTarget(JointId joint, Q32 target)
+        {
+            Check(Native.iso_q32_joint_set_target(Pointer, joint.Value, target.Raw));
         }
 
         public JointProperties GetJoint(JointId joint)
@@ -658,6 +688,25 @@ namespace Isostep.Fixed32
             return filled;
         }
 
+        public RecordId AddDampingZone(DampingZone record)
+        {
+            RecordId filled;
+            Check(Native.iso_q32_add_damping_zone(Pointer, &record, &filled));
+            return filled;
+        }
+
+        public void SetDampingZone(RecordId id, DampingZone record)
+        {
+            Check(Native.iso_q32_set_damping_zone(Pointer, id.Value, &record));
+        }
+
+        public DampingZone GetDampingZone(RecordId id)
+        {
+            DampingZone filled = DampingZone.Sized();
+            Check(Native.iso_q32_get_damping_zone(Pointer, id.Value, &filled));
+            return filled;
+        }
+
         public RecordId AddMaterialPair(MaterialPair record)
         {
             RecordId filled;
@@ -829,6 +878,25 @@ namespace Isostep.Fixed32
             return filled;
         }
 
+        public RecordId AddContactReport(ContactReport record)
+        {
+            RecordId filled;
+            Check(Native.iso_q32_add_contact_report(Pointer, &record, &filled));
+            return filled;
+        }
+
+        public void SetContactReport(RecordId id, ContactReport record)
+        {
+            Check(Native.iso_q32_set_contact_report(Pointer, id.Value, &record));
+        }
+
+        public ContactReport GetContactReport(RecordId id)
+        {
+            ContactReport filled = ContactReport.Sized();
+            Check(Native.iso_q32_get_contact_report(Pointer, id.Value, &filled));
+            return filled;
+        }
+
         public RecordId AddJointLoad(JointLoad record)
         {
             RecordId filled;
@@ -886,25 +954,6 @@ namespace Isostep.Fixed32
             return filled;
         }
 
-        public RecordId AddMoveTarget(MoveTarget record)
-        {
-            RecordId filled;
-            Check(Native.iso_q32_add_move_target(Pointer, &record, &filled));
-            return filled;
-        }
-
-        public void SetMoveTarget(RecordId id, MoveTarget record)
-        {
-            Check(Native.iso_q32_set_move_target(Pointer, id.Value, &record));
-        }
-
-        public MoveTarget GetMoveTarget(RecordId id)
-        {
-            MoveTarget filled = MoveTarget.Sized();
-            Check(Native.iso_q32_get_move_target(Pointer, id.Value, &filled));
-            return filled;
-        }
-
         public RecordId AddKindGhost(KindGhost record)
         {
             RecordId filled;
@@ -921,44 +970,6 @@ namespace Isostep.Fixed32
         {
             KindGhost filled = KindGhost.Sized();
             Check(Native.iso_q32_get_kind_ghost(Pointer, id.Value, &filled));
-            return filled;
-        }
-
-        public RecordId AddRankedZone(RankedZone record)
-        {
-            RecordId filled;
-            Check(Native.iso_q32_add_ranked_zone(Pointer, &record, &filled));
-            return filled;
-        }
-
-        public void SetRankedZone(RecordId id, RankedZone record)
-        {
-            Check(Native.iso_q32_set_ranked_zone(Pointer, id.Value, &record));
-        }
-
-        public RankedZone GetRankedZone(RecordId id)
-        {
-            RankedZone filled = RankedZone.Sized();
-            Check(Native.iso_q32_get_ranked_zone(Pointer, id.Value, &filled));
-            return filled;
-        }
-
-        public RecordId AddContactReport(ContactReport record)
-        {
-            RecordId filled;
-            Check(Native.iso_q32_add_contact_report(Pointer, &record, &filled));
-            return filled;
-        }
-
-        public void SetContactReport(RecordId id, ContactReport record)
-        {
-            Check(Native.iso_q32_set_contact_report(Pointer, id.Value, &record));
-        }
-
-        public ContactReport GetContactReport(RecordId id)
-        {
-            ContactReport filled = ContactReport.Sized();
-            Check(Native.iso_q32_get_contact_report(Pointer, id.Value, &filled));
             return filled;
         }
 
@@ -981,44 +992,6 @@ namespace Isostep.Fixed32
             return filled;
         }
 
-        public RecordId AddDampingZone(DampingZone record)
-        {
-            RecordId filled;
-            Check(Native.iso_q32_add_damping_zone(Pointer, &record, &filled));
-            return filled;
-        }
-
-        public void SetDampingZone(RecordId id, DampingZone record)
-        {
-            Check(Native.iso_q32_set_damping_zone(Pointer, id.Value, &record));
-        }
-
-        public DampingZone GetDampingZone(RecordId id)
-        {
-            DampingZone filled = DampingZone.Sized();
-            Check(Native.iso_q32_get_damping_zone(Pointer, id.Value, &filled));
-            return filled;
-        }
-
-        public RecordId AddRankedWater(RankedWater record)
-        {
-            RecordId filled;
-            Check(Native.iso_q32_add_ranked_water(Pointer, &record, &filled));
-            return filled;
-        }
-
-        public void SetRankedWater(RecordId id, RankedWater record)
-        {
-            Check(Native.iso_q32_set_ranked_water(Pointer, id.Value, &record));
-        }
-
-        public RankedWater GetRankedWater(RecordId id)
-        {
-            RankedWater filled = RankedWater.Sized();
-            Check(Native.iso_q32_get_ranked_water(Pointer, id.Value, &filled));
-            return filled;
-        }
-
         public RecordId AddSensorMount(SensorMount record)
         {
             RecordId filled;
@@ -1035,6 +1008,70 @@ namespace Isostep.Fixed32
         {
             SensorMount filled = SensorMount.Sized();
             Check(Native.iso_q32_get_sensor_mount(Pointer, id.Value, &filled));
+            return filled;
+        }
+
+        public void SetBreakableInput(RecordId id, BreakableInput input)
+        {
+            Check(Native.iso_q32_set_breakable_input(Pointer, id.Value, &input));
+        }
+
+        public BreakableInput GetBreakableInput(RecordId id)
+        {
+            BreakableInput filled = BreakableInput.Sized();
+            Check(Native.iso_q32_get_breakable_input(Pointer, id.Value, &filled));
+            return filled;
+        }
+
+        public void SetCharacterInput(RecordId id, CharacterInput input)
+        {
+            Check(Native.iso_q32_set_character_input(Pointer, id.Value, &input));
+        }
+
+        public CharacterInput GetCharacterInput(RecordId id)
+        {
+            CharacterInput filled = CharacterInput.Sized();
+            Check(Native.iso_q32_get_character_input(Pointer, id.Value, &filled));
+            return filled;
+        }
+
+        public void SetVehicleInput(RecordId id, VehicleInput input)
+        {
+            Check(Native.iso_q32_set_vehicle_input(Pointer, id.Value, &input));
+        }
+
+        public VehicleInput GetVehicleInput(RecordId id)
+        {
+            VehicleInput filled = VehicleInput.Sized();
+            Check(Native.iso_q32_get_vehicle_input(Pointer, id.Value, &filled));
+            return filled;
+        }
+
+        public CharacterState GetCharacterState(RecordId id)
+        {
+            CharacterState filled = CharacterState.Sized();
+            Check(Native.iso_q32_get_character_state(Pointer, id.Value, &filled));
+            return filled;
+        }
+
+        public VehicleState GetVehicleState(RecordId id)
+        {
+            VehicleState filled = VehicleState.Sized();
+            Check(Native.iso_q32_get_vehicle_state(Pointer, id.Value, &filled));
+            return filled;
+        }
+
+        public WheelState GetWheelState(RecordId id)
+        {
+            WheelState filled = WheelState.Sized();
+            Check(Native.iso_q32_get_wheel_state(Pointer, id.Value, &filled));
+            return filled;
+        }
+
+        public JointLoadState GetJointLoadState(RecordId id)
+        {
+            JointLoadState filled = JointLoadState.Sized();
+            Check(Native.iso_q32_get_joint_load_state(Pointer, id.Value, &filled));
             return filled;
         }
     }

@@ -330,6 +330,9 @@ namespace Isostep
         public static extern Status iso_remove_aero_surface(IntPtr world, ulong id);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_remove_damping_zone(IntPtr world, ulong id);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_remove_material_pair(IntPtr world, ulong id);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -357,6 +360,9 @@ namespace Isostep
         public static extern Status iso_remove_hit_report(IntPtr world, ulong id);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_remove_contact_report(IntPtr world, ulong id);
+
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_remove_joint_load(IntPtr world, ulong id);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
@@ -366,25 +372,10 @@ namespace Isostep
         public static extern Status iso_remove_axis_drive(IntPtr world, ulong id);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_remove_move_target(IntPtr world, ulong id);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_remove_kind_ghost(IntPtr world, ulong id);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_remove_ranked_zone(IntPtr world, ulong id);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_remove_contact_report(IntPtr world, ulong id);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_remove_kind_response(IntPtr world, ulong id);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_remove_damping_zone(IntPtr world, ulong id);
-
-        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
-        public static extern Status iso_remove_ranked_water(IntPtr world, ulong id);
 
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_remove_sensor_mount(IntPtr world, ulong id);

@@ -287,6 +287,11 @@ namespace Isostep
             Check(Native.iso_remove_aero_surface(Pointer, id.Value));
         }
 
+        public void RemoveDampingZone(RecordId id)
+        {
+            Check(Native.iso_remove_damping_zone(Pointer, id.Value));
+        }
+
         public void RemoveMaterialPair(RecordId id)
         {
             Check(Native.iso_remove_material_pair(Pointer, id.Value));
@@ -332,6 +337,11 @@ namespace Isostep
             Check(Native.iso_remove_hit_report(Pointer, id.Value));
         }
 
+        public void RemoveContactReport(RecordId id)
+        {
+            Check(Native.iso_remove_contact_report(Pointer, id.Value));
+        }
+
         public void RemoveJointLoad(RecordId id)
         {
             Check(Native.iso_remove_joint_load(Pointer, id.Value));
@@ -347,39 +357,14 @@ namespace Isostep
             Check(Native.iso_remove_axis_drive(Pointer, id.Value));
         }
 
-        public void RemoveMoveTarget(RecordId id)
-        {
-            Check(Native.iso_remove_move_target(Pointer, id.Value));
-        }
-
         public void RemoveKindGhost(RecordId id)
         {
             Check(Native.iso_remove_kind_ghost(Pointer, id.Value));
         }
 
-        public void RemoveRankedZone(RecordId id)
-        {
-            Check(Native.iso_remove_ranked_zone(Pointer, id.Value));
-        }
-
-        public void RemoveContactReport(RecordId id)
-        {
-            Check(Native.iso_remove_contact_report(Pointer, id.Value));
-        }
-
         public void RemoveKindResponse(RecordId id)
         {
             Check(Native.iso_remove_kind_response(Pointer, id.Value));
-        }
-
-        public void RemoveDampingZone(RecordId id)
-        {
-            Check(Native.iso_remove_damping_zone(Pointer, id.Value));
-        }
-
-        public void RemoveRankedWater(RecordId id)
-        {
-            Check(Native.iso_remove_ranked_water(Pointer, id.Value));
         }
 
         public void RemoveSensorMount(RecordId id)
