@@ -36,6 +36,10 @@ for (const scalar of scalars) {
   refused(() => world.applyImpulse(7, [0, 1, 0]), {field: 'body'}, 'a number as an id');
   refused(() => world.addShape('torus'), {field: 'kind', expected: /box/}, 'no shape');
   refused(() => world.add('thrustre', {}), {field: 'kind', expected: /thruster/}, 'no record');
+  for (const ask of [() => world.get('thruster', 5n), () => world.set('thruster', 5n, {}),
+    () => world.setInput('vehicle', 5n, {}), () => world.state('wheel', 5n)]) {
+    refused(ask, {field: 'id', status: 1}, 'a record that is not there');
+  }
   if (scalar[0] === 'q') {
     refused(() => world.applyImpulse(body, [NaN, 0, 0]), {command: 'body_apply_impulse', expected: 'a number'}, 'NaN');
     refused(() => world.applyImpulse(body, [1e12, 0, 0]), {expected: /-\d+ to below \d+/}, 'beyond the format');

@@ -25,7 +25,9 @@ export class AskedWorld extends Handle {
     try {
       return call();
     } catch (error) {
-      throw error.status > 0 ? this.#fault() : error;
+      if (!(error.status > 0)) throw error;
+      const fault = this.#fault();  // of commands; what is only asked leaves it
+      throw fault.command === error.command ? fault : error;
     }
   }
   #fault() {
