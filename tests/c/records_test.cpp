@@ -4,6 +4,7 @@
 #include "game.hpp"
 #include "isostep/core/random.hpp"
 #include "isostep/world/world.hpp"
+#include "unit/world/named_by_records.hpp"
 
 namespace isostep::test {
 
@@ -128,24 +129,18 @@ TEST(CStructs, CrossWithAllTheirMembers) {
 template <class S> struct Twins {
   World<S> cpp;
   iso_world* c = nullptr;
-  BodyId a, b, carried, sensor;
-  JointId hinge_a, hinge_b, six;
+  NamedByRecords<S> named;
 
   Twins() {
     const ShapeId box = cpp.add_shape(Box{{0.5, 0.5, 0.5}});
     const auto make = [&](BodyType type, int x, bool is_sensor) {
       return cpp.create({.type = type, .shape = box, .position = {S(x), S(1), S(0)}, .sensor = is_sensor});
     };
-    a = make(BodyType::dynamic, 0, false);
-    b = make(BodyType::dynamic, 3, false);
-    carried = make(BodyType::kinematic, 6, false);
-    sensor = make(BodyType::kinematic, 9, true);
-    hinge_a = cpp.create(hinge<S>({.a = a}));
-    hinge_b = cpp.create(hinge<S>({.a = b}));
-    SixAxisDefinition<S> free;
-    free.a = a;
-    free.b = b;
-    six = cpp.create(six_axis<S>(free));
+    named.a = make(BodyType::dynamic, 0, false);
+    named.b = make(BodyType::dynamic, 3, false);
+    named.carried = make(BodyType::kinematic, 6, false);
+    named.sensor = make(BodyType::kinematic, 9, true);
+    named.create_joints(cpp);
   }
   ~Twins() { iso_world_destroy(c); }
   Twins(const Twins&) = delete;
@@ -159,27 +154,11 @@ template <class S> struct Twins {
     ASSERT_EQ(iso_world_read(c, state.data(), state.size()), ISO_OK) << iso_last_error();
     ASSERT_EQ(iso_world_hash(c), cpp.hash());
   }
-
-  template <class Record> Record naming() const {
-    Record record;
-    const bool is_carried = std::is_same_v<Record, CharacterSettings<S>>;
-    if constexpr (requires { record.body; }) record.body = is_carried ? carried : a;
-    if constexpr (requires { record.a; }) record.a = a;
-    if constexpr (requires { record.b; }) record.b = b;
-    if constexpr (requires { record.sensor; }) record.sensor = sensor;
-    if constexpr (requires { record.on; }) record.on = a;
-    if constexpr (requires { record.joint; }) record.joint = six;
-    if constexpr (requires { record.joint_a; }) record.joint_a = hinge_a;
-    if constexpr (requires { record.joint_b; }) record.joint_b = hinge_b;
-    if constexpr (requires { record.kind_a; }) record.kind_a = 1;
-    if constexpr (requires { record.kind_b; }) record.kind_b = 2;
-    return record;
-  }
 };
 
 template <class S, class Record, class Id, class InC, class Add, class Set, class Get, class Remove>
 int expect_same_record(Twins<S>& twins, const char* name, Add add, Set set, Get get, Remove remove) {
-  const Record record = twins.template naming<Record>();
+  const Record record = twins.named.template naming<Record>();
   InC in_c, kept, expected;
   for (InC* each : {&in_c, &kept, &expected}) EXPECT_EQ(init_sized<Record>("", each, sizeof *each), kOk);
   EXPECT_EQ(put_sized("", &in_c, record), kOk);
@@ -258,31 +237,31 @@ iso_record expect_stale_settings_take_nothing_back(Twins<S>& twins, const Settin
   return made;
 }
 
-#define ISO_TEST(P, S)                                                                                           \
-  TEST(CRecords, StaleSettingsTakeNothingBackIn_##P) {                                                           \
-    Twins<S> twins;                                                                                              \
-    iso_##P##_settings settings;                                                                                 \
-    iso_##P##_settings_init(&settings);                                                                          \
-    iso_world* world = nullptr;                                                                                  \
-    ASSERT_EQ(iso_##P##_world_create(&settings, &world), ISO_OK);                                                \
-    twins.copy_to(world);                                                                                        \
-    CharacterInput<S> walk;                                                                                      \
-    walk.move.x = S(1);                                                                                          \
-    const iso_record character =                                                                                 \
-        expect_stale_settings_take_nothing_back<S, iso_##P##_character, iso_##P##_character_input>(              \
-            twins, twins.naming<CharacterSettings<S>>(), walk, iso_##P##_add_character, iso_##P##_set_character, \
-            iso_##P##_set_character_input);                                                                      \
-    iso_##P##_character_state state;                                                                             \
-    iso_##P##_character_state_init(&state);                                                                      \
-    ASSERT_EQ(iso_##P##_get_character_state(world, character, &state), ISO_OK);                                  \
-    CharacterState<S> told;                                                                                      \
-    ASSERT_EQ(take_sized("", &state, told), kOk);                                                                \
-    EXPECT_LT(to_double(told.velocity.y), -5.0) << "it falls for a second";                                      \
-    VehicleInput<S> drive;                                                                                       \
-    drive.throttle = S(1);                                                                                       \
-    expect_stale_settings_take_nothing_back<S, iso_##P##_vehicle, iso_##P##_vehicle_input>(                      \
-        twins, twins.naming<VehicleSettings<S>>(), drive, iso_##P##_add_vehicle, iso_##P##_set_vehicle,          \
-        iso_##P##_set_vehicle_input);                                                                            \
+#define ISO_TEST(P, S)                                                                                                 \
+  TEST(CRecords, StaleSettingsTakeNothingBackIn_##P) {                                                                 \
+    Twins<S> twins;                                                                                                    \
+    iso_##P##_settings settings;                                                                                       \
+    iso_##P##_settings_init(&settings);                                                                                \
+    iso_world* world = nullptr;                                                                                        \
+    ASSERT_EQ(iso_##P##_world_create(&settings, &world), ISO_OK);                                                      \
+    twins.copy_to(world);                                                                                              \
+    CharacterInput<S> walk;                                                                                            \
+    walk.move.x = S(1);                                                                                                \
+    const iso_record character =                                                                                       \
+        expect_stale_settings_take_nothing_back<S, iso_##P##_character, iso_##P##_character_input>(                    \
+            twins, twins.named.naming<CharacterSettings<S>>(), walk, iso_##P##_add_character, iso_##P##_set_character, \
+            iso_##P##_set_character_input);                                                                            \
+    iso_##P##_character_state state;                                                                                   \
+    iso_##P##_character_state_init(&state);                                                                            \
+    ASSERT_EQ(iso_##P##_get_character_state(world, character, &state), ISO_OK);                                        \
+    CharacterState<S> told;                                                                                            \
+    ASSERT_EQ(take_sized("", &state, told), kOk);                                                                      \
+    EXPECT_LT(to_double(told.velocity.y), -5.0) << "it falls for a second";                                            \
+    VehicleInput<S> drive;                                                                                             \
+    drive.throttle = S(1);                                                                                             \
+    expect_stale_settings_take_nothing_back<S, iso_##P##_vehicle, iso_##P##_vehicle_input>(                            \
+        twins, twins.named.naming<VehicleSettings<S>>(), drive, iso_##P##_add_vehicle, iso_##P##_set_vehicle,          \
+        iso_##P##_set_vehicle_input);                                                                                  \
   }
 ISO_TEST(f32, float)
 ISO_TEST(f64, double)

@@ -4,6 +4,7 @@
 #include "determinism/allocation_count.hpp"
 #include "determinism/solver_scene.hpp"
 #include "isostep/store/state.hpp"
+#include "unit/world/named_by_records.hpp"
 
 namespace isostep::test {
 namespace {
@@ -14,17 +15,13 @@ template <class S> class OneOfEach {
   explicit OneOfEach(World<S>& world) : world_(world) {
     world_.create(still<S>(add_box(world_, 20, 0.5, 20), {0, -0.5, 0}));
     const ShapeId crate = add_box(world_, 0.5, 0.5, 0.5), capsule = world_.add_shape(Capsule{0.25, 0.5});
-    a_ = world_.create(moving<S>(crate, {0, 0.5, 0}));
-    b_ = world_.create(moving<S>(crate, {3, 0.5, 0}));
-    carried_ = world_.create(kinematic_at(capsule, {6, 0.75, 0}, false));
-    sensor_ = world_.create(kinematic_at(crate, {9, 0.5, 0}, true));
-    hinge_a_ = world_.create(hinge<S>({.a = a_}));
-    hinge_b_ = world_.create(hinge<S>({.a = b_}));
-    SixAxisDefinition<S> free;
-    free.a = a_;
-    free.b = b_;
-    six_ = world_.create(six_axis<S>(free));
-#define ISO_ADD(name, Record, Id, S) EXPECT_TRUE(world_.add(naming<Record>())) << #name << describe(world_.fault());
+    named_.a = world_.create(moving<S>(crate, {0, 0.5, 0}));
+    named_.b = world_.create(moving<S>(crate, {3, 0.5, 0}));
+    named_.carried = world_.create(kinematic_at(capsule, {6, 0.75, 0}, false));
+    named_.sensor = world_.create(kinematic_at(crate, {9, 0.5, 0}, true));
+    named_.create_joints(world_);
+#define ISO_ADD(name, Record, Id, S) \
+  EXPECT_TRUE(world_.add(named_.template naming<Record>())) << #name << describe(world_.fault());
     ISO_FOR_EACH_RECORD(ISO_ADD, S)
 #undef ISO_ADD
   }
@@ -60,26 +57,9 @@ template <class S> class OneOfEach {
     if constexpr (requires { input.throttle; }) input.throttle = S(frame % 60 < 30 ? 1 : -1);
     return input;
   }
-  template <class Record> Record naming() const {
-    Record record;
-    const bool walks = std::is_same_v<Record, CharacterSettings<S>>;
-    if constexpr (requires { record.body; }) record.body = walks ? carried_ : a_;
-    if constexpr (requires { record.a; }) record.a = a_;
-    if constexpr (requires { record.b; }) record.b = b_;
-    if constexpr (requires { record.sensor; }) record.sensor = sensor_;
-    if constexpr (requires { record.on; }) record.on = a_;
-    if constexpr (requires { record.joint; }) record.joint = six_;
-    if constexpr (requires { record.joint_a; }) record.joint_a = hinge_a_;
-    if constexpr (requires { record.joint_b; }) record.joint_b = hinge_b_;
-    if constexpr (requires { record.kind_a; }) record.kind_a = 1;
-    if constexpr (requires { record.kind_b; }) record.kind_b = 2;
-    return record;
-  }
-
   World<S>& world_;
   typename World<S>::Snapshot saved_;
-  BodyId a_, b_, carried_, sensor_;
-  JointId hinge_a_, hinge_b_, six_;
+  NamedByRecords<S> named_;
 };
 
 template <class S> class SavedRecords : public testing::Test {};

@@ -116,7 +116,7 @@ struct SetFilter {
     visit("filter", self.filter);
   }
 };
-/// How gravity and damping act on a body, and which motions are locked.
+/// Gravity and damping act on a body by these factors; its locked motions stop.
 template <class S> struct SetMotion {
   BodyId body;
   S gravity_scale;      // [1]
@@ -167,7 +167,7 @@ template <class S> struct SetJoint {
   }
 };
 
-/// lower..upper holds from now on.
+/// The joint keeps its position within lower..upper.
 template <class S> struct SetJointLimits {
   JointId joint;
   S lower, upper;  // [rad], [m] of a length
@@ -177,7 +177,7 @@ template <class S> struct SetJointLimits {
     visit("upper", self.upper);
   }
 };
-/// A motor of that speed, as strong as that.
+/// A motor drives the joint at that speed with at most that torque.
 template <class S> struct SetJointMotor {
   JointId joint;
   S speed;   // [rad/s], [m/s] along a length
@@ -188,7 +188,7 @@ template <class S> struct SetJointMotor {
     visit("torque", self.torque);
   }
 };
-/// A spring that pulls to the joint's target.
+/// A spring pulls the joint to its target.
 template <class S> struct SetJointSpring {
   JointId joint;
   S frequency;  // [Hz] 0: no spring
@@ -199,7 +199,7 @@ template <class S> struct SetJointSpring {
     visit("damping", self.damping);
   }
 };
-/// Where the joint's spring pulls to.
+/// The joint's spring pulls there.
 template <class S> struct SetJointTarget {
   JointId joint;
   S target;  // [rad], [m] of a length

@@ -13,6 +13,7 @@
 #include "isostep/dynamics/checks.hpp"
 #include "isostep/geometry/mass_properties.hpp"
 #include "isostep/state/command_journal.hpp"
+#include "isostep/store/record_place.hpp"
 #include "isostep/systems/motion/move_targets.hpp"
 #include "isostep/systems/motion/render_poses.hpp"
 #include "isostep/systems/sleep/island_sleep.hpp"
@@ -80,7 +81,8 @@ template <class S> class CommandExecutor {
   template <class Change> bool change_joint(JointId joint, const Change& change);
   template <class Record> bool check_record(const Record& record);
   template <class Record> bool check_joints(const Record& record);
-  template <class Record> detail::RecordPlace<S> place_of(const Record& record) const;
+  template <class Record>
+  detail::RecordPlace<S> place_of(const Record& record, std::uint32_t slot, const BodyProperties<S>* next) const;
   template <class Record> bool check_alone(const Record& record, std::uint32_t slot);
   template <class Record> void wake_for_record(const Record& record);
   void wake_what_rests_on(BodyId body);

@@ -28,7 +28,7 @@ template <class S> bool CommandExecutor<S>::give_mass_anew(const BodyMass<S>& ma
   return good;
 }
 
-/// Whether a record that names the body may do so once it is like that.
+/// Refuses a change of a body after which a record could not name it.
 template <class S>
 template <class Record>
 bool CommandExecutor<S>::check_tie(const Record& record, std::uint32_t slot, const BodyProperties<S>& next) {
@@ -41,12 +41,7 @@ bool CommandExecutor<S>::check_tie(const Record& record, std::uint32_t slot, con
     if (detail::overreaches(next, named))
       return journal_.refuse({Fault::out_of_range, "", "mass", "kappa arm^2 of records up to Limits::leverage()"});
   }
-  detail::RecordPlace<S> place = place_of(record);
-  for (int i = 0; i < bodies.count; ++i) {
-    if (bodies.all[i].body && bodies.all[i].body.slot == slot) place.bodies[i] = &next;
-  }
-  if (place.bodies[0] != nullptr) place.parts = map_.children_of(place.bodies[0]->shape);
-  const FaultReport fault = detail::RecordRules<Record>::fault_at(record, place);
+  const FaultReport fault = detail::RecordRules<Record>::fault_at(record, place_of(record, slot, &next));
   if (fault.fault != Fault::not_dynamic) return journal_.accept(fault);
   return journal_.refuse({Fault::bad_argument, "", "type", "one that the body's springs may tie"});
 }
@@ -120,7 +115,6 @@ template <class S>
 void CommandExecutor<S>::replace(std::uint32_t slot, BodyState<S> state, const BodyProperties<S>& next) {
   destruction_.part(slot);
   wake_coupled(slot);
-  if (next.shape == map_.properties_at(map_.location(slot)).shape) leave_ground(slot);
   for (std::size_t i = 0; i < state_.joints.states.size(); ++i) {
     const JointProperties<S>& joint = state_.joints.properties[i];
     if (joint.body_a != slot && joint.body_b != slot) continue;
@@ -144,6 +138,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetEnabled& command) {
   if (map_.is_enabled(slot) == (command.enabled != 0)) return true;
   BodyProperties<S> next = map_.properties_at(map_.location(slot));
   next.flags ^= body_flag::kDisabled;
+  leave_ground(slot);
   replace(slot, map_.state_at(map_.location(slot)), next);
   return true;
 }
@@ -158,6 +153,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetType<S>& command) {
   next.type = command.type;
   if (!give_mass_anew(command.mass, next) || !check_ties(slot, next)) return false;
   if (next.type == BodyType::static_) state.velocity = state.angular_velocity = Vec3<Velocity<S>>::zero();
+  leave_ground(slot);
   forget_move(slot);
   replace(slot, state, next);
   return true;

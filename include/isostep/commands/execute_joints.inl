@@ -72,7 +72,8 @@ template <class S> bool CommandExecutor<S>::execute(const SetJoint<S>& command) 
   return true;
 }
 
-/// As SetJoint with what `change(properties)` changes.
+/// Executes SetJoint with what change(properties, set_flag) makes of the joint's; set_flag(flag, on) turns a joint_flag
+/// on or off.
 template <class S> template <class Change> bool CommandExecutor<S>::change_joint(JointId joint, const Change& change) {
   if (!known(state_.joint_slots, joint, "joint")) return false;
   JointProperties<S> next = *map_.properties_of(joint);

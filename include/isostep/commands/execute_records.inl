@@ -6,7 +6,7 @@
 
 namespace isostep {
 
-/// Whether the record's numbers, and what it names, keep the rules of its kind.
+/// Refuses a record whose numbers, bodies or joints break the rules of its kind.
 template <class S> template <class Record> bool CommandExecutor<S>::check_record(const Record& record) {
   using Rules = detail::RecordRules<Record>;
   if (!journal_.accept(Rules::fault(record))) return false;
@@ -23,34 +23,29 @@ template <class S> template <class Record> bool CommandExecutor<S>::check_record
     if (detail::overreaches(body, named))
       return journal_.refuse({Fault::out_of_range, "", named.point_field, "kappa arm^2 up to Limits::leverage()"});
   }
-  return check_joints(record) && journal_.accept(Rules::fault_at(record, place_of(record)));
+  return check_joints(record) && journal_.accept(Rules::fault_at(record, place_of(record, kNoBody, nullptr)));
 }
-/// Whether the joints that it names are there.
+/// Refuses a record that names a joint which does not exist.
 template <class S> template <class Record> bool CommandExecutor<S>::check_joints(const Record& record) {
-  if constexpr (requires { record.joint; }) {
-    return known(state_.joint_slots, record.joint, "joint");
-  } else if constexpr (requires { record.joint_a; }) {
-    const detail::NamedJoints named = detail::joints_of(record);
-    for (int i = 0; i < 3; ++i) {
-      const bool optional = i == 2 && !named.all[i];
-      if (!optional && !known(state_.joint_slots, named.all[i], detail::NamedJoints::kFields[i])) return false;
-    }
+  const detail::NamedJoints named = detail::joints_of(record);
+  for (int i = 0; i < named.count; ++i) {
+    if (!named.all[i] && named.may_be_null(i)) continue;
+    if (!known(state_.joint_slots, named.all[i], named.field(i))) return false;
   }
   return true;
 }
+/// `next`: what the body of a slot is to be, in place of what it is.
 template <class S>
 template <class Record>
-detail::RecordPlace<S> CommandExecutor<S>::place_of(const Record& record) const {
-  detail::RecordPlace<S> place = {state_.settings, {}, {}, {}};
-  const detail::NamedBodies<S> bodies = detail::RecordRules<Record>::bodies(record);
-  for (int i = 0; i < bodies.count; ++i) place.bodies[i] = map_.properties_of(bodies.all[i].body);
-  if (place.bodies[0] != nullptr) place.parts = map_.children_of(place.bodies[0]->shape);
-  const detail::NamedJoints joints = detail::joints_of(record);
-  for (int i = 0; i < 3; ++i) place.joints[i] = map_.properties_of(joints.all[i]);
-  return place;
+detail::RecordPlace<S> CommandExecutor<S>::place_of(const Record& record, std::uint32_t slot,
+                                                    const BodyProperties<S>* next) const {
+  const auto body = [&](BodyId id) { return next != nullptr && id && id.slot == slot ? next : map_.properties_of(id); };
+  const auto joint = [&](JointId id) { return map_.properties_of(id); };
+  const auto children_of = [&](std::uint32_t shape) { return map_.children_of(shape); };
+  return detail::place_of<S>(record, state_.settings, body, joint, children_of);
 }
 
-/// Whether no record of another slot has what this one may not have in common with it.
+/// Refuses a record that has in common with one of another slot what no two may have.
 template <class S>
 template <class Record>
 bool CommandExecutor<S>::check_alone(const Record& record, std::uint32_t slot) {
@@ -77,7 +72,7 @@ bool CommandExecutor<S>::check_alone(const Record& record, std::uint32_t slot) {
   return true;
 }
 
-/// What touches a body, and what sleeps on it as a step found it.
+/// Wakes what touches a body, and what sleeps on it as a step found it.
 template <class S> void CommandExecutor<S>::wake_what_rests_on(BodyId body) {
   wake_.wake_touching(body.slot);
   wake_.wake_held_by(body.slot);

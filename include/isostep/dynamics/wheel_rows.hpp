@@ -89,10 +89,6 @@ template <class V> ISO_INLINE V tyre_slip(V slide_along, V slide_across, V speed
   return slide * V(0.25) < speed ? divide_to<V>(slide, speed) : kMost;
 }
 
-/// [1] m r^2 / I: what an impulse at the rim does to its speed, to what it does to that of the body.
-template <class S> ISO_INLINE S rim_give(S mass, S radius, S inertia) {
-  return saturate_to<S>(product(radius, saturate_to<S>(product(mass, divide_to<S>(radius, inertia)))));
-}
 /// The spin of a wheel that meets the ground or does not, or of its track, as speed of its rim [m/s].
 template <class S> struct WheelSpin {
   using V = Velocity<S>;

@@ -8,6 +8,7 @@
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/dynamics/records/record_store.hpp"
 #include "isostep/store/body_map.hpp"
+#include "isostep/store/record_place.hpp"
 #include "isostep/store/state.hpp"
 
 namespace isostep {
@@ -86,7 +87,7 @@ template <class S> class RecordValidator {
     }
     return nullptr;
   }
-  /// One a slot, those of free slots as new ones.
+  /// Each slot has one, a free slot a new one.
   template <class Record, class IdType> bool has_parts(const Registry<Record, IdType>& registry) const {
     bool good = true;
     detail::for_each_part<IdType>(state_.parts, [&](const auto& parts) {
@@ -109,30 +110,21 @@ template <class S> class RecordValidator {
       if (!state_.body_slots.holds(named.body) || !detail::is_as_asked(seen_.type_of(named.body.slot), named.must_be))
         return false;
     }
-    constexpr bool kOne = requires { record.joint; }
-    , kMore = requires { record.joint_a; };
     const detail::NamedJoints joints = detail::joints_of(record);
-    for (int i = 0; i < (kMore ? 3 : kOne ? 1 : 0); ++i) {
-      const bool optional = i == 2 && !joints.all[i];
-      if (!optional && !state_.joint_slots.holds(joints.all[i])) return false;
+    for (int i = 0; i < joints.count; ++i) {
+      if (!joints.all[i] && joints.may_be_null(i)) continue;
+      if (!state_.joint_slots.holds(joints.all[i])) return false;
     }
     return true;
   }
-  /// Of a record that names well.
+  /// The record names well.
   template <class Record> detail::RecordPlace<S> place_of(const Record& record) const {
-    detail::RecordPlace<S> place = {state_.settings, {}, {}, {}};
-    const detail::NamedBodies<S> bodies = detail::RecordRules<Record>::bodies(record);
-    for (int i = 0; i < bodies.count; ++i) {
-      if (bodies.all[i].body) place.bodies[i] = seen_.properties_of_body[bodies.all[i].body.slot];
-    }
-    if (place.bodies[0] != nullptr) place.parts = state_.shapes[place.bodies[0]->shape]->children;
-    const detail::NamedJoints joints = detail::joints_of(record);
-    for (int i = 0; i < 3; ++i) {
-      if (joints.all[i]) place.joints[i] = seen_.joint_at[joints.all[i].slot].joint;
-    }
-    return place;
+    const auto body = [&](BodyId id) { return id ? seen_.properties_of_body[id.slot] : nullptr; };
+    const auto joint = [&](JointId id) { return id ? seen_.joint_at[id.slot].joint : nullptr; };
+    const auto children_of = [&](std::uint32_t shape) { return std::span(state_.shapes[shape]->children); };
+    return detail::place_of<S>(record, state_.settings, body, joint, children_of);
   }
-  /// Whether bodies that move, or joints that hold something, lie in two sets.
+  /// True where bodies that move, or joints that hold something, lie in two sets.
   template <class Record> bool ties_islands(const Record& record) const {
     std::uint32_t set = Location::kNone;
     bool differ = false;
@@ -166,7 +158,7 @@ template <class S> class RecordValidator {
     }
     return false;
   }
-  /// Whether the second body of one record is the first of another.
+  /// True where the second body of one record is the first of another.
   template <class Record> bool has_chain(const std::vector<Record>& all) const {
     std::vector<std::uint8_t> is_first(seen_.set_of_body.size(), 0);
     for (const Record& record : all) {

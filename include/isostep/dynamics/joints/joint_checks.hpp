@@ -1,4 +1,4 @@
-// What numbers a joint takes.
+// fault_of(JointProperties): the numbers that a joint takes.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace isostep::detail {
 
-/// What a kind of joint requires of its record; see JointOf.
+/// A kind of joint requires this of its record; see JointOf.
 template <class S> struct JointRules {
   JointMeasure measure;
   std::uint32_t flags;

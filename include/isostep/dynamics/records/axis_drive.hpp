@@ -110,9 +110,9 @@ template <class S> struct RecordRules<AxisDrive<S>> : RecordDefaults<S> {
   }
   static constexpr OnlyOne only_one(const AxisDrive<S>&) { return {"axis", "an axis that has no record yet"}; }
   static RecordKey key(const AxisDrive<S>& d) { return {d.joint.slot, static_cast<std::uint32_t>(d.axis)}; }
-  static NamedJoints joints(const AxisDrive<S>& d) { return {{d.joint, {}, {}}}; }
+  static NamedJoints joints(const AxisDrive<S>& d) { return {{d.joint}, 1}; }
   static FaultReport fault_at(const AxisDrive<S>& d, const RecordPlace<S>& place) {
-    return fault_of_joint(d, *place.joints[0], substep_rate(place.settings));
+    return fault_of_joint(d, *place.joints[0].properties, substep_rate(place.settings));
   }
 };
 

@@ -46,7 +46,7 @@ template <class S> struct Breakable {
   }
 };
 
-/// What breaks it: a step writes that, or a game to break it without a blow, as its input.
+/// A blow breaks it: a step writes one, or a game as its input, to break it without a contact.
 template <class S> struct Blow {
   S impulse = S(0);                                                // [kg m/s] 0: whole
   Vec3<S> point = {S(0), S(0), S(0)};                              // [m] body frame

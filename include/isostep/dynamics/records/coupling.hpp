@@ -3,7 +3,6 @@
 #pragma once
 
 #include "isostep/core/id.hpp"
-#include "isostep/dynamics/joints/joint_coordinate.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/scalar/lattice.hpp"
 #include "isostep/scalar/scalar.hpp"
@@ -76,17 +75,17 @@ template <class S> ISO_INLINE Coupling<S> mimic(JointId a, JointId b) {
 
 namespace isostep::detail {
 
-/// Of a coupling with the joints that it names: whether each has a coordinate, and teeth where that is an angle.
-template <class S> FaultReport fault_of_joints(const Coupling<S>& c, const JointProperties<S>* const (&joints)[3]) {
+/// Each joint of a coupling has a coordinate, and teeth where that is an angle.
+template <class S> FaultReport fault_of_joints(const Coupling<S>& c, const JointSeen<S> (&joints)[3]) {
   const S ratios[] = {c.ratio_a, c.ratio_b, c.ratio_c};
   constexpr const char *kJoints[] = {"joint_a", "joint_b", "joint_c"}, *kRatios[] = {"ratio_a", "ratio_b", "ratio_c"};
   Checklist list;
   bool turns = false;
   for (int i = 0; i < 3; ++i) {
-    if (joints[i] == nullptr) continue;
-    const bool angle = measure_of(joints[i]->type) == JointMeasure::angle;
+    if (joints[i].properties == nullptr) continue;
+    const bool angle = joints[i].measure == JointMeasure::angle;
     const bool whole = ratios[i] == S(static_cast<int>(floor_scaled(ratios[i], 0)));
-    list.proper(has_coordinate(joints[i]->type), kJoints[i], "a hinge, slider, cylindrical, planar or distance joint")
+    list.proper(joints[i].has_coordinate, kJoints[i], "a hinge, slider, cylindrical, planar or distance joint")
         .proper(!angle || whole, kRatios[i], "a whole number: the joint's position is an angle");
     turns = turns || angle;
   }
@@ -115,7 +114,7 @@ template <class S> struct RecordRules<Coupling<S>> : RecordDefaults<S> {
                 "another joint than joint_a and joint_b")
         .report();
   }
-  static NamedJoints joints(const Coupling<S>& c) { return {{c.joint_a, c.joint_b, c.joint_c}}; }
+  static NamedJoints joints(const Coupling<S>& c) { return {{c.joint_a, c.joint_b, c.joint_c}, 3}; }
   static FaultReport fault_at(const Coupling<S>& c, const RecordPlace<S>& place) {
     return fault_of_joints(c, place.joints);
   }

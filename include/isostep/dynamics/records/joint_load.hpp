@@ -25,7 +25,7 @@ template <class S> struct JointLoad {
   }
 };
 
-/// What the joint bore in the last step.
+/// The joint bore this in the last step.
 template <class S> struct JointLoadState {
   S force = S(0);   // [N] on body b, of all the joint does; held at the format's end
   S torque = S(0);  // [N m] about b's origin of the joint; held at the format's end
@@ -55,7 +55,7 @@ template <class S> struct RecordRules<JointLoad<S>> : RecordDefaults<S> {
   }
   static constexpr OnlyOne only_one(const JointLoad<S>&) { return kOneAJoint; }
   static RecordKey key(const JointLoad<S>& l) { return {l.joint.slot}; }
-  static NamedJoints joints(const JointLoad<S>& l) { return {{l.joint, {}, {}}}; }
+  static NamedJoints joints(const JointLoad<S>& l) { return {{l.joint}, 1}; }
 };
 
 }  // namespace isostep::detail

@@ -65,7 +65,7 @@
 #define ISO_FOR_EACH_RECORD(R, S) ISO_FOR_EACH_RECORD_WITH(ISO_RECORD_ALONE, R, S)
 #define ISO_RECORD_ALONE(R, name, Record, Id, S) R(name, Record, Id, S)
 
-/// What a game asks of a record from frame to frame: R(X, name, Input, Id, S). Such a kind has one command more,
+/// Kinds that a game tells an input from frame to frame: R(X, name, Input, Id, S). Such a kind has one command more,
 /// set_name_input.
 #define ISO_FOR_EACH_INPUT_WITH(R, X, S)             \
   R(X, breakable, Blow<S>, BreakableId, S)           \
@@ -73,7 +73,7 @@
   R(X, vehicle, VehicleInput<S>, VehicleId, S)
 #define ISO_FOR_EACH_INPUT(R, S) ISO_FOR_EACH_INPUT_WITH(ISO_RECORD_ALONE, R, S)
 
-/// What a step writes of a record: R(X, name, State, Id, S).
+/// Kinds of which a step writes a state: R(X, name, State, Id, S).
 #define ISO_FOR_EACH_RECORD_STATE_WITH(R, X, S)      \
   R(X, character, CharacterState<S>, CharacterId, S) \
   R(X, vehicle, VehicleState<S>, VehicleId, S)       \

@@ -24,7 +24,7 @@
 
 namespace isostep {
 
-/// The same for (a, b) and (b, a).
+/// The pairs (a, b) and (b, a) have one key.
 ISO_INLINE constexpr std::uint64_t kinds_key(std::uint32_t a, std::uint32_t b) {
   return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
 }
@@ -56,11 +56,11 @@ template <class S> struct NamedBodies {
   NamedBody<S> all[2];
   int count;
 };
-/// Of a record that is about a body as a whole.
+/// The record is about a body as a whole.
 template <class S> ISO_INLINE NamedBodies<S> named_body(BodyId body, MustBe must_be) {
   return {{{body, "body", false, must_be, Vec3<S>::zero(), ""}, {}}, 1};
 }
-/// Of a record that acts at a point of a dynamic body.
+/// The record acts at a point of a dynamic body.
 template <class S> ISO_INLINE NamedBodies<S> named_point(BodyId body, Vec3<S> point, const char* field) {
   return {{{body, "body", false, MustBe::dynamic, point, field}, {}}, 1};
 }
@@ -73,26 +73,38 @@ ISO_INLINE constexpr bool is_as_asked(BodyType type, MustBe must_be) {
 template <class S> bool overreaches(const BodyProperties<S>& body, const NamedBody<S>& named) {
   return *named.point_field != 0 && overreaches(body.kappa, body.principal, named.point - body.local_centre);
 }
-/// Null where a record names fewer; the first two it has to name.
+/// The joints that a record names: `count` of them, of which the last may be null where there are three.
 struct NamedJoints {
-  static constexpr const char* kFields[] = {"joint_a", "joint_b", "joint_c"};
-  JointId all[3];
+  JointId all[3] = {};
+  int count = 0;
+
+  ISO_INLINE const char* field(int i) const {
+    constexpr const char* kFields[] = {"joint_a", "joint_b", "joint_c"};
+    return count == 1 ? "joint" : kFields[i];
+  }
+  ISO_INLINE bool may_be_null(int i) const { return i == 2; }
 };
 
-/// What a record names, as a world has it; null where it names nothing.
+/// A joint that a record names, as a world has it.
+template <class S> struct JointSeen {
+  const JointProperties<S>* properties = nullptr;  // null: the record names none
+  bool has_coordinate = false;                     // that motors drive and couplings tie
+  JointMeasure measure = JointMeasure::angle;      // of that coordinate
+};
+/// A record names these, as a world has them; null where it names nothing. record_place.hpp finds them.
 template <class S> struct RecordPlace {
   const Settings<S>& settings;
   const BodyProperties<S>* bodies[2];
   std::span<const Child<S>> parts;  // of the shape of the first body
-  const JointProperties<S>* joints[3];
+  JointSeen<S> joints[3];
 };
 
-/// What two records of a kind may not have in common.
+/// Two records of a kind may not have one key.
 struct RecordKey {
   std::uint64_t first = 0, second = 0;
   friend constexpr bool operator==(const RecordKey&, const RecordKey&) = default;
 };
-/// What is said of a second one.
+/// The refusal of a second one says this.
 struct OnlyOne {
   const char *field, *expected;
 };
@@ -133,7 +145,7 @@ template <class S> FaultReport fault_of_pose(const Pose<S>& pose) {
       .proper(is_unit<S>(pose.orientation), "pose.orientation", kUnitLength)
       .report();
 }
-/// Where a zone of any kind is.
+/// The place of a zone of any kind has these bounds.
 template <class Zone> FaultReport fault_of_region(const Zone& z) {
   using S = decltype(z.half.x);
   return Checklist()

@@ -45,7 +45,7 @@ template <class IdType, class S> ISO_INLINE void renew_parts(RecordParts<S>& par
 }
 }  // namespace detail
 
-/// Of all kinds. Only commands change them: copies share them until one does.
+/// The store has a registry of each kind. Only commands change them: copies share them until one does.
 template <class S> struct RecordStore {
 #define ISO_REGISTRY(name, Record, Id, S) Registry<Record, Id> name##s;
   ISO_FOR_EACH_RECORD(ISO_REGISTRY, S)
@@ -67,7 +67,7 @@ template <class S> struct RecordStore {
     ISO_FOR_EACH_RECORD(ISO_VISIT, S)
 #undef ISO_VISIT
   }
-  /// The same of the kinds whose bits are set, the first kind has the lowest; after each its inputs and states.
+  /// Visits the kinds whose bits are set, the first kind has the lowest; after each its inputs and states.
   template <class Visitor, class Self, class Parts>
   static ISO_INLINE void members_of(std::uint32_t kinds, Visitor&& visit, Self&& self, Parts& parts) {
 #define ISO_VISIT(name, Record, Id, S)                          \

@@ -4,7 +4,6 @@
 
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
-#include "isostep/dynamics/wheel_rows.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/math/vec3.hpp"
 
@@ -71,7 +70,7 @@ template <class S> struct VehicleSettings {
   }
 };
 
-/// What a vehicle's driver does, until told otherwise.
+/// A driver does this until told otherwise.
 template <class S> struct VehicleInput {
   S throttle = S(0);       // [1] -1 to 1
   S clutch = S(1);         // [1] 0: the engine runs alone, to 1: engaged
@@ -90,7 +89,7 @@ template <class S> struct VehicleInput {
   }
 };
 
-/// How the last step left a vehicle that has a clutch.
+/// The last step left a vehicle that has a clutch so.
 template <class S> struct VehicleState {
   S engine_spin = S(0);  // [rad/s] of its shaft, up to fastest_engine()
   S clutch_load = S(0);  // [N m] on the gears, in the last sub-step
@@ -168,7 +167,7 @@ template <class S> struct WheelSettings {
   }
 };
 
-/// How the last step left a wheel; contact_body is null, and load, along and across are 0, where it meets nothing.
+/// The last step left a wheel so; contact_body is null, and load, along and across are 0, where it meets nothing.
 template <class S> struct WheelState {
   S spin = S(0);     // [rad/s] about the axle, seen from the body
   S angle = S(0);    // [rad] that it has turned, 0 to 2 pi
@@ -200,6 +199,11 @@ template <class S> struct WheelState {
 }  // namespace isostep
 
 namespace isostep::detail {
+
+/// [1] m r^2 / I: what an impulse at the rim does to its speed, to what it does to that of the body.
+template <class S> ISO_INLINE S rim_give(S mass, S radius, S inertia) {
+  return saturate_to<S>(product(radius, saturate_to<S>(product(mass, divide_to<S>(radius, inertia)))));
+}
 
 template <class S> struct RecordRules<VehicleSettings<S>> : RecordDefaults<S> {
   static FaultReport fault(const VehicleSettings<S>& v) {
@@ -285,7 +289,7 @@ template <class S> struct RecordRules<WheelSettings<S>> : RecordDefaults<S> {
     return checks.list.report();
   }
   static NamedBodies<S> bodies(const WheelSettings<S>& w) { return named_point(w.body, w.hard_point, "hard_point"); }
-  /// Whether tyre and body are within the range of masses that one row bears.
+  /// Tyre and body are within the range of masses that one row bears.
   static FaultReport fault_at(const WheelSettings<S>& w, const RecordPlace<S>& place) {
     return Checklist()
         .in_range(rim_give(place.bodies[0]->mass, w.radius, w.inertia) <= Limits<S>::leverage(), "inertia",

@@ -76,17 +76,16 @@ template <class S> class BodyForces {
   ISO_INLINE bool no_records() const {
     const RecordStore<S>& records = *state_.records;
     bool none = !wheels_.any() && !couplings_.any();
-    RecordStore<S>::members(
-        [&](const char*, const auto& registry) ISO_INLINE_LAMBDA { none = none && !acts(registry); }, records);
+    RecordStore<S>::members([&]<class Record, class IdType>(const char*, const Registry<Record, IdType>& registry)
+                                ISO_INLINE_LAMBDA { none = none && !(acts<Record>() && !registry.all().empty()); },
+                            records);
     return none;
   }
   void renew(const SolverBodies<S>& bodies, std::int32_t rate);
   ISO_INLINE bool is_last() const { return substep_ + 1 == substeps_; }
-  /// Whether one of the records of that kind may act in a sub-step.
-  template <class Record, class IdType> static ISO_INLINE bool acts(const Registry<Record, IdType>& registry) {
-    if constexpr (requires(BodyForces & forces, const Record& record) { forces.act(record); })
-      return !registry.all().empty();
-    else return false;
+  /// A kind acts in a sub-step if it has an `act` here.
+  template <class Record> static constexpr bool acts() {
+    return requires(BodyForces & forces, const Record& record) { forces.act(record); };
   }
   template <class Record, class IdType> void act_all(const Registry<Record, IdType>& registry);
   template <class Act> void bear(const Act& act);

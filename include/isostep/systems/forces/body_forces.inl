@@ -72,7 +72,7 @@ template <class S> void BodyForces<S>::renew(const SolverBodies<S>& bodies, std:
 template <class S>
 template <class Record, class IdType>
 void BodyForces<S>::act_all(const Registry<Record, IdType>& registry) {
-  if constexpr (requires(BodyForces & forces, const Record& record) { forces.act(record); }) {
+  if constexpr (acts<Record>()) {
     const auto all = [&] { for_each_taken(registry, [&](const auto& record) { act(record); }); };
     if (registry.all().empty()) return;
     if constexpr (detail::RecordRules<Record>::kBears) bear(all);

@@ -64,7 +64,10 @@ template <class S> void BodyForces<S>::act(const ForceZone<S>& zone) {
 
 /// The world's gravity, where a zone replaces it, is below all zones.
 template <class S> void BodyForces<S>::act_in_place_of_gravity() {
-  if (zone_ranks_.empty()) return;
+  bool any = false;
+  for_each_taken(state_.records->force_zones,
+                 [&](const ForceZone<S>& zone) { any = any || (zone.replaces & zone_effect::kGravity) != 0; });
+  if (!any) return;
   for (std::uint32_t row = 1; row < bodies_->mass.size(); ++row) {
     if (!bodies_->moves(row)) continue;
     const BodyProperties<S>& body = state_.awake.properties[row - 1];
