@@ -65,6 +65,20 @@ const SceneField* find(const SceneRecord& record, std::string_view name) {
   return nullptr;
 }
 
+/// The fields in which a record of a kind has to name a body or a joint.
+template <class Record> std::vector<const char*> required_fields(const Record& record) {
+  std::vector<const char*> required;
+  const auto bodies = detail::RecordRules<Record>::bodies(record);
+  for (int i = 0; i < bodies.count; ++i) {
+    if (!bodies.all[i].may_be_null) required.push_back(bodies.all[i].field);
+  }
+  const detail::NamedJoints joints = detail::joints_of(record);
+  for (int i = 0; i < joints.count; ++i) {
+    if (!joints.may_be_null(i)) required.push_back(joints.field(i));
+  }
+  return required;
+}
+
 // ---- from a file: what it gives, as numbers
 
 class FieldReader {
@@ -73,8 +87,6 @@ class FieldReader {
       : reader_(reader), bodies_(bodies), joints_(joints), to_(to) {}
 
   template <class T> void operator()(const char* name, const T&) const {
-    if (std::is_same_v<T, BodyId> && has_to_be_given(name)) reader_.require(name);
-    if (std::is_same_v<T, JointId> && std::string_view(name) != "joint_c") reader_.require(name);
     if (!reader_.has(name)) return;
     SceneField field = {name, {}};
     read(name, T{}, field.numbers);
@@ -82,10 +94,6 @@ class FieldReader {
   }
 
  private:
-  bool has_to_be_given(std::string_view body) const {
-    if (to_.kind == "attractor") return false;  // it may act on the world
-    return body == "body" || body == "a" || body == "sensor" || body == "on";
-  }
   void read(const char* name, double, std::vector<Number>& out) const { reader_.number(name, out.emplace_back(0)); }
   void read(const char* name, bool, std::vector<Number>& out) const {
     bool set = false;
@@ -225,6 +233,7 @@ SceneRecord read_record(const JsonNode& node, const std::string& place, std::siz
   SceneRecord record = {kRecordNames[reader.choice("type", kRecordNames)], {}};
   const FieldReader read_field(reader, bodies, joints, record);
   visit_kind<double>(record.kind, [&](auto settings, auto input) {
+    for (const char* name : required_fields(settings)) reader.require(name);
     visit_fields(settings, read_field);
     visit_fields(input, read_field);
   });

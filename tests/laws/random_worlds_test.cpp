@@ -120,5 +120,21 @@ TYPED_TEST(RandomWorldLaws, soft_step_gives_nothing) { this->try_solver(SolverNa
 TYPED_TEST(RandomWorldLaws, pgs_gives_nothing) { this->try_solver(SolverName::pgs); }
 TYPED_TEST(RandomWorldLaws, worst_first_gives_nothing) { this->try_solver(SolverName::worst_first); }
 
+TEST(RandomWorlds, have_every_kind_of_record) {
+  constexpr std::uint64_t kSeeds = 30, kFrames = 180;
+  std::uint32_t seen = 0;  // a bit a kind
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    RandomWorld<double> random(seed, SolverName::soft_step);
+    for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
+      random.play(frame);
+      seen |= random.world.state().records->kinds();
+    }
+  }
+  int kind = 0;
+  RecordStore<double>::members(
+      [&](const char* name, const auto&) { EXPECT_TRUE(seen >> kind++ & 1) << "no world has " << name; },
+      *World<double>().state().records);
+}
+
 }  // namespace
 }  // namespace isostep::test

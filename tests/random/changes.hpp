@@ -8,6 +8,7 @@
 
 #include "isostep/fracture/breaking.hpp"
 #include "random/bodies.hpp"
+#include "random/change_record.hpp"
 #include "random/forces.hpp"
 #include "random/mechanisms.hpp"
 #include "random/mounts.hpp"
@@ -37,6 +38,7 @@ template <class S> class RandomChanges {
     change_bodies(w, seed, frame);
     change_responses(w, seed, frame);
     change_mounts(w, seed, frame);
+    report_contacts(w, seed, frame);
   }
 
  private:
@@ -186,6 +188,16 @@ template <class S> class RandomChanges {
     if (drive_of(seed) != Drive::movers || seed / kDrives % 2 != 0) return;
     Dice dice(seed * 393342739 + frame * 413158511 + 47);
     if (dice.one_in(6)) RandomMounts<S>(w, dice).change();
+  }
+  /// Bodies whose contacts are told of, in all worlds: nothing moves otherwise for it. Dice of its own.
+  static void report_contacts(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
+    Dice dice(seed * 433494437 + frame * 452930477 + 53);
+    if (!dice.one_in(12)) return;
+    change_record(w, dice, w.state().records->contact_reports, [&](ContactReport<S> report) {
+      const std::vector<BodyId> all = w.bodies();
+      report.body = all[dice.below(static_cast<std::uint32_t>(all.size()))];
+      return report;
+    });
   }
 };
 

@@ -1,0 +1,81 @@
+// A program of the tests: the probe record as commands, hashes, logs, portable forms, scene files and the description
+// of the C interface treat it, in a copy of the headers that has it in its list. The world takes no step.
+// SPDX-License-Identifier: MIT
+#define ISOSTEP_OWN_SCALARS
+#include <cstdio>
+
+#include "c/describe/schema.cpp"
+#include "isostep/collision/broadphase/pairs.inl"
+#include "isostep/collision/broadphase/tree.inl"
+#include "isostep/dynamics/records/record_store.inl"
+#include "isostep/geometry/mass_properties.inl"
+#include "isostep/geometry/validate.inl"
+#include "isostep/instantiate/contact_systems.inl"
+#include "isostep/instantiate/event_systems.inl"
+#include "isostep/instantiate/executing_commands.inl"
+#include "isostep/instantiate/island_systems.inl"
+#include "isostep/instantiate/motion_systems.inl"
+#include "isostep/world/engine_step.inl"
+#include "isostep/world/world.inl"
+#include "scenes/json_tree.cpp"
+#include "scenes/object_reader.cpp"
+#include "scenes/scene_records.cpp"
+
+namespace isostep {
+ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, float)
+template <> const BodyKernels<float>* body_kernels<float>(Simd) { return nullptr; }
+template <> const ContactKernels<float>* contact_kernels<float>(Simd) { return nullptr; }
+template <> const PairKernels<float>* pair_kernels<float>(Simd) { return nullptr; }
+template <> const TreeKernels<float>* tree_kernels<float>(Simd) { return nullptr; }
+}  // namespace isostep
+
+using namespace isostep;
+
+namespace {
+
+void say_refusal(const World<float>& world) {
+  const FaultReport& fault = world.fault();
+  std::printf("%s.%s ", fault.command, fault.field);
+}
+
+BodyId body_of(World<float>& world) {
+  BodyDefinition<float> ball;
+  ball.type = BodyType::dynamic;
+  ball.shape = world.add_shape(Sphere<float>{0.5f});
+  return world.create(ball);
+}
+
+}  // namespace
+
+int main() {
+  World<float> world, other, third;
+  std::vector<std::uint8_t> log;
+  world.record_to(&log);
+  const BodyId body = body_of(world), late = body_of(world);
+  const auto without = world.hash();
+  const ProbeId probe = world.add(Probe<float>{body, 2});
+  world.add(Probe<float>{late, -1});
+  say_refusal(world);
+  world.add(Probe<float>{body, 1});
+  say_refusal(world);
+  world.set(probe, Probe<float>{BodyId{}, 3});
+  say_refusal(world);
+  world.set(probe, Probe<float>{body, 3});
+  const Result<void> played = play_commands<Command<float>>(
+      log, [&](const auto& command) { return static_cast<bool>(other.apply(command)); }, [] {});
+  std::vector<std::uint8_t> bytes;
+  Writer writer(bytes);
+  world.write_portable(writer);
+  Reader reader(bytes);
+  const bool read = third.read_portable(reader).ok();
+  std::printf("volume %g hashed %d played %d portable %d", double{world.find(probe)->volume}, world.hash() != without,
+              played.ok() && other.hash() == world.hash(), read && third.hash() == world.hash());
+  world.destroy(body);
+  std::printf(" gone %d", world.find(probe) == nullptr);
+
+  const scenes::SceneRecord record = scenes::read_record(
+      scenes::parse_json(R"({"type": "probe", "body": 0, "volume": 3})"), "/records/0", 1, 0);
+  std::printf(" scene %s", scenes::text_of(record).c_str());
+  const isostep::c_header::Schema schema = isostep::c_header::make_schema();
+  std::printf(" C %s\n", schema.records.back().c_str());
+}
