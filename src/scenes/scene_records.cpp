@@ -65,18 +65,16 @@ const SceneField* find(const SceneRecord& record, std::string_view name) {
   return nullptr;
 }
 
-/// The fields in which a record of a kind has to name a body or a joint.
-template <class Record> std::vector<const char*> required_fields(const Record& record) {
-  std::vector<const char*> required;
+/// A record of a kind has to name these bodies and joints.
+template <class Record> void require_named(const ObjectReader& reader, const Record& record) {
   const auto bodies = detail::RecordRules<Record>::bodies(record);
   for (int i = 0; i < bodies.count; ++i) {
-    if (!bodies.all[i].may_be_null) required.push_back(bodies.all[i].field);
+    if (!bodies.all[i].may_be_null) reader.require(bodies.all[i].field);
   }
   const detail::NamedJoints joints = detail::joints_of(record);
   for (int i = 0; i < joints.count; ++i) {
-    if (!joints.may_be_null(i)) required.push_back(joints.field(i));
+    if (!joints.may_be_null(i)) reader.require(joints.field(i));
   }
-  return required;
 }
 
 // ---- from a file: what it gives, as numbers
@@ -233,7 +231,7 @@ SceneRecord read_record(const JsonNode& node, const std::string& place, std::siz
   SceneRecord record = {kRecordNames[reader.choice("type", kRecordNames)], {}};
   const FieldReader read_field(reader, bodies, joints, record);
   visit_kind<double>(record.kind, [&](auto settings, auto input) {
-    for (const char* name : required_fields(settings)) reader.require(name);
+    require_named(reader, settings);
     visit_fields(settings, read_field);
     visit_fields(input, read_field);
   });

@@ -83,9 +83,7 @@ struct Activity {
 template <class S> void hail(World<S>& w, std::uint64_t frame, Activity* activity = nullptr) {
   Dice dice(frame * 1000003 + 17);
   const std::vector<BodyId> bodies = w.bodies();
-  const auto body = [&] {
-    return bodies.empty() ? BodyId{} : bodies[dice.below(static_cast<std::uint32_t>(bodies.size()))];
-  };
+  const auto body = [&] { return bodies.empty() ? BodyId{} : dice.one_of(bodies); };
   const auto shape = [&] {
     const SlotMap& slots = w.state().shape_slots;
     const std::uint32_t slot = dice.below(static_cast<std::uint32_t>(slots.entries().size()));
@@ -189,13 +187,13 @@ template <class S> void hail(World<S>& w, std::uint64_t frame, Activity* activit
       }
       case 18: {
         const std::vector<JointId> joints = w.joints();
-        done = joints.size() > 4 && w.destroy(joints[dice.below(static_cast<std::uint32_t>(joints.size()))]);
+        done = joints.size() > 4 && w.destroy(dice.one_of(joints));
         break;
       }
       default: {
         const std::vector<JointId> joints = w.joints();
         if (joints.empty()) break;
-        const JointId id = joints[dice.below(static_cast<std::uint32_t>(joints.size()))];
+        const JointId id = dice.one_of(joints);
         JointProperties<S> j = *w.joint(id);
         j.motor_speed = num<S>(dice.in(-2, 2));
         j.user_data = frame;

@@ -4,26 +4,7 @@
 #define ISOSTEP_OWN_SCALARS
 #include <cstdio>
 
-#include "isostep/collision/broadphase/pairs.inl"
-#include "isostep/collision/broadphase/tree.inl"
-#include "isostep/dynamics/records/record_store.inl"
-#include "isostep/geometry/mass_properties.inl"
-#include "isostep/geometry/validate.inl"
-#include "isostep/instantiate/contact_systems.inl"
-#include "isostep/instantiate/event_systems.inl"
-#include "isostep/instantiate/executing_commands.inl"
-#include "isostep/instantiate/island_systems.inl"
-#include "isostep/instantiate/motion_systems.inl"
-#include "isostep/world/engine_step.inl"
-#include "isostep/world/world.inl"
-
-namespace isostep {
-ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, float)
-template <> const BodyKernels<float>* body_kernels<float>(Simd) { return nullptr; }
-template <> const ContactKernels<float>* contact_kernels<float>(Simd) { return nullptr; }
-template <> const PairKernels<float>* pair_kernels<float>(Simd) { return nullptr; }
-template <> const TreeKernels<float>* tree_kernels<float>(Simd) { return nullptr; }
-}  // namespace isostep
+#include "own_world.hpp"
 
 using namespace isostep;
 

@@ -5,29 +5,10 @@
 #include <cstdio>
 
 #include "c/describe/schema.cpp"
-#include "isostep/collision/broadphase/pairs.inl"
-#include "isostep/collision/broadphase/tree.inl"
-#include "isostep/dynamics/records/record_store.inl"
-#include "isostep/geometry/mass_properties.inl"
-#include "isostep/geometry/validate.inl"
-#include "isostep/instantiate/contact_systems.inl"
-#include "isostep/instantiate/event_systems.inl"
-#include "isostep/instantiate/executing_commands.inl"
-#include "isostep/instantiate/island_systems.inl"
-#include "isostep/instantiate/motion_systems.inl"
-#include "isostep/world/engine_step.inl"
-#include "isostep/world/world.inl"
+#include "own_world.hpp"
 #include "scenes/json_tree.cpp"
 #include "scenes/object_reader.cpp"
 #include "scenes/scene_records.cpp"
-
-namespace isostep {
-ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, float)
-template <> const BodyKernels<float>* body_kernels<float>(Simd) { return nullptr; }
-template <> const ContactKernels<float>* contact_kernels<float>(Simd) { return nullptr; }
-template <> const PairKernels<float>* pair_kernels<float>(Simd) { return nullptr; }
-template <> const TreeKernels<float>* tree_kernels<float>(Simd) { return nullptr; }
-}  // namespace isostep
 
 using namespace isostep;
 
@@ -73,8 +54,8 @@ int main() {
   world.destroy(body);
   std::printf(" gone %d", world.find(probe) == nullptr);
 
-  const scenes::SceneRecord record = scenes::read_record(
-      scenes::parse_json(R"({"type": "probe", "body": 0, "volume": 3})"), "/records/0", 1, 0);
+  const scenes::SceneRecord record =
+      scenes::read_record(scenes::parse_json(R"({"type": "probe", "body": 0, "volume": 3})"), "/records/0", 1, 0);
   std::printf(" scene %s", scenes::text_of(record).c_str());
   const isostep::c_header::Schema schema = isostep::c_header::make_schema();
   std::printf(" C %s\n", schema.records.back().c_str());

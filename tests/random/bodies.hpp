@@ -32,7 +32,7 @@ template <class S> class RandomBodies {
  private:
   BodyId any_body() {
     const std::vector<BodyId> all = world_.bodies();
-    return all[dice_.below(static_cast<std::uint32_t>(all.size()))];
+    return dice_.one_of(all);
   }
   bool has_joints(BodyId id) const {
     for (const JointId joint : world_.joints()) {

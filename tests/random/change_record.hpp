@@ -18,7 +18,7 @@ void change_record(World<S>& world, Dice& dice, const Registry<Record, IdType>& 
     world.add(draw(Record{}));
     return;
   }
-  const IdType id = ids[dice.below(static_cast<std::uint32_t>(ids.size()))];
+  const IdType id = dice.one_of(ids);
   if (what < 6) world.remove(id);
   else world.set(id, draw(Record{}));
 }

@@ -105,7 +105,7 @@ template <class S> class RandomChanges {
     const std::vector<CharacterId> ids = w.state().records->characters.slot_map().template ids<CharacterId>();
     if (ids.size() < 3 && dice.one_in(2)) return add_character(w, dice);
     if (ids.empty()) return;
-    const CharacterId id = ids[dice.below(static_cast<std::uint32_t>(ids.size()))];
+    const CharacterId id = dice.one_of(ids);
     if (dice.one_in(12)) {
       w.remove(id);
       return;
@@ -189,13 +189,13 @@ template <class S> class RandomChanges {
     Dice dice(seed * 393342739 + frame * 413158511 + 47);
     if (dice.one_in(6)) RandomMounts<S>(w, dice).change();
   }
-  /// Bodies whose contacts are told of, in all worlds: nothing moves otherwise for it. Dice of its own.
+  /// Adds and removes reports of contacts in all worlds: they change no motion. Dice of its own.
   static void report_contacts(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
     Dice dice(seed * 433494437 + frame * 452930477 + 53);
     if (!dice.one_in(12)) return;
     change_record(w, dice, w.state().records->contact_reports, [&](ContactReport<S> report) {
       const std::vector<BodyId> all = w.bodies();
-      report.body = all[dice.below(static_cast<std::uint32_t>(all.size()))];
+      report.body = dice.one_of(all);
       return report;
     });
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "isostep/scalar/math.hpp"
 #include "random/splitmix64.hpp"
@@ -20,6 +21,10 @@ class Dice {
   Dice apart() const { return Dice(~state_); }
   std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>((next() >> 32) * n >> 32); }
   bool one_in(std::uint32_t n) { return below(n) == 0; }
+  /// Any of some, of which there is one at least.
+  template <class T> const T& one_of(const std::vector<T>& all) {
+    return all[below(static_cast<std::uint32_t>(all.size()))];
+  }
   /// In whole thousandths.
   double in(double low, double high) { return low + (high - low) * below(1000) / 1000; }
   /// Every size as often as another: 0.01 to 0.1 as 0.1 to 1.

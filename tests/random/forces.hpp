@@ -26,7 +26,7 @@ template <class S> class RandomForces {
   BodyId body() {
     const std::vector<BodyId> all = world_.bodies();
     for (int tries = 0; tries < 8; ++tries) {
-      const BodyId id = all[dice_.below(static_cast<std::uint32_t>(all.size()))];
+      const BodyId id = dice_.one_of(all);
       if (world_.type(id) == BodyType::dynamic) return id;
     }
     return {};
@@ -40,7 +40,7 @@ template <class S> class RandomForces {
       if (draw(record)) world_.add(record);
       return;
     }
-    const IdType id = ids[dice_.below(static_cast<std::uint32_t>(ids.size()))];
+    const IdType id = dice_.one_of(ids);
     if (what == 5) {
       world_.remove(id);
       return;

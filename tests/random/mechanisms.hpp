@@ -17,7 +17,7 @@ template <class S> class RandomMechanisms {
     const auto couplings = world_.state().records->couplings.slot_map().template ids<CouplingId>();
     if (dice_.one_in(4)) return measure();
     if (!couplings.empty() && dice_.one_in(2)) {
-      const CouplingId id = couplings[dice_.below(static_cast<std::uint32_t>(couplings.size()))];
+      const CouplingId id = dice_.one_of(couplings);
       if (dice_.one_in(2)) world_.remove(id);
       else world_.set(id, *world_.find(id));
       return;
@@ -28,7 +28,7 @@ template <class S> class RandomMechanisms {
  private:
   JointId any_joint() {
     const std::vector<JointId> joints = world_.joints();
-    return joints.empty() ? JointId{} : joints[dice_.below(static_cast<std::uint32_t>(joints.size()))];
+    return joints.empty() ? JointId{} : dice_.one_of(joints);
   }
   JointId coordinate() {
     for (int tries = 0; tries < 4; ++tries) {

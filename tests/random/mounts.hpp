@@ -19,7 +19,7 @@ template <class S> class RandomMounts {
     const auto& mounts = world_.state().records->sensor_mounts;
     const std::vector<SensorMountId> ids = mounts.slot_map().template ids<SensorMountId>();
     if (ids.empty() || (ids.size() < 3 && dice_.one_in(2))) return add();
-    const SensorMountId id = ids[dice_.below(static_cast<std::uint32_t>(ids.size()))];
+    const SensorMountId id = dice_.one_of(ids);
     const SensorMount<S> now = *world_.find(id);
     const std::uint32_t what = dice_.below(8);
     if (what == 0) world_.destroy(now.sensor);
@@ -46,7 +46,7 @@ template <class S> class RandomMounts {
     SensorMount<S> mount;
     mount.sensor = sensor;
     const std::vector<BodyId> all = world_.bodies();
-    mount.on = all[dice_.below(static_cast<std::uint32_t>(all.size()))];
+    mount.on = dice_.one_of(all);
     mount.frame.position = vec<S>(dice_.point(1));
     mount.frame.orientation = dice_.template orientation<S>();
     return mount;

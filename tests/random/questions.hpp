@@ -79,7 +79,7 @@ template <class S> class QuestionsOf {
     const ShapeType type = part.primitive.type;
     return !is_surface(type) && type != ShapeType::half_space && part.pose.is_identity();
   }
-  BodyId body() { return bodies_[dice_.below(static_cast<std::uint32_t>(bodies_.size()))]; }
+  BodyId body() { return dice_.one_of(bodies_); }
   /// In the air, about the ground, or in the middle of a body.
   D3 place() {
     if (dice_.one_in(3)) return real(world_.view(body()).pose.position);
@@ -102,7 +102,7 @@ template <class S> class QuestionsOf {
     return {vec<S>(2 * (x + along_x) - 8, height, 2 * (z + along_z) - 8), vec<S>(0, -depth, 0), filter()};
   }
   QueryShape<S> shape() {
-    if (!solids_.empty() && dice_.one_in(2)) return solids_[dice_.below(static_cast<std::uint32_t>(solids_.size()))];
+    if (!solids_.empty() && dice_.one_in(2)) return dice_.one_of(solids_);
     const D3 half = {dice_.in(0.1, 0.5), dice_.in(0.1, 0.5), dice_.in(0.1, 0.5)};
     switch (dice_.below(5)) {
       case 0: return primitive_of(Sphere<S>{num<S>(half.x)});

@@ -33,7 +33,7 @@ template <class S> class RandomRules {
       if (detail::first_body_of(record) && is_new(registry, record)) world_.add(record);
       return;
     }
-    const IdType id = ids[dice_.below(static_cast<std::uint32_t>(ids.size()))];
+    const IdType id = dice_.one_of(ids);
     if (what == 5) {
       world_.remove(id);
       return;
@@ -63,7 +63,7 @@ template <class S> class RandomRules {
   }
   BodyId any_body() {
     const std::vector<BodyId> all = world_.bodies();
-    return all[dice_.below(static_cast<std::uint32_t>(all.size()))];
+    return dice_.one_of(all);
   }
   BodyId moving_body() {
     for (int tries = 0; tries < 8; ++tries) {

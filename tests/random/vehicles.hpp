@@ -21,11 +21,11 @@ template <class S> class RandomVehicles {
     const auto vehicles = world_.state().records->vehicles.slot_map().template ids<VehicleId>();
     const auto wheels = world_.state().records->wheels.slot_map().template ids<WheelId>();
     if (vehicles.empty()) return;
-    const VehicleId id = vehicles[dice_.below(static_cast<std::uint32_t>(vehicles.size()))];
+    const VehicleId id = dice_.one_of(vehicles);
     if (dice_.one_in(24)) {
       world_.remove(id);
     } else if (dice_.one_in(24) && !wheels.empty()) {
-      world_.remove(wheels[dice_.below(static_cast<std::uint32_t>(wheels.size()))]);
+      world_.remove(dice_.one_of(wheels));
     } else {
       world_.set_input(id, drawn_input());
     }

@@ -66,7 +66,7 @@ template <class S> class RandomWorld {
     turn_movers(w, dice);
     if (!dice.one_in(6)) return;
     const std::vector<BodyId> bodies = w.bodies();
-    const BodyId b = bodies[dice.below(static_cast<std::uint32_t>(bodies.size()))];
+    const BodyId b = dice.one_of(bodies);
     const bool moves = w.type(b) == BodyType::dynamic;
     switch (dice.below(10)) {
       case 0:
@@ -96,13 +96,13 @@ template <class S> class RandomWorld {
       }
       case 7: {
         const std::vector<JointId> joints = w.joints();
-        if (joints.size() > 2) w.destroy(joints[dice.below(static_cast<std::uint32_t>(joints.size()))]);
+        if (joints.size() > 2) w.destroy(dice.one_of(joints));
         break;
       }
       case 8: {
         const std::vector<JointId> joints = w.joints();
         if (joints.empty()) break;
-        const JointId id = joints[dice.below(static_cast<std::uint32_t>(joints.size()))];
+        const JointId id = dice.one_of(joints);
         JointProperties<S> p = *w.joint(id);
         p.motor_speed = num<S>(dice.in(-5, 5));
         p.user_data = frame;
@@ -171,7 +171,7 @@ template <class S> class RandomWorld {
       BodyDefinition<S> d = draw_body<S>(dice, shape.shape);
       if (hold == 1) d.locks = 0;  // a mover pulls whatever holds against it
       BodyId to;
-      if (!bodies.empty()) to = bodies[dice.below(static_cast<std::uint32_t>(bodies.size()))];
+      if (!bodies.empty()) to = dice.one_of(bodies);
       const D3 from = to ? real(world.center_of_mass(to)) : at, step = dice.arrow_of(dice.magnitude(0.25, 2));
       const BodyId b = place_freely(world, dice, d, shape.reach, from + step, from + step, group);
       if (!b) continue;

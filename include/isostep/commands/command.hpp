@@ -199,7 +199,7 @@ template <class S> struct SetJointSpring {
     visit("damping", self.damping);
   }
 };
-/// The joint's spring pulls there.
+/// The joint's spring pulls to this target.
 template <class S> struct SetJointTarget {
   JointId joint;
   S target;  // [rad], [m] of a length

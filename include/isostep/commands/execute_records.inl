@@ -34,7 +34,7 @@ template <class S> template <class Record> bool CommandExecutor<S>::check_joints
   }
   return true;
 }
-/// `next`: what the body of a slot is to be, in place of what it is.
+/// Finds what a record names, with `next`, where it is not null, in place of the properties of the body in `slot`.
 template <class S>
 template <class Record>
 detail::RecordPlace<S> CommandExecutor<S>::place_of(const Record& record, std::uint32_t slot,

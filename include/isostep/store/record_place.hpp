@@ -1,4 +1,4 @@
-// place_of: what a record names, looked up in a world.
+// place_of: finds in a world the bodies and joints that a record names.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -1,4 +1,4 @@
-// What records name: two bodies, a carried capsule, a sensor, two hinges and a six-axis joint.
+// NamedByRecords: the bodies and joints of a test that gives a world one record of each kind.
 // SPDX-License-Identifier: MIT
 #pragma once
 

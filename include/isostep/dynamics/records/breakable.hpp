@@ -46,7 +46,7 @@ template <class S> struct Breakable {
   }
 };
 
-/// A blow breaks it: a step writes one, or a game as its input, to break it without a contact.
+/// A blow breaks the body: the step writes it after a hard contact, or the game sets it as an input.
 template <class S> struct Blow {
   S impulse = S(0);                                                // [kg m/s] 0: whole
   Vec3<S> point = {S(0), S(0), S(0)};                              // [m] body frame

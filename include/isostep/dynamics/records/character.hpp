@@ -46,7 +46,7 @@ template <class S> struct CharacterSettings {
   }
 };
 
-/// A character does this until it is told otherwise.
+/// Input of a character: it stays until the game sets another.
 template <class S> struct CharacterInput {
   Vec3<S> move = {S(0), S(0), S(0)};  // [m/s] along the ground, world
   S jump = S(0);                      // [m/s] upwards; 0 again once it has left the ground
@@ -57,7 +57,7 @@ template <class S> struct CharacterInput {
   }
 };
 
-/// The last step left a character so.
+/// State of a character: the step writes it.
 template <class S> struct CharacterState {
   Footing footing = Footing::airborne;
   BodyId ground = {};                     // null: airborne, or put elsewhere since

@@ -76,16 +76,17 @@ template <class S> ISO_INLINE Coupling<S> mimic(JointId a, JointId b) {
 namespace isostep::detail {
 
 /// Each joint of a coupling has a coordinate, and teeth where that is an angle.
-template <class S> FaultReport fault_of_joints(const Coupling<S>& c, const JointSeen<S> (&joints)[3]) {
+template <class S>
+FaultReport fault_of_joints(const Coupling<S>& c, const NamedJoints& named, const JointSeen<S> (&joints)[3]) {
   const S ratios[] = {c.ratio_a, c.ratio_b, c.ratio_c};
-  constexpr const char *kJoints[] = {"joint_a", "joint_b", "joint_c"}, *kRatios[] = {"ratio_a", "ratio_b", "ratio_c"};
+  constexpr const char* kRatios[] = {"ratio_a", "ratio_b", "ratio_c"};
   Checklist list;
   bool turns = false;
   for (int i = 0; i < 3; ++i) {
     if (joints[i].properties == nullptr) continue;
     const bool angle = joints[i].measure == JointMeasure::angle;
     const bool whole = ratios[i] == S(static_cast<int>(floor_scaled(ratios[i], 0)));
-    list.proper(joints[i].has_coordinate, kJoints[i], "a hinge, slider, cylindrical, planar or distance joint")
+    list.proper(joints[i].has_coordinate, named.field(i), "a hinge, slider, cylindrical, planar or distance joint")
         .proper(!angle || whole, kRatios[i], "a whole number: the joint's position is an angle");
     turns = turns || angle;
   }
@@ -116,7 +117,7 @@ template <class S> struct RecordRules<Coupling<S>> : RecordDefaults<S> {
   }
   static NamedJoints joints(const Coupling<S>& c) { return {{c.joint_a, c.joint_b, c.joint_c}, 3}; }
   static FaultReport fault_at(const Coupling<S>& c, const RecordPlace<S>& place) {
-    return fault_of_joints(c, place.joints);
+    return fault_of_joints(c, joints(c), place.joints);
   }
 };
 

@@ -25,7 +25,7 @@ template <class S> struct JointLoad {
   }
 };
 
-/// The joint bore this in the last step.
+/// Load of a joint in the last step: the step writes it.
 template <class S> struct JointLoadState {
   S force = S(0);   // [N] on body b, of all the joint does; held at the format's end
   S torque = S(0);  // [N m] about b's origin of the joint; held at the format's end

@@ -28,7 +28,7 @@
 #include "isostep/dynamics/records/vehicle.hpp"
 #include "isostep/dynamics/records/water.hpp"
 
-/// ISO_FOR_EACH_RECORD_WITH(R, X, S) expands R(X, name, Record, Id, S) for each kind, at most 32 of them. Those that
+/// ISO_FOR_EACH_RECORD_WITH(R, X, S) expands R(X, name, Record, Id, S) for each kind, at most 31 of them. Those that
 /// act in a sub-step act in this order; what resists motion - drag, surfaces, the drag of water - after all others, for
 /// it asks what they are about to do. Every kind has three commands, add_name, set_name and remove_name, and a registry
 /// in RecordStore, whose name is the same with an s. The order is that of hashes, portable forms and commands. To add
@@ -65,7 +65,7 @@
 #define ISO_FOR_EACH_RECORD(R, S) ISO_FOR_EACH_RECORD_WITH(ISO_RECORD_ALONE, R, S)
 #define ISO_RECORD_ALONE(R, name, Record, Id, S) R(name, Record, Id, S)
 
-/// Kinds that a game tells an input from frame to frame: R(X, name, Input, Id, S). Such a kind has one command more,
+/// Kinds with an input, which a game sets frame by frame: R(X, name, Input, Id, S). Such a kind has one command more,
 /// set_name_input.
 #define ISO_FOR_EACH_INPUT_WITH(R, X, S)             \
   R(X, breakable, Blow<S>, BreakableId, S)           \
@@ -73,7 +73,7 @@
   R(X, vehicle, VehicleInput<S>, VehicleId, S)
 #define ISO_FOR_EACH_INPUT(R, S) ISO_FOR_EACH_INPUT_WITH(ISO_RECORD_ALONE, R, S)
 
-/// Kinds of which a step writes a state: R(X, name, State, Id, S).
+/// Kinds with a state, which the step writes: R(X, name, State, Id, S).
 #define ISO_FOR_EACH_RECORD_STATE_WITH(R, X, S)      \
   R(X, character, CharacterState<S>, CharacterId, S) \
   R(X, vehicle, VehicleState<S>, VehicleId, S)       \

@@ -73,7 +73,7 @@ ISO_INLINE constexpr bool is_as_asked(BodyType type, MustBe must_be) {
 template <class S> bool overreaches(const BodyProperties<S>& body, const NamedBody<S>& named) {
   return *named.point_field != 0 && overreaches(body.kappa, body.principal, named.point - body.local_centre);
 }
-/// The joints that a record names: `count` of them, of which the last may be null where there are three.
+/// A record names the first `count` joints; a third one may be null.
 struct NamedJoints {
   JointId all[3] = {};
   int count = 0;
@@ -145,7 +145,7 @@ template <class S> FaultReport fault_of_pose(const Pose<S>& pose) {
       .proper(is_unit<S>(pose.orientation), "pose.orientation", kUnitLength)
       .report();
 }
-/// The place of a zone of any kind has these bounds.
+/// Checks the region of a zone of any kind.
 template <class Zone> FaultReport fault_of_region(const Zone& z) {
   using S = decltype(z.half.x);
   return Checklist()

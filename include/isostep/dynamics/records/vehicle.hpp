@@ -70,7 +70,7 @@ template <class S> struct VehicleSettings {
   }
 };
 
-/// A driver does this until told otherwise.
+/// Input of a vehicle: it stays until the game sets another.
 template <class S> struct VehicleInput {
   S throttle = S(0);       // [1] -1 to 1
   S clutch = S(1);         // [1] 0: the engine runs alone, to 1: engaged
@@ -89,7 +89,7 @@ template <class S> struct VehicleInput {
   }
 };
 
-/// The last step left a vehicle that has a clutch so.
+/// State of a vehicle with a clutch: the step writes it.
 template <class S> struct VehicleState {
   S engine_spin = S(0);  // [rad/s] of its shaft, up to fastest_engine()
   S clutch_load = S(0);  // [N m] on the gears, in the last sub-step
@@ -167,7 +167,7 @@ template <class S> struct WheelSettings {
   }
 };
 
-/// The last step left a wheel so; contact_body is null, and load, along and across are 0, where it meets nothing.
+/// State of a wheel: the step writes it. contact_body is null, and load, along and across 0, where it meets nothing.
 template <class S> struct WheelState {
   S spin = S(0);     // [rad/s] about the axle, seen from the body
   S angle = S(0);    // [rad] that it has turned, 0 to 2 pi
