@@ -6,7 +6,6 @@
 #include "isostep/core/number_text.hpp"
 #include "isostep/core/simd_choice.hpp"
 #include "isostep/replay/world_kinds.hpp"
-#include "isostep/state/command_log.hpp"
 #include "isostep/state/replay_format.hpp"
 
 namespace isostep {
@@ -45,29 +44,29 @@ struct Watch {
 };
 
 template <class W> struct Watched {
+  W& world;
   Watch& watch;
-  std::uint32_t number;
+  std::uint32_t number;  // of the step
 
   template <class Stage> static void after(void* user, Stage stage, const StageView& left) {
     const Watched& step = *static_cast<const Watched*>(user);
     step.watch.look(step.number, WorldTraits<W>::kStages[static_cast<std::size_t>(stage)], left);
   }
-  void play(W& world) {
-    watch.look(number, kCommandsStage, world.state_fields());
-    world.step({&Watched::after, this});
+  static void step(void* user) {
+    Watched& one = *static_cast<Watched*>(user);
+    ++one.number;
+    one.look_at_commands();
+    one.world.step({&Watched::after, user});
   }
+  void look_at_commands() { watch.look(number, kCommandsStage, world.state_fields()); }
 };
 
 template <class W> Result<void> play_frame(W& world, Bytes commands, Watch& watch) {
   if (!watch.watches()) return world.step_recorded(commands);
-  Watched<W> step = {watch, 0};
-  const Result<void> played = play_commands<typename W::Command>(
-      commands, [&](const auto& command) { return static_cast<bool>(world.apply(command)); },
-      [&] {
-        ++step.number;
-        step.play(world);
-      });
-  if (played) watch.look(step.number + 1, kCommandsStage, world.state_fields());
+  Watched<W> watched = {world, watch, 0};
+  const Result<void> played = world.step_recorded(commands, {&Watched<W>::step, &watched});
+  ++watched.number;
+  if (played) watched.look_at_commands();
   return played;
 }
 

@@ -62,9 +62,7 @@ class Netcode {
 /// The game's own state: saved, loaded and hashed with the world.
 struct Own {
   iso::BodyId ball;  // thrown last
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("ball", self.ball);
-  }
+  ISO_FIELDS(ball)
 };
 using State = iso::Composite<World, Own>;
 using Saved = iso::Snapshot<State>;

@@ -15,9 +15,7 @@ using iso::transport::SimulatedNetwork;
 struct Turn {
   std::int8_t way = 0;
   friend bool operator==(Turn, Turn) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("way", self.way);
-  }
+  ISO_FIELDS(way)
 };
 struct Game {
   using Input = Turn;

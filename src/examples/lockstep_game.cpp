@@ -15,17 +15,13 @@ using iso::transport::SimulatedNetwork;
 struct Push {  // what a player does in a frame, and how it travels
   std::int8_t way = 0;
   friend bool operator==(Push, Push) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("way", self.way);
-  }
+  ISO_FIELDS(way)
 };
 
 // README: begin
 struct Score {  // what the game remembers beside its world
   std::uint32_t touches = 0;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("touches", self.touches);
-  }
+  ISO_FIELDS(touches)
 };
 struct Game : iso::Composite<iso::World<S>, Score> {  // world and user: saved, rolled back and hashed as one
   using Input = Push;

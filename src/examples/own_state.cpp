@@ -15,20 +15,14 @@ using World = iso::World<S>;
 struct Paddle {  // what the player does in a frame
   std::int8_t way = 0;
   friend bool operator==(Paddle, Paddle) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("way", self.way);
-  }
+  ISO_FIELDS(way)
 };
 
 struct Rules {  // what the game remembers beside its world: a plain struct with `fields` is saved by copying
   std::uint32_t score = 0;
   std::uint32_t frames_until_ball = 1;
   iso::Pcg32 dice = iso::Pcg32::seeded(7);
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("score", self.score);
-    visit("frames_until_ball", self.frames_until_ball);
-    visit("dice", self.dice);
-  }
+  ISO_FIELDS(score, frames_until_ball, dice)
 };
 
 struct Game : iso::Composite<World, Rules> {  // world and user: saved, loaded, hashed and written as one

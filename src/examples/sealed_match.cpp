@@ -18,12 +18,10 @@ using iso::transport::EnetTransport;
 struct Push {
   std::int8_t way = 0;
   friend bool operator==(Push, Push) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("way", self.way);
-  }
+  ISO_FIELDS(way)
 };
 struct Nothing {
-  template <class Visitor, class Self> static constexpr void fields(Visitor&&, Self&&) {}
+  ISO_FIELDS()
 };
 struct Game : iso::Composite<iso::World<S>, Nothing> {
   using Input = Push;

@@ -19,17 +19,12 @@ struct Pad {
   std::int8_t walk = 0;  // [1/32 m/s] along x
   std::int8_t jump = 0;
   friend bool operator==(Pad, Pad) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("walk", self.walk);
-    visit("jump", self.jump);
-  }
+  ISO_FIELDS(walk, jump)
 };
 
 struct Jumps {
   std::uint32_t count = 0;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("count", self.count);
-  }
+  ISO_FIELDS(count)
 };
 struct Game : iso::Composite<iso::World<S>, Jumps> {
   using Input = Pad;

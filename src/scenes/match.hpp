@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/random.hpp"
 #include "isostep/session/frame.hpp"
 #include "isostep/state/composite.hpp"
@@ -38,12 +39,7 @@ struct MatchInput {
   bool pressed(MatchAction action) const { return (buttons >> static_cast<unsigned>(action) & 1u) != 0; }
   friend bool operator==(const MatchInput&, const MatchInput&) = default;
 
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("push_x", self.push_x);
-    visit("push_z", self.push_z);
-    visit("buttons", self.buttons);
-    visit("aim", self.aim);
-  }
+  ISO_FIELDS(push_x, push_z, buttons, aim)
 };
 static_assert(kHasNoPadding<MatchInput> && sizeof(MatchInput) == 4);
 
@@ -63,13 +59,7 @@ struct MatchSettings {
 
   friend bool operator==(const MatchSettings&, const MatchSettings&) = default;
 
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("players", self.players);
-    visit("pile", self.pile);
-    visit("seed", self.seed);
-    visit("hz", self.hz);
-    visit("substeps", self.substeps);
-  }
+  ISO_FIELDS(players, pile, seed, hz, substeps)
 };
 
 /// For sounds and sparks. Of prediction and truth alike when nothing was mispredicted: it holds names, no measures.
@@ -89,11 +79,7 @@ struct MatchEvent {
 
   friend bool operator==(const MatchEvent&, const MatchEvent&) = default;
 
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("kind", self.kind);
-    visit("player", self.player);
-    visit("body", self.body);
-  }
+  ISO_FIELDS(kind, player, body)
 };
 inline constexpr std::size_t kMaxMatchEvents = 32;  // a step; what is more goes unheard
 inline constexpr std::size_t kMaxSpawned = 24;
@@ -106,12 +92,7 @@ struct MatchState {
     std::uint32_t falls;
     std::uint16_t waits[kMatchActions + 1];  // [frames] until the action is ready; the last is 0
 
-    template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-      visit("tether", self.tether);
-      visit("score", self.score);
-      visit("falls", self.falls);
-      visit("waits", self.waits);
-    }
+    ISO_FIELDS(tether, score, falls, waits)
   };
 
   Pcg32 random;
@@ -123,16 +104,7 @@ struct MatchState {
   ShapeId shapes[kMaxSpawned];  // each spawned body's own
   Player players[kMostPucks];
 
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("random", self.random);
-    visit("tick", self.tick);
-    visit("level_at", self.level_at);
-    visit("away", self.away);
-    visit("spawn_count", self.spawn_count);
-    visit("spawned", self.spawned);
-    visit("shapes", self.shapes);
-    visit("players", self.players);
-  }
+  ISO_FIELDS(random, tick, level_at, away, spawn_count, spawned, shapes, players)
 };
 static_assert(kHasNoPadding<MatchState>);
 

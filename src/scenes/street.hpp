@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/session/frame.hpp"
 #include "isostep/world/world.hpp"
 #include "scene.hpp"
@@ -20,13 +21,7 @@ struct StreetInput {
   std::uint8_t buttons = 0;             // 1: jump, 2: brake
 
   friend bool operator==(const StreetInput&, const StreetInput&) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("throttle", self.throttle);
-    visit("steer", self.steer);
-    visit("walk_x", self.walk_x);
-    visit("walk_z", self.walk_z);
-    visit("buttons", self.buttons);
-  }
+  ISO_FIELDS(throttle, steer, walk_x, walk_z, buttons)
 };
 /// What a player might do: another choice every second. A pure function.
 StreetInput street_bot(int player, Frame frame);

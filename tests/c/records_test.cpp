@@ -14,11 +14,7 @@ struct Grown {
   bool is_old = true;
   bool is_new = true;
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("number", self.number);
-    visit("is_old", self.is_old);
-    visit("is_new", self.is_new);
-  }
+  ISO_FIELDS(number, is_old, is_new)
 };
 
 }  // namespace isostep::test

@@ -39,7 +39,7 @@ TEST_F(CommandList, without_its_record_it_does_not_compile) {
 TEST_F(CommandList, a_record_that_cannot_be_written_does_not_compile) {
   add_to_list();
   add_record();
-  edit("include/isostep/world/probe_command.hpp", "fields(Visitor&& visit", "members(Visitor&& visit");
+  edit("include/isostep/world/probe_command.hpp", "  ISO_FIELDS(tick)\n", "");
   EXPECT_THAT(output_of(kProgram), HasSubstr("a command lacks `fields`, or `write` and `read`"));
 }
 

@@ -10,9 +10,7 @@ namespace isostep {
 
 struct Probe {
   std::uint64_t tick;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("tick", self.tick);
-  }
+  ISO_FIELDS(tick)
 };
 
 }  // namespace isostep

@@ -11,10 +11,7 @@ using ProbeId = Id<struct ProbeTag>;
 template <class S> struct Probe {
   BodyId body = {};
   S volume = S(0);  // [m^3]
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("volume", self.volume);
-  }
+  ISO_FIELDS(body, volume)
 };
 
 }  // namespace isostep

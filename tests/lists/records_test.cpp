@@ -31,7 +31,7 @@ TEST_F(RecordList, without_its_file_it_does_not_compile) {
 TEST_F(RecordList, without_fields_it_does_not_compile) {
   add_to_list();
   add_file();
-  edit("include/isostep/dynamics/records/probe.hpp", "fields(Visitor&& visit", "members(Visitor&& visit");
+  edit("include/isostep/dynamics/records/probe.hpp", "  ISO_FIELDS(body, volume)\n", "");
   EXPECT_THAT(errors_of("scenes/scene_records.cpp"), AllOf(HasSubstr("fields"), HasSubstr("Probe")));
 }
 

@@ -16,9 +16,7 @@ namespace isostep::test {
 struct Push {
   std::int8_t way = 0;
   friend bool operator==(Push, Push) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("way", self.way);
-  }
+  ISO_FIELDS(way)
 };
 /// What a player does who is asked when `current` is the session's frame.
 inline Push push_of(Frame current, int player) {
@@ -27,9 +25,7 @@ inline Push push_of(Frame current, int player) {
 
 struct Score {
   std::uint32_t touches = 0;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("touches", self.touches);
-  }
+  ISO_FIELDS(touches)
 };
 template <class S> struct Pucks : Composite<World<S>, Score> {
   using Input = Push;

@@ -165,9 +165,7 @@ struct LongInput {
     }
     return true;
   }
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("words", self.words);
-  }
+  ISO_FIELDS(words)
 };
 struct LongGame {
   using Input = LongInput;

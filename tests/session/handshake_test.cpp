@@ -146,11 +146,7 @@ struct RenamedInput {
   std::int8_t push = 0, pull = 0;
   std::uint16_t buttons = 0;
   friend bool operator==(const RenamedInput&, const RenamedInput&) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("push", self.push);
-    visit("pull", self.pull);
-    visit("buttons", self.buttons);
-  }
+  ISO_FIELDS(push, pull, buttons)
 };
 static_assert(RenamedInput{} == RenamedInput{});
 struct RenamedToy : Toy {

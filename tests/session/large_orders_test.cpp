@@ -13,21 +13,14 @@ namespace {
 struct Unit {
   std::uint8_t command = 0;
   friend bool operator==(const Unit&, const Unit&) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("command", self.command);
-  }
+  ISO_FIELDS(command)
 };
 
 /// What became of all orders.
 struct CommandState {
   std::uint64_t digest = 0;
   std::uint32_t tick = 0, orders = 0, out_of_turn = 0;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("digest", self.digest);
-    visit("tick", self.tick);
-    visit("orders", self.orders);
-    visit("out_of_turn", self.out_of_turn);
-  }
+  ISO_FIELDS(digest, tick, orders, out_of_turn)
 };
 /// Every byte of every order shapes all that follows.
 struct Commanders : Composite<CommandState, OrderAssembly> {

@@ -12,10 +12,7 @@ struct Order {
   std::uint32_t serial = 0;
   std::uint8_t unit = 0;
   friend bool operator==(const Order&, const Order&) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("serial", self.serial);
-    visit("unit", self.unit);
-  }
+  ISO_FIELDS(serial, unit)
 };
 
 /// Counts what it is told to do, and what came out of turn.
@@ -25,11 +22,7 @@ struct Orders {
     std::uint32_t next[kMaxPlayers] = {};
     std::uint32_t out_of_turn = 0;
     std::uint32_t units = 0;
-    template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-      visit("next", self.next);
-      visit("out_of_turn", self.out_of_turn);
-      visit("units", self.units);
-    }
+    ISO_FIELDS(next, out_of_turn, units)
   };
   using Snapshot = State;
   State state;

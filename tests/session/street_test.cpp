@@ -17,9 +17,7 @@ namespace {
 
 struct Fallen {
   std::uint32_t jumps = 0;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("jumps", self.jumps);
-  }
+  ISO_FIELDS(jumps)
 };
 template <class S> struct StreetGame : Composite<World<S>, Fallen> {
   using Input = scenes::StreetInput;

@@ -184,9 +184,7 @@ struct HidesFromItsHash : Toy {
 };
 struct Pushes {
   std::uint32_t count = 0;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("count", self.count);
-  }
+  ISO_FIELDS(count)
 };
 /// A game as the page of sessions shows it, which counts in its state or, forgetfully, in a member beside it.
 template <bool kForgets> struct CountingGame : Composite<World<Q16_16>, Pushes> {

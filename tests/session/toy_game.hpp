@@ -19,11 +19,7 @@ struct ToyInput {
   std::uint16_t word = 0;
 
   friend bool operator==(const ToyInput&, const ToyInput&) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("push", self.push);
-    visit("pull", self.pull);
-    visit("word", self.word);
-  }
+  ISO_FIELDS(push, pull, word)
 };
 
 /// Every bit of every input, and who is away, shapes all that follows.
@@ -32,11 +28,7 @@ struct ToyState {
   std::uint64_t places[kMaxPlayers] = {};
   std::uint64_t absences[kMaxPlayers] = {};
 
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("tick", self.tick);
-    visit("places", self.places);
-    visit("absences", self.absences);
-  }
+  ISO_FIELDS(tick, places, absences)
 };
 
 class Toy {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "isostep/articulation/articulation_link.hpp"
+#include "isostep/core/fields.hpp"
 
 namespace isostep {
 
@@ -16,12 +17,7 @@ template <class S> struct ArticulationSettings {
   Vec3<S> gravity = {S(0), S(-10), S(0)};  // [m/s^2] along the world's axes
   Pose<S> base = Pose<S>::identity();      // [m] in the world: the frame a link without a parent is joined to
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("hz", self.hz);
-    visit("substeps", self.substeps);
-    visit("gravity", self.gravity);
-    visit("base", self.base);
-  }
+  ISO_FIELDS(hz, substeps, gravity, base)
 };
 
 /// A tree: every parent comes before its children.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/geometry/mass_properties.hpp"
 #include "isostep/math/transform.hpp"
 
@@ -36,12 +37,7 @@ template <class S> struct LinkMass {
              detail::kappa_of_axis(p.mass, p.kappa.z)},
             p.principal};
   }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("mass", self.mass);
-    visit("centre", self.centre);
-    visit("inertia", self.inertia);
-    visit("principal", self.principal);
-  }
+  ISO_FIELDS(mass, centre, inertia, principal)
 };
 
 /// A servo, a motor, or both: stiffness (target - position) + damping (speed - velocity), of max_force at most.
@@ -54,14 +50,7 @@ template <class S> struct ArticulationDrive {
   S damping = S(0);                                // [N m s/rad], [N s/m]; however large, it is implicit
   S max_force = S(0);                              // [N m], [N] 0: no drive
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("target", self.target);
-    visit("pose", self.pose);
-    visit("speed", self.speed);
-    visit("stiffness", self.stiffness);
-    visit("damping", self.damping);
-    visit("max_force", self.max_force);
-  }
+  ISO_FIELDS(target, pose, speed, stiffness, damping, max_force)
 };
 
 /// At coordinate 0 frame a, in the parent, and frame b, in the link, are one.
@@ -80,22 +69,8 @@ template <class S> struct ArticulationLink {
   S lower = S(0), upper = S(0);     // [rad], [m]; of a ball `upper` alone, 0.05 to 2.8: the cone's half angle
   ArticulationDrive<S> drive = {};  // at first; see Articulation::set_drive
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("parent", self.parent);
-    visit("type", self.type);
-    visit("frame_a", self.frame_a);
-    visit("frame_b", self.frame_b);
-    visit("axis", self.axis);
-    visit("mass", self.mass);
-    visit("armature", self.armature);
-    visit("damping", self.damping);
-    visit("stiffness", self.stiffness);
-    visit("rest", self.rest);
-    visit("limited", self.limited);
-    visit("lower", self.lower);
-    visit("upper", self.upper);
-    visit("drive", self.drive);
-  }
+  ISO_FIELDS(parent, type, frame_a, frame_b, axis, mass, armature, damping, stiffness, rest, limited, lower, upper,
+             drive)
 };
 
 /// Where a joint is and how it moves. What its kind has not is 0, and the identity.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "isostep/articulation/articulation_link.hpp"
+#include "isostep/core/fields.hpp"
 
 namespace isostep {
 
@@ -14,10 +15,7 @@ template <class S> struct LinkLoad {
   Vec3<S> force;   // [N] world, at the centre of mass
   Vec3<S> torque;  // [N m] world
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("force", self.force);
-    visit("torque", self.torque);
-  }
+  ISO_FIELDS(force, torque)
 };
 static_assert(kHasNoPadding<LinkLoad<float>> && kHasNoPadding<LinkLoad<double>>);
 

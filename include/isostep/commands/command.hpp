@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/joints/joint_record.hpp"
 #include "isostep/dynamics/records/record_store.hpp"
@@ -37,84 +38,55 @@ template <class S> struct AddShape {
 };
 struct RemoveShape {
   ShapeId shape;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("shape", self.shape);
-  }
+  ISO_FIELDS(shape)
 };
 template <class S> struct CreateBody {
   BodyDefinition<S> definition;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("definition", self.definition);
-  }
+  ISO_FIELDS(definition)
 };
 struct DestroyBody {
   BodyId body;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-  }
+  ISO_FIELDS(body)
 };
 struct WakeBody {
   BodyId body;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-  }
+  ISO_FIELDS(body)
 };
 /// Teleports; velocity stays.
 template <class S> struct SetPose {
   BodyId body;
   Pose<S> pose;  // of the body's origin
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("pose", self.pose);
-  }
+  ISO_FIELDS(body, pose)
 };
 template <class S> struct SetVelocity {
   BodyId body;
   Vec3<S> linear;   // [m/s] of the centre of mass
   Vec3<S> angular;  // [rad/s] world
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("linear", self.linear);
-    visit("angular", self.angular);
-  }
+  ISO_FIELDS(body, linear, angular)
 };
 /// Acts over the next step.
 template <class S> struct ApplyForce {
   BodyId body;
   Vec3<S> force;   // [N] at the centre of mass
   Vec3<S> torque;  // [N m]
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("force", self.force);
-    visit("torque", self.torque);
-  }
+  ISO_FIELDS(body, force, torque)
 };
 /// Acts at once.
 template <class S> struct ApplyImpulse {
   BodyId body;
   Vec3<S> linear;   // [kg m/s] at the centre of mass
   Vec3<S> angular;  // [kg m^2/s]
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("linear", self.linear);
-    visit("angular", self.angular);
-  }
+  ISO_FIELDS(body, linear, angular)
 };
 template <class S> struct SetMaterial {
   BodyId body;
   Material<S> material;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("material", self.material);
-  }
+  ISO_FIELDS(body, material)
 };
 struct SetFilter {
   BodyId body;
   Filter filter;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("filter", self.filter);
-  }
+  ISO_FIELDS(body, filter)
 };
 /// Gravity and damping act on a body by these factors; its locked motions stop.
 template <class S> struct SetMotion {
@@ -123,90 +95,57 @@ template <class S> struct SetMotion {
   S linear_damping;     // [1/s]
   S angular_damping;    // [1/s]
   std::uint32_t locks;  // body_flag::kLockX ...
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("gravity_scale", self.gravity_scale);
-    visit("linear_damping", self.linear_damping);
-    visit("angular_damping", self.angular_damping);
-    visit("locks", self.locks);
-  }
+  ISO_FIELDS(body, gravity_scale, linear_damping, angular_damping, locks)
 };
 struct SetUserData {
   BodyId body;
   std::uint64_t user_data;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("user_data", self.user_data);
-  }
+  ISO_FIELDS(body, user_data)
 };
 template <class S> struct SetGravity {
   Vec3<S> gravity;  // [m/s^2]
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("gravity", self.gravity);
-  }
+  ISO_FIELDS(gravity)
 };
 template <class S> struct CreateJoint {
   JointProperties<S> joint;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("joint", self.joint);
-  }
+  ISO_FIELDS(joint)
 };
 struct DestroyJoint {
   JointId joint;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("joint", self.joint);
-  }
+  ISO_FIELDS(joint)
 };
 /// Limits, motor and spring of a joint that exists; bodies, frames and type stay.
 template <class S> struct SetJoint {
   JointId joint;
   JointProperties<S> properties;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("joint", self.joint);
-    visit("properties", self.properties);
-  }
+  ISO_FIELDS(joint, properties)
 };
 
 /// The joint keeps its position within lower..upper.
 template <class S> struct SetJointLimits {
   JointId joint;
   S lower, upper;  // [rad], [m] of a length
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("joint", self.joint);
-    visit("lower", self.lower);
-    visit("upper", self.upper);
-  }
+  ISO_FIELDS(joint, lower, upper)
 };
 /// A motor drives the joint at that speed with at most that torque.
 template <class S> struct SetJointMotor {
   JointId joint;
   S speed;   // [rad/s], [m/s] along a length
   S torque;  // [N m], [N] along a length; 0: no motor
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("joint", self.joint);
-    visit("speed", self.speed);
-    visit("torque", self.torque);
-  }
+  ISO_FIELDS(joint, speed, torque)
 };
 /// A spring pulls the joint to its target.
 template <class S> struct SetJointSpring {
   JointId joint;
   S frequency;  // [Hz] 0: no spring
   S damping;    // [1] ratio, 1 = critical
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("joint", self.joint);
-    visit("frequency", self.frequency);
-    visit("damping", self.damping);
-  }
+  ISO_FIELDS(joint, frequency, damping)
 };
 /// The joint's spring pulls to this target.
 template <class S> struct SetJointTarget {
   JointId joint;
   S target;  // [rad], [m] of a length
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("joint", self.joint);
-    visit("target", self.target);
-  }
+  ISO_FIELDS(joint, target)
 };
 
 /// Other heights and materials for a rectangle of a height field: HeightPatch as a record. The shape's field becomes
@@ -241,55 +180,36 @@ struct SetHeights {
 struct SetEnabled {
   BodyId body;
   std::uint32_t enabled;  // 1, or 0: disabled
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("enabled", self.enabled);
-  }
+  ISO_FIELDS(body, enabled)
 };
 template <class S> struct SetType {
   BodyId body;
   BodyType type;
   BodyMass<S> mass = {};  // of a dynamic one
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("type", self.type);
-    visit("mass", self.mass);
-  }
+  ISO_FIELDS(body, type, mass)
 };
 template <class S> struct SetMass {
   BodyId body;
   BodyMass<S> mass;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("mass", self.mass);
-  }
+  ISO_FIELDS(body, mass)
 };
 /// Another shape for a body that exists; its origin stays where it is.
 template <class S> struct SetShape {
   BodyId body;
   ShapeId shape;
   BodyMass<S> mass = {};  // of a dynamic one
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("shape", self.shape);
-    visit("mass", self.mass);
-  }
+  ISO_FIELDS(body, shape, mass)
 };
 /// Its island falls asleep at once.
 struct SleepBody {
   BodyId body;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-  }
+  ISO_FIELDS(body)
 };
 /// The next step carries a kinematic body there: World::move_to.
 template <class S> struct MoveTo {
   BodyId body;
   Pose<S> pose;  // of the body's origin
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("pose", self.pose);
-  }
+  ISO_FIELDS(body, pose)
 };
 
 template <class Record> using SetRecordOf = SetRecord<Record, typename detail::RecordIdOf<Record>::Type>;

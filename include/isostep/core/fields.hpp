@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "isostep/core/field_names.hpp"
 #include "isostep/scalar/scalar.hpp"
 
 namespace isostep {
@@ -17,7 +18,7 @@ struct AnyVisitor {
 };
 }  // namespace detail
 
-/// A struct that names its members in order: static void fields(visitor, self) calls visitor("name", self.member).
+/// A struct that names its members in order, by ISO_FIELDS or by a function `fields` of its own.
 template <class T>
 concept HasFields = requires(T& value) {
   T::fields(detail::AnyVisitor{}, value);

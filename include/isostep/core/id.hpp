@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/field_names.hpp"
 #include "isostep/scalar/platform.hpp"
 
 namespace isostep {
@@ -18,10 +19,7 @@ template <class Tag> struct Id {
   friend ISO_INLINE constexpr bool operator==(Id a, Id b) { return a.slot == b.slot && a.generation == b.generation; }
   friend ISO_INLINE constexpr bool operator!=(Id a, Id b) { return !(a == b); }
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("slot", self.slot);
-    visit("generation", self.generation);
-  }
+  ISO_FIELDS(slot, generation)
 };
 
 using BodyId = Id<struct BodyTag>;

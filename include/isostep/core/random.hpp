@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/scalar/scalar.hpp"
 
 namespace isostep {
@@ -19,9 +20,7 @@ struct Lcg {
   ISO_INLINE constexpr std::uint32_t next_u24() { return next() >> 8; }
   friend ISO_INLINE constexpr bool operator==(const Lcg& a, const Lcg& b) { return a.state == b.state; }
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("state", self.state);
-  }
+  ISO_FIELDS(state)
 };
 
 /// PCG-XSH-RR with 64 bits of state and 32 of output: the generator for games. Period 2^64, 2^63 streams.
@@ -49,10 +48,7 @@ struct Pcg32 {
     return a.state == b.state && a.increment == b.increment;
   }
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("state", self.state);
-    visit("increment", self.increment);
-  }
+  ISO_FIELDS(state, increment)
 };
 
 template <class R>

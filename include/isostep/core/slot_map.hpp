@@ -19,10 +19,7 @@ struct SlotEntry {
   static constexpr std::uint32_t kEnd = 0xfffffffeu;
   static constexpr std::uint32_t kRetired = 0xfffffffdu;  // it has had as many tenants as can be told apart
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("generation", self.generation);
-    visit("next_free", self.next_free);
-  }
+  ISO_FIELDS(generation, next_free)
 };
 static_assert(kHasNoPadding<SlotEntry>);
 

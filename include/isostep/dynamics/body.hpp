@@ -42,15 +42,7 @@ template <class S> struct BodyState {
   Vec3<Velocity<S>> angular_velocity;  // [rad/s] world
   Aabb<S> fat;                         // [m] bounds plus margin: renewed when the body leaves them
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("slot", self.slot);
-    visit("sleep_clock", self.sleep_clock);
-    visit("centre", self.centre);
-    visit("orientation", self.orientation);
-    visit("velocity", self.velocity);
-    visit("angular_velocity", self.angular_velocity);
-    visit("fat", self.fat);
-  }
+  ISO_FIELDS(slot, sleep_clock, centre, orientation, velocity, angular_velocity, fat)
 };
 
 /// What a surface is like. Two surfaces mix: friction and spin resistance by the root of the product, the rest by the
@@ -72,17 +64,8 @@ template <class S> struct Material {
   std::uint32_t kind = 0;      // of material, for the table of pairs; 0: none
   std::uint32_t reserved = 0;  // 0: keeps records of 8-byte scalars without padding
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("friction", self.friction);
-    visit("restitution", self.restitution);
-    visit("rolling_resistance", self.rolling_resistance);
-    visit("spin_resistance", self.spin_resistance);
-    visit("surface_velocity", self.surface_velocity);
-    visit("static_friction", self.static_friction);
-    visit("anisotropy", self.anisotropy);
-    visit("kind", self.kind);
-    visit("reserved", self.reserved);
-  }
+  ISO_FIELDS(friction, restitution, rolling_resistance, spin_resistance, surface_velocity, static_friction, anisotropy,
+             kind, reserved)
 };
 
 /// Two bodies collide when each one's mask has a bit of the other's category, unless they share a non-zero group.
@@ -91,11 +74,7 @@ struct Filter {
   std::uint32_t mask = 0xffffffffu;
   std::uint32_t group = 0;
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("category", self.category);
-    visit("mask", self.mask);
-    visit("group", self.group);
-  }
+  ISO_FIELDS(category, mask, group)
 };
 ISO_INLINE constexpr bool should_collide(const Filter& a, const Filter& b) {
   if (a.group != 0 && a.group == b.group) return false;
@@ -119,22 +98,8 @@ template <class S> struct BodyProperties {
   S angular_damping;  // [1/s]
   S reserved;         // 0: keeps records of 4-byte scalars without padding
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("type", self.type);
-    visit("flags", self.flags);
-    visit("shape", self.shape);
-    visit("filter", self.filter);
-    visit("user_data", self.user_data);
-    visit("mass", self.mass);
-    visit("kappa", self.kappa);
-    visit("principal", self.principal);
-    visit("local_centre", self.local_centre);
-    visit("material", self.material);
-    visit("gravity_scale", self.gravity_scale);
-    visit("linear_damping", self.linear_damping);
-    visit("angular_damping", self.angular_damping);
-    visit("reserved", self.reserved);
-  }
+  ISO_FIELDS(type, flags, shape, filter, user_data, mass, kappa, principal, local_centre, material, gravity_scale,
+             linear_damping, angular_damping, reserved)
 };
 
 template <class S> ISO_INLINE constexpr bool is_enabled(const BodyProperties<S>& body) {

@@ -27,12 +27,7 @@ struct ContactKey {
     if (bodies_x != bodies_y) return bodies_x < bodies_y;
     return x.child_a != y.child_a ? x.child_a < y.child_a : x.child_b < y.child_b;
   }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body_a", self.body_a);
-    visit("body_b", self.body_b);
-    visit("child_a", self.child_a);
-    visit("child_b", self.child_b);
-  }
+  ISO_FIELDS(body_a, body_b, child_a, child_b)
 };
 
 /// Bits of Contact::flags.
@@ -50,15 +45,7 @@ template <class S> struct Contact {
   Vec3<Velocity<S>> friction_impulse;             // [m/s] world, on b
   Velocity<S> twist_impulse;                      // [m/s] on b about the normal, times AngularRow's radius
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("key", self.key);
-    visit("count", self.count);
-    visit("flags", self.flags);
-    visit("features", self.features);
-    visit("normal_impulse", self.normal_impulse);
-    visit("friction_impulse", self.friction_impulse);
-    visit("twist_impulse", self.twist_impulse);
-  }
+  ISO_FIELDS(key, count, flags, features, normal_impulse, friction_impulse, twist_impulse)
 };
 static_assert(kHasNoPadding<Contact<float>> && kHasNoPadding<Contact<double>>);
 
@@ -70,13 +57,7 @@ template <class S> struct MixedMaterial {
   S spin_resistance;         // [m]
   Vec3<S> surface_velocity;  // [m/s] of b's surface against a's, world
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("friction", self.friction);
-    visit("restitution", self.restitution);
-    visit("rolling_resistance", self.rolling_resistance);
-    visit("spin_resistance", self.spin_resistance);
-    visit("surface_velocity", self.surface_velocity);
-  }
+  ISO_FIELDS(friction, restitution, rolling_resistance, spin_resistance, surface_velocity)
 };
 
 /// The root of the product.
@@ -98,11 +79,7 @@ template <class S> struct ContactGeometry {
     Vec3<S> arm_a, arm_b;  // [m] from each centre of mass, world
     S separation;          // [m] negative: overlap
 
-    template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-      visit("arm_a", self.arm_a);
-      visit("arm_b", self.arm_b);
-      visit("separation", self.separation);
-    }
+    ISO_FIELDS(arm_a, arm_b, separation)
   } points[kMaxContactPoints];
   MixedMaterial<S> material;
 };

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/dynamics/reduced_mass.hpp"
 #include "isostep/dynamics/solver_body.hpp"
@@ -18,14 +19,7 @@ template <class S> struct ContactResponse {
   S inertia_a, inertia_b;  // [1] of the inverse inertias, times those
   S most_force;            // [N] 0: any
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("contact", self.contact);
-    visit("mass_a", self.mass_a);
-    visit("mass_b", self.mass_b);
-    visit("inertia_a", self.inertia_a);
-    visit("inertia_b", self.inertia_b);
-    visit("most_force", self.most_force);
-  }
+  ISO_FIELDS(contact, mass_a, mass_b, inertia_a, inertia_b, most_force)
   /// mass_share() of masses over their scales. With u = m_b / (m_a + m_b) that is s_a u / (s_a u + s_b (1 - u)); as
   /// none is between 0 and 2^-8, the sum is 2^-9 or more where neither is 0.
   ISO_INLINE MassShare<S> share(S of_a, S of_b) const {

@@ -36,17 +36,7 @@ template <class S> struct Settings {
   /// of what nothing presses together all bounces above a sixteenth of it.
   S restitution_threshold = S(0.25);
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("hz", self.hz);
-    visit("substeps", self.substeps);
-    visit("gravity", self.gravity);
-    visit("allow_sleep", self.allow_sleep);
-    visit("solver", self.solver);
-    visit("id_space", self.id_space);
-    visit("most_pairs", self.most_pairs);
-    visit("projection", self.projection);
-    visit("restitution_threshold", self.restitution_threshold);
-  }
+  ISO_FIELDS(hz, substeps, gravity, allow_sleep, solver, id_space, most_pairs, projection, restitution_threshold)
 };
 
 /// [1/s] Sub-steps, or passes of pgs: what the frequencies of springs are measured by.

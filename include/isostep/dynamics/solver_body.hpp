@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/math/mat3.hpp"
 
@@ -18,10 +19,7 @@ template <class V> struct alignas(8 * sizeof(V)) MotionRow {
   V pad1;
 
   static ISO_INLINE constexpr MotionRow zero() { return {Vec3<V>::zero(), V(0), Vec3<V>::zero(), V(0)}; }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("linear", self.linear);
-    visit("angular", self.angular);
-  }
+  ISO_FIELDS(linear, angular)
 };
 
 /// Acceleration asked for by forces, for this step alone.
@@ -29,10 +27,7 @@ template <class S> struct Acceleration {
   Vec3<S> linear;   // [m/s^2]
   Vec3<S> angular;  // [rad/s^2]
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("linear", self.linear);
-    visit("angular", self.angular);
-  }
+  ISO_FIELDS(linear, angular)
 };
 
 /// What turns faster about an axis counts as spinning [rad/s]: the orientation in which a step finds a body does not do
@@ -61,10 +56,7 @@ template <class S> struct SolverMass {
   S mass;         // [kg]; 0: immovable
   Mat3<S> kappa;  // [1/m^2] mass times inverse inertia, world axes; 0: does not turn
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("mass", self.mass);
-    visit("kappa", self.kappa);
-  }
+  ISO_FIELDS(mass, kappa)
 };
 
 /// Row 0 stands for everything that does not move; the awake bodies follow in order.
@@ -81,10 +73,7 @@ template <class S> struct SolverBodies {
 template <class S> struct MassShare {
   S a, b;  // [1]
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("a", self.a);
-    visit("b", self.b);
-  }
+  ISO_FIELDS(a, b)
 };
 template <class S> ISO_INLINE constexpr MassShare<S> mass_share(S mass_a, S mass_b) {
   if (!(mass_a > S(0))) return {S(0), mass_b > S(0) ? S(1) : S(0)};

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/geometry/blob.hpp"
 
 namespace isostep {
@@ -17,10 +18,7 @@ struct BlobName {
   ContentId id;
   std::uint64_t uses;
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("id", self.id);
-    visit("uses", self.uses);
-  }
+  ISO_FIELDS(id, uses)
 };
 static_assert(kHasNoPadding<BlobName>);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/geometry/shape_type.hpp"
 #include "isostep/math/vec3.hpp"
 
@@ -17,14 +18,7 @@ template <class S> struct Primitive {
   Vec3<Unit<S>> normal;  // [1] half-space only
   S offset;              // [m] half-space only
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("type", self.type);
-    visit("blob", self.blob);
-    visit("half", self.half);
-    visit("radius", self.radius);
-    visit("normal", self.normal);
-    visit("offset", self.offset);
-  }
+  ISO_FIELDS(type, blob, half, radius, normal, offset)
 
   friend ISO_INLINE constexpr bool operator==(const Primitive& a, const Primitive& b) {
     return a.type == b.type && a.blob == b.blob && a.half == b.half && a.radius == b.radius && a.normal == b.normal &&

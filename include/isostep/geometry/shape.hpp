@@ -4,6 +4,7 @@
 
 #include <concepts>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/geometry/shape_view.hpp"
 #include "isostep/geometry/shapes/box.hpp"
 #include "isostep/geometry/shapes/capsule.hpp"
@@ -135,10 +136,7 @@ template <class S> struct Child {
   Primitive<S> primitive;
   Pose<S> pose;
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("primitive", self.primitive);
-    visit("pose", self.pose);
-  }
+  ISO_FIELDS(primitive, pose)
 };
 
 }  // namespace isostep

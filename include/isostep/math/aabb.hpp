@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {
@@ -14,10 +15,7 @@ template <class S> struct Aabb {
     return a.low == b.low && a.high == b.high;
   }
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("low", self.low);
-    visit("high", self.high);
-  }
+  ISO_FIELDS(low, high)
 };
 
 /// Touching counts as overlap.

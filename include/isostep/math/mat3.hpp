@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/math/quat.hpp"
 #include "isostep/math/vec3.hpp"
 
@@ -19,9 +20,7 @@ template <class T> struct Mat3 {
   friend ISO_INLINE constexpr Mat3 operator+(const Mat3& a, const Mat3& b) {
     return {{a.rows[0] + b.rows[0], a.rows[1] + b.rows[1], a.rows[2] + b.rows[2]}};
   }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("rows", self.rows);
-  }
+  ISO_FIELDS(rows)
 };
 
 template <class T> ISO_INLINE constexpr Mat3<T> transpose(const Mat3<T>& m) {

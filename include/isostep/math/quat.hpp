@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/math/vec3.hpp"
 #include "isostep/scalar/math.hpp"
 
@@ -16,12 +17,7 @@ template <class U> struct Quat {
     return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
   }
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("x", self.x);
-    visit("y", self.y);
-    visit("z", self.z);
-    visit("w", self.w);
-  }
+  ISO_FIELDS(x, y, z, w)
 };
 
 template <class U> ISO_INLINE constexpr Quat<U> conjugate(Quat<U> q) { return {-q.x, -q.y, -q.z, q.w}; }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/scalar/scalar.hpp"
 
 namespace isostep {
@@ -16,11 +17,7 @@ template <class S> struct Softness {
 
   /// No spring: velocity alone, what the relax pass solves.
   static ISO_INLINE constexpr Softness rigid() { return {S(0), S(1), S(0)}; }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("bias_rate", self.bias_rate);
-    visit("mass_scale", self.mass_scale);
-    visit("impulse_scale", self.impulse_scale);
-  }
+  ISO_FIELDS(bias_rate, mass_scale, impulse_scale)
 };
 
 /// `angle` = 2 pi frequency h [rad] a sub-step, `damping` ratio [1], `rate` = 1/h [1/s].

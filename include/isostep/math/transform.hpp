@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/math/mat3.hpp"
 
 namespace isostep {
@@ -16,10 +17,7 @@ template <class S> struct Pose {
     return position == Vec3<S>::zero() && orientation == Quat<Unit<S>>::identity();
   }
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("position", self.position);
-    visit("orientation", self.orientation);
-  }
+  ISO_FIELDS(position, orientation)
 };
 
 /// A pose as it is used: the rotation unpacked once, applied often.
@@ -27,10 +25,7 @@ template <class S> struct Transform {
   Vec3<S> position;  // [m]
   Mat3<Unit<S>> rotation;
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("position", self.position);
-    visit("rotation", self.rotation);
-  }
+  ISO_FIELDS(position, rotation)
 
   static ISO_INLINE constexpr Transform of(const Pose<S>& pose) { return {pose.position, to_matrix(pose.orientation)}; }
 };

@@ -27,11 +27,7 @@ template <class T> struct Vec3 {
   ISO_INLINE constexpr T operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
   ISO_INLINE constexpr T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("x", self.x);
-    visit("y", self.y);
-    visit("z", self.z);
-  }
+  ISO_FIELDS(x, y, z)
 };
 
 /// A number of any format: what a vector is multiplied with.

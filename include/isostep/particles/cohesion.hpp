@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/particles/particle.hpp"
 
 namespace isostep {
@@ -21,14 +22,7 @@ template <class S> struct Cohesion {
   S attract_end = S(0);     // [m] at least attract_start
   S attract_force = S(0);   // [N]
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("material", self.material);
-    visit("repel_distance", self.repel_distance);
-    visit("repel_force", self.repel_force);
-    visit("attract_start", self.attract_start);
-    visit("attract_end", self.attract_end);
-    visit("attract_force", self.attract_force);
-  }
+  ISO_FIELDS(material, repel_distance, repel_force, attract_start, attract_end, attract_force)
 };
 
 }  // namespace isostep

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/particles/particle.hpp"
 
 namespace isostep {
@@ -21,14 +22,7 @@ template <class S> struct Collider {
   Vec3<S> start = {S(0), S(0), S(0)}, end = {S(0), S(0), S(0)};  // [m] of a line
   S radius = S(0);                                               // [m] of a line
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("type", self.type);
-    visit("normal", self.normal);
-    visit("offset", self.offset);
-    visit("start", self.start);
-    visit("end", self.end);
-    visit("radius", self.radius);
-  }
+  ISO_FIELDS(type, normal, offset, start, end, radius)
 };
 
 }  // namespace isostep

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/particles/particle.hpp"
 #include "isostep/scalar/math.hpp"
 
@@ -44,31 +45,9 @@ template <class S> struct ParticleConstraint {
   Velocity<S> approach;                // [m/s] lowest n.(v_b - v_a) at which they met in the step, <= 0
   SumOf<Velocity<S>, Velocity<S>> work;  // [m^2/s^2] by which impulses of the step changed the square of its speed
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("kind", self.kind);
-    visit("a", self.a);
-    visit("b", self.b);
-    visit("normal", self.normal);
-    visit("separation", self.separation);
-    visit("radius", self.radius);
-    visit("other", self.other);
-    visit("share_a", self.share_a);
-    visit("share_b", self.share_b);
-    visit("friction", self.friction);
-    visit("restitution", self.restitution);
-    visit("surface_velocity", self.surface_velocity);
-    visit("surface_gain", self.surface_gain);
-    visit("surface_moved", self.surface_moved);
-    visit("total", self.total);
-    visit("impulse", self.impulse);
-    visit("friction_impulse", self.friction_impulse);
-    visit("meets", self.meets);
-    visit("closing", self.closing);
-    visit("shift", self.shift);
-    visit("impulse_seen", self.impulse_seen);
-    visit("approach", self.approach);
-    visit("work", self.work);
-  }
+  ISO_FIELDS(kind, a, b, normal, separation, radius, other, share_a, share_b, friction, restitution, surface_velocity,
+             surface_gain, surface_moved, total, impulse, friction_impulse, meets, closing, shift, impulse_seen,
+             approach, work)
 };
 
 /// sqrt(v^2 + 2 g w) [m/s] of v >= 0: what forces that add g to a speed in a sub-step make of it on the way of w times

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/core/simd.hpp"
 #include "isostep/particles/axes.hpp"
@@ -19,12 +20,7 @@ template <class S> struct FlightRow {
   S quadratic_drag;  // [N s^2/m^2]
   Step<S> keep;      // [1] of the velocity, a sub-step
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("gravity", self.gravity);
-    visit("linear_drag", self.linear_drag);
-    visit("quadratic_drag", self.quadratic_drag);
-    visit("keep", self.keep);
-  }
+  ISO_FIELDS(gravity, linear_drag, quadratic_drag, keep)
 };
 
 /// Particles first <= slot < end, and what a sub-step reads and writes of them.

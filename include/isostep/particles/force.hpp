@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/particles/particle.hpp"
 
 namespace isostep {
@@ -28,17 +29,7 @@ template <class S> struct ParticleForce {
   S surface_height = S(0);                    // [m] of the liquid's surface, along up
   S density = S(0);                           // [kg/m^3] of the liquid
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("type", self.type);
-    visit("particle", self.particle);
-    visit("acceleration", self.acceleration);
-    visit("linear_drag", self.linear_drag);
-    visit("quadratic_drag", self.quadratic_drag);
-    visit("max_depth", self.max_depth);
-    visit("volume", self.volume);
-    visit("surface_height", self.surface_height);
-    visit("density", self.density);
-  }
+  ISO_FIELDS(type, particle, acceleration, linear_drag, quadratic_drag, max_depth, volume, surface_height, density)
 };
 
 }  // namespace isostep

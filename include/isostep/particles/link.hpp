@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/particles/particle.hpp"
 
 namespace isostep {
@@ -21,14 +22,7 @@ template <class S> struct Link {
   S length = S(1);                      // [m]
   S restitution = S(0);                 // [1] of a cable
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("type", self.type);
-    visit("a", self.a);
-    visit("b", self.b);
-    visit("anchor", self.anchor);
-    visit("length", self.length);
-    visit("restitution", self.restitution);
-  }
+  ISO_FIELDS(type, a, b, anchor, length, restitution)
 };
 
 }  // namespace isostep

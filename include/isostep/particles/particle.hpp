@@ -35,16 +35,7 @@ template <class S> struct ParticleMaterial {
   S restitution = S(0);     // [1] of two particles the greater counts
   bool collides = false;    // with other particles whose material says so too
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("gravity_scale", self.gravity_scale);
-    visit("damping", self.damping);
-    visit("linear_drag", self.linear_drag);
-    visit("quadratic_drag", self.quadratic_drag);
-    visit("radius", self.radius);
-    visit("friction", self.friction);
-    visit("restitution", self.restitution);
-    visit("collides", self.collides);
-  }
+  ISO_FIELDS(gravity_scale, damping, linear_drag, quadratic_drag, radius, friction, restitution, collides)
 };
 
 template <class S> struct ParticleDefinition {
@@ -55,14 +46,7 @@ template <class S> struct ParticleDefinition {
   ParticleMaterialId material = {};       // null: the default material
   std::uint32_t lifetime = 0;             // [steps] until it expires; 0: never
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("position", self.position);
-    visit("velocity", self.velocity);
-    visit("mass", self.mass);
-    visit("pinned", self.pinned);
-    visit("material", self.material);
-    visit("lifetime", self.lifetime);
-  }
+  ISO_FIELDS(position, velocity, mass, pinned, material, lifetime)
 };
 
 }  // namespace isostep

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/particles/cohesion.hpp"
 #include "isostep/particles/collider.hpp"
 #include "isostep/particles/force.hpp"
@@ -15,75 +16,50 @@ namespace isostep {
 
 template <class S> struct CreateParticle {
   ParticleDefinition<S> definition;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("definition", self.definition);
-  }
+  ISO_FIELDS(definition)
 };
 struct DestroyParticle {
   ParticleId particle;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("particle", self.particle);
-  }
+  ISO_FIELDS(particle)
 };
 /// Teleports.
 template <class S> struct SetParticleMotion {
   ParticleId particle;
   Vec3<S> position;  // [m]
   Vec3<S> velocity;  // [m/s]
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("particle", self.particle);
-    visit("position", self.position);
-    visit("velocity", self.velocity);
-  }
+  ISO_FIELDS(particle, position, velocity)
 };
 template <class S> struct SetParticleMass {
   ParticleId particle;
   S mass;  // [kg]
   bool pinned;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("particle", self.particle);
-    visit("mass", self.mass);
-    visit("pinned", self.pinned);
-  }
+  ISO_FIELDS(particle, mass, pinned)
 };
 struct SetParticleMaterial {
   ParticleId particle;
   ParticleMaterialId material;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("particle", self.particle);
-    visit("material", self.material);
-  }
+  ISO_FIELDS(particle, material)
 };
 /// Acts over the next step.
 template <class S> struct PushParticle {
   ParticleId particle;
   Vec3<S> force;  // [N]
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("particle", self.particle);
-    visit("force", self.force);
-  }
+  ISO_FIELDS(particle, force)
 };
 /// Acts at once.
 template <class S> struct KickParticle {
   ParticleId particle;
   Vec3<S> impulse;  // [kg m/s]
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("particle", self.particle);
-    visit("impulse", self.impulse);
-  }
+  ISO_FIELDS(particle, impulse)
 };
 /// A contact of the next step.
 template <class S> struct TouchParticle {
   ParticleTouch<S> touch;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("touch", self.touch);
-  }
+  ISO_FIELDS(touch)
 };
 template <class S> struct SetParticleGravity {
   Vec3<S> gravity;  // [m/s^2]
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("gravity", self.gravity);
-  }
+  ISO_FIELDS(gravity)
 };
 
 /// ISO_FOR_EACH_PARTICLE_COMMAND(X, R, S) expands X(name, Type, Result, S) for a command: its name in faults, record,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/particles/collider.hpp"
 #include "isostep/particles/particle.hpp"
 #include "isostep/particles/spring.hpp"
@@ -18,12 +19,7 @@ template <class S> struct ParticleExpired {
   Vec3<S> position;  // [m]
   Vec3<S> velocity;  // [m/s]
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("particle", self.particle);
-    visit("material", self.material);
-    visit("position", self.position);
-    visit("velocity", self.velocity);
-  }
+  ISO_FIELDS(particle, material, position, velocity)
 };
 /// A particle began to press on another, or on scenery. Ascending by slots.
 template <class S> struct ParticleContactBegin {
@@ -31,12 +27,7 @@ template <class S> struct ParticleContactBegin {
   ColliderId collider;  // null: b
   S speed;              // [m/s] at which they closed
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("a", self.a);
-    visit("b", self.b);
-    visit("collider", self.collider);
-    visit("speed", self.speed);
-  }
+  ISO_FIELDS(a, b, collider, speed)
 };
 
 template <class S> struct ParticleEvents {
@@ -68,17 +59,8 @@ struct ParticleReport {
     return clamped_speed == 0 && clamped_force == 0 && clamped_position == 0 && stopped == 0 && unresolved == 0 &&
            undivided == 0 && unsolved == 0 && lost_pairs == 0 && spent == 0;
   }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("clamped_speed", self.clamped_speed);
-    visit("clamped_force", self.clamped_force);
-    visit("clamped_position", self.clamped_position);
-    visit("stopped", self.stopped);
-    visit("unresolved", self.unresolved);
-    visit("undivided", self.undivided);
-    visit("unsolved", self.unsolved);
-    visit("lost_pairs", self.lost_pairs);
-    visit("spent", self.spent);
-  }
+  ISO_FIELDS(clamped_speed, clamped_force, clamped_position, stopped, unresolved, undivided, unsolved, lost_pairs,
+             spent)
 };
 
 }  // namespace isostep

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/registry.hpp"
 #include "isostep/particles/axes.hpp"
 #include "isostep/particles/cohesion.hpp"
@@ -32,12 +33,7 @@ template <class S> struct ParticleContact {
   /// Whether b is a collider, and the slot of what it is.
   ISO_INLINE bool with_collider() const { return (b & kCollider) != 0; }
   ISO_INLINE std::uint32_t other_slot() const { return b & ~kCollider; }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("a", self.a);
-    visit("b", self.b);
-    visit("impulse", self.impulse);
-    visit("friction_impulse", self.friction_impulse);
-  }
+  ISO_FIELDS(a, b, impulse, friction_impulse)
 };
 static_assert(kHasNoPadding<ParticleContact<float>> && kHasNoPadding<ParticleContact<double>>);
 
@@ -47,11 +43,7 @@ template <class S> struct ParticlePush {
   std::uint32_t cut;     // 1: what was asked for went beyond ParticleLimits<S>
   Vec3<S> acceleration;  // [m/s^2]
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("slot", self.slot);
-    visit("cut", self.cut);
-    visit("acceleration", self.acceleration);
-  }
+  ISO_FIELDS(slot, cut, acceleration)
 };
 static_assert(kHasNoPadding<ParticlePush<float>> && kHasNoPadding<ParticlePush<double>>);
 
@@ -61,11 +53,7 @@ struct ParticleLifetime {
   std::uint32_t slot;
   std::uint32_t reserved;  // 0
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("last_tick", self.last_tick);
-    visit("slot", self.slot);
-    visit("reserved", self.reserved);
-  }
+  ISO_FIELDS(last_tick, slot, reserved)
 };
 static_assert(kHasNoPadding<ParticleLifetime>);
 

@@ -139,7 +139,8 @@ template <class S> class ParticleWorld final {
   void write_portable(Writer& writer) const;
   Result<void> read_portable(Reader& reader);
   /// A frame's commands and steps as `record_to` wrote them.
-  Result<void> step_recorded(Bytes input);
+  /// `stepper` takes the steps in the place of `step`, if one is given.
+  Result<void> step_recorded(Bytes input, const Stepper& stepper = {});
 
   /// The arrays behind the world, for tools that compare, describe and measure: see particle_state.hpp.
   const ParticleState<S>& state() const;

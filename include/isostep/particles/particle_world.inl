@@ -189,8 +189,8 @@ template <class S> Result<void> ParticleWorld<S>::read_portable(Reader& reader) 
   }
   return engine_->read_portable(reader);
 }
-template <class S> Result<void> ParticleWorld<S>::step_recorded(Bytes input) {
-  return engine_->journal_.template play<ParticleCommand<S>>(*this, input);
+template <class S> Result<void> ParticleWorld<S>::step_recorded(Bytes input, const Stepper& stepper) {
+  return engine_->journal_.template play<ParticleCommand<S>>(*this, input, stepper);
 }
 template <class S> const ParticleState<S>& ParticleWorld<S>::state() const { return engine_->state_; }
 template <class S> StageView ParticleWorld<S>::state_fields() const { return engine_->view(kParticleStages); }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/particles/particle.hpp"
 
 namespace isostep {
@@ -28,16 +29,7 @@ template <class S> struct Spring {
   S rest_length = S(0);                 // [m]
   S elastic_limit = S(0);               // [m] extension beyond which it stays deformed; 0: none
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("type", self.type);
-    visit("a", self.a);
-    visit("b", self.b);
-    visit("anchor", self.anchor);
-    visit("stiffness", self.stiffness);
-    visit("damping", self.damping);
-    visit("rest_length", self.rest_length);
-    visit("elastic_limit", self.elastic_limit);
-  }
+  ISO_FIELDS(type, a, b, anchor, stiffness, damping, rest_length, elastic_limit)
 };
 
 }  // namespace isostep

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/particles/particle.hpp"
 
@@ -13,12 +14,7 @@ template <class S> struct OscillatorStep {
   Unit<S> dd, dv, vv;  // [1]
   S vd;                // [1/s]
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("dd", self.dd);
-    visit("dv", self.dv);
-    visit("vv", self.vv);
-    visit("vd", self.vd);
-  }
+  ISO_FIELDS(dd, dv, vv, vd)
 };
 
 /// Of d'' = -k w d - c w d', where w [1/kg] is the sum of both ends' 1/m.

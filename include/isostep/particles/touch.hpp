@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/particles/particle.hpp"
 
 namespace isostep {
@@ -18,16 +19,7 @@ template <class S> struct ParticleTouch {
   S friction = S(0);                                // [1]
   S restitution = S(0);                             // [1]
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("particle", self.particle);
-    visit("normal", self.normal);
-    visit("separation", self.separation);
-    visit("surface_velocity", self.surface_velocity);
-    visit("surface_acceleration", self.surface_acceleration);
-    visit("inverse_mass", self.inverse_mass);
-    visit("friction", self.friction);
-    visit("restitution", self.restitution);
-  }
+  ISO_FIELDS(particle, normal, separation, surface_velocity, surface_acceleration, inverse_mass, friction, restitution)
 };
 static_assert(kHasNoPadding<ParticleTouch<float>> && kHasNoPadding<ParticleTouch<double>>);
 

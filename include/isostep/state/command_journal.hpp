@@ -44,12 +44,15 @@ class CommandJournal {
   }
 
   /// Has a world play a command log: see play_commands. An error from inside one of its own calls.
-  template <class Command, class World> ISO_INLINE Result<void> play(World& world, Bytes log) {
+  template <class Command, class World> ISO_INLINE Result<void> play(World& world, Bytes log, const Stepper& stepper) {
     if (!Call(*this, "step_recorded").allowed())
       return Error{ErrorCode::invalid, "called while the world steps", "commands"};
     return play_commands<Command>(
         log, [&](const auto& command) ISO_INLINE_LAMBDA { return static_cast<bool>(world.apply(command)); },
-        [&]() ISO_INLINE_LAMBDA { world.step(); });
+        [&]() ISO_INLINE_LAMBDA {
+          if (stepper.step == nullptr) world.step();
+          else stepper.step(stepper.user);
+        });
   }
 
   // Faults.

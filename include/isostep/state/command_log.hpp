@@ -92,6 +92,12 @@ template <class Variant, class Visit> ISO_INLINE void read_command(Reader& reade
   if (reader.ok() && !known) reader.fail(ErrorCode::invalid, "no command has this number");
 }
 
+/// Steps a world in the place of its own `step`, for those who watch stages while a command log is played.
+struct Stepper {
+  void (*step)(void* user) = nullptr;
+  void* user = nullptr;
+};
+
 /// A frame's command log from front to back: `apply(command)`, called with each as the type that it is, says whether it
 /// was accepted. What comes before an error was done.
 template <class Variant, class Apply, class Step>

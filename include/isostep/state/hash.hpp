@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "isostep/core/bytes.hpp"
+#include "isostep/core/fields.hpp"
 #include "isostep/state/pack.hpp"
 
 namespace isostep {
@@ -24,10 +25,7 @@ struct ContentId {
   friend ISO_INLINE constexpr bool operator==(const ContentId& a, const ContentId& b) {
     return a.low == b.low && a.high == b.high;
   }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("low", self.low);
-    visit("high", self.high);
-  }
+  ISO_FIELDS(low, high)
 };
 /// Of the tag's bytes and then the content's.
 ContentId content_id_of(Bytes tag, Bytes content);

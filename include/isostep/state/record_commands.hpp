@@ -2,37 +2,28 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/scalar/platform.hpp"
 
 namespace isostep {
 
 template <class Record> struct AddRecord {
   Record record;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("record", self.record);
-  }
+  ISO_FIELDS(record)
 };
 template <class Record, class IdType> struct SetRecord {
   IdType id;
   Record record;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("id", self.id);
-    visit("record", self.record);
-  }
+  ISO_FIELDS(id, record)
 };
 template <class Input, class IdType> struct SetInput {
   IdType id;
   Input input;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("id", self.id);
-    visit("input", self.input);
-  }
+  ISO_FIELDS(id, input)
 };
 template <class IdType> struct RemoveRecord {
   IdType id;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("id", self.id);
-  }
+  ISO_FIELDS(id)
 };
 
 }  // namespace isostep

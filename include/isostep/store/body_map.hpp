@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/store/state.hpp"
 
@@ -21,10 +22,7 @@ struct Location {
   std::uint32_t index = 0;
 
   ISO_INLINE bool is_asleep() const { return set < kAwake; }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("set", self.set);
-    visit("index", self.index);
-  }
+  ISO_FIELDS(set, index)
 };
 
 /// From a slot to the record, in O(1). A cache: all of it follows from the state.

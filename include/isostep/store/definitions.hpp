@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/body.hpp"
 
@@ -15,11 +16,7 @@ template <class S> struct BodyMass {
   S mass = S(0);                         // [kg] 0: from density
   Vec3<S> inertia = {S(0), S(0), S(0)};  // [kg m^2] principal, body axes; all 0: from the shape
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("density", self.density);
-    visit("mass", self.mass);
-    visit("inertia", self.inertia);
-  }
+  ISO_FIELDS(density, mass, inertia)
 };
 
 template <class S> struct BodyDefinition {
@@ -44,28 +41,8 @@ template <class S> struct BodyDefinition {
   bool collide = true;  // false: no contacts, no events
   bool bullet = false;  // moving bodies stop it too, at any speed; two bullets may pass through each other
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("type", self.type);
-    visit("shape", self.shape);
-    visit("position", self.position);
-    visit("orientation", self.orientation);
-    visit("velocity", self.velocity);
-    visit("angular_velocity", self.angular_velocity);
-    visit("density", self.density);
-    visit("mass", self.mass);
-    visit("inertia", self.inertia);
-    visit("material", self.material);
-    visit("filter", self.filter);
-    visit("user_data", self.user_data);
-    visit("gravity_scale", self.gravity_scale);
-    visit("linear_damping", self.linear_damping);
-    visit("angular_damping", self.angular_damping);
-    visit("locks", self.locks);
-    visit("sensor", self.sensor);
-    visit("allow_sleep", self.allow_sleep);
-    visit("collide", self.collide);
-    visit("bullet", self.bullet);
-  }
+  ISO_FIELDS(type, shape, position, orientation, velocity, angular_velocity, density, mass, inertia, material, filter,
+             user_data, gravity_scale, linear_damping, angular_damping, locks, sensor, allow_sleep, collide, bullet)
 };
 
 }  // namespace isostep

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "isostep/core/fault.hpp"
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/math/vec3.hpp"
 
@@ -18,28 +19,17 @@ template <class S> struct ContactBegin {
   S impulse;  // [kg m/s] that all points together gave over the step along their normals; held at the format's end
   Vec3<Unit<S>> normal;  // [1] from a to b, of the first parts in contact
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("a", self.a);
-    visit("b", self.b);
-    visit("impulse", self.impulse);
-    visit("normal", self.normal);
-  }
+  ISO_FIELDS(a, b, impulse, normal)
 };
 struct ContactEnd {
   BodyId a, b;
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("a", self.a);
-    visit("b", self.b);
-  }
+  ISO_FIELDS(a, b)
 };
 struct SensorEvent {
   BodyId sensor, other;
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("sensor", self.sensor);
-    visit("other", self.other);
-  }
+  ISO_FIELDS(sensor, other)
 };
 
 /// A contact broke a body: its Breakable record is marked.
@@ -49,12 +39,7 @@ template <class S> struct Broke {
   Vec3<S> point;            // [m]
   Vec3<Unit<S>> direction;  // [1] of the blow, into the body
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("impulse", self.impulse);
-    visit("point", self.point);
-    visit("direction", self.direction);
-  }
+  ISO_FIELDS(body, impulse, point, direction)
 };
 
 /// A joint bore more than its JointLoad lets it, and is gone.
@@ -65,14 +50,7 @@ template <class S> struct JointBroke {
   S force;   // [N] as JointLoad has them
   S torque;  // [N m]
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("joint", self.joint);
-    visit("a", self.a);
-    visit("b", self.b);
-    visit("user_data", self.user_data);
-    visit("force", self.force);
-    visit("torque", self.torque);
-  }
+  ISO_FIELDS(joint, a, b, user_data, force, torque)
 };
 
 /// A contact of a body with a HitReport began fast.
@@ -82,13 +60,7 @@ template <class S> struct ContactHit {
   Vec3<Unit<S>> normal;  // [1] from a to b
   S speed;               // [m/s] of approach along the normal, as the step began
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("a", self.a);
-    visit("b", self.b);
-    visit("point", self.point);
-    visit("normal", self.normal);
-    visit("speed", self.speed);
-  }
+  ISO_FIELDS(a, b, point, normal, speed)
 };
 
 /// A point of a contact of a body with a ContactReport: also one that is only near, with a separation and no impulse.
@@ -100,16 +72,7 @@ template <class S> struct ContactPoint {
   S separation;                    // [m] as the step began; negative: overlap
   S impulse;                       // [kg m/s] that it gave over the step along the normal; held at the format's end
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("a", self.a);
-    visit("b", self.b);
-    visit("child_a", self.child_a);
-    visit("child_b", self.child_b);
-    visit("point", self.point);
-    visit("normal", self.normal);
-    visit("separation", self.separation);
-    visit("impulse", self.impulse);
-  }
+  ISO_FIELDS(a, b, child_a, child_b, point, normal, separation, impulse)
 };
 
 template <class S> struct Events {
@@ -159,15 +122,7 @@ struct StepReport {
     return clamped_speed == 0 && clamped_force == 0 && clamped_position == 0 && stopped == 0 && crowded == 0 &&
            cut_compounds == 0;
   }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("clamped_speed", self.clamped_speed);
-    visit("clamped_force", self.clamped_force);
-    visit("clamped_position", self.clamped_position);
-    visit("stopped", self.stopped);
-    visit("crowded", self.crowded);
-    visit("cut_compounds", self.cut_compounds);
-    visit("unsolved", self.unsolved);
-  }
+  ISO_FIELDS(clamped_speed, clamped_force, clamped_position, stopped, crowded, cut_compounds, unsolved)
 };
 
 }  // namespace isostep

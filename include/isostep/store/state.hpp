@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "isostep/collision/broadphase/child_tree.hpp"
+#include "isostep/core/fields.hpp"
 #include "isostep/core/paged_array.hpp"
 #include "isostep/core/shared.hpp"
 #include "isostep/core/slot_map.hpp"
@@ -51,12 +52,7 @@ template <class S> struct PendingForce {
   Vec3<S> linear;     // [m/s^2]
   Vec3<S> angular;    // [rad/s^2]
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("slot", self.slot);
-    visit("cut", self.cut);
-    visit("linear", self.linear);
-    visit("angular", self.angular);
-  }
+  ISO_FIELDS(slot, cut, linear, angular)
 };
 static_assert(kHasNoPadding<PendingForce<float>> && kHasNoPadding<PendingForce<double>>);
 
@@ -66,11 +62,7 @@ template <class S> struct PendingMove {
   std::uint32_t reserved;  // 0: keeps records of 8-byte scalars without padding
   Pose<S> pose;            // of the body's origin, world
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("slot", self.slot);
-    visit("reserved", self.reserved);
-    visit("pose", self.pose);
-  }
+  ISO_FIELDS(slot, reserved, pose)
 };
 static_assert(kHasNoPadding<PendingMove<float>> && kHasNoPadding<PendingMove<double>>);
 
@@ -84,10 +76,7 @@ struct SensorOverlap {
   friend ISO_INLINE constexpr bool operator<(SensorOverlap a, SensorOverlap b) {
     return a.sensor != b.sensor ? a.sensor < b.sensor : a.other < b.other;
   }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("sensor", self.sensor);
-    visit("other", self.other);
-  }
+  ISO_FIELDS(sensor, other)
 };
 
 /// Bodies asleep together, with their contacts and joints. Never changed once made: worlds and snapshots share it, and

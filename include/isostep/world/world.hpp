@@ -310,7 +310,8 @@ template <class S> class World final {
   void write_portable(Writer& writer) const;
   Result<void> read_portable(Reader& reader);
   /// A frame's commands and steps as `record_to` wrote them. More than kFrameStepCap steps are an error.
-  Result<void> step_recorded(Bytes input);
+  /// `stepper` takes the steps in the place of `step`, if one is given.
+  Result<void> step_recorded(Bytes input, const Stepper& stepper = {});
 
   /// The arrays behind the world, for tools that compare, describe and measure: see store/state.hpp.
   const WorldState<S>& state() const;

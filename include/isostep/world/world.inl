@@ -370,8 +370,8 @@ template <class S> Result<void> World<S>::read_portable(Reader& reader) {
   return engine_->read_portable(reader);
 }
 
-template <class S> Result<void> World<S>::step_recorded(Bytes input) {
-  return engine_->journal_.template play<Command>(*this, input);
+template <class S> Result<void> World<S>::step_recorded(Bytes input, const Stepper& stepper) {
+  return engine_->journal_.template play<Command>(*this, input, stepper);
 }
 
 template <class S> const WorldState<S>& World<S>::state() const { return engine_->state_; }

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "family.hpp"
+#include "isostep/core/fields.hpp"
 #include "isostep/effects/ragdoll.hpp"
 #include "isostep/fracture/breaking.hpp"
 #include "isostep/world/world.hpp"
@@ -28,31 +29,15 @@ struct CQueryFilter {
   std::uint32_t ignore_kinds_count = 0;      // numbers of ignore_kinds
   std::uint32_t reserved = 0;                // 0
   Pointer<std::uint32_t> ignore_kinds = {};  // nor are bodies of these material.kind
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("mask", self.mask);
-    visit("sensors", self.sensors);
-    visit("back_faces", self.back_faces);
-    visit("ignore", self.ignore);
-    visit("group", self.group);
-    visit("start_inside", self.start_inside);
-    visit("per", self.per);
-    visit("ignore_all_count", self.ignore_all_count);
-    visit("ignore_all", self.ignore_all);
-    visit("ignore_kinds_count", self.ignore_kinds_count);
-    visit("reserved", self.reserved);
-    visit("ignore_kinds", self.ignore_kinds);
-  }
+  ISO_FIELDS(mask, sensors, back_faces, ignore, group, start_inside, per, ignore_all_count, ignore_all,
+             ignore_kinds_count, reserved, ignore_kinds)
 };
 
 template <class S> struct CRayCast {
   Vec3<S> origin = Vec3<S>::zero();       // [m] world
   Vec3<S> translation = Vec3<S>::zero();  // [m]
   CQueryFilter filter = {};
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("origin", self.origin);
-    visit("translation", self.translation);
-    visit("filter", self.filter);
-  }
+  ISO_FIELDS(origin, translation, filter)
 };
 template <class S> struct CShapeCast {
   ShapeId shape = {};                     // of the world, of a single convex part; null: `primitive`
@@ -60,43 +45,25 @@ template <class S> struct CShapeCast {
   Pose<S> pose = Pose<S>::identity();     // [m] of the shape's frame at the start, world
   Vec3<S> translation = Vec3<S>::zero();  // [m]
   CQueryFilter filter = {};
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("shape", self.shape);
-    visit("primitive", self.primitive);
-    visit("pose", self.pose);
-    visit("translation", self.translation);
-    visit("filter", self.filter);
-  }
+  ISO_FIELDS(shape, primitive, pose, translation, filter)
 };
 template <class S> struct COverlapQuery {
   ShapeId shape = {};                  // of the world, of a single convex part; null: `primitive`
   Primitive<S> primitive = {};         // without a blob
   Pose<S> pose = Pose<S>::identity();  // [m] of the shape's frame, world
   CQueryFilter filter = {};
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("shape", self.shape);
-    visit("primitive", self.primitive);
-    visit("pose", self.pose);
-    visit("filter", self.filter);
-  }
+  ISO_FIELDS(shape, primitive, pose, filter)
 };
 template <class S> struct CPointQuery {
   Vec3<S> point = Vec3<S>::zero();  // [m] world
   S max_distance = S(1);            // [m]
   CQueryFilter filter = {};
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("point", self.point);
-    visit("max_distance", self.max_distance);
-    visit("filter", self.filter);
-  }
+  ISO_FIELDS(point, max_distance, filter)
 };
 template <class S> struct CBoxQuery {
   Aabb<S> box = {Vec3<S>::zero(), Vec3<S>::zero()};  // [m] world
   CQueryFilter filter = {};
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("box", self.box);
-    visit("filter", self.filter);
-  }
+  ISO_FIELDS(box, filter)
 };
 
 /// What moves of a body, and what is asked most often beside it.
@@ -109,16 +76,7 @@ template <class S> struct CBodyState {
   BodyType type = BodyType::static_;
   bool awake = false;
   bool enabled = true;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("pose", self.pose);
-    visit("centre", self.centre);
-    visit("velocity", self.velocity);
-    visit("angular_velocity", self.angular_velocity);
-    visit("user_data", self.user_data);
-    visit("type", self.type);
-    visit("awake", self.awake);
-    visit("enabled", self.enabled);
-  }
+  ISO_FIELDS(pose, centre, velocity, angular_velocity, user_data, type, awake, enabled)
 };
 /// What only commands change of a body.
 template <class S> struct CBodyProperties {
@@ -132,26 +90,14 @@ template <class S> struct CBodyProperties {
   S gravity_scale = S(1);    // [1]
   S linear_damping = S(0);   // [1/s]
   S angular_damping = S(0);  // [1/s]
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("type", self.type);
-    visit("flags", self.flags);
-    visit("filter", self.filter);
-    visit("user_data", self.user_data);
-    visit("mass", self.mass);
-    visit("local_centre", self.local_centre);
-    visit("material", self.material);
-    visit("gravity_scale", self.gravity_scale);
-    visit("linear_damping", self.linear_damping);
-    visit("angular_damping", self.angular_damping);
-  }
+  ISO_FIELDS(type, flags, filter, user_data, mass, local_centre, material, gravity_scale, linear_damping,
+             angular_damping)
 };
 
 /// A hull's radius; its points are a blob's.
 template <class S> struct CHull {
   S radius = S(0);  // [m] around the core
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("radius", self.radius);
-  }
+  ISO_FIELDS(radius)
 };
 
 struct CFaultReport {
@@ -160,13 +106,7 @@ struct CFaultReport {
   Pointer<char> command = {};   // "apply_force"
   Pointer<char> field = {};     // "material.friction"; empty: no field alone
   Pointer<char> expected = {};  // "0 to 16"
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("status", self.status);
-    visit("reserved", self.reserved);
-    visit("command", self.command);
-    visit("field", self.field);
-    visit("expected", self.expected);
-  }
+  ISO_FIELDS(status, reserved, command, field, expected)
 };
 
 struct CHeightPatch {
@@ -174,36 +114,19 @@ struct CHeightPatch {
   std::uint32_t columns = 0, rows = 0;   // places along each side
   Pointer<std::int16_t> heights = {};    // columns times rows, by rows, in units of the field's height
   Pointer<std::uint8_t> materials = {};  // of the (columns - 1) times (rows - 1) cells between; null: they stay
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("column", self.column);
-    visit("row", self.row);
-    visit("columns", self.columns);
-    visit("rows", self.rows);
-    visit("heights", self.heights);
-    visit("materials", self.materials);
-  }
+  ISO_FIELDS(column, row, columns, rows, heights, materials)
 };
 struct CHeightSheet {
   std::uint32_t columns = 0, rows = 0;
   double pitch = 1;              // [m] between columns, and between rows
   Pointer<double> heights = {};  // [m] columns times rows, by rows
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("columns", self.columns);
-    visit("rows", self.rows);
-    visit("pitch", self.pitch);
-    visit("heights", self.heights);
-  }
+  ISO_FIELDS(columns, rows, pitch, heights)
 };
 struct CTriangles {
   std::uint32_t point_count = 0, triangle_count = 0;
   Pointer<double> points = {};           // [m] x, y, z of each
   Pointer<std::uint32_t> vertices = {};  // three a triangle, counter-clockwise seen from its outward side
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("point_count", self.point_count);
-    visit("triangle_count", self.triangle_count);
-    visit("points", self.points);
-    visit("vertices", self.vertices);
-  }
+  ISO_FIELDS(point_count, triangle_count, points, vertices)
 };
 /// Materials of a mesh's triangles or of a height field's cells.
 struct CSurfaceMaterials {
@@ -211,12 +134,7 @@ struct CSurfaceMaterials {
   std::uint32_t table_count = 0;       // of table: what number 0 stands for, then 1 ...; beyond: the body's own
   Pointer<std::uint8_t> numbers = {};  // 254: a ghost, 255: a hole of a height field
   Pointer<double> table = {};          // friction and restitution of each
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("count", self.count);
-    visit("table_count", self.table_count);
-    visit("numbers", self.numbers);
-    visit("table", self.table);
-  }
+  ISO_FIELDS(count, table_count, numbers, table)
 };
 
 struct CReplayInfo {
@@ -233,21 +151,8 @@ struct CReplayInfo {
   char scene[136] = {};
   char world[32] = {};   // its kind; empty: rigid bodies
   char engine[32] = {};  // the version that recorded it
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("behaviour", self.behaviour);
-    visit("frames", self.frames);
-    visit("start_hash", self.start_hash);
-    visit("first_frame", self.first_frame);
-    visit("keyframes", self.keyframes);
-    visit("file", self.file);
-    visit("hz", self.hz);
-    visit("substeps", self.substeps);
-    visit("has_state", self.has_state);
-    visit("scalar", self.scalar);
-    visit("scene", self.scene);
-    visit("world", self.world);
-    visit("engine", self.engine);
-  }
+  ISO_FIELDS(behaviour, frames, start_hash, first_frame, keyframes, file, hz, substeps, has_state, scalar, scene, world,
+             engine)
 };
 struct CReplayResult {
   VerifyOutcome outcome = VerifyOutcome::verified;         // its number is the exit status of `isostep verify`
@@ -260,18 +165,7 @@ struct CReplayResult {
   char scene[136] = {};
   char lanes[16] = {};  // that stepped it; empty: nothing did
   char text[512] = {};  // the outcome as a sentence
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("outcome", self.outcome);
-    visit("where", self.where);
-    visit("frames", self.frames);
-    visit("expected", self.expected);
-    visit("actual", self.actual);
-    visit("offset", self.offset);
-    visit("scalar", self.scalar);
-    visit("scene", self.scene);
-    visit("lanes", self.lanes);
-    visit("text", self.text);
-  }
+  ISO_FIELDS(outcome, where, frames, expected, actual, offset, scalar, scene, lanes, text)
 };
 struct CSelfcheckResult {
   bool sound = false;            // every scalar with every set of lanes has frames that agree, and none that does not
@@ -280,14 +174,7 @@ struct CSelfcheckResult {
   std::uint32_t failed = 0;      // of these
   std::uint64_t frames = 0;      // whose hashes were computed again and agreed
   char text[512] = {};           // one line
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("sound", self.sound);
-    visit("engine", self.engine);
-    visit("recordings", self.recordings);
-    visit("failed", self.failed);
-    visit("frames", self.frames);
-    visit("text", self.text);
-  }
+  ISO_FIELDS(sound, engine, recordings, failed, frames, text)
 };
 
 // ---- Fields of what has none in C++
@@ -353,8 +240,9 @@ template <class S> struct CFields<RagdollBone<S>> {
   ISO_C_FIELDS_OF(RagdollBone) {
     ISO_MEMBER(parent)
     ISO_MEMBER(shape)
-    ISO_MEMBER(pose) ISO_MEMBER(mass) ISO_MEMBER(joint) ISO_MEMBER(hinge) ISO_MEMBER(swing_x) ISO_MEMBER(swing_y)
-        ISO_MEMBER(lower) ISO_MEMBER(upper)
+    ISO_MEMBER(pose)
+    ISO_MEMBER(mass)
+    ISO_MEMBER(joint) ISO_MEMBER(hinge) ISO_MEMBER(swing_x) ISO_MEMBER(swing_y) ISO_MEMBER(lower) ISO_MEMBER(upper)
   }
 };
 template <class S> struct CFields<RagdollSettings<S>> {
@@ -385,8 +273,8 @@ template <class S, class Fraction> struct CFields<QueryHit<S, Fraction>> {
   ISO_C_FIELDS_OF(QueryHit) {
     ISO_MEMBER(body)
     ISO_MEMBER(child)
-    ISO_MEMBER(triangle) ISO_MEMBER(point) ISO_MEMBER(normal) ISO_MEMBER(fraction) ISO_MEMBER(material)
-        ISO_MEMBER(inside)
+    ISO_MEMBER(triangle)
+    ISO_MEMBER(point) ISO_MEMBER(normal) ISO_MEMBER(fraction) ISO_MEMBER(material) ISO_MEMBER(inside)
   }
 };
 template <> struct CFields<OverlapHit> {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/state/diff.hpp"
 
+#include <cstring>
+
 namespace isostep {
 namespace {
 
@@ -60,6 +62,22 @@ void DiffReport::add(const PathPart& path, FieldFormat format, std::uint64_t a, 
                         unit_of(format)};
   append_path(path, difference.path);
   kept_.push_back(difference);
+}
+
+void diff_bytes(const PathPart& path, const FieldType& type, const std::uint8_t* a, const std::uint8_t* b,
+                DiffReport& report) {
+  if (std::memcmp(a, b, type.size) == 0) return;
+  struct Pair {
+    const std::uint8_t *a, *b;
+    DiffReport& report;
+  } pair{a, b, report};
+  const auto compare = [](void* user, const PathPart& number, FieldFormat format, std::uint32_t offset) {
+    const Pair& both = *static_cast<const Pair*>(user);
+    const std::uint64_t of_a = load_number(both.a + offset, format.size);
+    const std::uint64_t of_b = load_number(both.b + offset, format.size);
+    if (of_a != of_b) both.report.add(number, format, of_a, of_b);
+  };
+  each_number(path, type, {compare, &pair});
 }
 
 }  // namespace isostep

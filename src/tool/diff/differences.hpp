@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <string>
 
-#include "particle_diff.hpp"
 #include "state_diff.hpp"
 
 namespace isostep::tool {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "isostep/replay/world_kinds.hpp"
-#include "isostep/state/command_log.hpp"
 
 namespace isostep::tool {
 
@@ -67,26 +66,29 @@ template <class W> class PlayedFrame {
   Trace trace() const { return trace_; }
   /// At the frame's end for a place after both.
   StateOf<W> state_at(const StagePlace& place) {
-    struct Watch {
-      const W& world;
-      std::size_t left;
-      std::optional<StateOf<W>> state;
-    } watch{world_, place.index, {}};
-    const auto look = [](void* user, auto...) {
-      Watch& w = *static_cast<Watch*>(user);
-      if (w.left-- == 0) w.state = w.world.state();
-    };
+    Watch watch{world_, place.index, {}};
     world_.load(before_);
-    static_cast<void>(play_commands<typename W::Command>(
-        commands_, [&](const auto& command) { return static_cast<bool>(world_.apply(command)); },
-        [&] {
-          look(&watch, 0);  // before the first stage
-          world_.step({look, &watch});
-        }));
+    static_cast<void>(world_.step_recorded(commands_, {&Watch::step, &watch}));
     return place.is_after_both() ? world_.state() : watch.state.value();
   }
 
  private:
+  /// Keeps the state after so many looks.
+  struct Watch {
+    W& world;
+    std::size_t left;
+    std::optional<StateOf<W>> state;
+
+    void look() {
+      if (left-- == 0) state = world.state();
+    }
+    static void step(void* user) {
+      Watch& watch = *static_cast<Watch*>(user);
+      watch.look();  // before the first stage
+      watch.world.step({[](void* of, auto...) { static_cast<Watch*>(of)->look(); }, user});
+    }
+  };
+
   W world_;
   typename W::Snapshot before_;
   Bytes commands_;

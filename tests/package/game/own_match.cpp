@@ -10,16 +10,12 @@ using S = iso::Q32_32;
 struct Order {
   std::uint8_t height = 0;
   friend bool operator==(Order, Order) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("height", self.height);
-  }
+  ISO_FIELDS(height)
 };
 
 struct Orders {  // how many were carried out
   std::uint32_t count = 0;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("count", self.count);
-  }
+  ISO_FIELDS(count)
 };
 
 struct Game : iso::Composite<iso::World<S>, Orders> {

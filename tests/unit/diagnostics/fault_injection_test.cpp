@@ -21,13 +21,7 @@ struct Numbers {
   FixedSum<std::int32_t, 16> narrow = {7};
   FixedSum<std::int64_t, 32> wide = {Wide<std::int64_t>(9)};
 
-  template <class Visitor, class Self> static void fields(Visitor&& visit, Self&& self) {
-    visit("count", self.count);
-    visit("number", self.number);
-    visit("exact", self.exact);
-    visit("narrow", self.narrow);
-    visit("wide", self.wide);
-  }
+  ISO_FIELDS(count, number, exact, narrow, wide)
 };
 struct Engine {
   Numbers own, shared;

@@ -14,9 +14,7 @@ namespace {
 /// A game's own state.
 struct Nothing {
   std::uint32_t frame = 0;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("frame", self.frame);
-  }
+  ISO_FIELDS(frame)
 };
 
 template <class S> class ArticulationOf : public ::testing::Test {

@@ -20,10 +20,7 @@ struct Pad {
   std::int8_t stick = 0;
   std::uint8_t buttons = 0;
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("stick", self.stick);
-    visit("buttons", self.buttons);
-  }
+  ISO_FIELDS(stick, buttons)
   bool valid() const { return stick >= -100 && stick <= 100; }
   friend bool operator==(const Pad&, const Pad&) = default;
 };

@@ -13,9 +13,7 @@ struct Stick {
   std::int8_t way = 0;
   bool valid() const { return way != 77; }
   friend bool operator==(const Stick&, const Stick&) = default;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("way", self.way);
-  }
+  ISO_FIELDS(way)
 };
 using Input = WithOrders<Stick, 10>;
 using Codec = InputCodec<Input>;

@@ -11,9 +11,7 @@ namespace {
 
 struct Key {
   std::uint8_t down = 0;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("down", self.down);
-  }
+  ISO_FIELDS(down)
 };
 struct Table : testing::Test {
   Table() : streams(2, InputStream(64, 1)), timeline(2, 32, input_rules<Key>()) {}

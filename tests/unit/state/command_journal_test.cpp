@@ -14,9 +14,7 @@ namespace {
 
 struct Add {
   std::uint32_t number;
-  template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("number", self.number);
-  }
+  ISO_FIELDS(number)
 };
 struct Take {
   template <class Visitor, class Self> static constexpr void fields(Visitor&&, Self&&) {}

@@ -15,10 +15,7 @@ struct Score {
   std::uint32_t points;
   bool over;
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("points", self.points);
-    visit("over", self.over);
-  }
+  ISO_FIELDS(points, over)
 };
 using Both = Composite<toy::Game&, Score&>;
 static_assert(Rollbackable<Both> && PortableState<Both> && PlainState<Score> && !PlainState<toy::Game>);

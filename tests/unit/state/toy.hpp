@@ -25,13 +25,7 @@ template <class S> struct Thing {
   Mood mood;
   std::uint8_t marks[2];
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("velocity", self.velocity);
-    visit("charge", self.charge);
-    visit("visits", self.visits);
-    visit("mood", self.mood);
-    visit("marks", self.marks);
-  }
+  ISO_FIELDS(velocity, charge, visits, mood, marks)
 };
 static_assert(kHasNoPadding<Thing<float>> && kHasNoPadding<Thing<Q32_32>>);
 
@@ -42,12 +36,7 @@ struct Padded {
   std::int8_t small;
   std::int16_t middle;
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("big", self.big);
-    visit("flag", self.flag);
-    visit("small", self.small);
-    visit("middle", self.middle);
-  }
+  ISO_FIELDS(big, flag, small, middle)
 };
 static_assert(!kHasNoPadding<Padded> && kPackedSize<Padded> == 12);
 

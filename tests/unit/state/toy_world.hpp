@@ -17,10 +17,7 @@ namespace toy {
 struct Push {
   std::uint32_t to;
   Q32_32 by;
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("to", self.to);
-    visit("by", self.by);
-  }
+  ISO_FIELDS(to, by)
 };
 struct Clear {
   template <class Visitor, class Self> static constexpr void fields(Visitor&&, Self&&) {}
@@ -59,10 +56,7 @@ class ToyWorld {
   using Command = ToyCommand;
   struct State {
     std::uint64_t tick = 0, sum = 0;
-    template <class Visitor, class Self> static constexpr void fields(Visitor&& visit, Self&& self) {
-      visit("tick", self.tick);
-      visit("sum", self.sum);
-    }
+    ISO_FIELDS(tick, sum)
   };
   using Snapshot = State;
 
@@ -103,9 +97,10 @@ class ToyWorld {
     if (reader.ok()) load(state);
     return reader.result("toy world");
   }
-  Result<void> step_recorded(Bytes commands) {
+  Result<void> step_recorded(Bytes commands, const Stepper& stepper = {}) {
     return play_commands<Command>(
-        commands, [&](const Command& command) { return apply(command); }, [&] { step(); });
+        commands, [&](const Command& command) { return apply(command); },
+        [&] { stepper.step == nullptr ? step() : stepper.step(stepper.user); });
   }
 
  private:

@@ -7,6 +7,7 @@
 
 #include "isostep/collision/narrowphase/manifold.hpp"
 #include "isostep/collision/narrowphase/polyhedra.hpp"
+#include "isostep/core/fields.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/core/simd.hpp"
 #include "isostep/geometry/shape.hpp"
@@ -39,21 +40,7 @@ template <class S> struct BodyFrame {
   bool surfaces;     // among its parts: those are counted by leaves, see surface_pairs.hpp
   bool mixes_alone;  // its material, see contact_friction.hpp
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("half", self.half);
-    visit("radius", self.radius);
-    visit("centre", self.centre);
-    visit("origin", self.origin);
-    visit("child_count", self.child_count);
-    visit("slot", self.slot);
-    visit("row", self.row);
-    visit("kind", self.kind);
-    visit("plain", self.plain);
-    visit("sensor", self.sensor);
-    visit("asleep", self.asleep);
-    visit("surfaces", self.surfaces);
-    visit("mixes_alone", self.mixes_alone);
-  }
+  ISO_FIELDS(half, radius, centre, origin, child_count, slot, row, kind, plain, sensor, asleep, surfaces, mixes_alone)
 };
 
 /// Two bodies' parts that might touch. Frames are indices; parts are leaves, and of bodies without surfaces children.
@@ -61,12 +48,7 @@ struct PartPair {
   std::uint32_t frame_a, frame_b;
   std::uint32_t child_a, child_b;
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("frame_a", self.frame_a);
-    visit("frame_b", self.frame_b);
-    visit("child_a", self.child_a);
-    visit("child_b", self.child_b);
-  }
+  ISO_FIELDS(frame_a, frame_b, child_a, child_b)
 };
 
 /// Where b's frame lies for the narrow phase: everything relative to a's centre of mass, axes as the world's, so that

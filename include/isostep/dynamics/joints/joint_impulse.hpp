@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/dynamics/joints/joint_kinds.hpp"
 
 namespace isostep {
@@ -12,10 +13,7 @@ template <class S> struct JointImpulse {
   Vec3<S> angular;  // [m^2/s] world, about b's origin of the joint
 
   static ISO_INLINE constexpr JointImpulse zero() { return {Vec3<S>::zero(), Vec3<S>::zero()}; }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("linear", self.linear);
-    visit("angular", self.angular);
-  }
+  ISO_FIELDS(linear, angular)
 };
 
 namespace detail {

@@ -64,12 +64,7 @@ template <class S> struct JointState {
     return pieces >> (4 * kJointRows) == 0;
   }
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("slot", self.slot);
-    visit("pieces", self.pieces);
-    visit("point", self.point);
-    visit("angular", self.angular);
-  }
+  ISO_FIELDS(slot, pieces, point, angular)
 
  private:
   ISO_INLINE constexpr std::uint32_t role(std::uint32_t row) const { return pieces >> (4 * row) & 15u; }
@@ -110,25 +105,8 @@ template <class S> struct JointProperties {
     spring_damping = from.spring_damping;
   }
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("type", self.type);
-    visit("flags", self.flags);
-    visit("body_a", self.body_a);
-    visit("body_b", self.body_b);
-    visit("generation_a", self.generation_a);
-    visit("generation_b", self.generation_b);
-    visit("user_data", self.user_data);
-    visit("frame_a", self.frame_a);
-    visit("frame_b", self.frame_b);
-    visit("lower", self.lower);
-    visit("upper", self.upper);
-    visit("cone", self.cone);
-    visit("motor_speed", self.motor_speed);
-    visit("motor_torque", self.motor_torque);
-    visit("spring_target", self.spring_target);
-    visit("spring_frequency", self.spring_frequency);
-    visit("spring_damping", self.spring_damping);
-  }
+  ISO_FIELDS(type, flags, body_a, body_b, generation_a, generation_b, user_data, frame_a, frame_b, lower, upper, cone,
+             motor_speed, motor_torque, spring_target, spring_frequency, spring_damping)
 };
 
 static_assert(kHasNoPadding<JointState<float>> && kHasNoPadding<JointState<double>>);

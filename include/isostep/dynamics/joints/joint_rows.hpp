@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/math/softness.hpp"
@@ -19,13 +20,7 @@ template <class S> struct JointRow {
     constexpr Vec3<S> kZero = Vec3<S>::zero();
     return {kZero, kZero, kZero, kZero, kZero};
   }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("linear", self.linear);
-    visit("angular_a", self.angular_a);
-    visit("angular_b", self.angular_b);
-    visit("turn_a", self.turn_a);
-    visit("turn_b", self.turn_b);
-  }
+  ISO_FIELDS(linear, angular_a, angular_b, turn_a, turn_b)
 };
 
 /// Three equalities solved at once; fewer leave rows of zeros.

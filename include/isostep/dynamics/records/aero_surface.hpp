@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/mat3.hpp"
@@ -28,17 +29,7 @@ template <class S> struct AeroSurface {
   bool is_quadratic = false;
   bool is_under_water = false;  // a keel, a water rudder, a hydrofoil
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("point", self.point);
-    visit("orientation", self.orientation);
-    visit("tensor", self.tensor);
-    visit("low", self.low);
-    visit("high", self.high);
-    visit("control", self.control);
-    visit("is_quadratic", self.is_quadratic);
-    visit("is_under_water", self.is_under_water);
-  }
+  ISO_FIELDS(body, point, orientation, tensor, low, high, control, is_quadratic, is_under_water)
 };
 
 }  // namespace isostep

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
@@ -21,14 +22,7 @@ template <class S> struct Attractor {
   S range = S(0);                      // [m] 0: everywhere
   std::uint32_t mask = 0xffffffffu;    // categories: Filter
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("point", self.point);
-    visit("strength", self.strength);
-    visit("least_distance", self.least_distance);
-    visit("range", self.range);
-    visit("mask", self.mask);
-  }
+  ISO_FIELDS(body, point, strength, least_distance, range, mask)
 };
 
 }  // namespace isostep

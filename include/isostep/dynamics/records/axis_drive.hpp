@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/joints/joint_record.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
@@ -47,22 +48,8 @@ template <class S> struct AxisDrive {
   S limit_frequency = S(0);   // [Hz] of limits that yield, up to half the sub-step rate; 0: hard ones
   S limit_damping = S(0);     // [1] ratio, 1 = critical
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("joint", self.joint);
-    visit("axis", self.axis);
-    visit("limited", self.limited);
-    visit("motor", self.motor);
-    visit("lower", self.lower);
-    visit("upper", self.upper);
-    visit("motor_speed", self.motor_speed);
-    visit("spring_target", self.spring_target);
-    visit("spring_frequency", self.spring_frequency);
-    visit("spring_damping", self.spring_damping);
-    visit("force", self.force);
-    visit("spring_mass", self.spring_mass);
-    visit("limit_frequency", self.limit_frequency);
-    visit("limit_damping", self.limit_damping);
-  }
+  ISO_FIELDS(joint, axis, limited, motor, lower, upper, motor_speed, spring_target, spring_frequency, spring_damping,
+             force, spring_mass, limit_frequency, limit_damping)
 };
 
 /// A record as a step takes it: `joint` is the joint's place among those that are awake.

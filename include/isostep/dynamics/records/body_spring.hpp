@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/dynamics/reduced_mass.hpp"
@@ -25,16 +26,7 @@ template <class S> struct BodySpring {
   S damping = S(0);                       // [N s/m] along the spring
   bool only_pulls = false;
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("a", self.a);
-    visit("b", self.b);
-    visit("anchor_a", self.anchor_a);
-    visit("anchor_b", self.anchor_b);
-    visit("rest_length", self.rest_length);
-    visit("stiffness", self.stiffness);
-    visit("damping", self.damping);
-    visit("only_pulls", self.only_pulls);
-  }
+  ISO_FIELDS(a, b, anchor_a, anchor_b, rest_length, stiffness, damping, only_pulls)
 };
 
 }  // namespace isostep

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
@@ -31,19 +32,7 @@ template <class S> struct Breakable {
   std::uint64_t expires = 0;   // [steps] World::tick() from which break_bodies() takes it away; 0: never
   bool owns_shape = false;     // break_bodies() removes the shape along with it: pieces have shapes of their own
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("break_impulse", self.break_impulse);
-    visit("pattern", self.pattern);
-    visit("most_pieces", self.most_pieces);
-    visit("depth", self.depth);
-    visit("grain", self.grain);
-    visit("seed", self.seed);
-    visit("small_mass", self.small_mass);
-    visit("lifetime", self.lifetime);
-    visit("expires", self.expires);
-    visit("owns_shape", self.owns_shape);
-  }
+  ISO_FIELDS(body, break_impulse, pattern, most_pieces, depth, grain, seed, small_mass, lifetime, expires, owns_shape)
 };
 
 /// A blow breaks the body: the step writes it after a hard contact, or the game sets it as an input.
@@ -52,11 +41,7 @@ template <class S> struct Blow {
   Vec3<S> point = {S(0), S(0), S(0)};                              // [m] body frame
   Vec3<Unit<S>> direction = {Unit<S>(0), Unit<S>(0), Unit<S>(0)};  // [1] into the body, body frame
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("impulse", self.impulse);
-    visit("point", self.point);
-    visit("direction", self.direction);
-  }
+  ISO_FIELDS(impulse, point, direction)
 };
 
 }  // namespace isostep

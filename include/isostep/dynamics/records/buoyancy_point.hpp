@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
@@ -21,14 +22,7 @@ template <class S> struct BuoyancyPoint {
   S surface_height = S(0);             // [m] of the liquid's surface, along up
   S density = S(1000);                 // [kg/m^3] of the liquid
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("point", self.point);
-    visit("max_depth", self.max_depth);
-    visit("volume", self.volume);
-    visit("surface_height", self.surface_height);
-    visit("density", self.density);
-  }
+  ISO_FIELDS(body, point, max_depth, volume, surface_height, density)
 };
 
 }  // namespace isostep

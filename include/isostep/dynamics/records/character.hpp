@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/geometry/surfaces.hpp"
@@ -33,17 +34,7 @@ template <class S> struct CharacterSettings {
   S gravity_scale = S(1);            // [1]
   std::uint32_t mask = 0xffffffffu;  // categories in its way, of those that its body's Filter collides with
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("step_height", self.step_height);
-    visit("least_up", self.least_up);
-    visit("skin", self.skin);
-    visit("mass", self.mass);
-    visit("push_force", self.push_force);
-    visit("air_acceleration", self.air_acceleration);
-    visit("gravity_scale", self.gravity_scale);
-    visit("mask", self.mask);
-  }
+  ISO_FIELDS(body, step_height, least_up, skin, mass, push_force, air_acceleration, gravity_scale, mask)
 };
 
 /// Input of a character: it stays until the game sets another.
@@ -51,10 +42,7 @@ template <class S> struct CharacterInput {
   Vec3<S> move = {S(0), S(0), S(0)};  // [m/s] along the ground, world
   S jump = S(0);                      // [m/s] upwards; 0 again once it has left the ground
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("move", self.move);
-    visit("jump", self.jump);
-  }
+  ISO_FIELDS(move, jump)
 };
 
 /// State of a character: the step writes it.
@@ -67,15 +55,7 @@ template <class S> struct CharacterState {
   Vec3<S> velocity = {S(0), S(0), S(0)};  // [m/s] world
   Vec3<Unit<S>> normal = {Unit<S>(0), Unit<S>(0), Unit<S>(0)};  // [1] of the ground
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("footing", self.footing);
-    visit("ground", self.ground);
-    visit("stuck", self.stuck);
-    visit("foot", self.foot);
-    visit("foot_at", self.foot_at);
-    visit("velocity", self.velocity);
-    visit("normal", self.normal);
-  }
+  ISO_FIELDS(footing, ground, stuck, foot, foot_at, velocity, normal)
 };
 
 }  // namespace isostep

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/scalar/platform.hpp"
@@ -15,9 +16,7 @@ using ContactReportId = Id<struct ContactReportTag>;
 template <class S> struct ContactReport {
   BodyId body = {};
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-  }
+  ISO_FIELDS(body)
 };
 
 }  // namespace isostep

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/scalar/lattice.hpp"
@@ -32,16 +33,7 @@ template <class S> struct Coupling {
   S lower = S(0);  // [rad], of lengths alone [m]
   S upper = S(0);
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("joint_a", self.joint_a);
-    visit("joint_b", self.joint_b);
-    visit("joint_c", self.joint_c);
-    visit("ratio_a", self.ratio_a);
-    visit("ratio_b", self.ratio_b);
-    visit("ratio_c", self.ratio_c);
-    visit("lower", self.lower);
-    visit("upper", self.upper);
-  }
+  ISO_FIELDS(joint_a, joint_b, joint_c, ratio_a, ratio_b, ratio_c, lower, upper)
 };
 
 /// Wheels on two hinges whose axes point the same way and that turn against each other, as their teeth have it.

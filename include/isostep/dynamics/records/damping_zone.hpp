@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/dynamics/records/force_zone.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 
@@ -24,16 +25,7 @@ template <class S> struct DampingZone {
   std::int32_t priority = 0;
   bool replaces = false;  // hides zones of lower priority from what it acts on
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("shape", self.shape);
-    visit("pose", self.pose);
-    visit("half", self.half);
-    visit("linear", self.linear);
-    visit("angular", self.angular);
-    visit("mask", self.mask);
-    visit("priority", self.priority);
-    visit("replaces", self.replaces);
-  }
+  ISO_FIELDS(shape, pose, half, linear, angular, mask, priority, replaces)
 };
 
 }  // namespace isostep

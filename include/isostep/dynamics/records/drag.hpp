@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
@@ -19,12 +20,7 @@ template <class S> struct BodyDrag {
   S quadratic = S(0);  // [N s^2/m^2]
   S angular = S(0);    // [N m s]
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("linear", self.linear);
-    visit("quadratic", self.quadratic);
-    visit("angular", self.angular);
-  }
+  ISO_FIELDS(body, linear, quadratic, angular)
 };
 
 }  // namespace isostep

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
@@ -43,25 +44,9 @@ template <class S> struct Explosion {
   bool is_shielded = false;             // static bodies between the centre and the point keep it off
   std::uint32_t mask = 0xffffffffu;     // categories: Filter
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("centre", self.centre);
-    visit("begin", self.begin);
-    visit("implosion_force", self.implosion_force);
-    visit("implosion_least", self.implosion_least);
-    visit("implosion_most", self.implosion_most);
-    visit("implosion_duration", self.implosion_duration);
-    visit("wave_force", self.wave_force);
-    visit("wave_speed", self.wave_speed);
-    visit("wave_width", self.wave_width);
-    visit("wave_ramp", self.wave_ramp);
-    visit("wave_duration", self.wave_duration);
-    visit("chimney_force", self.chimney_force);
-    visit("chimney_radius", self.chimney_radius);
-    visit("chimney_height", self.chimney_height);
-    visit("chimney_duration", self.chimney_duration);
-    visit("is_shielded", self.is_shielded);
-    visit("mask", self.mask);
-  }
+  ISO_FIELDS(centre, begin, implosion_force, implosion_least, implosion_most, implosion_duration, wave_force,
+             wave_speed, wave_width, wave_ramp, wave_duration, chimney_force, chimney_radius, chimney_height,
+             chimney_duration, is_shielded, mask)
   /// [s] from when it goes off.
   ISO_INLINE S duration() const { return implosion_duration + max(wave_duration, chimney_duration); }
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/transform.hpp"
@@ -38,16 +39,7 @@ template <class S> struct ForceZone {
   std::int32_t priority = 0;
   std::uint32_t replaces = 0;  // zone_effect: what it hides, of zones of lower priority; 0: it adds to them
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("shape", self.shape);
-    visit("pose", self.pose);
-    visit("half", self.half);
-    visit("acceleration", self.acceleration);
-    visit("wind", self.wind);
-    visit("mask", self.mask);
-    visit("priority", self.priority);
-    visit("replaces", self.replaces);
-  }
+  ISO_FIELDS(shape, pose, half, acceleration, wind, mask, priority, replaces)
 };
 
 }  // namespace isostep

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/scalar/platform.hpp"
@@ -18,10 +19,7 @@ using GhostId = Id<struct GhostTag>;
 template <class S> struct Ghost {
   BodyId a = {}, b = {};
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("a", self.a);
-    visit("b", self.b);
-  }
+  ISO_FIELDS(a, b)
 };
 
 }  // namespace isostep

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
@@ -16,10 +17,7 @@ template <class S> struct HitReport {
   BodyId body = {};
   S speed = S(1);  // [m/s] along the normal, as the step begins in which they first press on each other
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("speed", self.speed);
-  }
+  ISO_FIELDS(body, speed)
 };
 
 }  // namespace isostep

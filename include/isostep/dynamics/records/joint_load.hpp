@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/scalar/platform.hpp"
@@ -18,11 +19,7 @@ template <class S> struct JointLoad {
   S break_force = S(0);   // [N] 0: no force breaks it
   S break_torque = S(0);  // [N m] 0: no torque breaks it
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("joint", self.joint);
-    visit("break_force", self.break_force);
-    visit("break_torque", self.break_torque);
-  }
+  ISO_FIELDS(joint, break_force, break_torque)
 };
 
 /// Load of a joint in the last step: the step writes it.
@@ -30,10 +27,7 @@ template <class S> struct JointLoadState {
   S force = S(0);   // [N] on body b, of all the joint does; held at the format's end
   S torque = S(0);  // [N m] about b's origin of the joint; held at the format's end
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("force", self.force);
-    visit("torque", self.torque);
-  }
+  ISO_FIELDS(force, torque)
 };
 
 }  // namespace isostep

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/scalar/platform.hpp"
@@ -20,10 +21,7 @@ using KindGhostId = Id<struct KindGhostTag>;
 template <class S> struct KindGhost {
   std::uint32_t kind_a = 0, kind_b = 0;  // Material::kind, 1 or more
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("kind_a", self.kind_a);
-    visit("kind_b", self.kind_b);
-  }
+  ISO_FIELDS(kind_a, kind_b)
 };
 
 }  // namespace isostep

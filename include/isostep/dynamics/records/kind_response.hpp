@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/scalar/platform.hpp"
@@ -32,15 +33,8 @@ template <class S> struct KindResponse {
   S inverse_inertia_scale_a = S(1), inverse_inertia_scale_b = S(1);
   S max_force = S(0);  // [N] along the normal; 0: any
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("kind_a", self.kind_a);
-    visit("kind_b", self.kind_b);
-    visit("inverse_mass_scale_a", self.inverse_mass_scale_a);
-    visit("inverse_mass_scale_b", self.inverse_mass_scale_b);
-    visit("inverse_inertia_scale_a", self.inverse_inertia_scale_a);
-    visit("inverse_inertia_scale_b", self.inverse_inertia_scale_b);
-    visit("max_force", self.max_force);
-  }
+  ISO_FIELDS(kind_a, kind_b, inverse_mass_scale_a, inverse_mass_scale_b, inverse_inertia_scale_a,
+             inverse_inertia_scale_b, max_force)
 };
 
 }  // namespace isostep

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
@@ -23,15 +24,7 @@ template <class S> struct MaterialPair {
   S rolling_resistance = S(0);           // [m]
   S spin_resistance = S(1.0 / 128);      // [m]
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("kind_a", self.kind_a);
-    visit("kind_b", self.kind_b);
-    visit("friction", self.friction);
-    visit("static_friction", self.static_friction);
-    visit("restitution", self.restitution);
-    visit("rolling_resistance", self.rolling_resistance);
-    visit("spin_resistance", self.spin_resistance);
-  }
+  ISO_FIELDS(kind_a, kind_b, friction, static_friction, restitution, rolling_resistance, spin_resistance)
 };
 
 }  // namespace isostep

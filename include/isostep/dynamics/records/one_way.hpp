@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/core/registry.hpp"
@@ -29,11 +30,7 @@ template <class S> struct OneWay {
   Vec3<Unit<S>> axis = {Unit<S>(0), Unit<S>(1), Unit<S>(0)};  // [1] body frame, unit length
   S least_cosine = S(0.5);                                    // [1] of the normal to the axis: 60 degrees
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("axis", self.axis);
-    visit("least_cosine", self.least_cosine);
-  }
+  ISO_FIELDS(body, axis, least_cosine)
 };
 
 /// One of them as a step begins.

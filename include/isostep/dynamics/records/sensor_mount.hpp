@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/transform.hpp"
@@ -25,11 +26,7 @@ template <class S> struct SensorMount {
   BodyId on = {};                       // the carrier: of any type
   Pose<S> frame = Pose<S>::identity();  // of the sensor's origin in the carrier's frame
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("sensor", self.sensor);
-    visit("on", self.on);
-    visit("frame", self.frame);
-  }
+  ISO_FIELDS(sensor, on, frame)
 };
 
 }  // namespace isostep

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
@@ -34,12 +35,7 @@ template <class S> struct SurfaceVelocity {
 
   ISO_INLINE bool runs() const { return !(linear == Vec3<S>::zero() && angular == Vec3<S>::zero()); }
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("linear", self.linear);
-    visit("angular", self.angular);
-    visit("part", self.part);
-  }
+  ISO_FIELDS(body, linear, angular, part)
 };
 
 }  // namespace isostep

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
@@ -15,11 +16,7 @@ template <class S> struct Thruster {
   Vec3<S> point = {S(0), S(0), S(0)};  // [m] body frame
   Vec3<S> force = {S(0), S(0), S(0)};  // [N] body frame
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("point", self.point);
-    visit("force", self.force);
-  }
+  ISO_FIELDS(body, point, force)
 };
 
 }  // namespace isostep

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/geometry/limits.hpp"
@@ -54,20 +55,8 @@ template <class S> struct VehicleSettings {
   S ackermann = S(1);                                                      // [1] 0 to 1
   S track_steer = S(2);                                                    // [1] 0 to 2
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("engine_torque", self.engine_torque);
-    visit("engine_speed", self.engine_speed);
-    visit("gears", self.gears);
-    visit("final_drive", self.final_drive);
-    visit("engine_inertia", self.engine_inertia);
-    visit("clutch_torque", self.clutch_torque);
-    visit("differential_lock", self.differential_lock);
-    visit("brake_torque", self.brake_torque);
-    visit("handbrake_torque", self.handbrake_torque);
-    visit("ackermann", self.ackermann);
-    visit("track_steer", self.track_steer);
-  }
+  ISO_FIELDS(body, engine_torque, engine_speed, gears, final_drive, engine_inertia, clutch_torque, differential_lock,
+             brake_torque, handbrake_torque, ackermann, track_steer)
 };
 
 /// Input of a vehicle: it stays until the game sets another.
@@ -79,14 +68,7 @@ template <class S> struct VehicleInput {
   S steer = S(0);          // [1] -1 to 1
   std::uint32_t gear = 0;  // of VehicleSettings::gears
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("throttle", self.throttle);
-    visit("clutch", self.clutch);
-    visit("brake", self.brake);
-    visit("handbrake", self.handbrake);
-    visit("steer", self.steer);
-    visit("gear", self.gear);
-  }
+  ISO_FIELDS(throttle, clutch, brake, handbrake, steer, gear)
 };
 
 /// State of a vehicle with a clutch: the step writes it.
@@ -94,10 +76,7 @@ template <class S> struct VehicleState {
   S engine_spin = S(0);  // [rad/s] of its shaft, up to fastest_engine()
   S clutch_load = S(0);  // [N m] on the gears, in the last sub-step
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("engine_spin", self.engine_spin);
-    visit("clutch_load", self.clutch_load);
-  }
+  ISO_FIELDS(engine_spin, clutch_load)
 };
 
 /// A wheel that slides along `suspension` from its hard point, without mass of its own but for its turning. Forward is
@@ -140,31 +119,9 @@ template <class S> struct WheelSettings {
   S anti_roll = S(0);        // [N/m] the larger of the two counts
   std::uint32_t track = 0;   // 0: none
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("body", self.body);
-    visit("hard_point", self.hard_point);
-    visit("suspension", self.suspension);
-    visit("axle_direction", self.axle_direction);
-    visit("free_length", self.free_length);
-    visit("travel", self.travel);
-    visit("stiffness", self.stiffness);
-    visit("damping", self.damping);
-    visit("radius", self.radius);
-    visit("inertia", self.inertia);
-    visit("grip_along", self.grip_along);
-    visit("grip_across", self.grip_across);
-    visit("peak_slip", self.peak_slip);
-    visit("peak_grip", self.peak_grip);
-    visit("slide_slip", self.slide_slip);
-    visit("slide_grip", self.slide_grip);
-    visit("steer_angle", self.steer_angle);
-    visit("drive_share", self.drive_share);
-    visit("brake_share", self.brake_share);
-    visit("handbrake_share", self.handbrake_share);
-    visit("axle", self.axle);
-    visit("anti_roll", self.anti_roll);
-    visit("track", self.track);
-  }
+  ISO_FIELDS(body, hard_point, suspension, axle_direction, free_length, travel, stiffness, damping, radius, inertia,
+             grip_along, grip_across, peak_slip, peak_grip, slide_slip, slide_grip, steer_angle, drive_share,
+             brake_share, handbrake_share, axle, anti_roll, track)
 };
 
 /// State of a wheel: the step writes it. contact_body is null, and load, along and across 0, where it meets nothing.
@@ -181,19 +138,7 @@ template <class S> struct WheelState {
   S along = S(0);                                                       // [N] on the body, forward
   S across = S(0);                                                      // [N] on the body, normal x forward
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("spin", self.spin);
-    visit("angle", self.angle);
-    visit("steered", self.steered);
-    visit("length", self.length);
-    visit("slip", self.slip);
-    visit("contact_body", self.contact_body);
-    visit("contact_point", self.contact_point);
-    visit("contact_normal", self.contact_normal);
-    visit("load", self.load);
-    visit("along", self.along);
-    visit("across", self.across);
-  }
+  ISO_FIELDS(spin, angle, steered, length, slip, contact_body, contact_point, contact_normal, load, along, across)
 };
 
 }  // namespace isostep

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/aabb.hpp"
@@ -40,23 +41,8 @@ template <class S> struct Water {
   std::int32_t priority = 0;
   bool replaces = false;  // hides water of lower priority from what it acts on
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("surface_height", self.surface_height);
-    visit("density", self.density);
-    visit("middle", self.middle);
-    visit("half", self.half);
-    visit("current", self.current);
-    visit("linear_drag", self.linear_drag);
-    visit("quadratic_drag", self.quadratic_drag);
-    visit("angular_drag", self.angular_drag);
-    visit("wave_height", self.wave_height);
-    visit("wave_length", self.wave_length);
-    visit("wave_period", self.wave_period);
-    visit("wave_direction", self.wave_direction);
-    visit("mask", self.mask);
-    visit("priority", self.priority);
-    visit("replaces", self.replaces);
-  }
+  ISO_FIELDS(surface_height, density, middle, half, current, linear_drag, quadratic_drag, angular_drag, wave_height,
+             wave_length, wave_period, wave_direction, mask, priority, replaces)
 };
 
 template <class S> ISO_INLINE bool in_region(const Water<S>& water, const Aabb<S>& box) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/geometry/limits.hpp"
 #include "isostep/scalar/scalar.hpp"
@@ -21,14 +22,7 @@ template <class S, int W> struct AngularRow {
   S effective_mass[W];
   Velocity<S> impulse[W];  // [m/s] accumulated
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("jacobian_a", self.jacobian_a);
-    visit("jacobian_b", self.jacobian_b);
-    visit("response_a", self.response_a);
-    visit("response_b", self.response_b);
-    visit("effective_mass", self.effective_mass);
-    visit("impulse", self.impulse);
-  }
+  ISO_FIELDS(jacobian_a, jacobian_b, response_a, response_b, effective_mass, impulse)
 };
 
 template <class S, int W> struct NormalRow {
@@ -36,11 +30,7 @@ template <class S, int W> struct NormalRow {
   Velocity<S> separation[W];     // [m] when the step began; overlaps deepened by Schedule::penetration_bias
   Velocity<S> total_impulse[W];  // [m/s] given over the step, but for the sub-step that runs
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("row", self.row);
-    visit("separation", self.separation);
-    visit("total_impulse", self.total_impulse);
-  }
+  ISO_FIELDS(row, separation, total_impulse)
 };
 
 template <class S, int W> struct FrictionRow {
@@ -48,11 +38,7 @@ template <class S, int W> struct FrictionRow {
   S direction[3][W];       // [1] tangent
   Velocity<S> surface[W];  // [m/s] speed of b's surface against a's along the tangent
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("row", self.row);
-    visit("direction", self.direction);
-    visit("surface", self.surface);
-  }
+  ISO_FIELDS(row, direction, surface)
 };
 
 /// W contacts of P points each: two rows of friction and one of twist for the patch, P normal rows. W numbers of one
@@ -76,10 +62,7 @@ template <class S, int W> struct RollingRows {
   AngularRow<S, W> rows[2];
   S lever[W];  // [1] resisting torque per normal impulse, over the rows' radius
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("rows", self.rows);
-    visit("lever", self.lever);
-  }
+  ISO_FIELDS(rows, lever)
 };
 template <class S, int W, int P> struct RollingBlock {
   RollingRows<S, W> rolling;

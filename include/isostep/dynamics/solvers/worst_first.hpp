@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/core/island_budgets.hpp"
 #include "isostep/core/tournament_tree.hpp"
@@ -69,10 +70,7 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
   struct Ends {
     std::uint32_t a, b;  // of SolverBodies, 0 for what does not move
 
-    template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-      visit("a", self.a);
-      visit("b", self.b);
-    }
+    ISO_FIELDS(a, b)
   };
 
   /// Of a contact's bodies, as it sees them turn.

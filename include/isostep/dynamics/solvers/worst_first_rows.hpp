@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/dynamics/contact.hpp"
 #include "isostep/dynamics/joints/joint_rows.hpp"
 #include "isostep/dynamics/solver_body.hpp"
@@ -20,15 +21,7 @@ template <class S> struct TangentPair {
   Velocity<S> surface[2];  // [m/s] speed of b's surface against a's along the rows
   Velocity<S> impulse[2];  // [m/s] accumulated
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("rows", self.rows);
-    visit("xx", self.xx);
-    visit("xy", self.xy);
-    visit("yy", self.yy);
-    visit("sliding", self.sliding);
-    visit("surface", self.surface);
-    visit("impulse", self.impulse);
-  }
+  ISO_FIELDS(rows, xx, xy, yy, sliding, surface, impulse)
 };
 
 /// A point of a contact. Impulses are velocity changes of the pair's reduced mass, as in Contact.
@@ -53,27 +46,8 @@ template <class S> struct PointRow {
   V total_impulse;  // [m/s] of the sub-steps before
   V most;           // [m/s] that all points of its contact bear in a sub-step; the highest of the format for any
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("contact", self.contact);
-    visit("a", self.a);
-    visit("b", self.b);
-    visit("rolling", self.rolling);
-    visit("spinning", self.spinning);
-    visit("response", self.response);
-    visit("share", self.share);
-    visit("normal", self.normal);
-    visit("friction", self.friction);
-    visit("mass", self.mass);
-    visit("mu", self.mu);
-    visit("lever", self.lever);
-    visit("spin_lever", self.spin_lever);
-    visit("separation", self.separation);
-    visit("least_speed", self.least_speed);
-    visit("least_gap", self.least_gap);
-    visit("impulse", self.impulse);
-    visit("total_impulse", self.total_impulse);
-    visit("most", self.most);
-  }
+  ISO_FIELDS(contact, a, b, rolling, spinning, response, share, normal, friction, mass, mu, lever, spin_lever,
+             separation, least_speed, least_gap, impulse, total_impulse, most)
 };
 inline constexpr std::uint32_t kNoPair = 0xffffffffu;
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/scalar/wide_int.hpp"
 
 namespace isostep {
@@ -16,11 +17,7 @@ struct GridPoint {
 
   std::int32_t x, y, z;
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("x", self.x);
-    visit("y", self.y);
-    visit("z", self.z);
-  }
+  ISO_FIELDS(x, y, z)
 
   friend ISO_INLINE constexpr bool operator==(GridPoint a, GridPoint b) {
     return a.x == b.x && a.y == b.y && a.z == b.z;

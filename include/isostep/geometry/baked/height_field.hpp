@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "isostep/core/bytes.hpp"
+#include "isostep/core/fields.hpp"
 #include "isostep/core/result.hpp"
 #include "isostep/geometry/baked/baked_triangle.hpp"
 
@@ -25,13 +26,7 @@ struct HeightGrid {
     return a.exponent == b.exponent && a.height_shift == b.height_shift && a.columns == b.columns && a.rows == b.rows &&
            a.pitch == b.pitch;
   }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("exponent", self.exponent);
-    visit("height_shift", self.height_shift);
-    visit("columns", self.columns);
-    visit("rows", self.rows);
-    visit("pitch", self.pitch);
-  }
+  ISO_FIELDS(exponent, height_shift, columns, rows, pitch)
 };
 
 /// A rectangle of a field's places and what stands there now: columns times rows heights, by rows; and of the cells

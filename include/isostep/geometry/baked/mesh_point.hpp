@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/geometry/baked/grid_point.hpp"
 
 namespace isostep {
@@ -25,11 +26,7 @@ struct MeshPoint {
   }
   ISO_INLINE constexpr bool in_range() const { return in_range(x) && in_range(y) && in_range(z); }
 
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("x", self.x);
-    visit("y", self.y);
-    visit("z", self.z);
-  }
+  ISO_FIELDS(x, y, z)
 
  private:
   static ISO_INLINE constexpr bool in_range(std::int32_t v) { return -kLimit < v && v < kLimit; }

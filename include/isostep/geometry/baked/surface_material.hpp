@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "isostep/core/fields.hpp"
 #include "isostep/core/result.hpp"
 #include "isostep/scalar/platform.hpp"
 
@@ -25,10 +26,7 @@ struct SurfaceMaterial {
   friend ISO_INLINE constexpr bool operator==(SurfaceMaterial a, SurfaceMaterial b) {
     return a.friction == b.friction && a.restitution == b.restitution;
   }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("friction", self.friction);
-    visit("restitution", self.restitution);
-  }
+  ISO_FIELDS(friction, restitution)
 };
 
 /// Rounded to 1/1024. ErrorCode::invalid: a friction that is not 0 to 16, a restitution that is not 0 to 1.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "isostep/core/bytes.hpp"
+#include "isostep/core/fields.hpp"
 #include "isostep/core/result.hpp"
 #include "isostep/geometry/baked/baked_triangle.hpp"
 #include "isostep/geometry/baked/mesh_tree.hpp"
@@ -21,9 +22,7 @@ struct MeshTriangle {
   friend ISO_INLINE constexpr bool operator==(const MeshTriangle& a, const MeshTriangle& b) {
     return a.vertices[0] == b.vertices[0] && a.vertices[1] == b.vertices[1] && a.vertices[2] == b.vertices[2];
   }
-  template <class Visitor, class Self> static ISO_INLINE constexpr void fields(Visitor&& visit, Self&& self) {
-    visit("vertices", self.vertices);
-  }
+  ISO_FIELDS(vertices)
 };
 
 /// What is across an edge of a triangle.
