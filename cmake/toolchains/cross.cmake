@@ -2,9 +2,9 @@
 # Another compiler for the same target: -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_EXE_LINKER_FLAGS="-static -fuse-ld=lld".
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES ISOSTEP_TARGET)
 
-# name | system | processor | triplet | flags | runner. i686 programs run as they are; wasm's runner is the caller's.
+# name | system | processor | triplet | flags | runner. wasm's runner is the caller's.
 set(isostep_targets
-  "i686|Linux|i686|i686-linux-gnu|-msse2 -mfpmath=sse|"
+  "i686|Linux|i686|i686-linux-gnu|-msse2 -mfpmath=sse|qemu-i386"
   "aarch64|Linux|aarch64|aarch64-linux-gnu||qemu-aarch64"
   "aarch64-v8.3|Linux|aarch64|aarch64-linux-gnu|-march=armv8.3-a|qemu-aarch64"
   "armhf|Linux|arm|arm-linux-gnueabihf||qemu-arm"

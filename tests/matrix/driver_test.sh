@@ -138,6 +138,11 @@ matrix 1 --target tomorrow
 # No time: what has not begun and must be built is left out, and is not green where it was asked for.
 matrix 1 --target hangs --target good --target flipped-bit --jobs 1 --within 1
 says '^good .* - .* not run here: 1 s were over$' && says '^flipped-bit .* seen, as it must: '
+# Another one begins each day.
+for day in 4,hangs 5,good; do
+  ISOSTEP_MATRIX_DAY=${day%,*} matrix 1 --target hangs --target good --jobs 1 --within 3600
+  [ "$(grep -m 1 ': begins' "$dir/err")" = "${day#*,}: begins" ] || fail "day ${day%,*} does not begin with ${day#*,}"
+done
 
 # A gate that finds something; a control that is none any more.
 printf '#!/bin/sh\necho "1 fused"\nexit 1\n' >"$dir/programs/isostep_gate"

@@ -113,7 +113,7 @@ run_all() {
   while [ "$(echo $crew | wc -w)" -lt "$hands" ]; do
     (
       obey_signals
-      for name in $(slow_first "$@"); do
+      for name in $(in_turn "$@"); do
         if mkdir "$claims/$name" 2>/dev/null; then
           if no_time_for "$name"; then leave_out; else work_on "$name"; fi
         fi
@@ -136,8 +136,9 @@ leave_out() {
   finish_target "not run here: $within s were over"
 }
 
-# slow_first NAMES...: what is emulated takes longest; what is built already fills the end.
-slow_first() {
+# in_turn NAMES...: what is emulated takes longest, so it comes first. With --within another one begins each day, so that
+# who never has the time for all comes round. What is built already fills the end.
+in_turn() {
   for name in "$@"; do
     load "$name"
     case $floats,$compiler in
@@ -145,8 +146,12 @@ slow_first() {
       short,*) echo "0 $name" ;;
       *) echo "1 $name" ;;
     esac
-  done | sort -s -k 1,1 | cut -d ' ' -f 2
+  done | sort -s -k 1,1 | awk -v day="$(day)" '
+    $1 == 2 {built = built $2 "\n"; next}
+    {name[made++] = $2}
+    END {for (i = 0; i < made; ++i) print name[(i + day) % made]; printf "%s", built}'
 }
+day() { [ -n "$within" ] && echo "${ISOSTEP_MATRIX_DAY:-$(($(date +%s) / 86400))}" || echo 0; }
 
 load() { load_target "$1" || load_control "$1"; }
 work_on() { if row_of targets "$1" >/dev/null; then work_on_target "$1"; else work_on_control "$1"; fi; }

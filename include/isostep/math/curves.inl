@@ -34,14 +34,20 @@ template <class U> ISO_INLINE CubicWeights<U> bezier_weights(U t) {
   const U u = U(1) - t, tu = t * u, near_b = tu * u, near_c = tu * t;
   return {u * u * u, near_b + near_b + near_b, near_c + near_c + near_c, t * t * t};
 }
+template <class S> ISO_INLINE S number_between(S a, S b, Unit<S> t) {
+  return round_to<S>(product(a, Unit<S>(1) - t) + product(b, t));
+}
 
 }  // namespace detail
 
 template <class S> S lerp(S a, S b, Unit<S> t) {
-  return detail::pinned([&]() -> S { return round_to<S>(product(a, Unit<S>(1) - t) + product(b, t)); });
+  return detail::pinned([&]() -> S { return detail::number_between(a, b, t); });
 }
 template <class S> Vec3<S> lerp(Vec3<S> a, Vec3<S> b, Unit<S> t) {
-  return detail::pinned([&]() -> Vec3<S> { return {lerp(a.x, b.x, t), lerp(a.y, b.y, t), lerp(a.z, b.z, t)}; });
+  using detail::number_between;
+  return detail::pinned([&]() -> Vec3<S> {
+    return {number_between(a.x, b.x, t), number_between(a.y, b.y, t), number_between(a.z, b.z, t)};
+  });
 }
 template <class S> Unit<S> inverse_lerp(S a, S b, S x) {
   return detail::pinned([&]() -> Unit<S> {

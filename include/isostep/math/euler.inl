@@ -47,15 +47,17 @@ template <class S> EulerAngles<S> euler_angles_of(EulerOrder order, Quat<Unit<S>
     const U sum_cosine = q.w + j, sum_sine = i + k, difference_cosine = q.w - j, difference_sine = i - k;
     const U with_sum = detail::length2(sum_cosine, sum_sine);
     const U with_difference = detail::length2(difference_cosine, difference_sine);
-    S sum = atan2_to<S>(sum_sine, sum_cosine), difference = atan2_to<S>(difference_sine, difference_cosine);
+    const auto angle_of = [](U sine, U cosine) { return detail::stored([&] { return atan2_to<S>(sine, cosine); }); };
+    const auto wrapped = [](S angle) { return detail::stored([&] { return wrap_angle(angle); }); };
+    S sum = angle_of(sum_sine, sum_cosine), difference = angle_of(difference_sine, difference_cosine);
     U locked = resolution<U>();
     for (int doubled = 0; doubled < 5; ++doubled) locked = locked + locked;
     const bool no_sum = with_sum <= locked, no_difference = with_difference <= locked;
     if (no_sum) sum = difference;
     if (no_difference) difference = sum;
-    const S eighth = atan2_to<S>(with_sum, with_difference), quarter_turn = S(1.57079632679489661923);
+    const S eighth = angle_of(with_sum, with_difference), quarter_turn = S(1.57079632679489661923);
     const S third = sum - difference;
-    return {wrap_angle(sum + difference), eighth + eighth - quarter_turn, wrap_angle(axes.even ? third : -third),
+    return {wrapped(sum + difference), eighth + eighth - quarter_turn, wrapped(axes.even ? third : -third),
             no_sum || no_difference};
   });
 }
