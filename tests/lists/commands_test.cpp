@@ -24,7 +24,7 @@ class CommandList : public ListProbe {
     edit("include/isostep/commands/execute_bodies.inl",
          "template <class S> bool CommandExecutor<S>::execute(const SetGravity<S>&",
          "template <class S> bool CommandExecutor<S>::execute(const Probe& command) {\n"
-         "  if (command.tick < state_.tick) return journal_.refuse({Fault::bad_argument, \"\", \"tick\", \"no past "
+         "  if (command.tick < state_.tick) return faults_.refuse({Fault::bad_argument, \"\", \"tick\", \"no past "
          "one\"});\n"
          "  state_.tick = command.tick;\n  return true;\n}\n"
          "template <class S> bool CommandExecutor<S>::execute(const SetGravity<S>&");

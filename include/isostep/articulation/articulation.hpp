@@ -77,8 +77,11 @@ template <class S> class Articulation {
   bool apply_force(std::uint32_t link, Vec3<S> force, Vec3<S> point);
   /// For the next step [N m], world.
   bool apply_torque(std::uint32_t link, Vec3<S> torque);
-  /// Of the last call that was refused.
+  /// As World has them.
   const FaultReport& fault() const;
+  const FaultReport& first_fault() const;
+  void forget_faults();
+  void set_fault_handler(const FaultHandler& handler);
 
   ArticulationReport step();
 
@@ -96,7 +99,8 @@ template <class S> class Articulation {
 
   /// The definition is shared, not copied.
   void save(Snapshot& to) const;
-  void load(const Snapshot& from);
+  /// False, no change and a fault where `from` was never saved to or was moved from.
+  bool load(const Snapshot& from);
   std::uint64_t hash() const;
   /// With the definition: whoever reads it needs nothing else.
   void write_portable(Writer& writer) const;

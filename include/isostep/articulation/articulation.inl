@@ -66,25 +66,24 @@ template <class S> std::uint32_t Articulation<S>::links() const {
   return static_cast<std::uint32_t>(engine_->tree->links.size());
 }
 template <class S> std::uint64_t Articulation<S>::tick() const { return engine_->state.tick; }
-template <class S> const FaultReport& Articulation<S>::fault() const { return engine_->fault; }
+template <class S> const FaultReport& Articulation<S>::fault() const { return engine_->faults.last(); }
+template <class S> const FaultReport& Articulation<S>::first_fault() const { return engine_->faults.first(); }
+template <class S> void Articulation<S>::forget_faults() { engine_->faults.forget(); }
+template <class S> void Articulation<S>::set_fault_handler(const FaultHandler& handler) {
+  engine_->faults.set_handler(handler);
+}
 template <class S> const ArticulationState<S>& Articulation<S>::state() const { return engine_->state; }
 template <class S> ArticulationReport Articulation<S>::step() { return engine_->step(); }
 
 // ---- commands
 
-template <class S> bool Articulation<S>::Engine::refuse(const FaultReport& report, const char* command) {
-  if (report == Fault::none) return false;
-  fault = report;
-  fault.command = command;
-  return true;
-}
 template <class S> FaultReport Articulation<S>::Engine::fault_of_link(std::uint32_t link) const {
   return detail::Checklist().proper(link < tree->links.size(), "link", "a link of the definition").report();
 }
 
 template <class S> bool Articulation<S>::set_coordinates(std::uint32_t link, const JointCoordinates<S>& to) {
   Engine& e = *engine_;
-  if (e.refuse(e.fault_of_link(link), "set_coordinates")) return false;
+  if (!e.faults.accept_call("set_coordinates", e.fault_of_link(link))) return false;
   const detail::PreparedLink<S>& l = e.tree->links[link];
   const FaultReport report =
       detail::Checklist()
@@ -93,7 +92,7 @@ template <class S> bool Articulation<S>::set_coordinates(std::uint32_t link, con
           .proper(detail::is_rotation<S>(to.rotation), "coordinates.rotation", detail::kUnitLength)
           .in_range(detail::fits_velocity(to), "coordinates.velocity", "Limits::speed() and 1024 rad/s along each axis")
           .report();
-  if (e.refuse(report, "set_coordinates")) return false;
+  if (!e.faults.accept_call("set_coordinates", report)) return false;
   const bool free = l.type == ArticulationJoint::free;
   for (std::uint32_t k = 0; k < (free ? 3u : detail::is_scalar(l.type) ? 1u : 0u); ++k) {
     e.state.coordinates[l.coordinate + k] = to.position[static_cast<int>(k)];
@@ -114,17 +113,17 @@ template <class S> bool Articulation<S>::set_coordinates(std::uint32_t link, con
 
 template <class S> bool Articulation<S>::set_drive(std::uint32_t link, const ArticulationDrive<S>& drive) {
   Engine& e = *engine_;
-  if (e.refuse(e.fault_of_link(link), "set_drive")) return false;
+  if (!e.faults.accept_call("set_drive", e.fault_of_link(link))) return false;
   const bool sound = detail::check_drive(*e.tree, link, drive).ok();
   const auto report = detail::Checklist().proper(sound, "drive", "what a definition's drive may be").report();
-  if (e.refuse(report, "set_drive")) return false;
+  if (!e.faults.accept_call("set_drive", report)) return false;
   e.state.drives[link] = drive;
   return true;
 }
 
 template <class S> bool Articulation<S>::apply_force(std::uint32_t link, Vec3<S> force, Vec3<S> point) {
   Engine& e = *engine_;
-  if (e.refuse(e.fault_of_link(link), "apply_force")) return false;
+  if (!e.faults.accept_call("apply_force", e.fault_of_link(link))) return false;
   const auto fits = [](Vec3<S> v) { return is_finite(v) && detail::within(v, detail::kMostLoad<S>); };
   const bool nearby = is_finite(point) && detail::within(point, Limits<S>::position());
   Vec3<S> lever = nearby ? point - link_centre(link) : Vec3<S>::zero();
@@ -135,18 +134,18 @@ template <class S> bool Articulation<S>::apply_force(std::uint32_t link, Vec3<S>
                           .in_range(nearby, "point", detail::kWithinPosition)
                           .in_range(fits(force) && fits(all) && fits(torque), "force", detail::kMostLoadText)
                           .report();
-  if (e.refuse(report, "apply_force")) return false;
+  if (!e.faults.accept_call("apply_force", report)) return false;
   e.state.loads[link] = {all, torque};
   return true;
 }
 
 template <class S> bool Articulation<S>::apply_torque(std::uint32_t link, Vec3<S> torque) {
   Engine& e = *engine_;
-  if (e.refuse(e.fault_of_link(link), "apply_torque")) return false;
+  if (!e.faults.accept_call("apply_torque", e.fault_of_link(link))) return false;
   const auto fits = [](Vec3<S> v) { return is_finite(v) && detail::within(v, detail::kMostLoad<S>); };
   const Vec3<S> all = fits(torque) ? saturating_add(e.state.loads[link].torque, torque) : torque;
   const auto report = detail::Checklist().in_range(fits(all), "torque", detail::kMostLoadText).report();
-  if (e.refuse(report, "apply_torque")) return false;
+  if (!e.faults.accept_call("apply_torque", report)) return false;
   e.state.loads[link].torque = all;
   return true;
 }
@@ -231,13 +230,15 @@ template <class S> void Articulation<S>::save(Snapshot& to) const {
   to.kept_->tree = engine_->tree;
   to.kept_->state = engine_->state;
 }
-template <class S> void Articulation<S>::load(const Snapshot& from) {
-  if (from.kept_ == nullptr) return;
+template <class S> bool Articulation<S>::load(const Snapshot& from) {
   Engine& e = *engine_;
+  if (from.kept_ == nullptr)
+    return e.faults.refuse_call("load", {Fault::bad_snapshot, "", "from", "one that was saved to"});
   if (e.tree != from.kept_->tree) e.use(from.kept_->tree);
   e.state = from.kept_->state;
   e.loads.assign(e.loads.size(), LinkLoad<S>{Vec3<S>::zero(), Vec3<S>::zero()});
   e.refresh();
+  return true;
 }
 template <class S> std::uint64_t Articulation<S>::hash() const {
   detail::StateHasher hasher;

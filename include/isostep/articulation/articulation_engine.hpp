@@ -7,6 +7,7 @@
 
 #include "isostep/articulation/articulation.hpp"
 #include "isostep/articulation/free_motion.hpp"
+#include "isostep/core/fault_log.hpp"
 
 namespace isostep {
 
@@ -27,11 +28,10 @@ template <class S> struct Articulation<S>::Engine {
   std::vector<S> middle;           // speeds half a change later
   ArticulationState<S> before;     // where a sub-step began
   std::vector<LinkLoad<S>> loads;  // of joints, in the last sub-step
-  FaultReport fault;
+  FaultLog faults;
 
   void use(std::shared_ptr<const Tree> next);
   void refresh();
-  bool refuse(const FaultReport& report, const char* command);
   FaultReport fault_of_link(std::uint32_t link) const;
 
   ArticulationReport step();

@@ -9,6 +9,7 @@
 
 #include "isostep/commands/command.hpp"
 #include "isostep/commands/destruction.hpp"
+#include "isostep/core/fault_log.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/checks.hpp"
 #include "isostep/geometry/mass_properties.hpp"
@@ -21,9 +22,9 @@
 
 namespace isostep {
 
-/// Input:   commands, which CommandJournal::run brings.
+/// Input:   commands, which WorldDesk::run brings.
 /// Output:  the changed state, and what each command returns. A refused command changes nothing and leaves its fault in
-///          the journal.
+///          the log.
 /// Keeps:   nothing.
 template <class S> class CommandExecutor {
  public:
@@ -31,7 +32,7 @@ template <class S> class CommandExecutor {
 
   ISO_INLINE CommandExecutor(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies, IslandWake<S>& wake,
                              IslandSleep<S>& sleep, Destruction<S>& destruction, RenderPoses<S>& render_poses,
-                             const AssetSource& assets, CommandJournal& journal)
+                             const AssetSource& assets, FaultLog& faults, CommandJournal& journal)
       : state_(state),
         map_(map),
         proxies_(proxies),
@@ -40,6 +41,7 @@ template <class S> class CommandExecutor {
         destruction_(destruction),
         render_poses_(render_poses),
         assets_(assets),
+        faults_(faults),
         journal_(journal) {}
 
   // execute_*.inl: one for each line of the list. Returns what the command made, or whether it was accepted.
@@ -52,7 +54,7 @@ template <class S> class CommandExecutor {
  private:
   // Whether a command may do what it is to do; if not, that is its fault.
   template <class AnyId> bool known(const SlotMap& slot_map, AnyId id, const char* field) {
-    return journal_.accept(detail::fault_of_id(slot_map, id, state_.settings.id_space, field));
+    return faults_.accept(detail::fault_of_id(slot_map, id, state_.settings.id_space, field));
   }
   bool known(BodyId body) { return known(state_.body_slots, body, "body"); }
   bool is_enabled(BodyId body);
@@ -109,6 +111,7 @@ template <class S> class CommandExecutor {
   Destruction<S>& destruction_;
   RenderPoses<S>& render_poses_;
   const AssetSource& assets_;
+  FaultLog& faults_;
   CommandJournal& journal_;
 };
 

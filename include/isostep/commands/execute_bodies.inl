@@ -13,7 +13,7 @@ template <class S> bool CommandExecutor<S>::accepts(const BodyDefinition<S>& d) 
   const Vec3<S> zero = Vec3<S>::zero();
   const bool still = d.type == BodyType::static_;
   return known(state_.shape_slots, d.shape, "shape") &&
-         journal_.accept(
+         faults_.accept(
              detail::Checklist()
                  .finite(d.density, "density")
                  .finite(d.mass, "mass")
@@ -38,7 +38,7 @@ template <class S> bool CommandExecutor<S>::accepts(const BodyDefinition<S>& d) 
 /// Of a dynamic body; `shape` at that density.
 template <class S> bool CommandExecutor<S>::check_mass(const BodyMass<S>& d, const MassProperties<S>& shape) {
   const S zero = S(0);
-  return journal_.accept(
+  return faults_.accept(
       detail::Checklist()
           .ask(zero < d.density || zero < d.mass, Fault::bad_mass, "density", "above 0 where mass is 0")
           .ask(!(shape.mass == zero), Fault::bad_mass, "shape", "one with a volume that the scalar can count")
@@ -61,7 +61,7 @@ template <class S> bool CommandExecutor<S>::give_mass(const BodyMass<S>& d, Body
   if (!check_mass(d, shape)) return false;
   MassProperties<S> chosen = d.mass == zero ? shape : with_mass(shape, d.mass);
   if (!(d.inertia == Vec3<S>::zero())) chosen = from_mass_and_inertia(chosen.mass, d.inertia, shape.centre);
-  if (!journal_.accept(detail::fault_of_mass(chosen.mass, chosen.kappa))) return false;
+  if (!faults_.accept(detail::fault_of_mass(chosen.mass, chosen.kappa))) return false;
   body.mass = chosen.mass;
   body.kappa = chosen.kappa;
   body.principal = chosen.principal;
@@ -100,10 +100,10 @@ template <class S> BodyId CommandExecutor<S>::execute(const CreateBody<S>& comma
     state.velocity = convert<Velocity<S>>(d.velocity);
     state.angular_velocity = convert<Velocity<S>>(d.angular_velocity);
   }
-  if (!journal_.accept(detail::fault_of_place(state.centre, "position"))) return {};
+  if (!faults_.accept(detail::fault_of_place(state.centre, "position"))) return {};
   detail::renew_fat_box(map_, state, body, true);
   if (detail::rotates_too_fast(state.angular_velocity, state.fat)) {
-    journal_.refuse(
+    faults_.refuse(
         {Fault::out_of_range, "", "angular_velocity", "points of the body no faster than Limits::surface_speed()"});
     return {};
   }
@@ -118,7 +118,7 @@ template <class S> BodyId CommandExecutor<S>::execute(const CreateBody<S>& comma
 
 template <class S> bool CommandExecutor<S>::mark_for_destruction(BodyId body) {
   if (!known(body)) return false;
-  if (destruction_.is_marked(body.slot)) return journal_.refuse({Fault::stale_id, "", "body", ""});
+  if (destruction_.is_marked(body.slot)) return faults_.refuse({Fault::stale_id, "", "body", ""});
   destruction_.mark(body.slot);
   return true;
 }
@@ -132,7 +132,7 @@ template <class S> std::size_t CommandExecutor<S>::destroy_all(std::span<const B
   std::size_t count = 0;
   for (const BodyId body : bodies) {
     if (!mark_for_destruction(body)) {
-      journal_.sign(kCommandNames[detail::kNumberOf<DestroyBody, Command>]);
+      faults_.sign(kCommandNames[detail::kNumberOf<DestroyBody, Command>]);
       continue;
     }
     journal_.record<Command>(DestroyBody{body});
@@ -146,13 +146,13 @@ template <class S> std::size_t CommandExecutor<S>::destroy_all(std::span<const B
 }
 
 template <class S> bool CommandExecutor<S>::is_enabled(BodyId body) {
-  return map_.is_enabled(body.slot) || journal_.refuse({Fault::bad_argument, "", "body", "one that is enabled"});
+  return map_.is_enabled(body.slot) || faults_.refuse({Fault::bad_argument, "", "body", "one that is enabled"});
 }
 /// Whether a body's motion is to be changed at all: not that of a static one.
 template <class S> bool CommandExecutor<S>::may_change(BodyId body) {
   if (!known(body) || !is_enabled(body)) return false;
   const bool moves = map_.location(body.slot).set != Location::kStatic;
-  return moves || journal_.refuse({Fault::not_dynamic, "", "body", "a dynamic or kinematic one"});
+  return moves || faults_.refuse({Fault::not_dynamic, "", "body", "a dynamic or kinematic one"});
 }
 template <class S> bool CommandExecutor<S>::execute(const WakeBody& command) {
   if (!may_change(command.body)) return false;
@@ -161,14 +161,14 @@ template <class S> bool CommandExecutor<S>::execute(const WakeBody& command) {
 }
 
 template <class S> bool CommandExecutor<S>::execute(const SetPose<S>& command) {
-  if (!known(command.body) || !journal_.accept(detail::fault_of_place(command.pose.position, "position"))) return false;
+  if (!known(command.body) || !faults_.accept(detail::fault_of_place(command.pose.position, "position"))) return false;
   if (!detail::is_unit<S>(command.pose.orientation))
-    return journal_.refuse({Fault::bad_argument, "", "orientation", detail::kUnitLength});
+    return faults_.refuse({Fault::bad_argument, "", "orientation", detail::kUnitLength});
   const std::uint32_t slot = command.body.slot;
   const Location at = map_.location(slot);
   const Pose<S> centre = BodyMap<S>::centre_pose({command.pose.position, normalise(command.pose.orientation)},
                                                  map_.properties_at(at).local_centre);
-  if (!journal_.accept(detail::fault_of_place(centre.position, "position"))) return false;
+  if (!faults_.accept(detail::fault_of_place(centre.position, "position"))) return false;
   const Pose<S> from = map_.origin_pose_at(slot);
   wake_.wake_touching(slot);
   if (map_.properties_at(map_.location(slot)).type != BodyType::dynamic) wake_.wake_held_by(slot);
@@ -195,7 +195,7 @@ template <class S> void CommandExecutor<S>::halt(std::uint32_t slot) {
 }
 
 template <class S> bool CommandExecutor<S>::execute(const SetVelocity<S>& command) {
-  if (!journal_.accept(
+  if (!faults_.accept(
           detail::Checklist()
               .finite(command.linear, "linear")
               .finite(command.angular, "angular")
@@ -220,7 +220,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetVelocity<S>& comman
 }
 
 template <class S> bool CommandExecutor<S>::execute(const SetMaterial<S>& command) {
-  if (!known(command.body) || !journal_.accept(detail::fault_of(command.material))) return false;
+  if (!known(command.body) || !faults_.accept(detail::fault_of(command.material))) return false;
   wake_what_rests_on(command.body);
   wake_.wake(command.body.slot);
   map_.change_properties(command.body.slot).material = command.material;
@@ -239,8 +239,8 @@ template <class S> bool CommandExecutor<S>::execute(const SetFilter& command) {
 }
 
 template <class S> bool CommandExecutor<S>::execute(const SetMotion<S>& command) {
-  if (!journal_.accept(detail::fault_of_motion(command.gravity_scale, command.linear_damping, command.angular_damping,
-                                               command.locks))) {
+  if (!faults_.accept(detail::fault_of_motion(command.gravity_scale, command.linear_damping, command.angular_damping,
+                                              command.locks))) {
     return false;
   }
   if (!may_change(command.body)) return false;
@@ -261,11 +261,11 @@ template <class S> bool CommandExecutor<S>::execute(const SetUserData& command) 
 }
 
 template <class S> bool CommandExecutor<S>::execute(const SetGravity<S>& command) {
-  if (!journal_.accept(detail::Checklist()
-                           .finite(command.gravity, "gravity")
-                           .in_range(detail::within(command.gravity, Limits<S>::speed()), "gravity",
-                                     "components up to Limits::speed()")
-                           .report())) {
+  if (!faults_.accept(detail::Checklist()
+                          .finite(command.gravity, "gravity")
+                          .in_range(detail::within(command.gravity, Limits<S>::speed()), "gravity",
+                                    "components up to Limits::speed()")
+                          .report())) {
     return false;
   }
   state_.settings.gravity = command.gravity;

@@ -12,12 +12,12 @@ namespace isostep {
 // ---- whether a body may be another
 
 template <class S> bool CommandExecutor<S>::accepts(const BodyMass<S>& mass) {
-  return journal_.accept(detail::Checklist()
-                             .finite(mass.density, "density")
-                             .finite(mass.mass, "mass")
-                             .finite(mass.inertia, "inertia")
-                             .also(detail::fault_of_signs(mass.density, mass.mass, mass.inertia))
-                             .report());
+  return faults_.accept(detail::Checklist()
+                            .finite(mass.density, "density")
+                            .finite(mass.mass, "mass")
+                            .finite(mass.inertia, "inertia")
+                            .also(detail::fault_of_signs(mass.density, mass.mass, mass.inertia))
+                            .report());
 }
 
 /// The centre is the shape's and stays: another density rounds it otherwise.
@@ -37,13 +37,13 @@ bool CommandExecutor<S>::check_tie(const Record& record, std::uint32_t slot, con
     const detail::NamedBody<S>& named = bodies.all[i];
     if (!named.body || named.body.slot != slot) continue;
     if (!detail::is_as_asked(next.type, named.must_be))
-      return journal_.refuse({Fault::bad_argument, "", "type", "one that the body's records may name"});
+      return faults_.refuse({Fault::bad_argument, "", "type", "one that the body's records may name"});
     if (detail::overreaches(next, named))
-      return journal_.refuse({Fault::out_of_range, "", "mass", "kappa arm^2 of records up to Limits::leverage()"});
+      return faults_.refuse({Fault::out_of_range, "", "mass", "kappa arm^2 of records up to Limits::leverage()"});
   }
   const FaultReport fault = detail::RecordRules<Record>::fault_at(record, place_of(record, slot, &next));
-  if (fault.fault != Fault::not_dynamic) return journal_.accept(fault);
-  return journal_.refuse({Fault::bad_argument, "", "type", "one that the body's springs may tie"});
+  if (fault.fault != Fault::not_dynamic) return faults_.accept(fault);
+  return faults_.refuse({Fault::bad_argument, "", "type", "one that the body's springs may tie"});
 }
 
 /// Whether no joint of the body would reach too far.
@@ -61,7 +61,7 @@ template <class S> bool CommandExecutor<S>::check_joints_of(std::uint32_t slot, 
   else if (map_.names(slot) != 0) {
     for (std::uint32_t i = 0; i < state_.sleeping.size(); ++i) look(state_.sleeping[i]->joints);
   }
-  return good || journal_.refuse({Fault::out_of_range, "", "mass", "kappa arm^2 of joints up to Limits::leverage()"});
+  return good || faults_.refuse({Fault::out_of_range, "", "mass", "kappa arm^2 of joints up to Limits::leverage()"});
 }
 
 /// Whether the joints and records of a body bear that it is like that from now on.
@@ -133,7 +133,7 @@ void CommandExecutor<S>::replace(std::uint32_t slot, BodyState<S> state, const B
 
 template <class S> bool CommandExecutor<S>::execute(const SetEnabled& command) {
   if (!known(command.body)) return false;
-  if (command.enabled > 1) return journal_.refuse({Fault::bad_argument, "", "enabled", "0 or 1"});
+  if (command.enabled > 1) return faults_.refuse({Fault::bad_argument, "", "enabled", "0 or 1"});
   const std::uint32_t slot = command.body.slot;
   if (map_.is_enabled(slot) == (command.enabled != 0)) return true;
   BodyProperties<S> next = map_.properties_at(map_.location(slot));
@@ -145,7 +145,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetEnabled& command) {
 
 template <class S> bool CommandExecutor<S>::execute(const SetType<S>& command) {
   if (!known(command.body)) return false;
-  if (command.type > BodyType::dynamic) return journal_.refuse({Fault::bad_argument, "", "type", "one of BodyType"});
+  if (command.type > BodyType::dynamic) return faults_.refuse({Fault::bad_argument, "", "type", "one of BodyType"});
   const std::uint32_t slot = command.body.slot;
   BodyProperties<S> next = map_.properties_at(map_.location(slot));
   BodyState<S> state = map_.state_at(map_.location(slot));
@@ -163,7 +163,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetMass<S>& command) {
   if (!known(command.body)) return false;
   const std::uint32_t slot = command.body.slot;
   BodyProperties<S> next = map_.properties_at(map_.location(slot));
-  if (next.type != BodyType::dynamic) return journal_.refuse({Fault::not_dynamic, "", "body", "a dynamic one"});
+  if (next.type != BodyType::dynamic) return faults_.refuse({Fault::not_dynamic, "", "body", "a dynamic one"});
   if (!give_mass_anew(command.mass, next) || !check_ties(slot, next)) return false;
   if (map_.is_enabled(slot)) wake_.wake_for_change(slot);
   map_.change_properties(slot) = next;
@@ -181,7 +181,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetShape<S>& command) 
   if (!give_mass(command.mass, next) || !check_ties(slot, next)) return false;
   BodyState<S> state = map_.state_at(map_.location(slot));
   const Pose<S> centre = BodyMap<S>::centre_pose(map_.origin_pose_at(slot), next.local_centre);
-  if (!journal_.accept(detail::fault_of_place(centre.position, "shape"))) return false;
+  if (!faults_.accept(detail::fault_of_place(centre.position, "shape"))) return false;
   state.centre = centre.position;
   replace(slot, state, next);
   return true;
@@ -192,7 +192,7 @@ template <class S> bool CommandExecutor<S>::execute(const SleepBody& command) {
   const std::uint32_t slot = command.body.slot;
   if (map_.location(slot).is_asleep()) return true;
   return (state_.settings.allow_sleep && sleep_.put_to_sleep(slot)) ||
-         journal_.refuse({Fault::bad_argument, "", "body", "one of an island whose bodies may sleep"});
+         faults_.refuse({Fault::bad_argument, "", "body", "one of an island whose bodies may sleep"});
 }
 
 // ---- moves of kinematic bodies
@@ -207,8 +207,8 @@ template <class S> bool CommandExecutor<S>::execute(const MoveTo<S>& command) {
   if (!known(command.body)) return false;
   const std::uint32_t slot = command.body.slot;
   const BodyProperties<S>& body = *map_.properties_of(command.body);
-  if (body.type != BodyType::kinematic) return journal_.refuse({Fault::bad_argument, "", "body", "a kinematic one"});
-  if (!journal_.accept(detail::fault_of_pose(command.pose))) return false;
+  if (body.type != BodyType::kinematic) return faults_.refuse({Fault::bad_argument, "", "body", "a kinematic one"});
+  if (!faults_.accept(detail::fault_of_pose(command.pose))) return false;
   const std::size_t place = place_of_slot(state_.moves, slot);
   const bool told = place < state_.moves.size() && state_.moves[place].slot == slot;
   const BodyState<S>& state = *map_.state_of(command.body);

@@ -12,11 +12,11 @@ namespace isostep {
 template <class S> bool CommandExecutor<S>::may_push(BodyId body) {
   if (!known(body) || !is_enabled(body)) return false;
   const bool pushable = map_.properties_at(map_.location(body.slot)).type == BodyType::dynamic;
-  return pushable || journal_.refuse({Fault::not_dynamic, "", "body", "a dynamic one"});
+  return pushable || faults_.refuse({Fault::not_dynamic, "", "body", "a dynamic one"});
 }
 
 template <class S> bool CommandExecutor<S>::execute(const ApplyForce<S>& command) {
-  if (!journal_.accept(detail::Checklist().finite(command.force, "force").finite(command.torque, "torque").report()) ||
+  if (!faults_.accept(detail::Checklist().finite(command.force, "force").finite(command.torque, "torque").report()) ||
       !may_push(command.body)) {
     return false;
   }
@@ -39,7 +39,7 @@ template <class S> bool CommandExecutor<S>::execute(const ApplyForce<S>& command
 }
 
 template <class S> bool CommandExecutor<S>::execute(const ApplyImpulse<S>& command) {
-  if (!journal_.accept(
+  if (!faults_.accept(
           detail::Checklist().finite(command.linear, "linear").finite(command.angular, "angular").report()) ||
       !may_push(command.body)) {
     return false;

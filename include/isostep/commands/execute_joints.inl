@@ -18,17 +18,17 @@ template <class S> bool CommandExecutor<S>::check_ends(const JointProperties<S>&
     if (!known(state_.body_slots, ends[end], kBodies[end])) return false;
     const BodyProperties<S>& body = map_.properties_at(map_.location(ends[end].slot));
     if (detail::overreaches(body.kappa, body.principal, arms[end]))
-      return journal_.refuse({Fault::out_of_range, "", kFrames[end], "kappa arm^2 up to Limits::leverage()"});
+      return faults_.refuse({Fault::out_of_range, "", kFrames[end], "kappa arm^2 up to Limits::leverage()"});
     moves = moves || body.type == BodyType::dynamic;
   }
-  if (!moves) return journal_.refuse({Fault::not_dynamic, "", "body_a, body_b", "a dynamic one"});
+  if (!moves) return faults_.refuse({Fault::not_dynamic, "", "body_a, body_b", "a dynamic one"});
   return joint.body_a != joint.body_b ||
-         journal_.refuse({Fault::bad_argument, "", "body_b", "another body than body_a"});
+         faults_.refuse({Fault::bad_argument, "", "body_b", "another body than body_a"});
 }
 
 template <class S> JointId CommandExecutor<S>::execute(const CreateJoint<S>& command) {
   JointProperties<S> joint = command.joint;
-  if (!journal_.accept(detail::fault_of(joint, substep_rate(state_.settings)))) return {};
+  if (!faults_.accept(detail::fault_of(joint, substep_rate(state_.settings)))) return {};
   if (!check_ends(joint)) return {};
   for (const std::uint32_t slot : {joint.body_a, joint.body_b}) {
     if (slot != kNoBody) wake_.wake(slot);
@@ -56,7 +56,7 @@ template <class S> bool CommandExecutor<S>::check_drives(JointId joint, const Jo
   for (std::uint32_t slot = 0; slot < drives.all().size(); ++slot) {
     if (!drives.is_taken(slot) || !(drives.all()[slot].joint == joint)) continue;
     if (detail::fault_of_joint(drives.all()[slot], next, rate) == Fault::none) continue;
-    return journal_.refuse({Fault::bad_argument, "", "flags", "locks and a cone that the joint's AxisDrives allow"});
+    return faults_.refuse({Fault::bad_argument, "", "flags", "locks and a cone that the joint's AxisDrives allow"});
   }
   return true;
 }
@@ -64,9 +64,9 @@ template <class S> bool CommandExecutor<S>::check_drives(JointId joint, const Jo
 template <class S> bool CommandExecutor<S>::execute(const SetJoint<S>& command) {
   if (!known(state_.joint_slots, command.joint, "joint")) return false;
   const JointProperties<S>& next = command.properties;
-  if (!journal_.accept(detail::fault_of(next, substep_rate(state_.settings)))) return false;
+  if (!faults_.accept(detail::fault_of(next, substep_rate(state_.settings)))) return false;
   if (next.type != map_.properties_of(command.joint)->type)
-    return journal_.refuse({Fault::bad_argument, "", "type", "the one that the joint was made with"});
+    return faults_.refuse({Fault::bad_argument, "", "type", "the one that the joint was made with"});
   if (!check_drives(command.joint, next)) return false;
   state_.joints.properties[wake_.wake_joint(command.joint.slot)].take_settings(next);
   return true;

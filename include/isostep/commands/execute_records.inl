@@ -9,7 +9,7 @@ namespace isostep {
 /// Refuses a record whose numbers, bodies or joints break the rules of its kind.
 template <class S> template <class Record> bool CommandExecutor<S>::check_record(const Record& record) {
   using Rules = detail::RecordRules<Record>;
-  if (!journal_.accept(Rules::fault(record))) return false;
+  if (!faults_.accept(Rules::fault(record))) return false;
   const detail::NamedBodies<S> bodies = Rules::bodies(record);
   for (int i = 0; i < bodies.count; ++i) {
     const detail::NamedBody<S>& named = bodies.all[i];
@@ -17,13 +17,13 @@ template <class S> template <class Record> bool CommandExecutor<S>::check_record
     if (!known(state_.body_slots, named.body, named.field)) return false;
     const BodyProperties<S>& body = *map_.properties_of(named.body);
     if (!detail::is_as_asked(body.type, named.must_be))
-      return journal_.refuse(named.must_be == detail::MustBe::dynamic
-                                 ? FaultReport{Fault::not_dynamic, "", named.field, "a dynamic one"}
-                                 : FaultReport{Fault::bad_argument, "", named.field, "a kinematic one"});
+      return faults_.refuse(named.must_be == detail::MustBe::dynamic
+                                ? FaultReport{Fault::not_dynamic, "", named.field, "a dynamic one"}
+                                : FaultReport{Fault::bad_argument, "", named.field, "a kinematic one"});
     if (detail::overreaches(body, named))
-      return journal_.refuse({Fault::out_of_range, "", named.point_field, "kappa arm^2 up to Limits::leverage()"});
+      return faults_.refuse({Fault::out_of_range, "", named.point_field, "kappa arm^2 up to Limits::leverage()"});
   }
-  return check_joints(record) && journal_.accept(Rules::fault_at(record, place_of(record, kNoBody, nullptr)));
+  return check_joints(record) && faults_.accept(Rules::fault_at(record, place_of(record, kNoBody, nullptr)));
 }
 /// Refuses a record that names a joint which does not exist.
 template <class S> template <class Record> bool CommandExecutor<S>::check_joints(const Record& record) {
@@ -59,15 +59,15 @@ bool CommandExecutor<S>::check_alone(const Record& record, std::uint32_t slot) {
     const detail::RecordKey key = Rules::key(record);
     const detail::OnlyOne rule = Rules::only_one(record);
     if (another([&](const Record& other) { return Rules::key(other) == key; }))
-      return journal_.refuse({Fault::bad_argument, "", rule.field, rule.expected});
+      return faults_.refuse({Fault::bad_argument, "", rule.field, rule.expected});
   }
   if constexpr (requires { Rules::kNoCarrier; }) {
     const detail::NamedBodies<S> named = Rules::bodies(record);
     const BodyId first = named.all[0].body, second = named.all[1].body;
     if (another([&](const Record& other) { return detail::second_body_of(other) == first; }))
-      return journal_.refuse({Fault::bad_argument, "", named.all[0].field, Rules::kNoCarrier[0]});
+      return faults_.refuse({Fault::bad_argument, "", named.all[0].field, Rules::kNoCarrier[0]});
     if (another([&](const Record& other) { return detail::first_body_of(other) == second; }))
-      return journal_.refuse({Fault::bad_argument, "", named.all[1].field, Rules::kNoCarrier[1]});
+      return faults_.refuse({Fault::bad_argument, "", named.all[1].field, Rules::kNoCarrier[1]});
   }
   return true;
 }
@@ -129,7 +129,7 @@ bool CommandExecutor<S>::set_input(IdType id, const Input& input) {
   const auto& registry = detail::registry_of(*state_.records, id);
   if (!known(registry.slot_map(), id, "id")) return false;
   const auto& record = *registry.find(id);
-  if (!journal_.accept(detail::RecordRules<std::remove_cvref_t<decltype(record)>>::fault(input))) return false;
+  if (!faults_.accept(detail::RecordRules<std::remove_cvref_t<decltype(record)>>::fault(input))) return false;
   wake_for_record(record);
   detail::inputs_of(state_.parts, id)[id.slot] = input;
   return true;

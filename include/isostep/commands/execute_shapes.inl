@@ -12,14 +12,14 @@ namespace isostep {
 
 template <class S> ShapeId CommandExecutor<S>::execute(const AddShape<S>& command) {
   if (command.children.size() > kMaxChildren) {
-    journal_.refuse({Fault::bad_shape, "", "children", "65536 or fewer"});
+    faults_.refuse({Fault::bad_shape, "", "children", "65536 or fewer"});
     return {};
   }
   std::vector<BlobRef> blobs(command.blobs.size());
   if (!find_blobs(command, blobs)) return {};
   const ShapeFaultPlace wrong = find_fault(std::span<const Child<S>>(command.children), blobs);
   if (wrong.fault != ShapeFault::none) {
-    journal_.refuse(detail::report_of(wrong));
+    faults_.refuse(detail::report_of(wrong));
     return {};
   }
   const ShapeId id = state_.shape_slots.template take<ShapeId>(state_.settings.id_space);
@@ -43,17 +43,17 @@ template <class S> bool CommandExecutor<S>::find_blobs(const AddShape<S>& comman
   for (std::size_t i = 0; i < blobs.size(); ++i) {
     blobs[i] = known.find(command.blobs[i], assets_);
     if (blobs[i] == nullptr)
-      return journal_.refuse({Fault::bad_shape, "", "blobs", "content, or a name that the world or its assets know"});
+      return faults_.refuse({Fault::bad_shape, "", "blobs", "content, or a name that the world or its assets know"});
   }
   if (known.names().size() + blobs.size() > kMaxBlobs)
-    return journal_.refuse({Fault::bad_shape, "", "blobs", "kMaxBlobs or fewer in a world"});
+    return faults_.refuse({Fault::bad_shape, "", "blobs", "kMaxBlobs or fewer in a world"});
   std::vector<std::uint8_t> named(blobs.size(), 0);
   for (const Child<S>& child : command.children) {
     const std::uint32_t blob = child.primitive.blob;
     if (blob != 0 && blob <= blobs.size()) named[blob - 1] = 1;
   }
   for (const std::uint8_t is_named : named) {
-    if (is_named == 0) return journal_.refuse({Fault::bad_shape, "", "blobs", "each named by a part"});
+    if (is_named == 0) return faults_.refuse({Fault::bad_shape, "", "blobs", "each named by a part"});
   }
   return true;
 }
@@ -61,7 +61,7 @@ template <class S> bool CommandExecutor<S>::find_blobs(const AddShape<S>& comman
 template <class S> bool CommandExecutor<S>::execute(const RemoveShape& command) {
   if (!known(state_.shape_slots, command.shape, "shape")) return false;
   const std::uint32_t slot = command.shape.slot;
-  if (map_.is_used(slot)) return journal_.refuse({Fault::shape_in_use, "", "shape", "no body with it"});
+  if (map_.is_used(slot)) return faults_.refuse({Fault::shape_in_use, "", "shape", "no body with it"});
   for (const Child<S>& child : map_.children_of(slot)) {
     if (child.primitive.blob == 0) continue;
     state_.geometry.change().give_back(child.primitive.blob - 1);
@@ -77,7 +77,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetHeights& command) {
   if (!known(state_.shape_slots, command.shape, "shape")) return false;
   const std::uint32_t shape = command.shape.slot;
   const Child<S>* const known_child = map_.height_field_of(shape, command.child);
-  if (known_child == nullptr) return journal_.refuse({Fault::bad_argument, "", "child", "a height field of the shape"});
+  if (known_child == nullptr) return faults_.refuse({Fault::bad_argument, "", "child", "a height field of the shape"});
   const Child<S> child = *known_child;
   const HeightPatch patch = command.patch();
   const BakedHeightField& field = shape_as<HeightField>(map_.contents().view(child.primitive)).surface();
@@ -97,13 +97,13 @@ template <class S> bool CommandExecutor<S>::execute(const SetHeights& command) {
 
 template <class S> bool CommandExecutor<S>::accept_patch(const Result<BakedHeightField>& changed) {
   if (!changed.ok() && changed.error().place == "heights")
-    return journal_.refuse({Fault::bad_argument, "", "heights", "one a place of a rectangle inside the field"});
+    return faults_.refuse({Fault::bad_argument, "", "heights", "one a place of a rectangle inside the field"});
   if (!changed.ok())
-    return journal_.refuse({Fault::bad_argument, "", "materials", "none, or one a cell, and somewhere no hole"});
+    return faults_.refuse({Fault::bad_argument, "", "materials", "none, or one a cell, and somewhere no hole"});
   const ShapeFault fault = detail::fault_of_surface<S>(changed.value());
-  if (fault != ShapeFault::none) return journal_.refuse({Fault::bad_shape, "", "heights", expected_of(fault)});
+  if (fault != ShapeFault::none) return faults_.refuse({Fault::bad_shape, "", "heights", expected_of(fault)});
   const bool fits = state_.geometry->names().size() < kMaxBlobs;
-  return fits || journal_.refuse({Fault::bad_shape, "", "heights", "fewer than kMaxBlobs in a world"});
+  return fits || faults_.refuse({Fault::bad_shape, "", "heights", "fewer than kMaxBlobs in a world"});
 }
 /// An asset stays one: what the store or the game's assets have by that name is taken from there.
 template <class S>

@@ -36,6 +36,7 @@ template <class S> struct Settings {
   /// of what nothing presses together all bounces above a sixteenth of it.
   S restitution_threshold = S(0.25);
 
+  friend bool operator==(const Settings&, const Settings&) = default;
   ISO_FIELDS(hz, substeps, gravity, allow_sleep, solver, id_space, most_pairs, projection, restitution_threshold)
 };
 

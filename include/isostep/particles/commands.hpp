@@ -2,22 +2,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/core/fault_log.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/particles/checks.hpp"
 #include "isostep/particles/particle_command.hpp"
 #include "isostep/particles/removal.hpp"
-#include "isostep/state/command_journal.hpp"
 
 namespace isostep {
 
 /// CommandJournal::run calls `execute`, which returns what the command made or whether it was accepted. What is refused
-/// changes nothing and leaves its fault in the journal.
+/// changes nothing and leaves its fault in the log.
 template <class S> class ParticleCommands {
  public:
   using Command = ParticleCommand<S>;
 
-  ISO_INLINE ParticleCommands(ParticleState<S>& state, CommandJournal& journal, ParticleRemoval<S>& removal)
-      : state_(state), journal_(journal), removal_(removal) {}
+  ISO_INLINE ParticleCommands(ParticleState<S>& state, FaultLog& faults, ParticleRemoval<S>& removal)
+      : state_(state), faults_(faults), removal_(removal) {}
 
 #define ISO_EXECUTE(name, Type, Result, S) Result execute(const Type& command);
   ISO_FOR_EACH_PARTICLE_COMMAND(ISO_EXECUTE, ISO_SKIP, S)
@@ -42,7 +42,7 @@ template <class S> class ParticleCommands {
   ParticlePush<S>& pending_push(std::uint32_t slot);
 
   ParticleState<S>& state_;
-  CommandJournal& journal_;
+  FaultLog& faults_;
   ParticleRemoval<S>& removal_;
 };
 

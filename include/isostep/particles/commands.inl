@@ -12,10 +12,10 @@ namespace isostep {
 template <class S> ParticleId ParticleCommands<S>::execute(const CreateParticle<S>& command) {
   const ParticleDefinition<S>& d = command.definition;
   const ParticleMaterialId material = d.material ? d.material : state_.first_material();
-  const bool good = journal_.accept(detail::fault_of_position(d.position)) &&
-                    journal_.accept(detail::fault_of_velocity(d.velocity)) &&
-                    journal_.accept(d.pinned ? Fault::none : detail::fault_of_particle_mass(d.mass)) &&
-                    journal_.accept(state_.materials.holds(material) ? Fault::none : Fault::stale_id);
+  const bool good = faults_.accept(detail::fault_of_position(d.position)) &&
+                    faults_.accept(detail::fault_of_velocity(d.velocity)) &&
+                    faults_.accept(d.pinned ? Fault::none : detail::fault_of_particle_mass(d.mass)) &&
+                    faults_.accept(state_.materials.holds(material) ? Fault::none : Fault::stale_id);
   if (!good) return {};
   const auto id = state_.particles.template take<ParticleId>();
   place_new(id, d, material);
@@ -38,23 +38,23 @@ void ParticleCommands<S>::place_new(ParticleId id, const ParticleDefinition<S>& 
 }
 
 template <class S> bool ParticleCommands<S>::execute(const DestroyParticle& command) {
-  if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
+  if (!holds(command.particle)) return faults_.refuse(Fault::stale_id);
   removal_.remove(command.particle);
   return true;
 }
 
 template <class S> bool ParticleCommands<S>::execute(const SetParticleMotion<S>& command) {
-  if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
-  if (!journal_.accept(detail::fault_of_position(command.position)) ||
-      !journal_.accept(detail::fault_of_velocity(command.velocity)))
+  if (!holds(command.particle)) return faults_.refuse(Fault::stale_id);
+  if (!faults_.accept(detail::fault_of_position(command.position)) ||
+      !faults_.accept(detail::fault_of_velocity(command.velocity)))
     return false;
   state_.position.set(command.particle.slot, command.position);
   state_.velocity.set(command.particle.slot, convert<V>(command.velocity));
   return true;
 }
 template <class S> bool ParticleCommands<S>::execute(const SetParticleMass<S>& command) {
-  if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
-  if (!command.pinned && !journal_.accept(detail::fault_of_particle_mass(command.mass))) return false;
+  if (!holds(command.particle)) return faults_.refuse(Fault::stale_id);
+  if (!command.pinned && !faults_.accept(detail::fault_of_particle_mass(command.mass))) return false;
   state_.inverse_mass[command.particle.slot] =
       command.pinned ? InverseMass<S>(0) : divide_to<InverseMass<S>>(S(1), command.mass);
   if (command.pinned) {
@@ -64,17 +64,17 @@ template <class S> bool ParticleCommands<S>::execute(const SetParticleMass<S>& c
   return true;
 }
 template <class S> bool ParticleCommands<S>::execute(const SetParticleMaterial& command) {
-  if (!holds(command.particle) || !state_.materials.holds(command.material)) return journal_.refuse(Fault::stale_id);
+  if (!holds(command.particle) || !state_.materials.holds(command.material)) return faults_.refuse(Fault::stale_id);
   state_.material[command.particle.slot] = command.material.slot;
   return true;
 }
 
 template <class S> bool ParticleCommands<S>::execute(const PushParticle<S>& command) {
-  if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
-  if (!is_finite(command.force)) return journal_.refuse(Fault::not_finite);
+  if (!holds(command.particle)) return faults_.refuse(Fault::stale_id);
+  if (!is_finite(command.force)) return faults_.refuse(Fault::not_finite);
   const std::uint32_t slot = command.particle.slot;
   const InverseMass<S> w = state_.inverse_mass[slot];
-  if (w == InverseMass<S>(0)) return journal_.refuse(Fault::not_dynamic);
+  if (w == InverseMass<S>(0)) return faults_.refuse(Fault::not_dynamic);
   const S most = ParticleLimits<S>::acceleration();
   const auto part = [w](S force) { return saturate_to<S>(product(force, w)); };
   ParticlePush<S>& push = pending_push(slot);
@@ -89,11 +89,11 @@ template <class S> ParticlePush<S>& ParticleCommands<S>::pending_push(std::uint3
   return find_or_insert(state_.pushes, ParticlePush<S>{slot, 0, Vec3<S>::zero()});
 }
 template <class S> bool ParticleCommands<S>::execute(const KickParticle<S>& command) {
-  if (!holds(command.particle)) return journal_.refuse(Fault::stale_id);
-  if (!is_finite(command.impulse)) return journal_.refuse(Fault::not_finite);
+  if (!holds(command.particle)) return faults_.refuse(Fault::stale_id);
+  if (!is_finite(command.impulse)) return faults_.refuse(Fault::not_finite);
   const std::uint32_t slot = command.particle.slot;
   const InverseMass<S> w = state_.inverse_mass[slot];
-  if (w == InverseMass<S>(0)) return journal_.refuse(Fault::not_dynamic);
+  if (w == InverseMass<S>(0)) return faults_.refuse(Fault::not_dynamic);
   const V speed = convert<V>(ParticleLimits<S>::speed());
   const auto part = [w](S impulse) { return saturate_to<V>(product(impulse, w)); };
   const Vec3<V> more = {part(command.impulse.x), part(command.impulse.y), part(command.impulse.z)};
@@ -103,13 +103,13 @@ template <class S> bool ParticleCommands<S>::execute(const KickParticle<S>& comm
   return true;
 }
 template <class S> bool ParticleCommands<S>::execute(const TouchParticle<S>& command) {
-  if (!journal_.accept(detail::fault_of(command.touch))) return false;
-  if (!holds(command.touch.particle)) return journal_.refuse(Fault::stale_id);
+  if (!faults_.accept(detail::fault_of(command.touch))) return false;
+  if (!holds(command.touch.particle)) return faults_.refuse(Fault::stale_id);
   state_.touches.push_back(command.touch);
   return true;
 }
 template <class S> bool ParticleCommands<S>::execute(const SetParticleGravity<S>& command) {
-  if (!journal_.accept(detail::fault_of_velocity(command.gravity))) return false;  // as far as speeds go
+  if (!faults_.accept(detail::fault_of_velocity(command.gravity))) return false;  // as far as speeds go
   state_.settings.gravity = command.gravity;
   return true;
 }
@@ -140,7 +140,7 @@ template <class S>
 template <class Record>
 typename detail::RecordId<Record>::Type ParticleCommands<S>::execute(const AddRecord<Record>& command) {
   using IdType = typename detail::RecordId<Record>::Type;
-  if (!journal_.accept(fault_of_record(command.record))) return IdType{};
+  if (!faults_.accept(fault_of_record(command.record))) return IdType{};
   const IdType id = detail::registry_of(state_, IdType{}).add(command.record);
   if constexpr (std::is_same_v<IdType, LinkId>) {
     if (state_.link_impulses.size() <= id.slot) state_.link_impulses.push_back(V(0));
@@ -152,8 +152,8 @@ template <class S>
 template <class Record, class IdType>
 bool ParticleCommands<S>::execute(const SetRecord<Record, IdType>& command) {
   auto& registry = detail::registry_of(state_, command.id);
-  if (!registry.holds(command.id)) return journal_.refuse(Fault::stale_id);
-  if (!journal_.accept(fault_of_record(command.record))) return false;
+  if (!registry.holds(command.id)) return faults_.refuse(Fault::stale_id);
+  if (!faults_.accept(fault_of_record(command.record))) return false;
   if constexpr (std::is_same_v<IdType, LinkId>) {
     const Link<S>& old = *registry.find(command.id);
     const bool same = old.type == command.record.type && old.a == command.record.a && old.b == command.record.b;
@@ -163,9 +163,9 @@ bool ParticleCommands<S>::execute(const SetRecord<Record, IdType>& command) {
   return true;
 }
 template <class S> template <class IdType> bool ParticleCommands<S>::execute(const RemoveRecord<IdType>& command) {
-  if (!detail::registry_of(state_, command.id).holds(command.id)) return journal_.refuse(Fault::stale_id);
+  if (!detail::registry_of(state_, command.id).holds(command.id)) return faults_.refuse(Fault::stale_id);
   if constexpr (std::is_same_v<IdType, ParticleMaterialId>) {
-    if (is_in_use(command.id)) return journal_.refuse(Fault::shape_in_use);
+    if (is_in_use(command.id)) return faults_.refuse(Fault::shape_in_use);
   }
   removal_.remove_record(command.id);
   return true;

@@ -26,9 +26,15 @@ template <class S> ParticleEngine<S>::ParticleEngine(const ParticleSettings<S>& 
   if (s.hz != settings.hz || s.substeps != settings.substeps || !(s.gravity == settings.gravity) ||
       s.integrator != settings.integrator || s.solver != settings.solver || s.stepping != settings.stepping ||
       s.pairs != settings.pairs) {
-    journal_.refuse_call("ParticleWorld", {Fault::out_of_range});
+    desk_.faults.refuse_call("ParticleWorld", {Fault::out_of_range});
   }
   state_.materials.add(ParticleMaterial<S>{});
+}
+
+template <class S> bool ParticleEngine<S>::fits(const ParticleSettings<S>& settings) const {
+  ParticleSettings<S> same = settings;
+  same.gravity = state_.settings.gravity;
+  return same == state_.settings;
 }
 
 template <class S> std::uint64_t ParticleEngine<S>::hash() const {
@@ -39,7 +45,7 @@ template <class S> std::uint64_t ParticleEngine<S>::hash() const {
 
 template <class S> void ParticleEngine<S>::load(const ParticleState<S>& from) {
   state_ = from;
-  journal_.note_load();
+  desk_.note_load();
   step_.forget_results();
 }
 

@@ -21,9 +21,9 @@ namespace isostep {
 template <class S> ParticleReport ParticleEngine<S>::step(const ParticleStageObserver& observer) {
   const auto after = [&](ParticleStage stage) {
     if (observer.after != nullptr) observer.after(observer.user, stage, view(static_cast<std::uint32_t>(stage)));
-    journal_.trace(*this);
+    desk_.note_hash(*this);
   };
-  journal_.trace(*this);
+  desk_.note_hash(*this);
   begin_step();
   contacts_.find();
   after(ParticleStage::find_contacts);

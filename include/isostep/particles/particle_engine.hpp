@@ -12,6 +12,7 @@
 #include "isostep/particles/step/contacts.hpp"
 #include "isostep/particles/step/finish.hpp"
 #include "isostep/state/fields.hpp"
+#include "isostep/state/world_desk.hpp"
 
 namespace isostep {
 
@@ -30,6 +31,8 @@ template <class S> class ParticleEngine {
   template <class Visit> void visit_fields(FieldGroup group, std::uint32_t stage, const Visit& visit);
 
   // engine_state.inl
+  /// May a state with these be loaded? Gravity may differ.
+  bool fits(const ParticleSettings<S>& settings) const;
   void load(const ParticleState<S>& from);
   std::uint64_t hash() const;
   void write_portable(Writer& writer) const;
@@ -37,9 +40,9 @@ template <class S> class ParticleEngine {
 
   // Each system knows only what stands above it: README.md draws who knows whom.
   ParticleState<S> state_;
-  CommandJournal journal_;
+  WorldDesk desk_;
   ParticleRemoval<S> removal_{state_};
-  ParticleCommands<S> commands_{state_, journal_, removal_};
+  ParticleCommands<S> commands_{state_, desk_.faults, removal_};
   ParticleStep<S> step_;
   FreeFlight<S> flight_{state_, step_};
   PairSearch<S> search_{state_, step_};

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "isostep/core/fault.hpp"
@@ -14,41 +13,47 @@
 #include "isostep/particles/particle_events.hpp"
 #include "isostep/particles/particle_stages.hpp"
 #include "isostep/particles/settings.hpp"
-#include "isostep/state/archive.hpp"
+#include "isostep/state/world_base.hpp"
 
 namespace isostep {
 
 template <class S> struct ParticleState;
 template <class S> class ParticleEngine;
+template <class S> class ParticleWorld;
+
+template <class S> struct WorldParts<ParticleWorld<S>> {
+  using Settings = ParticleSettings<S>;
+  using State = ParticleState<S>;
+  using Engine = ParticleEngine<S>;
+  using Command = ParticleCommand<S>;
+  static constexpr std::uint32_t kStages = kParticleStages;
+  static constexpr const char* kName = "particle world";
+};
 
 /// Counts of the moment, for reports.
 struct ParticleCounts {
   std::uint32_t particles, pinned, springs, forces, links, colliders, contacts;  // forces: cohesions too
 };
 
-/// A world of particles over any scalar, beside World<S>.
+/// A world of particles over any scalar, beside World<S>. Its base has faults, recording, save, load, hash and the
+/// portable form.
 ///
 /// Mutators act at once, between steps; a refused one returns false or a null id, changes nothing and leaves its reason
 /// in `fault()`. Observers of stages call none. Two worlds of one type that were given the same calls in the same order
 /// have equal hashes at every tick, on every machine. `load(save(w))` brings back ids, contacts and future exactly.
 ///
 /// Frames: right-handed, world axes fixed, y up by the default gravity. Units: kg, m, s.
-template <class S> class ParticleWorld final {
+template <class S> class ParticleWorld final : public WorldBase<ParticleWorld<S>> {
   ISO_REQUIRE_ENGINE(S);
+  using Base = WorldBase<ParticleWorld<S>>;
 
  public:
   using Scalar = S;
   using Command = ParticleCommand<S>;
-  using State = ParticleState<S>;
 
-  explicit ParticleWorld(const ParticleSettings<S>& settings = {});
-  ~ParticleWorld();
-  /// `other` is empty then, with its settings, and as usable as a new one. Recording and tracing end, as for World.
-  ParticleWorld(ParticleWorld&& other) noexcept;
-  ParticleWorld& operator=(ParticleWorld&& other) noexcept;
+  /// Settings out of range are brought into it, and that is a fault.
+  explicit ParticleWorld(const ParticleSettings<S>& settings = {}) : Base(settings) {}
 
-  const ParticleSettings<S>& settings() const;
-  std::uint64_t tick() const;
   /// Lanes for this world. Never changes a bit; false and no change where this processor or build lacks them.
   bool use_simd(Simd simd);
   const char* simd_name() const;
@@ -88,21 +93,6 @@ template <class S> class ParticleWorld final {
 #undef ISO_APPLY_RECORD
   /// Any of them, as recorded ones are.
   bool apply(const ParticleCommand<S>& command);
-  /// Why the last call was refused: the rule and the call; `describe` makes a sentence of it. Commands clear it.
-  const FaultReport& fault() const;
-  /// Of the first call that was refused since the world was made or told to forget: refusals come in chains.
-  const FaultReport& first_fault() const;
-  void forget_faults();
-  /// A callback for every refused call from now on; one without a function ends that.
-  void set_fault_handler(const FaultHandler& handler);
-  /// From now on every accepted command and every step is appended to `log` (null: to nothing). The caller clears it
-  /// every frame. Loading keeps it.
-  void record_to(std::vector<std::uint8_t>* log);
-  bool records_to(const std::vector<std::uint8_t>* log) const;
-  /// From now on every step appends the state's hash as it begins and after each stage (null: to nothing).
-  void trace_to(std::vector<std::uint64_t>* hashes);
-  /// How often the world was loaded or read.
-  std::uint64_t loads() const;
 
   // What particles are like. A stale id gives the zero of the type that is returned.
   bool contains(ParticleId particle) const;
@@ -118,40 +108,13 @@ template <class S> class ParticleWorld final {
   ParticleReport step(const ParticleStageObserver& observer = {});
   const ParticleEvents<S>& events() const;
 
-  // State.
-  class Snapshot {
-   public:
-    Snapshot();
-    ~Snapshot();
-    Snapshot(Snapshot&& other) noexcept;
-    Snapshot& operator=(Snapshot&& other) noexcept;
-    /// Size of what it holds for itself [bytes]; records that only commands change are shared until one of them does.
-    std::size_t bytes() const;
-
-   private:
-    friend class ParticleWorld;
-    std::unique_ptr<ParticleState<S>> state_;
-  };
-  void save(Snapshot& to) const;
-  /// A snapshot that was moved from holds nothing, and loading it does nothing; one never saved to is an empty world.
-  void load(const Snapshot& from);
-  std::uint64_t hash() const;
-  void write_portable(Writer& writer) const;
-  Result<void> read_portable(Reader& reader);
-  /// A frame's commands and steps as `record_to` wrote them.
-  /// `stepper` takes the steps in the place of `step`, if one is given.
-  Result<void> step_recorded(Bytes input, const Stepper& stepper = {});
-
-  /// The arrays behind the world, for tools that compare, describe and measure: see particle_state.hpp.
-  const ParticleState<S>& state() const;
-  /// The same field by field, by name: what an observer of stages is given, without what a stage leaves.
-  StageView state_fields() const;
-
  private:
-  std::unique_ptr<ParticleEngine<S>> engine_;
+  using Base::engine_;
 };
 
-#define ISO_EXTERN(S) extern template class ParticleWorld<S>;
+#define ISO_EXTERN(S)                                \
+  extern template class WorldBase<ParticleWorld<S>>; \
+  extern template class ParticleWorld<S>;
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN
 

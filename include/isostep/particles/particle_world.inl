@@ -9,30 +9,12 @@
 #include "isostep/particles/engine_state.inl"
 #include "isostep/particles/particle_engine.hpp"
 #include "isostep/particles/removal.inl"
-#include "isostep/state/command_log.hpp"
+#include "isostep/state/world_base.inl"
 
 namespace isostep {
 
-template <class S>
-ParticleWorld<S>::ParticleWorld(const ParticleSettings<S>& settings)
-    : engine_(std::make_unique<ParticleEngine<S>>(settings)) {}
-template <class S> ParticleWorld<S>::~ParticleWorld() = default;
-template <class S> ParticleWorld<S>::ParticleWorld(ParticleWorld&& other) noexcept : engine_(std::move(other.engine_)) {
-  engine_->journal_.detach();
-  other.engine_ = std::make_unique<ParticleEngine<S>>(engine_->state_.settings);
-}
-template <class S> auto ParticleWorld<S>::operator=(ParticleWorld&& other) noexcept -> ParticleWorld& {
-  if (this == &other) return *this;
-  engine_ = std::move(other.engine_);
-  engine_->journal_.detach();
-  other.engine_ = std::make_unique<ParticleEngine<S>>(engine_->state_.settings);
-  return *this;
-}
-
-template <class S> const ParticleSettings<S>& ParticleWorld<S>::settings() const { return engine_->state_.settings; }
-template <class S> std::uint64_t ParticleWorld<S>::tick() const { return engine_->state_.tick; }
 template <class S> bool ParticleWorld<S>::use_simd(Simd simd) {
-  const CommandJournal::Call call(engine_->journal_, "use_simd");
+  const ExclusiveCall call = engine_->desk_.enter("use_simd");
   if (!call.allowed()) return false;
   const FlightKernels<S>* kernels = flight_kernels<S>(simd);
   if (kernels == nullptr) return false;
@@ -43,17 +25,17 @@ template <class S> const char* ParticleWorld<S>::simd_name() const { return engi
 
 #define ISO_APPLY(name, Type, Result, S)                                   \
   template <class S> Result ParticleWorld<S>::apply(const Type& command) { \
-    return engine_->journal_.run(#name, engine_->commands_, command);      \
+    return engine_->desk_.run(#name, engine_->commands_, command);         \
   }
 #define ISO_RECORD(name, Record, Id, S)                                                                          \
   template <class S> Id ParticleWorld<S>::apply(const AddRecord<Record>& command) {                              \
-    return engine_->journal_.run("add_" #name, engine_->commands_, command);                                     \
+    return engine_->desk_.run("add_" #name, engine_->commands_, command);                                        \
   }                                                                                                              \
   template <class S> bool ParticleWorld<S>::apply(const SetRecord<Record, Id>& command) {                        \
-    return engine_->journal_.run("set_" #name, engine_->commands_, command);                                     \
+    return engine_->desk_.run("set_" #name, engine_->commands_, command);                                        \
   }                                                                                                              \
   template <class S> bool ParticleWorld<S>::apply(const RemoveRecord<Id>& command) {                             \
-    return engine_->journal_.run("remove_" #name, engine_->commands_, command);                                  \
+    return engine_->desk_.run("remove_" #name, engine_->commands_, command);                                     \
   }                                                                                                              \
   template <class S> Id ParticleWorld<S>::add(const Record& record) { return apply(AddRecord<Record>{record}); } \
   template <class S> bool ParticleWorld<S>::set(Id id, const Record& record) {                                   \
@@ -97,23 +79,6 @@ template <class S> bool ParticleWorld<S>::touch(const ParticleTouch<S>& touch) {
   return apply(TouchParticle<S>{touch});
 }
 
-template <class S> const FaultReport& ParticleWorld<S>::fault() const { return engine_->journal_.fault(); }
-template <class S> const FaultReport& ParticleWorld<S>::first_fault() const { return engine_->journal_.first_fault(); }
-template <class S> void ParticleWorld<S>::forget_faults() { engine_->journal_.forget_faults(); }
-template <class S> void ParticleWorld<S>::set_fault_handler(const FaultHandler& handler) {
-  engine_->journal_.set_fault_handler(handler);
-}
-template <class S> void ParticleWorld<S>::record_to(std::vector<std::uint8_t>* log) {
-  engine_->journal_.record_to(log);
-}
-template <class S> bool ParticleWorld<S>::records_to(const std::vector<std::uint8_t>* log) const {
-  return engine_->journal_.records_to(log);
-}
-template <class S> void ParticleWorld<S>::trace_to(std::vector<std::uint64_t>* hashes) {
-  engine_->journal_.trace_to(hashes);
-}
-template <class S> std::uint64_t ParticleWorld<S>::loads() const { return engine_->journal_.loads(); }
-
 template <class S> bool ParticleWorld<S>::contains(ParticleId particle) const {
   return engine_->state_.particles.holds(particle);
 }
@@ -152,48 +117,12 @@ template <class S> ParticleCounts ParticleWorld<S>::counts() const {
 }
 
 template <class S> ParticleReport ParticleWorld<S>::step(const ParticleStageObserver& observer) {
-  const CommandJournal::Call call(engine_->journal_, "step");
+  const ExclusiveCall call = engine_->desk_.enter("step");
   if (!call.allowed()) return {};
-  engine_->journal_.record_step();
+  engine_->desk_.journal.record_step();
   return engine_->step(observer);
 }
 template <class S> const ParticleEvents<S>& ParticleWorld<S>::events() const { return engine_->step_.events; }
-
-template <class S> ParticleWorld<S>::Snapshot::Snapshot() : state_(std::make_unique<ParticleState<S>>()) {
-  state_->materials.add(ParticleMaterial<S>{});
-}
-template <class S> ParticleWorld<S>::Snapshot::~Snapshot() = default;
-template <class S> ParticleWorld<S>::Snapshot::Snapshot(Snapshot&& other) noexcept = default;
-template <class S> auto ParticleWorld<S>::Snapshot::operator=(Snapshot&& other) noexcept -> Snapshot& = default;
-template <class S> std::size_t ParticleWorld<S>::Snapshot::bytes() const {
-  if (state_ == nullptr) return 0;  // moved from
-  detail::StateSize arrays;
-  ParticleState<S>::members(arrays, std::as_const(*state_));
-  return sizeof(ParticleState<S>) + arrays.value();
-}
-template <class S> void ParticleWorld<S>::save(Snapshot& to) const {
-  if (to.state_ == nullptr) to.state_ = std::make_unique<ParticleState<S>>();  // moved from: as good as new
-  *to.state_ = engine_->state_;
-}
-template <class S> void ParticleWorld<S>::load(const Snapshot& from) {
-  const CommandJournal::Call call(engine_->journal_, "load");
-  if (call.allowed() && from.state_ != nullptr) engine_->load(*from.state_);
-}
-template <class S> std::uint64_t ParticleWorld<S>::hash() const { return engine_->hash(); }
-template <class S> void ParticleWorld<S>::write_portable(Writer& writer) const { engine_->write_portable(writer); }
-template <class S> Result<void> ParticleWorld<S>::read_portable(Reader& reader) {
-  const CommandJournal::Call call(engine_->journal_, "read_portable");
-  if (!call.allowed()) {
-    reader.fail(ErrorCode::invalid, "read while the world steps");
-    return reader.result("particle world");
-  }
-  return engine_->read_portable(reader);
-}
-template <class S> Result<void> ParticleWorld<S>::step_recorded(Bytes input, const Stepper& stepper) {
-  return engine_->journal_.template play<ParticleCommand<S>>(*this, input, stepper);
-}
-template <class S> const ParticleState<S>& ParticleWorld<S>::state() const { return engine_->state_; }
-template <class S> StageView ParticleWorld<S>::state_fields() const { return engine_->view(kParticleStages); }
 
 }  // namespace isostep
 
@@ -209,4 +138,5 @@ template <class S> StageView ParticleWorld<S>::state_fields() const { return eng
   template class ParticleRemoval<S>;                                                                  \
   ISO_FOR_EACH_PARTICLE_COMMAND(ISO_INSTANTIATE_PARTICLE_EXECUTE, ISO_INSTANTIATE_PARTICLE_RECORD, S) \
   template std::uint64_t ParticleEngine<S>::hash() const;                                             \
+  template class WorldBase<ParticleWorld<S>>;                                                         \
   template class ParticleWorld<S>;

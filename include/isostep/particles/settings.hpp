@@ -52,6 +52,7 @@ template <class S> struct ParticleSettings {
   std::uint32_t pairs = 0;  // that a step's search may find, up to kMostParticlePairs; 0: 64 a particle, at least 2^21
   std::uint32_t looks = 0;  // at constraints, of worst_first a step; 0: 2^22 and 2048 a particle
 
+  friend bool operator==(const ParticleSettings&, const ParticleSettings&) = default;
   ISO_FIELDS(hz, substeps, gravity, integrator, solver, stepping, iterations, pairs, looks)
 };
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/fault_log.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/core/task_runner.hpp"
-#include "isostep/state/command_journal.hpp"
 #include "isostep/store/body_map.hpp"
 #include "isostep/store/proxies.hpp"
 #include "isostep/store/query_types.hpp"
@@ -18,14 +18,13 @@
 namespace isostep {
 
 /// Input:   the state, the body map and the broad phase, as the last step or command left them.
-/// Output:  what World's calls of the same names return; the journal holds the fault of a question that is refused.
+/// Output:  what World's calls of the same names return; the log holds the fault of a question that is refused.
 /// Keeps:   nothing: any number of threads may query at once, as long as no question is refused.
 /// Files:   queries.inl, points and joints; query_casts.inl, rays and casts; query_overlaps.inl; query_batches.inl.
 template <class S> class Queries {
  public:
-  ISO_INLINE Queries(const WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies,
-                     CommandJournal& journal)
-      : state_(state), map_(map), proxies_(proxies), journal_(journal) {}
+  ISO_INLINE Queries(const WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies, FaultLog& faults)
+      : state_(state), map_(map), proxies_(proxies), faults_(faults) {}
 
   std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, const QueryFilter& filter) const;
   void cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out,
@@ -98,7 +97,7 @@ template <class S> class Queries {
   const WorldState<S>& state_;
   const BodyMap<S>& map_;
   const Proxies<S>& proxies_;
-  CommandJournal& journal_;
+  FaultLog& faults_;
 };
 
 #define ISO_EXTERN(S) extern template class Queries<S>;

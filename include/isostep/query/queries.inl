@@ -35,11 +35,11 @@ template <class S>
 std::optional<ClosestBody<S>> Queries<S>::closest_point(Vec3<S> point, S max_distance,
                                                         const QueryFilter& filter) const {
   const S edge = Limits<S>::position();
-  if (!journal_.accept_call("closest_point", detail::Checklist()
-                                                 .also(detail::fault_of_place(point, "point"))
-                                                 .finite(max_distance, "max_distance")
-                                                 .proper(S(0) <= max_distance, "max_distance", "0 or more")
-                                                 .report()))
+  if (!faults_.accept_call("closest_point", detail::Checklist()
+                                                .also(detail::fault_of_place(point, "point"))
+                                                .finite(max_distance, "max_distance")
+                                                .proper(S(0) <= max_distance, "max_distance", "0 or more")
+                                                .report()))
     return {};
   std::optional<ClosestBody<S>> best;
   const S reach = min(max_distance, edge);
@@ -61,7 +61,7 @@ std::optional<ClosestBody<S>> Queries<S>::closest_point(Vec3<S> point, S max_dis
 
 template <class S> bool Queries<S>::accept_box(const Aabb<S>& box) const {
   const S edge = Limits<S>::position() + Limits<S>::position();
-  return journal_.accept_call(
+  return faults_.accept_call(
       "overlap_aabb",
       detail::Checklist()
           .finite(box.low, "box.low")

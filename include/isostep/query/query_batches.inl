@@ -49,7 +49,7 @@ template <class Work>
 bool Queries<S>::run_batch(const char* name, const Work& work, const TaskRunner& runner) const {
   if (work.size() == 0) return true;
   const bool fits = work.hits.size() >= work.size();
-  if (!fits) return journal_.refuse_call(name, {Fault::bad_argument, "", "hits", "room for one hit or more a query"});
+  if (!fits) return faults_.refuse_call(name, {Fault::bad_argument, "", "hits", "room for one hit or more a query"});
   const bool shared = runner.threads > 1 && work.size() >= detail::kLeastSharedQueries;
   Batch<Work> batch = {work, shared ? min(4 * static_cast<std::uint32_t>(runner.threads), kMaxPieces) : 1u};
   const auto pieces = static_cast<std::uint32_t>(batch.pieces);
@@ -57,7 +57,7 @@ bool Queries<S>::run_batch(const char* name, const Work& work, const TaskRunner&
   else Batch<Work>::run_piece(&batch, 0, 0);
   for (std::size_t i = 0; i < work.size(); ++i) {
     const FaultReport fault = work.fault(i);
-    if (fault != Fault::none) return journal_.refuse_call(name, fault);
+    if (fault != Fault::none) return faults_.refuse_call(name, fault);
   }
   return true;
 }

@@ -71,7 +71,7 @@ template <class S>
 std::optional<RayCastHit<S>> Queries<S>::cast_ray(Vec3<S> origin, Vec3<S> translation,
                                                   const QueryFilter& filter) const {
   RayCastHit<S> hit;
-  if (!journal_.accept_call("cast_ray", fault_of_ray(origin, translation))) return {};
+  if (!faults_.accept_call("cast_ray", fault_of_ray(origin, translation))) return {};
   detail::NearestHits<S, S> list({&hit, 1});
   gather(detail::RayProbe<S>(origin, translation, filter), filter, list);
   return list.count() == 0 ? std::optional<RayCastHit<S>>{} : hit;
@@ -79,7 +79,7 @@ std::optional<RayCastHit<S>> Queries<S>::cast_ray(Vec3<S> origin, Vec3<S> transl
 template <class S>
 void Queries<S>::cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out,
                               const QueryFilter& filter) const {
-  if (!journal_.accept_call("cast_ray_all", fault_of_ray(origin, translation))) return;
+  if (!faults_.accept_call("cast_ray_all", fault_of_ray(origin, translation))) return;
   detail::EveryHit<S, S> list(out);
   gather(detail::RayProbe<S>(origin, translation, filter), filter, list);
   list.sort();
@@ -87,7 +87,7 @@ void Queries<S>::cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<R
 template <class S>
 std::size_t Queries<S>::cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::span<RayCastHit<S>> out,
                                      const QueryFilter& filter) const {
-  if (!journal_.accept_call("cast_ray_all", fault_of_ray(origin, translation))) return 0;
+  if (!faults_.accept_call("cast_ray_all", fault_of_ray(origin, translation))) return 0;
   detail::NearestHits<S, S> list(out);
   gather(detail::RayProbe<S>(origin, translation, filter), filter, list);
   return list.count();
@@ -129,20 +129,20 @@ template <class S> template <class List> void Queries<S>::gather_cast(const Shap
 }
 template <class S> std::optional<ShapeCastHit<S>> Queries<S>::cast_shape(const ShapeCast<S>& cast) const {
   ShapeCastHit<S> hit;
-  if (!journal_.accept_call("cast_shape", fault_of_cast(cast))) return {};
+  if (!faults_.accept_call("cast_shape", fault_of_cast(cast))) return {};
   detail::NearestHits<S, Unit<S>> list({&hit, 1});
   gather_cast(cast, list);
   return list.count() == 0 ? std::optional<ShapeCastHit<S>>{} : hit;
 }
 template <class S> void Queries<S>::cast_shape_all(const ShapeCast<S>& cast, std::vector<ShapeCastHit<S>>& out) const {
-  if (!journal_.accept_call("cast_shape_all", fault_of_cast(cast))) return;
+  if (!faults_.accept_call("cast_shape_all", fault_of_cast(cast))) return;
   detail::EveryHit<S, Unit<S>> list(out);
   gather_cast(cast, list);
   list.sort();
 }
 template <class S>
 std::size_t Queries<S>::cast_shape_all(const ShapeCast<S>& cast, std::span<ShapeCastHit<S>> out) const {
-  if (!journal_.accept_call("cast_shape_all", fault_of_cast(cast))) return 0;
+  if (!faults_.accept_call("cast_shape_all", fault_of_cast(cast))) return 0;
   detail::NearestHits<S, Unit<S>> list(out);
   gather_cast(cast, list);
   return list.count();

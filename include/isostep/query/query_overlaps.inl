@@ -137,7 +137,7 @@ struct ByPartOfOverlap {
 template <class S>
 void Queries<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
                                const QueryFilter& filter) const {
-  if (!journal_.accept_call("overlap_shape", fault_of_shape(shape, pose))) return;
+  if (!faults_.accept_call("overlap_shape", fault_of_shape(shape, pose))) return;
   const Asked asked = asked_of(shape, pose);
   const std::size_t first = out.size();
   QueryFilter any = filter;
@@ -158,7 +158,7 @@ void Queries<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, 
 template <class S>
 void Queries<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<OverlapHit>& out,
                                const QueryFilter& filter) const {
-  if (!journal_.accept_call("overlap_shape", fault_of_shape(shape, pose))) return;
+  if (!faults_.accept_call("overlap_shape", fault_of_shape(shape, pose))) return;
   const Asked asked = asked_of(shape, pose);
   const std::size_t first = out.size();
   proxies_.boxes().query(bounds(asked.view(), Transform<S>::of(asked.pose)), [&](std::uint32_t slot) {
@@ -178,7 +178,7 @@ void Queries<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, 
 template <class S>
 std::optional<OverlapHit> Queries<S>::overlap_first(const QueryShape<S>& shape, const Pose<S>& pose,
                                                     const QueryFilter& filter) const {
-  if (!journal_.accept_call("overlap_first", fault_of_shape(shape, pose))) return {};
+  if (!faults_.accept_call("overlap_first", fault_of_shape(shape, pose))) return {};
   const Asked asked = asked_of(shape, pose);
   std::optional<OverlapHit> first;
   QueryFilter of_bodies = filter;

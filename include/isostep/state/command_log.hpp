@@ -94,8 +94,8 @@ template <class Variant, class Visit> ISO_INLINE void read_command(Reader& reade
 
 /// Steps a world in the place of its own `step`, for those who watch stages while a command log is played.
 struct Stepper {
-  void (*step)(void* user) = nullptr;
-  void* user = nullptr;
+  void (*step)(void* user);
+  void* user;
 };
 
 /// A frame's command log from front to back: `apply(command)`, called with each as the type that it is, says whether it

@@ -6,15 +6,6 @@
 
 namespace isostep {
 
-namespace detail {
-/// What a world was made with: gravity alone is changed by commands.
-template <class S> bool same_making(const Settings<S>& a, const Settings<S>& b) {
-  return a.hz == b.hz && a.substeps == b.substeps && a.allow_sleep == b.allow_sleep && a.solver == b.solver &&
-         a.id_space == b.id_space && a.most_pairs == b.most_pairs && a.projection == b.projection &&
-         a.restitution_threshold == b.restitution_threshold;
-}
-}  // namespace detail
-
 template <class S> void StateLoader<S>::find_differences(const WorldState<S>& from) {
   other_islands_.clear();
   state_.sleeping.each_difference(from.sleeping,

@@ -8,8 +8,8 @@
 #include "isostep/commands/destruction.hpp"
 #include "isostep/dynamics/carriers.hpp"
 #include "isostep/query/queries.hpp"
-#include "isostep/state/command_journal.hpp"
 #include "isostep/state/fields.hpp"
+#include "isostep/state/world_desk.hpp"
 #include "isostep/store/body_map.hpp"
 #include "isostep/store/proxies.hpp"
 #include "isostep/store/stages.hpp"
@@ -63,8 +63,8 @@ namespace isostep {
 ///   Destruction     -> BodyMap, Proxies, IslandWake
 ///   MoveTargets     -> BodyMap
 ///   SensorMounts    -> BodyMap, Proxies
-///   CommandExecutor -> BodyMap, Proxies, IslandWake, IslandSleep, Destruction, RenderPoses; the journal, the assets
-///   Queries         -> BodyMap, Proxies; the journal
+///   CommandExecutor -> BodyMap, Proxies, IslandWake, IslandSleep, Destruction, RenderPoses; faults, the journal, the assets
+///   Queries         -> BodyMap, Proxies; faults
 ///   Characters      -> BodyMap, Proxies, IslandWake, Queries, CommandExecutor
 ///   StateLoader     -> BodyMap, Proxies
 ///
@@ -85,6 +85,8 @@ template <class S> class WorldEngine {
   template <class Visit> void visit_fields(FieldGroup group, std::uint32_t stage, const Visit& visit);
 
   // engine_state.inl
+  /// May a state with these be loaded? Gravity may differ.
+  bool fits(const Settings<S>& settings) const;
   void load(const WorldState<S>& from);
   std::uint64_t hash() const;
   void write_portable(Writer& writer) const;
@@ -93,7 +95,7 @@ template <class S> class WorldEngine {
   WorldState<S> state_;
   Events<S> events_;
   StepReport report_;
-  CommandJournal journal_;
+  WorldDesk desk_;
   StepTools<S> tools_ = {};
   AssetSource assets_;
 
@@ -119,8 +121,9 @@ template <class S> class WorldEngine {
   RenderPoses<S> render_poses_{state_};
   Destruction<S> destruction_{state_, map_, proxies_, wake_};
   JointLoads<S> joint_loads_{state_, map_, destruction_};
-  CommandExecutor<S> commands_{state_, map_, proxies_, wake_, sleep_, destruction_, render_poses_, assets_, journal_};
-  Queries<S> queries_{state_, map_, proxies_, journal_};
+  CommandExecutor<S> commands_{state_,       map_,          proxies_, wake_,        sleep_,
+                               destruction_, render_poses_, assets_,  desk_.faults, desk_.journal};
+  Queries<S> queries_{state_, map_, proxies_, desk_.faults};
   Characters<S> characters_{state_, map_, proxies_, wake_, queries_, commands_};
   StateLoader<S> loader_{state_, map_, proxies_};
 

@@ -45,7 +45,13 @@ template <class S> WorldEngine<S>::WorldEngine(const Settings<S>& settings) {
           .in_range(s.restitution_threshold == settings.restitution_threshold, "restitution_threshold",
                     "0 to Limits::speed()")
           .report();
-  journal_.accept_call("World", report);
+  desk_.faults.accept_call("World", report);
+}
+
+template <class S> bool WorldEngine<S>::fits(const Settings<S>& settings) const {
+  Settings<S> same = settings;
+  same.gravity = state_.settings.gravity;
+  return same == state_.settings;
 }
 
 template <class S> std::uint64_t WorldEngine<S>::hash() const {
@@ -56,7 +62,7 @@ template <class S> std::uint64_t WorldEngine<S>::hash() const {
 
 template <class S> void WorldEngine<S>::load(const WorldState<S>& from) {
   loader_.load(from);
-  journal_.note_load();
+  desk_.note_load();
   events_.clear();
   report_ = {};
   render_poses_.forget();

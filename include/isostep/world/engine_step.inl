@@ -20,9 +20,9 @@ template <class S> BeltPlace<S> place_of_belt(const BodyMap<S>& map, const Surfa
 template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer) {
   const auto after = [&](Stage stage) {
     if (observer.after != nullptr) observer.after(observer.user, stage, view(static_cast<std::uint32_t>(stage)));
-    journal_.trace(*this);
+    desk_.note_hash(*this);
   };
-  journal_.trace(*this);
+  desk_.note_hash(*this);
   report_ = {};
   targets_.begin_step();
   mounts_.begin_step();
@@ -34,7 +34,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   after(Stage::apply_forces);
   find_contacts();
   after(Stage::update_manifolds);
-  const bool watched = observer.after != nullptr || journal_.is_tracing();
+  const bool watched = observer.after != nullptr || desk_.trace != nullptr;
   solver_.with_solver([&](auto& solver) { solve(solver, after, watched); });
   solver_.report_forces(report_);
   targets_.arrive();

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,7 +17,7 @@
 #include "isostep/dynamics/body.hpp"
 #include "isostep/dynamics/settings.hpp"
 #include "isostep/geometry/shape.hpp"
-#include "isostep/state/archive.hpp"
+#include "isostep/state/world_base.hpp"
 #include "isostep/store/definitions.hpp"
 #include "isostep/store/events.hpp"
 #include "isostep/store/query_types.hpp"
@@ -30,8 +29,18 @@ namespace isostep {
 
 template <class S> struct WorldState;
 template <class S> class WorldEngine;
+template <class S> class World;
 
-/// A rigid-body world over any scalar.
+template <class S> struct WorldParts<World<S>> {
+  using Settings = isostep::Settings<S>;
+  using State = WorldState<S>;
+  using Engine = WorldEngine<S>;
+  using Command = isostep::Command<S>;
+  static constexpr std::uint32_t kStages = isostep::kStages;
+  static constexpr const char* kName = "world";
+};
+
+/// A rigid-body world over any scalar. Its base has faults, recording, save, load, hash and the portable form.
 ///
 /// Mutators act at once, between steps; a refused one returns false or a null id, changes nothing and leaves its reason
 /// in `fault()`. Observers of stages call none. One thread at a time calls mutators and `step`; between them any number
@@ -41,23 +50,17 @@ template <class S> class WorldEngine;
 /// A game is no World but has one, beside what it remembers itself: see Composite (state/composite.hpp).
 ///
 /// Frames: right-handed, world axes fixed, y up by the default gravity. Units: kg, m, s, rad.
-template <class S> class World final {
+template <class S> class World final : public WorldBase<World<S>> {
   ISO_REQUIRE_ENGINE(S);
+  using Base = WorldBase<World<S>>;
 
  public:
   using Scalar = S;
   using Command = isostep::Command<S>;
 
   /// Settings out of range are brought into it, and that is a fault.
-  explicit World(const Settings<S>& settings = {});
-  ~World();
-  /// `other` is empty then, with its settings, and as usable as a new one. Recording and tracing end, for who does that
-  /// refers to `other`.
-  World(World&& other) noexcept;
-  World& operator=(World&& other) noexcept;
+  explicit World(const Settings<S>& settings = {}) : Base(settings) {}
 
-  const Settings<S>& settings() const;
-  std::uint64_t tick() const;
   /// Lanes for this world's solver. Never changes a bit; false and no change where this processor or build lacks them.
   bool use_simd(Simd simd);
   const char* simd_name() const;
@@ -184,6 +187,7 @@ template <class S> class World final {
   const Input* input(Id id) const;
   ISO_FOR_EACH_INPUT(ISO_INPUT, S)
 #undef ISO_INPUT
+  using Base::state;
   /// How the last step left a record. Null: a stale id.
 #define ISO_STATE(name, State, Id, S) const State* state(Id id) const;
   ISO_FOR_EACH_RECORD_STATE(ISO_STATE, S)
@@ -195,28 +199,6 @@ template <class S> class World final {
 #undef ISO_APPLY
   /// Any of them, as recorded ones are.
   bool apply(const Command& command);
-  /// Why the last call was refused: the rule, the call, the field, and what was expected; `describe` makes a sentence
-  /// of it. Commands clear it; queries that are accepted and steps leave it.
-  const FaultReport& fault() const;
-  /// Of the first call that was refused since the world was made or told to forget: refusals come in chains, for what
-  /// was refused has no id.
-  const FaultReport& first_fault() const;
-  void forget_faults();
-  /// A refusal by what makes things by several calls, as add_ragdoll does: kept and told as one of the world's own.
-  /// Returns false.
-  bool refuse(const char* call, const FaultReport& report);
-  /// A callback for every refused call from now on; one without a function ends that.
-  void set_fault_handler(const FaultHandler& handler);
-  /// From now on every accepted command and every step is appended to `log` (null: to nothing). The caller clears it
-  /// every frame. Loading keeps it.
-  void record_to(std::vector<std::uint8_t>* log);
-  bool records_to(const std::vector<std::uint8_t>* log) const;
-  /// From now on every step appends the state's hash as it begins and after each stage, kTraceHashes in all (null: to
-  /// nothing). What desyncs are narrowed down with; costs a hash a stage.
-  void trace_to(std::vector<std::uint64_t>* hashes);
-  /// How often the world was loaded or read. Commands alone do not lead across that: a WorldRecorder ends there, and a
-  /// session's recording or bundle (frame_history.hpp) cannot play a frame that has one inside.
-  std::uint64_t loads() const;
 
   // What bodies are like. A stale id gives the zero of the type that is returned.
   bool contains(BodyId body) const;
@@ -287,42 +269,13 @@ template <class S> class World final {
   /// Poses of all moving bodies between the last step and the one before it, alpha in 0..1.
   const std::vector<RenderPose>& poses_float(float alpha);
 
-  // State.
-  class Snapshot {
-   public:
-    Snapshot();
-    ~Snapshot();
-    Snapshot(Snapshot&& other) noexcept;
-    Snapshot& operator=(Snapshot&& other) noexcept;
-    /// Size of what it holds for itself [bytes]. Not counted: sleeping islands, static bodies, shapes and tables of
-    /// slots, which it shares with the world and other snapshots until they change.
-    std::size_t bytes() const;
-
-   private:
-    friend class World;
-    std::unique_ptr<WorldState<S>> state_;
-  };
-  void save(Snapshot& to) const;
-  /// False, no change and a fault where `from` was never saved to, was moved from, or is of a world that was made with
-  /// other settings; gravity may differ. The portable form brings its settings along.
-  bool load(const Snapshot& from);
-  std::uint64_t hash() const;
-  void write_portable(Writer& writer) const;
-  Result<void> read_portable(Reader& reader);
-  /// A frame's commands and steps as `record_to` wrote them. More than kFrameStepCap steps are an error.
-  /// `stepper` takes the steps in the place of `step`, if one is given.
-  Result<void> step_recorded(Bytes input, const Stepper& stepper = {});
-
-  /// The arrays behind the world, for tools that compare, describe and measure: see store/state.hpp.
-  const WorldState<S>& state() const;
-  /// The same field by field, by name: what an observer of stages is given, without what a stage leaves.
-  StageView state_fields() const;
-
  private:
-  std::unique_ptr<WorldEngine<S>> engine_;
+  using Base::engine_;
 };
 
-#define ISO_EXTERN(S) extern template class World<S>;
+#define ISO_EXTERN(S)                        \
+  extern template class WorldBase<World<S>>; \
+  extern template class World<S>;
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN
 

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "isostep/scalar/environment.hpp"
-#include "isostep/state/command_log.hpp"
+#include "isostep/state/world_base.inl"
 #include "isostep/store/state_loader.inl"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/engine_state.inl"
@@ -15,29 +15,13 @@
 
 namespace isostep {
 
-template <class S> World<S>::World(const Settings<S>& settings) : engine_(std::make_unique<WorldEngine<S>>(settings)) {}
-template <class S> World<S>::~World() = default;
-template <class S> World<S>::World(World&& other) noexcept : engine_(std::move(other.engine_)) {
-  engine_->journal_.detach();
-  other.engine_ = std::make_unique<WorldEngine<S>>(engine_->state_.settings);
-}
-template <class S> World<S>& World<S>::operator=(World&& other) noexcept {
-  if (this == &other) return *this;
-  engine_ = std::move(other.engine_);
-  engine_->journal_.detach();
-  other.engine_ = std::make_unique<WorldEngine<S>>(engine_->state_.settings);
-  return *this;
-}
-
-template <class S> const Settings<S>& World<S>::settings() const { return engine_->state_.settings; }
-template <class S> std::uint64_t World<S>::tick() const { return engine_->state_.tick; }
 template <class S> bool World<S>::use_simd(Simd simd) {
-  const CommandJournal::Call call(engine_->journal_, "use_simd");
+  const ExclusiveCall call = engine_->desk_.enter("use_simd");
   if (!call.allowed()) return false;
   return engine_->tools_.use_simd(simd);
 }
 template <class S> bool World<S>::use_broad_phase(BroadPhaseName name) {
-  const CommandJournal::Call call(engine_->journal_, "use_broad_phase");
+  const ExclusiveCall call = engine_->desk_.enter("use_broad_phase");
   if (!call.allowed() || static_cast<std::uint32_t>(name) >= kBroadPhases) return false;
   if (name != broad_phase()) engine_->proxies_.use(name);
   return true;
@@ -45,19 +29,19 @@ template <class S> bool World<S>::use_broad_phase(BroadPhaseName name) {
 template <class S> BroadPhaseName World<S>::broad_phase() const { return engine_->proxies_.boxes().name(); }
 template <class S> const char* World<S>::simd_name() const { return engine_->tools_.contact_kernels->name; }
 template <class S> void World<S>::use_threads(const TaskRunner& runner) {
-  const CommandJournal::Call call(engine_->journal_, "use_threads");
+  const ExclusiveCall call = engine_->desk_.enter("use_threads");
   if (!call.allowed()) return;
   engine_->tools_.runner = runner;
   engine_->tools_.runner.threads = clamp(runner.threads, std::int32_t{1}, static_cast<std::int32_t>(kMaxPieces));
 }
 template <class S> void World<S>::use_assets(const AssetSource& assets) {
-  const CommandJournal::Call call(engine_->journal_, "use_assets");
+  const ExclusiveCall call = engine_->desk_.enter("use_assets");
   if (call.allowed()) engine_->assets_ = assets;
 }
 
-#define ISO_APPLY(name, Type, Result, S)                              \
-  template <class S> Result World<S>::apply(const Type& command) {    \
-    return engine_->journal_.run(#name, engine_->commands_, command); \
+#define ISO_APPLY(name, Type, Result, S)                           \
+  template <class S> Result World<S>::apply(const Type& command) { \
+    return engine_->desk_.run(#name, engine_->commands_, command); \
   }
 ISO_FOR_EACH_COMMAND(ISO_APPLY, S)
 #undef ISO_APPLY
@@ -92,7 +76,7 @@ template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> childre
   AddShape<S> command = {{children.begin(), children.end()}};
   for (const BlobRef& blob : blobs) {
     if (blob == nullptr) {
-      engine_->journal_.refuse_call("add_shape", {Fault::bad_shape, "", "blobs", "none that is null"});
+      engine_->desk_.faults.refuse_call("add_shape", {Fault::bad_shape, "", "blobs", "none that is null"});
       return {};
     }
     const bool known = engine_->state_.geometry->find(blob->id()) != GeometryStore::kNone;
@@ -150,9 +134,9 @@ template <class S> BodyId World<S>::create(const BodyDefinition<S>& definition) 
 }
 template <class S> bool World<S>::destroy(BodyId body) { return apply(DestroyBody{body}); }
 template <class S> std::size_t World<S>::destroy(std::span<const BodyId> bodies) {
-  const CommandJournal::Call call(engine_->journal_, "destroy");
+  const ExclusiveCall call = engine_->desk_.enter("destroy");
   if (!call.allowed()) return 0;
-  engine_->journal_.clear_fault();
+  engine_->desk_.faults.clear();
   return engine_->commands_.destroy_all(bodies);
 }
 template <class S> bool World<S>::wake(BodyId body) { return apply(WakeBody{body}); }
@@ -198,7 +182,7 @@ template <class S> bool World<S>::apply_force(BodyId body, Vec3<S> force, Vec3<S
 }
 template <class S> bool World<S>::apply_force_at(BodyId body, Vec3<S> force, Vec3<S> point) {
   const FloatEnvironment environment;
-  if (!engine_->journal_.accept_call("apply_force_at", detail::fault_of_place(point, "point"))) return false;
+  if (!engine_->desk_.faults.accept_call("apply_force_at", detail::fault_of_place(point, "point"))) return false;
   return apply_force(body, force, detail::saturated_cross(point - center_of_mass(body), force));
 }
 template <class S> bool World<S>::apply_impulse(BodyId body, Vec3<S> impulse, Vec3<S> angular_impulse) {
@@ -206,24 +190,8 @@ template <class S> bool World<S>::apply_impulse(BodyId body, Vec3<S> impulse, Ve
 }
 template <class S> bool World<S>::apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point) {
   const FloatEnvironment environment;
-  if (!engine_->journal_.accept_call("apply_impulse_at", detail::fault_of_place(point, "point"))) return false;
+  if (!engine_->desk_.faults.accept_call("apply_impulse_at", detail::fault_of_place(point, "point"))) return false;
   return apply_impulse(body, impulse, detail::saturated_cross(point - center_of_mass(body), impulse));
-}
-
-template <class S> const FaultReport& World<S>::fault() const { return engine_->journal_.fault(); }
-template <class S> const FaultReport& World<S>::first_fault() const { return engine_->journal_.first_fault(); }
-template <class S> void World<S>::set_fault_handler(const FaultHandler& handler) {
-  engine_->journal_.set_fault_handler(handler);
-}
-template <class S> void World<S>::forget_faults() { engine_->journal_.forget_faults(); }
-template <class S> bool World<S>::refuse(const char* call, const FaultReport& report) {
-  return engine_->journal_.refuse_call(call, report);
-}
-template <class S> void World<S>::record_to(std::vector<std::uint8_t>* log) { engine_->journal_.record_to(log); }
-template <class S> void World<S>::trace_to(std::vector<std::uint64_t>* hashes) { engine_->journal_.trace_to(hashes); }
-template <class S> std::uint64_t World<S>::loads() const { return engine_->journal_.loads(); }
-template <class S> bool World<S>::records_to(const std::vector<std::uint8_t>* log) const {
-  return engine_->journal_.records_to(log);
 }
 
 template <class S> bool World<S>::contains(BodyId body) const { return engine_->state_.body_slots.holds(body); }
@@ -320,9 +288,9 @@ template <class S> BodyView<S> World<S>::view(BodyId body) const {
 }
 
 template <class S> StepReport World<S>::step(const StageObserver& observer) {
-  const CommandJournal::Call call(engine_->journal_, "step");
+  const ExclusiveCall call = engine_->desk_.enter("step");
   if (!call.allowed()) return {};
-  engine_->journal_.record_step();
+  engine_->desk_.journal.record_step();
   return engine_->step(observer);
 }
 template <class S> void World<S>::contacts_of(BodyId body, std::vector<ContactPoint<S>>& out) const {
@@ -336,51 +304,11 @@ template <class S> const std::vector<RenderPose>& World<S>::poses_float(float al
   return engine_->render_poses_.fill(alpha);
 }
 
-template <class S> World<S>::Snapshot::Snapshot() = default;
-template <class S> World<S>::Snapshot::~Snapshot() = default;
-template <class S> World<S>::Snapshot::Snapshot(Snapshot&& other) noexcept = default;
-template <class S> auto World<S>::Snapshot::operator=(Snapshot&& other) noexcept -> Snapshot& = default;
-template <class S> std::size_t World<S>::Snapshot::bytes() const {
-  if (state_ == nullptr) return 0;  // never saved to, or moved from
-  detail::StateSize arrays;
-  WorldState<S>::members(arrays, std::as_const(*state_));
-  return sizeof(WorldState<S>) + arrays.value();
-}
-template <class S> void World<S>::save(Snapshot& to) const {
-  if (to.state_ == nullptr) to.state_ = std::make_unique<WorldState<S>>();
-  *to.state_ = engine_->state_;
-}
-template <class S> bool World<S>::load(const Snapshot& from) {
-  const CommandJournal::Call call(engine_->journal_, "load");
-  if (!call.allowed()) return false;
-  const char* expected = from.state_ == nullptr ? "one that was saved to" : "one of a world with the same settings";
-  const bool fits = from.state_ != nullptr && detail::same_making(from.state_->settings, engine_->state_.settings);
-  if (!fits) return engine_->journal_.refuse_call("load", {Fault::bad_snapshot, "", "from", expected});
-  engine_->load(*from.state_);
-  return true;
-}
-template <class S> std::uint64_t World<S>::hash() const { return engine_->hash(); }
-template <class S> void World<S>::write_portable(Writer& writer) const { engine_->write_portable(writer); }
-template <class S> Result<void> World<S>::read_portable(Reader& reader) {
-  const CommandJournal::Call call(engine_->journal_, "read_portable");
-  if (!call.allowed()) {
-    reader.fail(ErrorCode::invalid, "read while the world steps");
-    return reader.result("world");
-  }
-  return engine_->read_portable(reader);
-}
-
-template <class S> Result<void> World<S>::step_recorded(Bytes input, const Stepper& stepper) {
-  return engine_->journal_.template play<Command>(*this, input, stepper);
-}
-
-template <class S> const WorldState<S>& World<S>::state() const { return engine_->state_; }
-template <class S> StageView World<S>::state_fields() const { return engine_->view(kStages); }
-
 }  // namespace isostep
 
 /// World<S>, and how states come into it. What it calls: executing_commands.inl, queries.inl, engine_step.inl.
 #define ISO_INSTANTIATE_WORLD(S)                       \
   template class StateLoader<S>;                       \
   template std::uint64_t WorldEngine<S>::hash() const; \
+  template class WorldBase<World<S>>;                  \
   template class World<S>;

@@ -76,13 +76,13 @@ template <class S> JointId World<S>::create(const JointDefinition<S>& definition
       joint_between(definition.settings.type, definition.a, definition.frame_a, definition.b, definition.frame_b);
   joint.take_settings(definition.settings);
   if (kJointAxes < definition.drive_count) {
-    refuse("create_joint", {Fault::bad_argument, "", "drive_count", "0 to 6"});
+    this->refuse("create_joint", {Fault::bad_argument, "", "drive_count", "0 to 6"});
     return {};
   }
   const std::span<const AxisDrive<S>> drives(definition.drives, definition.drive_count);
-  const FaultReport fault = detail::fault_of_drives(drives, joint, substep_rate(settings()));
+  const FaultReport fault = detail::fault_of_drives(drives, joint, substep_rate(this->settings()));
   if (fault != Fault::none) {
-    refuse("create_joint", fault);
+    this->refuse("create_joint", fault);
     return {};
   }
   const JointId made = create(joint);

@@ -10,9 +10,9 @@ namespace {
 template <class S> class CommandsTest : public testing::Test {
  protected:
   StepScene<S> scene_;
-  CommandJournal journal_;
+  FaultLog faults_;
   ParticleRemoval<S> removal_{scene_.state};
-  ParticleCommands<S> commands_{scene_.state, journal_, removal_};
+  ParticleCommands<S> commands_{scene_.state, faults_, removal_};
 
   ParticleId create(double mass = 1, std::uint32_t lifetime = 0) {
     ParticleDefinition<S> definition;
@@ -39,12 +39,12 @@ TYPED_TEST(CommandsTest, CreatedParticlesTakeFreeSlotsAndLifetimesStayAscending)
 TYPED_TEST(CommandsTest, WhatIsRefusedChangesNothingAndLeavesItsFault) {
   StepScene<TypeParam>& scene = this->scene_;
   EXPECT_FALSE(this->create(0));
-  EXPECT_TRUE(this->journal_.fault() == Fault::bad_mass);
+  EXPECT_TRUE(this->faults_.last() == Fault::bad_mass);
   EXPECT_TRUE(scene.state.material.empty());
   EXPECT_FALSE(this->commands_.execute(DestroyParticle{{3, 1}}));
-  EXPECT_TRUE(this->journal_.fault() == Fault::stale_id);
+  EXPECT_TRUE(this->faults_.last() == Fault::stale_id);
   EXPECT_FALSE(this->commands_.execute(RemoveRecord<ParticleMaterialId>{scene.state.first_material()}));
-  EXPECT_TRUE(this->journal_.fault() == Fault::shape_in_use);
+  EXPECT_TRUE(this->faults_.last() == Fault::shape_in_use);
 }
 
 TYPED_TEST(CommandsTest, ForcesOfOneParticleAddUpUntilTheStep) {

@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "isostep/state/command_journal.hpp"
 #include "isostep/state/command_recorder.hpp"
+#include "isostep/state/world_desk.hpp"
 #include "recording.hpp"
 
 namespace toy {
@@ -20,7 +20,7 @@ struct Push {
   ISO_FIELDS(to, by)
 };
 struct Clear {
-  template <class Visitor, class Self> static constexpr void fields(Visitor&&, Self&&) {}
+  ISO_FIELDS()
 };
 inline constexpr std::uint32_t kFillCap = 5;
 struct Fill {
@@ -63,13 +63,13 @@ class ToyWorld {
   const ToySettings& settings() const { return settings_; }
   const State& state() const { return state_; }
   std::uint64_t tick() const { return state_.tick; }
-  std::uint64_t loads() const { return journal_->loads(); }
-  void record_to(Buffer* log) { journal_->record_to(log); }
-  bool records_to(const Buffer* log) const { return journal_->records_to(log); }
-  void trace_to(std::vector<std::uint64_t>* hashes) { journal_->trace_to(hashes); }
+  std::uint64_t loads() const { return desk_->journal.loads(); }
+  void record_to(Buffer* log) { desk_->journal.record_to(log); }
+  bool records_to(const Buffer* log) const { return desk_->journal.records_to(log); }
+  void trace_to(std::vector<std::uint64_t>* hashes) { desk_->trace = hashes; }
 
   bool apply(const Command& command) {
-    return std::visit([&](const auto& one) { return journal_->run("apply", *this, one); }, command);
+    return std::visit([&](const auto& one) { return desk_->run("apply", *this, one); }, command);
   }
   bool execute(const Push& push) { return set_sum(state_.sum + (push.to ^ to_bits(push.by))); }
   bool execute(const Clear&) { return set_sum(0); }
@@ -78,8 +78,8 @@ class ToyWorld {
     return true;
   }
   void step(const ToyObserver& observer = {}) {
-    journal_->record_step();
-    journal_->trace(*this);
+    desk_->journal.record_step();
+    desk_->note_hash(*this);
     ++state_.tick;
     after(observer, ToyStage::count);
     state_.sum = state_.sum * 31 + state_.tick;
@@ -89,7 +89,7 @@ class ToyWorld {
   void save(Snapshot& to) const { to = state_; }
   void load(const Snapshot& from) {
     state_ = from;
-    journal_->note_load();
+    desk_->note_load();
   }
   void write_portable(Writer& writer) const { writer.write(state_); }
   Result<void> read_portable(Reader& reader) {
@@ -97,10 +97,12 @@ class ToyWorld {
     if (reader.ok()) load(state);
     return reader.result("toy world");
   }
-  Result<void> step_recorded(Bytes commands, const Stepper& stepper = {}) {
+  Result<void> step_recorded(Bytes commands) {
+    return step_recorded(commands, {[](void* world) { static_cast<ToyWorld*>(world)->step(); }, this});
+  }
+  Result<void> step_recorded(Bytes commands, const Stepper& stepper) {
     return play_commands<Command>(
-        commands, [&](const Command& command) { return apply(command); },
-        [&] { stepper.step == nullptr ? step() : stepper.step(stepper.user); });
+        commands, [&](const Command& command) { return apply(command); }, [&] { stepper.step(stepper.user); });
   }
 
  private:
@@ -109,13 +111,13 @@ class ToyWorld {
     return true;
   }
   void after(const ToyObserver& observer, ToyStage stage) {
-    journal_->trace(*this);
+    desk_->note_hash(*this);
     if (observer.after != nullptr) observer.after(observer.user, stage);
   }
 
   ToySettings settings_;
   State state_;
-  std::unique_ptr<CommandJournal> journal_ = std::make_unique<CommandJournal>();  // so that the world can be moved
+  std::unique_ptr<WorldDesk> desk_ = std::make_unique<WorldDesk>();  // so that the world can be moved
 };
 static_assert(RecordableWorld<ToyWorld> && !RecordableWorld<Game>);
 

@@ -24,13 +24,14 @@ template <class S> class Executors : public ::testing::Test {
 
   World<S> world{settings<S>()};
   Systems<S> systems;
+  FaultLog faults;
   CommandJournal journal;
   RenderPoses<S> render_poses{systems.state};
   IslandSleep<S> sleep{systems.state, systems.map, systems.proxies};
   Destruction<S> destruction{systems.state, systems.map, systems.proxies, systems.wake};
   AssetSource assets;
   CommandExecutor<S> executor{systems.state, systems.map,  systems.proxies, systems.wake, sleep,
-                              destruction,   render_poses, assets,          journal};
+                              destruction,   render_poses, assets,          faults,       journal};
   ShapeId shape;
 };
 TYPED_TEST_SUITE(Executors, SystemScalars);
@@ -67,10 +68,10 @@ TYPED_TEST(Executors, what_is_refused_names_its_field_and_changes_nothing) {
 
   const auto expect_refused = [&](const auto& command, Fault fault, const char* field) {
     const std::uint64_t before = this->hash();
-    this->journal.forget_faults();
+    this->faults.forget();
     EXPECT_FALSE(this->executor.execute(command));
-    EXPECT_EQ(this->journal.fault().fault, fault);
-    EXPECT_STREQ(this->journal.fault().field, field);
+    EXPECT_EQ(this->faults.last().fault, fault);
+    EXPECT_STREQ(this->faults.last().field, field);
     EXPECT_EQ(this->hash(), before) << "a refused command changed something: " << field;
   };
   BodyDefinition<S> d = moving<S>(this->shape, {0, 0, 0});
@@ -116,7 +117,7 @@ TYPED_TEST(Executors, of_many_to_destroy_a_stale_id_is_a_fault_and_the_others_go
   const BodyId b = this->executor.execute(CreateBody<S>{moving<S>(this->shape, {4, 0, 0})});
   const BodyId list[] = {a, a, b};
   EXPECT_EQ(this->executor.destroy_all(list), 2u);
-  EXPECT_EQ(this->journal.first_fault().fault, Fault::stale_id);
+  EXPECT_EQ(this->faults.first().fault, Fault::stale_id);
   EXPECT_TRUE(this->systems.state.awake.states.empty());
 }
 

@@ -21,8 +21,8 @@ template <class S> class QueriesOf : public ::testing::Test {
   World<S> world{settings<S>(0)};
   BodyId balls[3];
   Systems<S> systems;
-  CommandJournal journal;
-  Queries<S> queries{systems.state, systems.map, systems.proxies, journal};
+  FaultLog faults;
+  Queries<S> queries{systems.state, systems.map, systems.proxies, faults};
 };
 TYPED_TEST_SUITE(QueriesOf, SystemScalars);
 
@@ -53,12 +53,12 @@ TYPED_TEST(QueriesOf, bodies_in_a_box_come_ascending_by_slot) {
   EXPECT_EQ(found[1], this->balls[1]);
 }
 
-TYPED_TEST(QueriesOf, a_question_that_is_refused_leaves_its_fault_in_the_journal) {
+TYPED_TEST(QueriesOf, a_question_that_is_refused_leaves_its_fault_in_the_log) {
   using S = TypeParam;
   EXPECT_FALSE(this->queries.closest_point(vec<S>(0, 0, 0), S(-1), {}));
-  EXPECT_EQ(this->journal.fault().fault, Fault::bad_argument);
-  EXPECT_STREQ(this->journal.fault().field, "max_distance");
-  EXPECT_STREQ(this->journal.fault().command, "closest_point");
+  EXPECT_EQ(this->faults.last().fault, Fault::bad_argument);
+  EXPECT_STREQ(this->faults.last().field, "max_distance");
+  EXPECT_STREQ(this->faults.last().command, "closest_point");
 }
 
 }  // namespace

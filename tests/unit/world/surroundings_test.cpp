@@ -28,8 +28,8 @@ template <class S> class SurroundingsOf : public ::testing::Test {
   BodyId pair;
   ShapeId probe;
   Systems<S> systems;
-  CommandJournal journal;
-  Queries<S> queries{systems.state, systems.map, systems.proxies, journal};
+  FaultLog faults;
+  Queries<S> queries{systems.state, systems.map, systems.proxies, faults};
   Surroundings<S> around{systems.state, systems.map, systems.proxies, queries};
 };
 TYPED_TEST_SUITE(SurroundingsOf, SystemScalars);

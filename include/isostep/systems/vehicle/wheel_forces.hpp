@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "isostep/core/fault_log.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 #include "isostep/dynamics/wheel_rows.hpp"
 #include "isostep/query/queries.hpp"
-#include "isostep/state/command_journal.hpp"
 #include "isostep/store/body_map.hpp"
 #include "isostep/store/proxies.hpp"
 #include "isostep/store/velocity_change.hpp"
@@ -31,7 +31,7 @@ template <class S> class WheelForces {
   using Push = VelocityChange<S>;
 
   ISO_INLINE WheelForces(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
-      : state_(state), map_(map), queries_(state, map, proxies, journal_) {}
+      : state_(state), map_(map), queries_(state, map, proxies, faults_) {}
 
   ISO_INLINE bool any() const { return !state_.records->wheels.all().empty(); }
   /// Finds the ground.
@@ -189,7 +189,7 @@ template <class S> class WheelForces {
 
   WorldState<S>& state_;
   const BodyMap<S>& map_;
-  CommandJournal journal_;  // of queries that are refused
+  FaultLog faults_;  // of queries that are refused
   Queries<S> queries_;
   std::vector<Run> runs_;
   std::vector<Group> groups_;

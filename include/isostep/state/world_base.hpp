@@ -1,0 +1,102 @@
+// WorldBase: what every kind of world has besides what is in it: faults, recording, snapshots, hash, portable form.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "isostep/core/fault.hpp"
+#include "isostep/state/archive.hpp"
+
+namespace isostep {
+
+class StageView;  // state/fields.hpp
+struct Stepper;   // state/command_log.hpp
+
+/// Of a kind of world: its Settings, State, Engine and Command, its stages, its name in errors.
+template <class World> struct WorldParts;
+
+/// A base of World<S> and ParticleWorld<S>. `load(save(w))` brings back ids and future exactly. Bodies:
+/// world_base.inl, instantiated with the world.
+template <class World> class WorldBase {
+  using Parts = WorldParts<World>;
+
+ public:
+  using State = typename Parts::State;
+  using Command = typename Parts::Command;
+
+  const typename Parts::Settings& settings() const;
+  std::uint64_t tick() const;
+
+  // Faults.
+  /// Why the last call was refused: the rule, the call, the field, and what was expected; `describe` makes a sentence
+  /// of it. Commands clear it; queries that are accepted and steps leave it.
+  const FaultReport& fault() const;
+  /// Of the first call that was refused since the world was made or told to forget: refusals come in chains, for what
+  /// was refused has no id.
+  const FaultReport& first_fault() const;
+  void forget_faults();
+  /// A refusal by what makes things by several calls, as add_ragdoll does: kept and told as one of the world's own.
+  /// Returns false.
+  bool refuse(const char* call, const FaultReport& report);
+  /// A callback for every refused call from now on; one without a function ends that.
+  void set_fault_handler(const FaultHandler& handler);
+
+  // Recording.
+  /// From now on every accepted command and every step is appended to `log` (null: to nothing). The caller clears it
+  /// every frame. Loading keeps it.
+  void record_to(std::vector<std::uint8_t>* log);
+  bool records_to(const std::vector<std::uint8_t>* log) const;
+  /// A frame's commands and steps as `record_to` wrote them. More than kFrameStepCap steps are an error. `stepper`
+  /// takes the steps in the place of `step`, where one is given.
+  Result<void> step_recorded(Bytes input);
+  Result<void> step_recorded(Bytes input, const Stepper& stepper);
+  /// From now on every step appends the state's hash as it begins and after each stage (null: to nothing). What desyncs
+  /// are narrowed down with; costs a hash a stage.
+  void trace_to(std::vector<std::uint64_t>* hashes);
+  /// How often the world was loaded or read. Commands alone do not lead across that: a WorldRecorder ends there, and a
+  /// session's recording or bundle (frame_history.hpp) cannot play a frame that has one inside.
+  std::uint64_t loads() const;
+
+  // State.
+  class Snapshot {
+   public:
+    Snapshot();
+    ~Snapshot();
+    Snapshot(Snapshot&& other) noexcept;
+    Snapshot& operator=(Snapshot&& other) noexcept;
+    /// Size of what it holds for itself [bytes]. Not counted is what it shares with the world and other snapshots until
+    /// it changes: of a World sleeping islands, static bodies, shapes and tables of slots; of both records that only
+    /// commands change.
+    std::size_t bytes() const;
+
+   private:
+    friend class WorldBase;
+    std::unique_ptr<State> state_;
+  };
+  void save(Snapshot& to) const;
+  /// False, no change and a fault where `from` was never saved to, was moved from, or is of a world that was made with
+  /// other settings; gravity may differ. The portable form brings its settings along.
+  bool load(const Snapshot& from);
+  std::uint64_t hash() const;
+  void write_portable(Writer& writer) const;
+  Result<void> read_portable(Reader& reader);
+  /// The arrays behind the world, for tools that compare, describe and measure.
+  const State& state() const;
+  /// The same field by field, by name: what an observer of stages is given, without what a stage leaves.
+  StageView state_fields() const;
+
+ protected:
+  explicit WorldBase(const typename Parts::Settings& settings);
+  ~WorldBase();
+  /// `other` is empty then, with its settings, and as usable as a new one. Recording and tracing end, for who does that
+  /// refers to `other`.
+  WorldBase(WorldBase&& other) noexcept;
+  WorldBase& operator=(WorldBase&& other) noexcept;
+
+  std::unique_ptr<typename Parts::Engine> engine_;
+};
+
+}  // namespace isostep
