@@ -42,6 +42,12 @@ iso_status set_input(iso_world* world, const char* call, iso_record id, const vo
     return taken;
   });
 }
+template <class S> iso_status set_spin(iso_world* world, const char* call, iso_record wheel, S spin) {
+  return in_world<S>(world, call, Access::changes, [&](auto& of) {
+    of.world.set_spin(id_of<WheelId>(wheel), spin);
+    return kOk;
+  });
+}
 /// An input or a state, as `find(world, id)` has it.
 template <class S, class Id, class Find>
 iso_status get_part(const iso_world* world, const char* call, iso_record id, void* out, const Find& find) {
@@ -76,24 +82,33 @@ ISO_FOR_EACH_RECORD(ISO_REMOVE, unused)
   iso_status iso_##P##_get_##name(const iso_world* world, iso_record id, iso_##P##_##name* out) {      \
     return get_record<S, Id>(world, "get_" #name, id, out);                                            \
   }
-#define ISO_INPUT(P, name, Input, Id, S)                                                                         \
-  iso_status iso_##P##_set_##name##_input(iso_world* world, iso_record id, const iso_##P##_##name##_input* in) { \
-    return set_input<S, Input, Id>(world, "set_" #name "_input", id, in);                                        \
-  }                                                                                                              \
+#define ISO_INPUT(P, name, Input, Id, S)                                                                          \
+  iso_status iso_##P##_set_##name##_input(iso_world* world, iso_record id, const iso_##P##_##name##_input* in) {  \
+    return set_input<S, Input, Id>(world, "set_" #name "_input", id, in);                                         \
+  }                                                                                                               \
   iso_status iso_##P##_get_##name##_input(const iso_world* world, iso_record id, iso_##P##_##name##_input* out) { \
-    return get_part<S, Id>(world, "get_" #name "_input", id, out,                                                \
-                           [](const auto& of, Id record) { return of.input(record); });                          \
+    return get_part<S, Id>(world, "get_" #name "_input", id, out,                                                 \
+                           [](const auto& of, Id record) { return of.input(record); });                           \
   }
-#define ISO_STATE(P, name, State, Id, S)                                                                         \
+#define ISO_STATE(P, name, State, Id, S)                                                                          \
   iso_status iso_##P##_get_##name##_state(const iso_world* world, iso_record id, iso_##P##_##name##_state* out) { \
-    return get_part<S, Id>(world, "get_" #name "_state", id, out,                                                \
-                           [](const auto& of, Id record) { return of.state(record); });                          \
+    return get_part<S, Id>(world, "get_" #name "_state", id, out,                                                 \
+                           [](const auto& of, Id record) { return of.state(record); });                           \
   }
-#define ISO_FAMILY(P, S)                         \
-  ISO_FOR_EACH_RECORD_WITH(ISO_RECORD, P, S)     \
-  ISO_FOR_EACH_INPUT_WITH(ISO_INPUT, P, S)       \
+#define ISO_FAMILY(P, S)                     \
+  ISO_FOR_EACH_RECORD_WITH(ISO_RECORD, P, S) \
+  ISO_FOR_EACH_INPUT_WITH(ISO_INPUT, P, S)   \
   ISO_FOR_EACH_RECORD_STATE_WITH(ISO_STATE, P, S)
 ISO_C_FAMILIES(ISO_FAMILY)
+
+#define ISO_NUMBERED(P, S, N)                                                       \
+  iso_status iso_##P##_wheel_set_spin(iso_world* world, iso_record wheel, N spin) { \
+    return set_spin<S>(world, "wheel_set_spin", wheel, same_bits<S>(spin));         \
+  }
+ISO_NUMBERED(f32, float, float)
+ISO_NUMBERED(f64, double, double)
+ISO_NUMBERED(q16, Q16_16, std::int32_t)
+ISO_NUMBERED(q32, Q32_32, std::int64_t)
 
 iso_status iso_break_bodies(iso_world* world, uint32_t most, iso_break_report* report) {
   constexpr const char* kCall = "break_bodies";

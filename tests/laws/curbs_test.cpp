@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "unit/world/edited_state.hpp"
+#include "unit/world/worlds.hpp"
 
 namespace isostep::test {
 namespace {
@@ -43,12 +43,9 @@ template <class S> class Curbs : public ::testing::Test {
         wheel.damping = S(2400);
         wheel.radius = num<S>(m.radius);
         wheel.inertia = num<S>(m.radius < 0.4 ? 1 : 2);  // within Limits::leverage() of Q16.16
-        EXPECT_TRUE(w.add(wheel)) << describe(w.fault());
+        EXPECT_TRUE(w.set_spin(w.add(wheel), num<S>(speed / m.radius))) << describe(w.fault());
       }
     }
-    edit_parts(w, [&](RecordParts<S>& parts) {
-      for (WheelState<S>& wheel : parts.wheel_states) wheel.spin = num<S>(speed / m.radius);
-    });
     return car;
   }
   /// [m] How far its middle rises, from a tenth of a second before the curb till half a second after it.

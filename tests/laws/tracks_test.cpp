@@ -1,7 +1,6 @@
 // Laws of tracks: wheels that roll as one, what drives, brakes and steers them, against closed forms.
 // SPDX-License-Identifier: MIT
-
-#include "unit/world/edited_state.hpp"
+#include "unit/world/worlds.hpp"
 
 namespace isostep::test {
 namespace {
@@ -55,9 +54,7 @@ template <class S> class Tracks : public ::testing::Test {
     of(wheel);
     ASSERT_TRUE(w.set(wheels[i], wheel)) << describe(w.fault());
   }
-  void spin(int i, double spin) {
-    edit_parts(w, [&](RecordParts<S>& parts) { parts.wheel_states[wheels[i].slot].spin = num<S>(spin); });
-  }
+  void spin(int i, double spin) { ASSERT_TRUE(w.set_spin(wheels[i], num<S>(spin))) << describe(w.fault()); }
   template <class Change> void change_vehicle(const Change& of) {
     VehicleSettings<S> v = *w.find(vehicle);
     of(v);

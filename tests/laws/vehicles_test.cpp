@@ -1,7 +1,6 @@
 // Laws of vehicles: sag, braking, steering, grip, roll and drive against closed forms, on the car of scene S17.
 // SPDX-License-Identifier: MIT
-
-#include "unit/world/edited_state.hpp"
+#include "unit/world/worlds.hpp"
 
 namespace isostep::test {
 namespace {
@@ -52,11 +51,7 @@ template <class S> class Vehicles : public ::testing::Test {
       EXPECT_TRUE(car.wheels[i]) << describe(w.fault());
     }
     // It rolls from the first step on.
-    if (speed != 0) {
-      edit_parts(w, [&](RecordParts<S>& parts) {
-        for (const WheelId id : car.wheels) parts.wheel_states[id.slot].spin = num<S>(speed / kWheelRadius);
-      });
-    }
+    for (const WheelId id : car.wheels) EXPECT_TRUE(w.set_spin(id, num<S>(speed / kWheelRadius)));
     return car;
   }
   void control(const Car& car, double throttle, double brake, double steer = 0) {

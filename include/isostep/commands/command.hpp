@@ -148,6 +148,13 @@ template <class S> struct SetJointTarget {
   ISO_FIELDS(joint, target)
 };
 
+/// A wheel turns so fast from now on: of a car that is put on the road at speed, or starts anew.
+template <class S> struct SetWheelSpin {
+  WheelId wheel;
+  S spin;  // [rad/s]
+  ISO_FIELDS(wheel, spin)
+};
+
 /// Other heights and materials for a rectangle of a height field: HeightPatch as a record. The shape's field becomes
 /// another one, with a name of its own, for all bodies of the shape; what is near wakes, and what it buries rises.
 struct SetHeights {
@@ -248,6 +255,7 @@ template <class Input> using SetInputOf = SetInput<Input, typename detail::Recor
   X(set_joint_motor, SetJointMotor<S>, bool, S)       \
   X(set_joint_spring, SetJointSpring<S>, bool, S)     \
   X(set_joint_target, SetJointTarget<S>, bool, S)     \
+  X(set_wheel_spin, SetWheelSpin<S>, bool, S)         \
   ISO_FOR_EACH_RECORD_WITH(ISO_RECORD_COMMANDS, X, S) \
   ISO_FOR_EACH_INPUT_WITH(ISO_INPUT_COMMAND, X, S)
 #define ISO_RECORD_COMMANDS(X, name, Record, Id, S) \

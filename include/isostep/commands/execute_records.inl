@@ -134,6 +134,20 @@ bool CommandExecutor<S>::set_input(IdType id, const Input& input) {
   detail::inputs_of(state_.parts, id)[id.slot] = input;
   return true;
 }
+template <class S> bool CommandExecutor<S>::execute(const SetWheelSpin<S>& command) {
+  const auto& wheels = state_.records->wheels;
+  if (!known(wheels.slot_map(), command.wheel, "wheel")) return false;
+  const WheelSettings<S>& wheel = *wheels.find(command.wheel);
+  const S rim = saturate_to<S>(product(command.spin, wheel.radius));
+  if (!faults_.accept(detail::Checklist()
+                          .finite(command.spin, "spin")
+                          .in_range(detail::within(rim, Limits<S>::speed()), "spin", "a rim no faster than Limits::speed()")
+                          .report()))
+    return false;
+  wake_for_record(wheel);
+  state_.parts.wheel_states[command.wheel.slot].spin = command.spin;
+  return true;
+}
 
 #define ISO_EXECUTE(name, Record, Id, S)                                                    \
   template <class S> Id CommandExecutor<S>::execute(const AddRecord<Record>& command) {     \

@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// CommandJournal::run calls `execute`, which returns what the command made or whether it was accepted. What is refused
+/// WorldDesk::run calls `execute`, which returns what the command made or whether it was accepted. What is refused
 /// changes nothing and leaves its fault in the log.
 template <class S> class ParticleCommands {
  public:

@@ -187,6 +187,8 @@ template <class S> class World final : public WorldBase<World<S>> {
   const Input* input(Id id) const;
   ISO_FOR_EACH_INPUT(ISO_INPUT, S)
 #undef ISO_INPUT
+  /// [rad/s] from now on: of a car that is put on the road at speed.
+  bool set_spin(WheelId wheel, S spin);
   using Base::state;
   /// How the last step left a record. Null: a stale id.
 #define ISO_STATE(name, State, Id, S) const State* state(Id id) const;

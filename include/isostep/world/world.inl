@@ -105,6 +105,7 @@ ISO_FOR_EACH_RECORD(ISO_RECORD, S)
   }
 ISO_FOR_EACH_INPUT(ISO_INPUT, S)
 #undef ISO_INPUT
+template <class S> bool World<S>::set_spin(WheelId wheel, S spin) { return apply(SetWheelSpin<S>{wheel, spin}); }
 #define ISO_STATE(name, State, Id, S)                                           \
   template <class S> const State* World<S>::state(Id id) const {                \
     const WorldState<S>& state = engine_->state_;                               \

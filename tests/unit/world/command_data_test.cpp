@@ -137,7 +137,7 @@ TYPED_TEST(CommandData, commands_given_as_data_do_what_the_calls_do) {
   EXPECT_FALSE(both(SetHeights{ground, 1, 1, 1, 1, 1, one}, [&](auto& w) {
     return w.set_heights(ground, 1, {1, 1, 1, 1, one});
   }));
-  static_assert(std::variant_size_v<Command<S>> == 109, "a command more: test it here");
+  static_assert(std::variant_size_v<Command<S>> == 110, "a command more: test it here");
 
   EXPECT_TRUE(both(SleepBody{b}, [&](auto& w) { return w.sleep(b); }));
   const BodyMass<S> heavy = {S(1), S(4), Vec3<S>::zero()};
@@ -211,9 +211,19 @@ TYPED_TEST(CommandData, commands_given_as_data_do_what_the_calls_do) {
   VehicleSettings<S> vehicle;
   vehicle.body = b;
   each(vehicle, VehicleId{0, 1}, VehicleInput<S>{.throttle = S(1)});
+  const S low = S(1), high = S(2);
   WheelSettings<S> wheel;
   wheel.body = b;
+  wheel.radius = high;
   each(wheel, WheelId{0, 1});
+  EXPECT_FALSE(both(SetWheelSpin<S>{{0, 1}, high}, [&](auto& w) { return w.set_spin({0, 1}, high); })) << "gone";
+  EXPECT_TRUE(both(AddRecord<WheelSettings<S>>{wheel}, [&](auto& w) { return w.add(wheel); }));
+  const WheelId spun = {0, 3};
+  EXPECT_TRUE(both(SetWheelSpin<S>{spun, high}, [&](auto& w) { return w.set_spin(spun, high); }));
+  EXPECT_EQ(called.state(spun)->spin, high);
+  const S most = Limits<S>::speed();
+  EXPECT_FALSE(both(SetWheelSpin<S>{spun, most}, [&](auto& w) { return w.set_spin(spun, most); }));
+  EXPECT_TRUE(both(RemoveRecord<WheelId>{spun}, [&](auto& w) { return w.remove(spun); }));
   each(SurfaceVelocity<S>{b, vec<S>(1, 0, 0), vec<S>(0, 1, 0)}, SurfaceVelocityId{0, 1});
   each(OneWay<S>{b}, OneWayId{0, 1});
   const Ghost<S> ghost = {b, character.body}, of_one = {b, b};  // far apart: a step would end it
@@ -238,7 +248,6 @@ TYPED_TEST(CommandData, commands_given_as_data_do_what_the_calls_do) {
   load.joint = joined(JointType::hinge, 0);
   each(load, JointLoadId{0, 1});
   const JointId hinge = load.joint;
-  const S low = S(1), high = S(2);
   EXPECT_TRUE(both(SetJointLimits<S>{hinge, -low, low}, [&](auto& w) { return w.set_limits(hinge, -low, low); }));
   EXPECT_FALSE(both(SetJointLimits<S>{hinge, high, low}, [&](auto& w) { return w.set_limits(hinge, high, low); }));
   EXPECT_TRUE(both(SetJointMotor<S>{hinge, low, high}, [&](auto& w) { return w.set_motor(hinge, low, high); }));
