@@ -5,7 +5,7 @@
 #include "isostep/commands/command_executor.hpp"
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/dynamics/body_inertia.hpp"
-#include "isostep/store/force_bounds.hpp"
+#include "isostep/dynamics/force_bounds.hpp"
 
 namespace isostep {
 

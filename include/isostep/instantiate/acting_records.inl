@@ -3,17 +3,25 @@
 #pragma once
 
 #include "isostep/systems/character/characters.inl"
+#include "isostep/systems/forces/blast_shields.inl"
 #include "isostep/systems/forces/body_forces.inl"
 #include "isostep/systems/forces/coupling_forces.inl"
-#include "isostep/systems/forces/explosion_forces.inl"
-#include "isostep/systems/forces/resisting_forces.inl"
-#include "isostep/systems/forces/water_forces.inl"
-#include "isostep/systems/forces/zone_forces.inl"
+#include "isostep/systems/forces/force_sums.inl"
+#include "isostep/systems/forces/resistance.inl"
+#include "isostep/systems/forces/substep_bodies.inl"
+#include "isostep/systems/forces/wet_bodies.inl"
+#include "isostep/systems/forces/zones.inl"
 #include "isostep/systems/vehicle/wheel_forces.inl"
 
 #define ISO_INSTANTIATE_ACTING_RECORDS(S) \
   template class WheelForces<S>;          \
   template class CouplingForces<S>;       \
+  template class SubstepBodies<S>;        \
+  template class ForceSums<S>;            \
+  template class Zones<S>;                \
+  template class Resistance<S>;           \
+  template class WetBodies<S>;            \
+  template class BlastShields<S>;         \
   template class BodyForces<S>;           \
   template class Surroundings<S>;         \
   template class Characters<S>;

@@ -40,7 +40,22 @@ template <class S> bool is_finite_matrix(const Mat3<S>& m) {
   return is_finite(m.rows[0]) && is_finite(m.rows[1]) && is_finite(m.rows[2]);
 }
 
+/// As the control has it, for a speed [m/s] through the air.
+template <class S> Mat3<S> tensor_of(const AeroSurface<S>& surface, S speed) {
+  const Mat3<S>& end = surface.control < S(0) ? surface.low : surface.high;
+  const S part = abs(surface.control), rest = S(1) - part;
+  Mat3<S> tensor;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const S mixed = round_to<S>(product(surface.tensor.rows[i][j], rest) + product(end.rows[i][j], part));
+      tensor.rows[i][j] = surface.is_quadratic ? saturate_to<S>(product(mixed, speed)) : mixed;
+    }
+  }
+  return tensor;
+}
+
 template <class S> struct RecordRules<AeroSurface<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::resists;
   static FaultReport fault(const AeroSurface<S>& a) {
     constexpr const char *kFinite = "finite numbers", *kControl = "-1 to 1";
     return Checklist()
@@ -54,6 +69,19 @@ template <class S> struct RecordRules<AeroSurface<S>> : RecordDefaults<S> {
         .report();
   }
   static NamedBodies<S> bodies(const AeroSurface<S>& a) { return named_point(a.body, a.point, "point"); }
+  template <class Forces> static void resist(const AeroSurface<S>& a, Forces& forces) {
+    const auto end = forces.bodies.end_at(a.body, a.point);
+    if (!forces.bodies.moves(end.row)) return;
+    const Quat<Unit<S>> body = forces.bodies.state(end.row).orientation;
+    const Mat3<Unit<S>> axes = to_matrix(normalise(body * a.orientation));
+    Vec3<S> flow;
+    if (!a.is_under_water) flow = forces.zones.wind_at(end.at);
+    else if (!forces.wet.is_under_water(end.row, end.at, flow)) return;
+    const Vec3<S> through = forces.resistance.next_velocity(end) - flow;
+    // The speed of now, which in balance is that of next: what the others lead to is more.
+    const Mat3<S> tensor = tensor_of(a, length(end.velocity - flow));
+    forces.sums.push(end, axes * forces.resistance.settled(end, axes, tensor, transposed_times(axes, through)));
+  }
 };
 
 }  // namespace isostep::detail

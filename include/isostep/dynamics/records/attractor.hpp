@@ -4,6 +4,7 @@
 
 #include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
+#include "isostep/dynamics/force_bounds.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/vec3.hpp"
 
@@ -30,6 +31,7 @@ template <class S> struct Attractor {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<Attractor<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::pushes;
   static constexpr Wakes kWakes = Wakes::all;
   static FaultReport fault(const Attractor<S>& a) {
     return Checklist()
@@ -44,6 +46,26 @@ template <class S> struct RecordRules<Attractor<S>> : RecordDefaults<S> {
   }
   static NamedBodies<S> bodies(const Attractor<S>& a) {
     return {{{a.body, "body", true, MustBe::any, Vec3<S>::zero(), "point"}, {}}, 1};
+  }
+  /// Of every awake body.
+  template <class Forces> static void act(const Attractor<S>& a, Forces& forces) {
+    const auto& bodies = forces.bodies;
+    if (a.body && !bodies.is_enabled(a.body)) return;
+    const auto source = a.body ? bodies.centre_of(a.body) : bodies.end_at({}, a.point);
+    for (std::uint32_t row = 1; row < bodies.rows(); ++row) {
+      if (row == source.row || !bodies.is_pushed(row, a.mask)) continue;
+      const Heading<S> way = heading_of(source.at - bodies.state(row).centre);
+      if (S(0) < a.range && a.range < way.length) continue;
+      const S distance = max(way.length, a.least_distance);
+      Bounder<S> bounder;
+      const S once = bounder.quotient(a.strength, distance, highest<S>());
+      const S size = bounder.quotient(once, distance, forces.sums.most());
+      forces.sums.note_cut(row, bounder.cut);
+      forces.sums.accelerate(row, way.direction * size);
+      if (source.row == 0 || !bodies.moves(source.row)) continue;
+      const S force = saturate_to<S>(product(size, bodies.mass(row).mass));
+      forces.sums.push(source.row, way.direction * -force, Vec3<S>::zero());
+    }
   }
 };
 

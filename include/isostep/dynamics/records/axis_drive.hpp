@@ -77,6 +77,7 @@ FaultReport fault_of_joint(const AxisDrive<S>& d, const JointProperties<S>& join
 }
 
 template <class S> struct RecordRules<AxisDrive<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::not_here;
   static FaultReport fault(const AxisDrive<S>& d) {
     if (kJointAxes <= static_cast<std::uint32_t>(d.axis)) return {Fault::bad_argument, "", "axis", "one of JointAxis"};
     const bool length = is_length(d.axis), sprung = S(0) < d.spring_frequency;

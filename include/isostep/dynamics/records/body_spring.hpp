@@ -54,6 +54,7 @@ FaultReport fault_of_rate(const BodySpring<S>& s, const BodyProperties<S>* a, co
 }
 
 template <class S> struct RecordRules<BodySpring<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::pushes;
   static constexpr bool kBears = true;
   static constexpr bool kTies = true;
   static FaultReport fault(const BodySpring<S>& s) {
@@ -81,6 +82,20 @@ template <class S> struct RecordRules<BodySpring<S>> : RecordDefaults<S> {
     if (!moves(a) && !moves(b)) return {Fault::not_dynamic, "", "a, b", "a dynamic one"};
     const Settings<S>& settings = place.settings;
     return fault_of_rate(s, a, b, S(integration_rate(settings.solver, settings.hz, settings.substeps)));
+  }
+  template <class Forces> static void act(const BodySpring<S>& s, Forces& forces) {
+    const auto& bodies = forces.bodies;
+    if (!bodies.is_enabled(s.a) || !bodies.is_enabled(s.b)) return;
+    const auto a = bodies.end_at(s.a, s.anchor_a), b = bodies.end_at(s.b, s.anchor_b);
+    if (!bodies.moves(a.row) && !bodies.moves(b.row)) return;
+    const Heading<S> way = heading_of(b.at - a.at);
+    const S stretch = way.length - s.rest_length;
+    if (s.only_pulls && !(S(0) < stretch)) return;
+    const S rate = dot(b.velocity - a.velocity, way.direction);
+    S pull = saturate_to<S>(product(s.stiffness, stretch) + product(s.damping, rate));
+    if (s.only_pulls) pull = max(pull, S(0));
+    forces.sums.push(a, way.direction * pull);
+    forces.sums.push(b, way.direction * -pull);
   }
 };
 

@@ -49,6 +49,7 @@ template <class S> struct Blow {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<Breakable<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::not_here;
   static FaultReport fault(const Breakable<S>& b) {
     constexpr std::uint32_t kMostPieces = 256, kMostDepth = 16;
     const bool boxes = b.pattern == BreakPattern::eight_boxes;

@@ -30,6 +30,7 @@ template <class S> struct BuoyancyPoint {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<BuoyancyPoint<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::pushes;
   static constexpr bool kBears = true;
   static FaultReport fault(const BuoyancyPoint<S>& b) {
     return Checklist()
@@ -46,6 +47,14 @@ template <class S> struct RecordRules<BuoyancyPoint<S>> : RecordDefaults<S> {
         .report();
   }
   static NamedBodies<S> bodies(const BuoyancyPoint<S>& b) { return named_point(b.body, b.point, "point"); }
+  template <class Forces> static void act(const BuoyancyPoint<S>& b, Forces& forces) {
+    const auto end = forces.bodies.end_at(b.body, b.point);
+    const Heading<S> down = heading_of(forces.bodies.gravity());
+    const S sunk = b.surface_height + b.max_depth + dot(end.at, down.direction);
+    const S share = clamp(sunk / (b.max_depth + b.max_depth), S(0), S(1));
+    const S displaced = saturate_to<S>(product(saturate_to<S>(product(b.density, b.volume)), share));
+    forces.sums.push(end, down.direction * -saturate_to<S>(product(displaced, down.length)));
+  }
 };
 
 }  // namespace isostep::detail

@@ -24,6 +24,7 @@ template <class S> struct ContactReport {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<ContactReport<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::not_here;
   static constexpr Wakes kWakes = Wakes::none;
   static FaultReport fault(const ContactReport<S>&) { return {}; }
   static NamedBodies<S> bodies(const ContactReport<S>& r) { return named_body<S>(r.body, MustBe::any); }

@@ -86,6 +86,7 @@ FaultReport fault_of_joints(const Coupling<S>& c, const NamedJoints& named, cons
 }
 
 template <class S> struct RecordRules<Coupling<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::not_here;
   static constexpr bool kTies = true;
   static FaultReport fault(const Coupling<S>& c) {
     const S ratios[] = {c.ratio_a, c.ratio_b, c.ratio_c}, most = S(kMostTeeth);

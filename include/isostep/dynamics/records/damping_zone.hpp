@@ -32,7 +32,13 @@ template <class S> struct DampingZone {
 
 namespace isostep::detail {
 
+/// Whether the zone hides those below it at a point, from bodies of that category.
+template <class S> ISO_INLINE bool replaces(const DampingZone<S>& zone, std::uint32_t category, Vec3<S> point) {
+  return zone.replaces && (category & zone.mask) != 0 && is_inside(zone, point);
+}
+
 template <class S> struct RecordRules<DampingZone<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::slows;
   static constexpr Wakes kWakes = Wakes::all;
   static FaultReport fault(const DampingZone<S>& z) {
     constexpr const char* kRate = "0 to 16384";
@@ -45,6 +51,15 @@ template <class S> struct RecordRules<DampingZone<S>> : RecordDefaults<S> {
         .proper(S(0) <= z.linear, "linear", kRate)
         .proper(S(0) <= z.angular, "angular", kRate)
         .report();
+  }
+  template <class Forces> static void slow(const DampingZone<S>& z, Forces& forces) {
+    for (std::uint32_t row = 1; row < forces.bodies.rows(); ++row) {
+      if (!forces.bodies.is_pushed(row, z.mask)) continue;
+      const Vec3<S> centre = forces.bodies.state(row).centre;
+      if (!is_inside(z, centre)) continue;
+      const bool hidden = forces.zones.is_undamped(z.priority, forces.bodies.category(row), centre);
+      if (!hidden) forces.resistance.fade(row, z.linear, z.angular);
+    }
   }
 };
 

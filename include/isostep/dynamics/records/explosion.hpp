@@ -57,7 +57,64 @@ namespace isostep::detail {
 
 inline constexpr int kMostBlastSeconds = 1024;  // [s] of each phase; the clock counts to 16384
 
+/// [m] The wave's profile from its front, -w - k w, to y: rises over k w, stands for w, falls over k w. A force that
+/// passes by at speed s gives force / s times the difference.
+template <class S> S wave_passed(S y, S width, S ramp) {
+  const S length = width * ramp;
+  const auto half_square = [&](S part)
+                               ISO_INLINE_LAMBDA { return S(0) < length ? S(0.5) * (part * (part / length)) : S(0); };
+  if (y <= -width - length) return S(0);
+  if (y < -width) return half_square(y + width + length);
+  const S risen = S(0.5) * length;
+  if (y < S(0)) return risen + y + width;
+  if (y < length) return risen + width + risen - half_square(length - y);
+  return risen + width + risen;
+}
+/// [s] Since an explosion's begin, as a sub-step finds it; below 0: it is still to come.
+template <class S>
+S seconds_since(std::uint64_t begin, std::uint64_t tick, std::int32_t hz, std::uint32_t substep, std::int32_t rate) {
+  if (tick < begin) return S(-1);
+  const std::uint64_t steps = tick - begin, whole = steps / static_cast<std::uint32_t>(hz);
+  const auto rest = static_cast<std::int32_t>(steps % static_cast<std::uint32_t>(hz));
+  const std::int32_t part = rest * (rate / hz) + static_cast<std::int32_t>(substep);
+  constexpr std::uint64_t kMost = 16384;  // [s] more than any explosion lasts
+  return S(static_cast<int>(min(whole, kMost))) + divide_to<S>(S(part), S(rate));
+}
+/// As the step of that tick begins.
+template <class S> bool has_ended(const Explosion<S>& e, std::uint64_t tick, std::int32_t hz) {
+  return e.duration() <= seconds_since<S>(e.begin, tick, hz, 0, hz);
+}
+
+/// What of a body a blast meets.
+template <class S> struct BlastTarget {
+  S distance;      // [m] of the point from the centre
+  S fleeing;       // [m/s] of the point, away from there
+  S above, aside;  // [m] of the point over the centre, and from the chimney's axis
+};
+/// [N] outwards, over a sub-step of h seconds that begins `t` after the blast.
+template <class S> S blast(const Explosion<S>& e, S t, Step<S> h, const BlastTarget<S>& target) {
+  const S distance = target.distance, above = target.above, aside = target.aside;
+  SumOf<S, S> force = product(S(0), S(0));
+  if (t < e.implosion_duration) {
+    if (e.implosion_least < distance && distance < e.implosion_most) force = force - product(e.implosion_force, S(1));
+    return saturate_to<S>(force);
+  }
+  const S since = t - e.implosion_duration;
+  if (since < e.wave_duration) {
+    const S before = e.wave_speed * since - distance, travelled = e.wave_speed * h;
+    const S passed =
+        wave_passed(before + travelled, e.wave_width, e.wave_ramp) - wave_passed(before, e.wave_width, e.wave_ramp);
+    const S fade = S(1) - since / e.wave_duration;
+    const S chase = max(S(0), S(1) - clamp(target.fleeing / e.wave_speed, S(-1), S(1)));
+    force = force + product(e.wave_force, (passed / travelled) * (fade * chase));
+  }
+  if (since < e.chimney_duration && aside < e.chimney_radius && S(0) < above && above < e.chimney_height)
+    force = force + product(e.chimney_force, S(1) - aside / e.chimney_radius);
+  return saturate_to<S>(force);
+}
+
 template <class S> struct RecordRules<Explosion<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::pushes;
   static constexpr Wakes kWakes = Wakes::all;
   static FaultReport fault(const Explosion<S>& e) {
     constexpr const char *kSeconds = "0 to 1024", *kLength = "0 to Limits::position()";
@@ -88,6 +145,24 @@ template <class S> struct RecordRules<Explosion<S>> : RecordDefaults<S> {
     return list.proper(Limits<S>::minimum_size() <= e.wave_speed, "wave_speed", "Limits::minimum_size() or more")
         .proper(Limits<S>::minimum_size() <= e.chimney_radius, "chimney_radius", "Limits::minimum_size() or more")
         .report();
+  }
+  template <class Forces> static void act(const Explosion<S>& e, Forces& forces) {
+    const auto& clock = forces.bodies.clock();
+    const S t = seconds_since<S>(e.begin, clock.tick, clock.hz, clock.substep, clock.rate);
+    if (t < S(0) || e.duration() <= t) return;
+    const Vec3<Unit<S>> up = -heading_of(forces.bodies.gravity()).direction;
+    for (std::uint32_t row = 1; row < forces.bodies.rows(); ++row) {
+      if (!forces.bodies.is_pushed(row, e.mask)) continue;
+      const auto end = forces.bodies.end_of(row, forces.shields.exposed_point(row, e.centre));
+      const Vec3<S> from_blast = end.at - e.centre;
+      const Heading<S> way = heading_of(from_blast);
+      if (!(S(0) < way.length)) continue;
+      const S above = up == Vec3<Unit<S>>::zero() ? S(-1) : dot(up, from_blast);
+      const S fleeing = dot(end.velocity, way.direction), aside = length(from_blast - up * above);
+      const S force = blast<S>(e, t, clock.h, {way.length, fleeing, above, aside});
+      if (force == S(0) || (e.is_shielded && forces.shields.is_shielded(e.centre, end.at))) continue;
+      forces.sums.push(end, way.direction * force);
+    }
   }
 };
 

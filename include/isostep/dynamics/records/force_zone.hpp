@@ -46,7 +46,22 @@ template <class S> struct ForceZone {
 
 namespace isostep::detail {
 
+/// Of a zone of any kind.
+template <class Zone, class S> ISO_INLINE bool is_inside(const Zone& zone, Vec3<S> point) {
+  if (zone.shape == ZoneShape::everywhere) return true;
+  const Vec3<S> from_middle = point - zone.pose.position;
+  if (zone.shape == ZoneShape::sphere) return length(from_middle) <= zone.half.x;
+  const Vec3<S> local = transposed_times(to_matrix(zone.pose.orientation), from_middle);
+  return within(local.x, zone.half.x) && within(local.y, zone.half.y) && within(local.z, zone.half.z);
+}
+/// Whether the zone hides an effect of those below it at a point, from bodies of that category.
+template <class S>
+ISO_INLINE bool replaces(const ForceZone<S>& zone, std::uint32_t effect, std::uint32_t category, Vec3<S> point) {
+  return (zone.replaces & effect) != 0 && (category & zone.mask) != 0 && is_inside(zone, point);
+}
+
 template <class S> struct RecordRules<ForceZone<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::pushes;
   static constexpr Wakes kWakes = Wakes::all;
   static FaultReport fault(const ForceZone<S>& z) {
     const S speed = Limits<S>::speed();
@@ -58,6 +73,17 @@ template <class S> struct RecordRules<ForceZone<S>> : RecordDefaults<S> {
         .in_range(no_longer(z.wind, speed), "wind", kWithinSpeed)
         .proper((z.replaces & ~zone_effect::kAll) == 0, "replaces", "bits of zone_effect")
         .report();
+  }
+  /// On every awake body. What the zone does to wind, gravity and water others ask of it: Zones.
+  template <class Forces> static void act(const ForceZone<S>& z, Forces& forces) {
+    if (z.acceleration == Vec3<S>::zero()) return;
+    for (std::uint32_t row = 1; row < forces.bodies.rows(); ++row) {
+      const Vec3<S> centre = forces.bodies.state(row).centre;
+      if (!forces.bodies.is_pushed(row, z.mask) || !is_inside(z, centre)) continue;
+      const std::uint32_t category = forces.bodies.category(row);
+      const bool hidden = forces.zones.is_hidden(zone_effect::kAcceleration, z.priority, category, centre);
+      if (!hidden) forces.sums.accelerate(row, z.acceleration);
+    }
   }
 };
 

@@ -27,6 +27,7 @@ template <class S> struct Ghost {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<Ghost<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::not_here;
   static FaultReport fault(const Ghost<S>& g) {
     return Checklist().proper(!(g.a == g.b), "b", "another body than a").report();
   }

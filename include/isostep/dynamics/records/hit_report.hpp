@@ -25,6 +25,7 @@ template <class S> struct HitReport {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<HitReport<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::not_here;
   static constexpr Wakes kWakes = Wakes::none;
   static FaultReport fault(const HitReport<S>& h) {
     return Checklist()

@@ -35,6 +35,7 @@ template <class S> struct JointLoadState {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<JointLoad<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::not_here;
   static FaultReport fault(const JointLoad<S>& l) {
     NumberChecks<S> checks;
     checks.not_negative(l.break_force, "break_force");

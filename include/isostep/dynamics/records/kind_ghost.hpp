@@ -29,6 +29,7 @@ template <class S> struct KindGhost {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<KindGhost<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::not_here;
   static constexpr Wakes kWakes = Wakes::all;
   static FaultReport fault(const KindGhost<S>& g) {
     return Checklist()

@@ -42,6 +42,7 @@ template <class S> struct KindResponse {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<KindResponse<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::not_here;
   static constexpr Wakes kWakes = Wakes::all;
   static FaultReport fault(const KindResponse<S>& r) {
     constexpr const char *kMass = "0, or 2^-8 to 1", *kOne = "above 0 where inverse_mass_scale_a is 0",

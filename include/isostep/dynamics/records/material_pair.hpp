@@ -32,6 +32,7 @@ template <class S> struct MaterialPair {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<MaterialPair<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::not_here;
   static constexpr Wakes kWakes = Wakes::all;
   static FaultReport fault(const MaterialPair<S>& p) {
     return Checklist()

@@ -84,6 +84,7 @@ template <class S> class Ways {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<OneWay<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::not_here;
   static constexpr Wakes kWakes = Wakes::touching;
   static FaultReport fault(const OneWay<S>& w) {
     return Checklist()

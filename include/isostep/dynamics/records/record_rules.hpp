@@ -14,12 +14,13 @@
 #include "isostep/geometry/shape.hpp"
 
 // Each kind specialises RecordRules<Record>, from RecordDefaults<S>, with
-//   fault(record)            what its numbers must be; the only one without a default
+//   fault(record)            what its numbers must be; has no default
 //   bodies(record), joints(record)   what it names: it goes with them
 //   fault_at(record, place)  what the bodies and joints that it names must be like
 //   only_one(record), key(record)    two records of a kind may not have one key; what is said of the second
 //   kNoCarrier               the first body of one record may not be the second of another; what is said of the two
 //   kWakes, kTies, kBears    see RecordDefaults
+//   kActs                    what it does in a sub-step, with the functions that Acts names; has no default either
 // Commands, the validator of foreign states, sleep and random worlds ask these; a kind without rules does not compile.
 
 namespace isostep {
@@ -40,6 +41,19 @@ enum class Wakes {
   touching,  // those, and what touches them: it acts on it
   all        // it acts on more than it names
 };
+
+/// What a kind does to bodies in a sub-step. Its rules have the functions that its word here names and no others, else
+/// RecordStore does not compile: acts_as_it_says(). Forces is RecordForces<S> (systems/forces/record_forces.hpp) as a
+/// parameter, for that is above a kind's file: they are `template <class Forces> static void`.
+enum class Acts {
+  not_here,            // it only tells, or other systems read it
+  pushes,              // act(record, Forces&): whatever else acts
+  resists,             // resist(record, Forces&): what all that pushes leads to, on a part of each body that it names
+  pushes_and_resists,  // both; of bodies that it does not name its act counts those that it resists
+  slows                // slow(record, Forces&): rates at which bodies fade, solved once a body, after what resists
+};
+ISO_INLINE constexpr bool pushes(Acts acts) { return acts == Acts::pushes || acts == Acts::pushes_and_resists; }
+ISO_INLINE constexpr bool resists(Acts acts) { return acts == Acts::resists || acts == Acts::pushes_and_resists; }
 
 enum class MustBe { any, dynamic, kinematic };
 /// A body that a record names: in which field, whether that may be null, of which type the body has to be, and where on
@@ -113,6 +127,17 @@ inline constexpr OnlyOne kOneAJoint = {"joint", "a joint that has no record yet"
 inline constexpr OnlyOne kOnePairOfKinds = {"kind_b", "a pair of kinds that has no record yet"};
 
 template <class Record> struct RecordRules;
+
+/// Stands for the Forces of rules that are asked about and not called.
+struct NoForces;
+/// Whether the rules of a kind have those functions of Acts that its kActs names, and no others.
+template <class Record> constexpr bool acts_as_it_says() {
+  using Rules = RecordRules<Record>;
+  constexpr Acts kActs = Rules::kActs;
+  return pushes(kActs) == requires(const Record& r, NoForces& f) { Rules::act(r, f); }
+  &&resists(kActs) == requires(const Record& r, NoForces& f) { Rules::resist(r, f); }
+  &&(kActs == Acts::slows) == requires(const Record& r, NoForces& f) { Rules::slow(r, f); };
+}
 
 template <class S> struct RecordDefaults {
   static constexpr Wakes kWakes = Wakes::named;

@@ -86,6 +86,10 @@ template <class S> struct RecordStore {
   static constexpr std::uint32_t kKinds = 0 ISO_FOR_EACH_RECORD(ISO_COUNT, S);
 #undef ISO_COUNT
   static_assert(kKinds < 32, "kinds() has a bit for each");
+#define ISO_ACTS(name, Record, Id, S) \
+  static_assert(detail::acts_as_it_says<Record>(), #name ": its rules have other functions than their kActs says");
+  ISO_FOR_EACH_RECORD(ISO_ACTS, S)
+#undef ISO_ACTS
   /// Bits of the kinds of which one was ever added: a state that has none hashes and writes nothing of them.
   ISO_INLINE std::uint32_t kinds() const {
     std::uint32_t kinds = 0, bit = 1;

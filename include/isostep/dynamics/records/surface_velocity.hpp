@@ -43,6 +43,7 @@ template <class S> struct SurfaceVelocity {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<SurfaceVelocity<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::not_here;
   static constexpr Wakes kWakes = Wakes::touching;
   static FaultReport fault(const SurfaceVelocity<S>& v) {
     return Checklist()

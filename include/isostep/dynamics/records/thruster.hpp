@@ -5,6 +5,7 @@
 #include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
+#include "isostep/math/quat.hpp"
 #include "isostep/math/vec3.hpp"
 
 namespace isostep {
@@ -24,10 +25,15 @@ template <class S> struct Thruster {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<Thruster<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::pushes;
   static FaultReport fault(const Thruster<S>& t) {
     return Checklist().also(fault_of_place(t.point, "point")).finite(t.force, "force").report();
   }
   static NamedBodies<S> bodies(const Thruster<S>& t) { return named_point(t.body, t.point, "point"); }
+  template <class Forces> static void act(const Thruster<S>& t, Forces& forces) {
+    const auto end = forces.bodies.end_at(t.body, t.point);
+    if (end.row != 0) forces.sums.push(end, rotate(forces.bodies.state(end.row).orientation, t.force));
+  }
 };
 
 }  // namespace isostep::detail

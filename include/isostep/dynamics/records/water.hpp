@@ -6,6 +6,7 @@
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
 #include "isostep/math/aabb.hpp"
+#include "isostep/math/mat3.hpp"
 
 namespace isostep {
 
@@ -56,7 +57,47 @@ namespace isostep::detail {
 
 inline constexpr int kMostWavePeriod = 1024;  // [s] its part in a sub-step still has digits
 
+/// Whether the water hides those below it at a point, from bodies of that category.
+template <class S> ISO_INLINE bool replaces(const Water<S>& water, std::uint32_t category, Vec3<S> point) {
+  return water.replaces && (category & water.mask) != 0 && in_region<S>(water, {point, point});
+}
+
+inline constexpr double kTurn = 2 * kPi;  // [rad]
+
+/// Where in its circle a wave is after so many sub-steps of h [s]: the same error after an hour as after a second,
+/// for a sub-step's part of a turn is rounded once, to 2^-32 of it.
+template <class S> S wave_angle(std::uint64_t substeps, Step<S> h, S period) {
+  const auto part = static_cast<std::uint64_t>(nearest_scaled(divide_to<Unit<S>>(h, period), 32));
+  return from_lattice<S>(static_cast<std::int64_t>(substeps * part & 0xffffffffu), 32) * S(kTurn);
+}
+
+/// The plane of a water above or below a point.
+template <class S> struct WaterSurface {
+  Vec3<Unit<S>> normal;
+  S depth;           // [m] of the point below it, along the normal
+  Vec3<S> velocity;  // [m/s] of the water there
+};
+/// `clock`: of a sub-step.
+template <class S, class Clock>
+WaterSurface<S> surface_at(const Water<S>& water, Vec3<S> at, Vec3<S> gravity, const Clock& clock) {
+  using U = Unit<S>;
+  const Vec3<U> up = -heading_of(gravity).direction;
+  const S depth = water.surface_height - dot(up, at);
+  if (!(S(0) < water.wave_height)) return {up, depth, water.current};
+  const Vec3<U> along = water.wave_direction - up * dot(up, water.wave_direction);
+  const S number = S(kTurn) / water.wave_length, speed = S(kTurn) / water.wave_period;
+  const S phase =
+      saturate_to<S>(product(dot(along, at), number)) - wave_angle<S>(clock.count(), clock.h, water.wave_period);
+  const SinCos<S> wave = sin_cos(phase);
+  const S height = water.wave_height, slope = saturate_to<S>(product(height * number, wave.cos));
+  const Vec3<U> normal = normalise(convert<S>(up) - along * slope);
+  // Of deep water, at its surface: circles, forward on the crest.
+  const Vec3<S> circling = along * (height * speed * wave.sin) - up * (height * speed * wave.cos);
+  return {normal, (depth + height * wave.sin) * dot(normal, up), saturating_add(water.current, circling)};
+}
+
 template <class S> struct RecordRules<Water<S>> : RecordDefaults<S> {
+  static constexpr Acts kActs = Acts::pushes_and_resists;
   static constexpr Wakes kWakes = Wakes::all;
   static constexpr bool kBears = true;
   static FaultReport fault(const Water<S>& w) {
@@ -96,6 +137,49 @@ template <class S> struct RecordRules<Water<S>> : RecordDefaults<S> {
         .proper(S(0) <= w.wave_height && w.wave_height * S(14) <= w.wave_length, "wave_height", "0 to wave_length / 14")
         .proper(is_direction<S>(way), "wave_direction", "a vector of length 1")
         .report();
+  }
+  template <class Forces> static void act(const Water<S>& w, Forces& forces) {
+    const auto& bodies = forces.bodies;
+    const Heading<S> down = heading_of(bodies.gravity());
+    if (!(S(0) < down.length)) return;
+    for (std::uint32_t row = 1; row < bodies.rows(); ++row) {
+      if (!bodies.is_pushed(row, w.mask)) continue;
+      const BodyState<S>& state = bodies.state(row);
+      const Aabb<S> box = w.replaces ? Aabb<S>{state.centre, state.centre} : state.fat;
+      if (!in_region(w, box) || forces.zones.is_dry(w.priority, bodies.category(row), state.centre)) continue;
+      const WaterSurface<S> surface = surface_at(w, state.centre, bodies.gravity(), bodies.clock());
+      // The box is where the step began, with its margin: what of it is dry stays so for a sub-step's motion.
+      const Vec3<S> reach = max(abs(state.fat.high - state.centre), abs(state.fat.low - state.centre));
+      if (surface.depth <= -dot(abs(surface.normal), reach)) continue;
+      auto wet = forces.wet.displaced(row, w.density, surface);
+      if (!(S(0) < wet.mass)) continue;
+      const S weight = saturate_to<S>(product(wet.mass, down.length));
+      forces.sums.push(row, surface.normal * weight, wet.arm);
+      wet.water = &w, wet.flow = surface.velocity;
+      forces.wet.keep(wet);
+      forces.resistance.count(row);
+    }
+  }
+  /// The wet part of each body, as act() found it.
+  template <class Forces> static void resist(const Water<S>& w, Forces& forces) {
+    forces.wet.for_each_of(w, [&](const auto& wet) { resist(w, wet, forces); });
+  }
+
+ private:
+  template <class Wet, class Forces> static void resist(const Water<S>& w, const Wet& wet, Forces& forces) {
+    const auto end = forces.bodies.end_of(wet.row, wet.arm);
+    const S speed = length(end.velocity - wet.flow);
+    const S rate = saturating_add(w.linear_drag, saturate_to<S>(product(w.quadratic_drag, speed)));
+    if (S(0) < rate) {
+      const S c = -saturate_to<S>(product(rate, wet.mass));
+      const Vec3<S> next = forces.resistance.next_velocity(end) - wet.flow;
+      const Mat3<S> tensor = Mat3<S>::diagonal({c, c, c});
+      forces.sums.push(end, forces.resistance.settled(end, Mat3<Unit<S>>::identity(), tensor, next));
+    }
+    if (!(S(0) < w.angular_drag)) return;
+    const S share = wet.mass / max(forces.bodies.mass(wet.row).mass, wet.mass);
+    const Vec3<S> turning = forces.resistance.next_angular_velocity(wet.row);
+    forces.resistance.slow_turning(wet.row, turning, w.angular_drag * share);
   }
 };
 

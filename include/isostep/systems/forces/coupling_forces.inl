@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/force_bounds.hpp"
 #include "isostep/dynamics/joints/joint.inl"
 #include "isostep/math/angles.hpp"
-#include "isostep/store/force_bounds.hpp"
 #include "isostep/systems/forces/coupling_forces.hpp"
 
 namespace isostep {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/force_bounds.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 #include "isostep/math/rotations.hpp"
-#include "isostep/store/force_bounds.hpp"
 #include "isostep/systems/motion/move_targets.hpp"
 
 namespace isostep {

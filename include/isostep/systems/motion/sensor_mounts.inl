@@ -3,10 +3,10 @@
 #pragma once
 
 #include "isostep/dynamics/checks.hpp"
+#include "isostep/dynamics/force_bounds.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 #include "isostep/math/shortened.hpp"
 #include "isostep/store/fat_box.hpp"
-#include "isostep/store/force_bounds.hpp"
 #include "isostep/systems/motion/sensor_mounts.hpp"
 
 namespace isostep {

@@ -1,0 +1,73 @@
+// Resistance<S>: what resists the motion of bodies, by backward Euler, stable whatever its coefficients.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/systems/forces/force_sums.hpp"
+#include "isostep/systems/forces/substep_bodies.hpp"
+
+namespace isostep {
+
+/// Each force resists the velocity that the steady ones lead to, on its own equal part of the body's mass, so that many
+/// on one body are as stable as one (mass splitting: Tonge et al. 2012, SIGGRAPH) and their order does not matter: what
+/// is mirrored stays so.
+/// Input:   how many forces resist a body, and the rates at which it fades; then the sums of all that pushes.
+/// Output:  the velocities that those lead to, parts of masses, what a force that resists settles at; in the sums, what
+///          fades.
+/// Keeps:   nothing from sub-step to sub-step but memory.
+/// Order:   count() and fade() of all that resists, take_steady(), the forces, solve_fading().
+template <class S> class Resistance {
+ public:
+  using U = Unit<S>;
+
+  ISO_INLINE Resistance(const SubstepBodies<S>& bodies, ForceSums<S>& sums) : bodies_(bodies), sums_(sums) {}
+
+  void begin_substep();
+  /// A force is about to resist the body of a row.
+  void count(std::uint32_t row);
+  /// Rates [1/s] at which a body's motion and its turning fade: they add up, and resist together as one force.
+  void fade(std::uint32_t row, S linear, S angular);
+  /// What resists asks of the sums as they are now.
+  void take_steady();
+  void solve_fading();
+
+  /// As the sub-step would leave it with the steady forces, before contacts and joints: what resists motion resists
+  /// that, so that it balances steady forces exactly. [m/s], [rad/s]
+  Vec3<S> next_velocity(std::uint32_t row) const;
+  Vec3<S> next_angular_velocity(std::uint32_t row) const;
+  /// [m/s] Of a point.
+  Vec3<S> next_velocity(const BodyEnd<S>& end) const;
+  /// [kg] The part of a body that each of its resisting forces has.
+  S mass_part(std::uint32_t row) const;
+  /// tensor v', where v' is what `velocity` (both of the frame `axes`) becomes by that force in the sub-step: v' = v +
+  /// h K tensor v', with K what the point gives way.
+  Vec3<S> settled(const BodyEnd<S>& end, const Mat3<U>& axes, const Mat3<S>& tensor, Vec3<S> velocity) const;
+  /// Turns a body against a turning [rad/s] that would fade at a rate [1/s].
+  void slow_turning(std::uint32_t row, Vec3<S> turning, S rate);
+
+ private:
+  static constexpr std::uint32_t kMostParts = 1024;  // of a body's mass
+  /// [1/s]
+  struct Rates {
+    S linear, angular;
+    ISO_INLINE bool any() const { return S(0) < linear || S(0) < angular; }
+  };
+
+  S slowed(std::uint32_t row, S rate) const;
+  Mat3<S> give_of(const BodyEnd<S>& end, const Mat3<U>& axes) const;
+
+  const SubstepBodies<S>& bodies_;
+  ForceSums<S>& sums_;
+  std::vector<Acceleration<S>> steady_;
+  std::vector<std::uint32_t> parts_;  // by awake body: how many forces resist its motion
+  std::vector<Rates> fading_;         // by awake body; empty where none fades
+};
+
+#define ISO_EXTERN(S) extern template class Resistance<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep

@@ -1,0 +1,56 @@
+// Zones<S>: where in the world which zones and waters act, and what hides them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <tuple>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/store/state.hpp"
+#include "isostep/systems/forces/force_sums.hpp"
+#include "isostep/systems/forces/record_ranks.hpp"
+
+namespace isostep {
+
+/// Input:   the records of a step; points, and categories of bodies.
+/// Output:  records in the order in which they act; whether something of higher priority hides a zone or a water at a
+///          point; the wind there; the world's gravity taken off where a zone stands in its place.
+/// Keeps:   nothing from step to step but memory.
+template <class S> class Zones {
+ public:
+  ISO_INLINE explicit Zones(const WorldState<S>& state) : state_(state) {}
+
+  /// Before a step's first sub-step.
+  void rank();
+  ISO_INLINE std::size_t water_count() const { return std::get<RecordRanks<Water<S>>>(ranks_).size(); }
+  /// Each record that is there, ascending by slot; of a kind with priorities by (priority, slot).
+  template <class Record, class IdType, class Visit>
+  void for_each(const Registry<Record, IdType>& registry, const Visit& visit) const;
+  /// The other way round, of a kind with priorities.
+  template <class Record, class IdType, class Visit>
+  void for_each_down(const Registry<Record, IdType>& registry, const Visit& visit) const;
+
+  /// Whether at a point, for bodies of that category, a zone of higher priority replaces that effect of a ForceZone.
+  bool is_hidden(std::uint32_t effect, std::int32_t priority, std::uint32_t category, Vec3<S> point) const;
+  /// ... a DampingZone of higher priority replaces those of that one.
+  bool is_undamped(std::int32_t priority, std::uint32_t category, Vec3<S> point) const;
+  /// ... a zone or a higher water keeps water of that priority away.
+  bool is_dry(std::int32_t priority, std::uint32_t category, Vec3<S> point) const;
+  /// [m/s]
+  Vec3<S> wind_at(Vec3<S> point) const;
+  /// The world's gravity, where a zone replaces it, is below all zones.
+  void replace_gravity(const SubstepBodies<S>& bodies, ForceSums<S>& sums) const;
+
+ private:
+  bool replaces_gravity(std::uint32_t category, Vec3<S> point) const;
+
+  const WorldState<S>& state_;
+  /// A kind with a priority that is not among these does not compile.
+  std::tuple<RecordRanks<ForceZone<S>>, RecordRanks<DampingZone<S>>, RecordRanks<Water<S>>> ranks_;
+};
+
+#define ISO_EXTERN(S) extern template class Zones<S>;
+ISO_FOR_EACH_SCALAR(ISO_EXTERN)
+#undef ISO_EXTERN
+
+}  // namespace isostep
