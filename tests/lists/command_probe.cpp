@@ -4,7 +4,7 @@
 #define ISOSTEP_OWN_SCALARS
 #include <cstdio>
 
-#include "own_world.hpp"
+#include "no_step.hpp"
 
 using namespace isostep;
 

@@ -1,5 +1,5 @@
-// A program of the tests that includes this compiles World<float> from its copy of the headers. It takes no step: it
-// has no kernels.
+// A program of the tests that includes this compiles World<float> from its copy of the headers. What a step needs beside
+// that it says itself: own_step.hpp or no_step.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -22,8 +22,4 @@
 
 namespace isostep {
 ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, float)
-template <> const BodyKernels<float>* body_kernels<float>(Simd) { return nullptr; }
-template <> const ContactKernels<float>* contact_kernels<float>(Simd) { return nullptr; }
-template <> const PairKernels<float>* pair_kernels<float>(Simd) { return nullptr; }
-template <> const TreeKernels<float>* tree_kernels<float>(Simd) { return nullptr; }
 }  // namespace isostep

@@ -36,9 +36,9 @@ class ListProbe : public OwnFolder {
     std::ofstream(folder_ / file) << text.replace(at, before.size(), after);
   }
 
-  /// Of a file that includes `header`: "" where it compiles.
-  std::string errors_of(const std::string& header) {
-    std::ofstream(folder_ / "probe.cpp") << "#include \"" << header << "\"\n";
+  /// Of a file that includes `header` and goes on with `code`: "" where it compiles.
+  std::string errors_of(const std::string& header, const std::string& code = "") {
+    std::ofstream(folder_ / "probe.cpp") << "#include \"" << header << "\"\n" << code << "\n";
     return failure("-fsyntax-only " + quoted(folder_ / "probe.cpp"));
   }
   /// Of a program of the tests, which takes from the library what no list has a part in.

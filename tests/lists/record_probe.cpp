@@ -1,11 +1,11 @@
 // A program of the tests: the probe record as commands, hashes, logs, portable forms, scene files and the description
-// of the C interface treat it, in a copy of the headers that has it in its list. The world takes no step.
+// of the C interface treat it, in a copy of the headers that has it in its list, and what it does in a step.
 // SPDX-License-Identifier: MIT
 #define ISOSTEP_OWN_SCALARS
 #include <cstdio>
 
 #include "c/describe/schema.cpp"
-#include "own_world.hpp"
+#include "own_step.hpp"
 #include "scenes/json_tree.cpp"
 #include "scenes/object_reader.cpp"
 #include "scenes/scene_records.cpp"
@@ -19,11 +19,21 @@ void say_refusal(const World<float>& world) {
   std::printf("%s.%s ", fault.command, fault.field);
 }
 
-BodyId body_of(World<float>& world) {
+BodyId body_of(World<float>& world, float x = 0) {
   BodyDefinition<float> ball;
   ball.type = BodyType::dynamic;
+  ball.position.x = x;
   ball.shape = world.add_shape(Sphere<float>{0.5f});
   return world.create(ball);
+}
+
+/// A balloon lifts its body, and no other.
+void say_step() {
+  World<float> world;
+  const BodyId held = body_of(world), free = body_of(world, 10);
+  world.add(Probe<float>{held, 100000});
+  world.step();
+  std::printf(" rises %d falls %d", world.velocity(held).y > 0, world.velocity(free).y < 0);
 }
 
 }  // namespace
@@ -53,6 +63,7 @@ int main() {
               played.ok() && other.hash() == world.hash(), read && third.hash() == world.hash());
   world.destroy(body);
   std::printf(" gone %d", world.find(probe) == nullptr);
+  say_step();
 
   const scenes::SceneRecord record =
       scenes::read_record(scenes::parse_json(R"({"type": "probe", "body": 0, "volume": 3})"), "/records/0", 1, 0);
