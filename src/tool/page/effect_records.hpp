@@ -85,32 +85,70 @@ template <class S> Effect effect_of(const AeroSurface<S>& surface) {
            {"wet", {surface.is_under_water ? 1.0 : 0.0}}}};
 }
 
-/// `to` is a Recorder. Attractors, drag and points of buoyancy are not drawn.
+/// Tells a Recorder of one record: a tell() a kind. A kind without one does not compile.
+template <class S, class To> class EffectTeller {
+ public:
+  EffectTeller(const World<S>& world, To& to) : to_(to), weather_(world) {}
+
+  void tell(ForceZoneId id, const ForceZone<S>& zone) { to_.effect(id.slot, id.generation, {}, effect_of(zone)); }
+  void tell(BodySpringId id, const BodySpring<S>& spring) {
+    to_.body_spring(id, spring.a, spring.b, in_double(spring.anchor_a), in_double(spring.anchor_b), spring.only_pulls);
+  }
+  void tell(ThrusterId id, const Thruster<S>& thruster) {
+    to_.effect(id.slot, id.generation, thruster.body, effect_of(thruster));
+    to_.push(weather_.force_of(thruster), 0);
+  }
+  void tell(ExplosionId id, const Explosion<S>& explosion) {
+    to_.effect(id.slot, id.generation, {}, effect_of(explosion, weather_.up()));
+  }
+  void tell(WaterId id, const Water<S>& water) {
+    const Vector up = weather_.up();
+    if (!(up == Vector::zero())) to_.effect(id.slot, id.generation, {}, effect_of(water, up));
+  }
+  void tell(AeroSurfaceId id, const AeroSurface<S>& surface) {
+    to_.effect(id.slot, id.generation, surface.body, effect_of(surface));
+    to_.push(weather_.force_of(surface), to_double(surface.control));
+  }
+
+  // A DebugDraw is told of these.
+  void tell(CharacterId, const CharacterSettings<S>&) {}
+  void tell(WheelId, const WheelSettings<S>&) {}
+
+  // Of these there is nothing to see but what bodies do.
+  void tell(AttractorId, const Attractor<S>&) {}
+  void tell(BuoyancyId, const BuoyancyPoint<S>&) {}
+  void tell(DragId, const BodyDrag<S>&) {}
+  void tell(DampingZoneId, const DampingZone<S>&) {}
+  void tell(MaterialPairId, const MaterialPair<S>&) {}
+  void tell(BreakableId, const Breakable<S>&) {}
+  void tell(VehicleId, const VehicleSettings<S>&) {}
+  void tell(SurfaceVelocityId, const SurfaceVelocity<S>&) {}
+  void tell(GhostId, const Ghost<S>&) {}
+  void tell(OneWayId, const OneWay<S>&) {}
+  void tell(HitReportId, const HitReport<S>&) {}
+  void tell(ContactReportId, const ContactReport<S>&) {}
+  void tell(JointLoadId, const JointLoad<S>&) {}
+  void tell(CouplingId, const Coupling<S>&) {}
+  void tell(AxisDriveId, const AxisDrive<S>&) {}
+  void tell(KindGhostId, const KindGhost<S>&) {}
+  void tell(KindResponseId, const KindResponse<S>&) {}
+  void tell(SensorMountId, const SensorMount<S>&) {}
+
+ private:
+  To& to_;
+  const Weather<S> weather_;
+};
+
+/// `to` is a Recorder. In the order of the list of records.
 template <class S, class To> void record_effects(const World<S>& world, To& to) {
   const RecordStore<S>& records = *world.state().records;
   if (records.kinds() == 0) return;
-  const Weather<S> weather(world);
-  const Vector up = weather.up();
-  for_each_record(records.waters, [&](WaterId id, const Water<S>& water) {
-    if (!(up == Vector::zero())) to.effect(id.slot, id.generation, {}, effect_of(water, up));
-  });
-  for_each_record(records.explosions, [&](ExplosionId id, const Explosion<S>& explosion) {
-    to.effect(id.slot, id.generation, {}, effect_of(explosion, up));
-  });
-  for_each_record(records.force_zones, [&](ForceZoneId id, const ForceZone<S>& zone) {
-    to.effect(id.slot, id.generation, {}, effect_of(zone));
-  });
-  for_each_record(records.thrusters, [&](ThrusterId id, const Thruster<S>& thruster) {
-    to.effect(id.slot, id.generation, thruster.body, effect_of(thruster));
-    to.push(weather.force_of(thruster), 0);
-  });
-  for_each_record(records.aero_surfaces, [&](AeroSurfaceId id, const AeroSurface<S>& surface) {
-    to.effect(id.slot, id.generation, surface.body, effect_of(surface));
-    to.push(weather.force_of(surface), to_double(surface.control));
-  });
-  for_each_record(records.body_springs, [&](BodySpringId id, const BodySpring<S>& spring) {
-    to.body_spring(id, spring.a, spring.b, in_double(spring.anchor_a), in_double(spring.anchor_b), spring.only_pulls);
-  });
+  EffectTeller<S, To> teller(world, to);
+  RecordStore<S>::members(
+      [&](const char*, const auto& registry) {
+        for_each_record(registry, [&](const auto id, const auto& record) { teller.tell(id, record); });
+      },
+      records);
 }
 /// Their springs and links are drawn as bonds.
 template <class S, class To> void record_effects(const ParticleWorld<S>&, To&) {}

@@ -80,15 +80,15 @@ TEST(PageEffects, AreTheRecordsOfAWorld) {
   craft.world.add(zone);
   const Recording recording = recorded(craft.world);
   ASSERT_EQ(recording.effects.size(), 3u);
-  EXPECT_STREQ(recording.effects[0].kind, "water");
-  EXPECT_EQ(numbers_of(recording.effects[0], "height"), std::vector<double>{-2});
-  EXPECT_EQ(numbers_of(recording.effects[0], "up"), (std::vector<double>{0, 1, 0}));
-  EXPECT_EQ(numbers_of(recording.effects[0], "wave"), (std::vector<double>{0.5, 10, 3}));
+  EXPECT_STREQ(recording.effects[0].kind, "zone");
   EXPECT_STREQ(recording.effects[1].kind, "explosion");
   EXPECT_EQ(numbers_of(recording.effects[1], "begin"), std::vector<double>{5});
   EXPECT_EQ(numbers_of(recording.effects[1], "wave"), (std::vector<double>{50, 1, 0.5}));
   EXPECT_EQ(numbers_of(recording.effects[1], "chimney"), (std::vector<double>{1, 1, 0}));
-  EXPECT_STREQ(recording.effects[2].kind, "zone");
+  EXPECT_STREQ(recording.effects[2].kind, "water");
+  EXPECT_EQ(numbers_of(recording.effects[2], "height"), std::vector<double>{-2});
+  EXPECT_EQ(numbers_of(recording.effects[2], "up"), (std::vector<double>{0, 1, 0}));
+  EXPECT_EQ(numbers_of(recording.effects[2], "wave"), (std::vector<double>{0.5, 10, 3}));
   EXPECT_TRUE(recording.frames[0].pushes.empty());
 }
 
