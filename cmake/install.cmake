@@ -6,7 +6,12 @@ install(TARGETS isostep isostep_scalar isostep_deterministic_flags EXPORT isoste
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY scalar/include/ include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inl")
+set(isostep_left_out "")
+if(NOT ISOSTEP_BOOK)
+  set(isostep_left_out REGEX "/isostep/book$" EXCLUDE)
+endif()
+install(DIRECTORY scalar/include/ include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inl"
+  ${isostep_left_out})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/isostep)
 
 set(isostep_package ${CMAKE_INSTALL_LIBDIR}/cmake/isostep)

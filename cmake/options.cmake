@@ -15,6 +15,7 @@ option(ISOSTEP_INSTALL "Install and export rules" ${PROJECT_IS_TOP_LEVEL})
 option(ISOSTEP_FETCH_THREE "Let npm bring three.js, which `isostep run --html` puts into its pages" ON)
 option(ISOSTEP_NO_INT128 "Do without the compiler's __int128, as targets that lack it must" OFF)
 option(ISOSTEP_SIMD "Kernels of several lanes; without them the build is smaller and quicker, the results are the same" ON)
+option(ISOSTEP_BOOK "The book's own methods that the default does not use: the solver worst_first, seven broad phases, V-Clip" ON)
 set(ISOSTEP_PYTHON_DIR share/isostep/python CACHE STRING "Where the Python package is installed, below the prefix")
 set(ISOSTEP_SCALARS "float;double;Q16_16;Q32_32" CACHE STRING "Scalars the library holds")
 

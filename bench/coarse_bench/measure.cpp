@@ -4,8 +4,8 @@
 
 #include <stdexcept>
 
-#include "isostep/collision/broadphase/broad_phases.hpp"
 #include "isostep/core/scalars.hpp"
+#include "isostep/store/chosen_broad_phase.hpp"
 #include "scene_bench/clock.hpp"
 #include "scene_bench/text.hpp"
 
@@ -117,7 +117,7 @@ template <class S> void measure_field(const Field& field, int rounds, std::vecto
                                      rows[first].structure.c_str(), rows[first].pairs));
   };
 #define ISO_ADD(name, Structure) add(#name, Measured<S, Structure<S>>(field, boxes, rounds));
-  ISO_FOR_EACH_BROAD_PHASE(ISO_ADD)
+  ISO_FOR_EACH_BUILT_BROAD_PHASE(ISO_ADD)
 #undef ISO_ADD
 }
 

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "brute_force.hpp"
+#include "isostep/book/v_clip.hpp"
 #include "isostep/collision/narrowphase/epa.hpp"
 #include "isostep/collision/narrowphase/gjk.hpp"
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
-#include "isostep/collision/narrowphase/v_clip.hpp"
 #include "measure.hpp"
 
 namespace isostep::bench {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "isostep/core/linear_search.hpp"
-#include "isostep/core/sorted_order.hpp"
-#include "isostep/dynamics/solvers/worst_first.inl"
+#include "isostep/book/linear_search.hpp"
+#include "isostep/book/sorted_order.hpp"
+#include "isostep/book/worst_first.inl"
 #include "isostep/state/hash.hpp"
 #include "isostep/store/body_map.hpp"
 #include "isostep/store/proxies.hpp"

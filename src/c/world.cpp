@@ -138,7 +138,10 @@ iso_status iso_world_use_broad_phase(iso_world* world, iso_broad_phase name) {
   constexpr const char* kCall = "world_use_broad_phase";
   if (name >= Enumerators<BroadPhaseName>::kCount) return refuse(ISO_BAD_ENUM, kCall, "name");
   return in_any_world(world, kCall, Access::changes, [&](auto& of) {
-    const bool has = of.world.use_broad_phase(static_cast<BroadPhaseName>(name));
+    const auto structure = static_cast<BroadPhaseName>(name);
+    const char* const instead = expected_instead_of(structure);
+    if (instead != nullptr) return refuse(kMisused, kCall, "name", instead);
+    const bool has = of.world.use_broad_phase(structure);
     return has ? kOk : refuse(kMisused, kCall, "name", "a structure that this world has");
   });
 }

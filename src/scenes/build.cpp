@@ -192,6 +192,7 @@ JointId add_joint(World<S>& world, const SceneJoint& joint, const std::vector<Bo
 template <class S> S value_of(const Number& number, const std::string& place) { return read<S>(number, place); }
 
 template <class S> Settings<S> settings_of(const Scene& scene) {
+  if (const char* why = left_out(scene)) throw SceneError("", why);
   Settings<S> settings;
   settings.hz = scene.hz;
   settings.substeps = scene.substeps;
@@ -220,6 +221,7 @@ BodyId add_body(World<S>& world, const SceneBody& body, std::uint64_t user_data,
 
 template <class S> Built<S> build(const Scene& scene, World<S>& world) {
   Built<S> built;
+  if (const char* why = isostep::left_out(scene.broad_phase)) throw SceneError("", why);
   if (scene.broad_phase != Scene{}.broad_phase) world.use_broad_phase(scene.broad_phase);
   std::map<std::string, ShapeId> shapes;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

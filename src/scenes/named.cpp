@@ -58,8 +58,9 @@ Scene crowd_blast() { return blast(500); }
   Scene coarse_##name() { return coarse(BroadPhaseName::name); }
 ISO_FOR_EACH_BROAD_PHASE(ISO_COARSE)
 #undef ISO_COARSE
-#define ISO_COARSE(name, Structure) \
-  {"coarse_" #name, "bodies near and far, of many sizes, found by " #name, coarse_##name},
+#define ISO_COARSE(name, Structure)                                                             \
+  {"coarse_" #name, "bodies near and far, of many sizes, found by " #name, coarse_##name, true, \
+   left_out(BroadPhaseName::name)},
 
 constexpr NamedScene kScenes[] = {
     {"S1", "20 unit boxes stacked", tall_stack},
@@ -101,7 +102,8 @@ constexpr NamedScene kScenes[] = {
     {"yard", "the same on static hulls, placed by a seed", yard, false},
     {"mixed", "bodies, joints, sensors and sleep, made and destroyed", mixed},
     {"mixed_pgs", "the same, solved by projected Gauss-Seidel", mixed_pgs},
-    {"mixed_worst_first", "the same, the worst contact first", mixed_worst_first},
+    {"mixed_worst_first", "the same, the worst contact first", mixed_worst_first, true,
+     left_out(SolverName::worst_first)},
     {"mixed_direct", "the same, all contacts at once", mixed_direct},
     {"flight", "an aircraft flies level and then to the right", right_turn},
     {"flight_left", "flight mirrored", left_turn},

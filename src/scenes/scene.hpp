@@ -158,6 +158,12 @@ struct Scene {
   std::vector<SceneRecord> records;
 };
 
+/// Null, or why this build cannot play the scene: core/book.hpp.
+inline const char* left_out(const Scene& scene) {
+  const char* const solver = isostep::left_out(scene.solver);
+  return solver != nullptr ? solver : isostep::left_out(scene.broad_phase);
+}
+
 /// A scene that cannot be; `place` is a JSON pointer into its file, "" for the whole.
 class SceneError : public std::runtime_error {
  public:

@@ -174,6 +174,7 @@ Scene read_scene(std::string_view json, const std::string& folder) {
     scene.projection = static_cast<Projection>(reader.choice("projection", kProjectionNames));
   if (reader.has("broad_phase"))
     scene.broad_phase = static_cast<BroadPhaseName>(reader.choice("broad_phase", kBroadPhaseNames));
+  if (const char* why = left_out(scene)) throw SceneError("", why);
   scene.frames = read_count(reader, "frames", 0, 1'000'000'000, scene.frames);
   if (reader.has("script")) scene.script = static_cast<Script>(reader.choice("script", kScriptNames));
   reader.require("bodies");

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "built.hpp"
 #include "game.hpp"
 
 namespace isostep::test {
@@ -76,6 +77,7 @@ TEST(CAttacks, NumbersBeyondTheLimitsNameTheirField) {
 
 /// Found by the random caller: a grid divided by the number of cells of a box without any.
 TEST(CAttacks, ABoxWhoseCornersAreSwappedIsRefused) {
+  ISO_NEEDS_BOOK();
   Q32Game game;
   ASSERT_EQ(iso_world_use_broad_phase(game.world, ISO_BROAD_PHASE_GRID), ISO_OK);
   iso_q32_box_query query;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "built.hpp"
 #include "determinism/mess.hpp"
 #include "determinism/solver_cases.hpp"
 #include "examples/thread_pool.hpp"
@@ -169,6 +170,7 @@ TYPED_TEST(Islands, move_the_same_in_whatever_order_they_were_made) {
 }
 
 TYPED_TEST(Islands, move_as_each_does_alone_however_worst_first_ends_overlaps) {
+  ISO_NEEDS_BOOK();
   using S = typename TestFixture::Number;
   if (this->kSolver != SolverName::worst_first) return;
   for (std::uint32_t i = 0; i < kProjections; ++i) {

@@ -1,5 +1,6 @@
 // Random worlds give every question one answer: saved and loaded, written and read, over lanes and threads.
 // SPDX-License-Identifier: MIT
+#include "built.hpp"
 #include "examples/thread_pool.hpp"
 #include "random/questions.hpp"
 #include "random/world.hpp"
@@ -82,7 +83,7 @@ TYPED_TEST(RandomWorldAnswers, are_those_of_a_world_that_is_loaded_read_or_over_
     for (std::uint64_t f = 0; f < this->kFrames; ++f) {
       w.use_simd(static_cast<Simd>(f % 7));
       w.use_threads(f % 2 == 0 ? two.runner() : four.runner());
-      loader.use_broad_phase(static_cast<BroadPhaseName>((seed + f / this->kEvery) % kBroadPhases));
+      loader.use_broad_phase(kBuiltBroadPhases[(seed + f / this->kEvery) % std::size(kBuiltBroadPhases)]);
       this->step(w, seed, f);
       if (!this->is_asked(f)) continue;
       this->check(w, life, seed, f, "threads");

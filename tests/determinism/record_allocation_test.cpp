@@ -100,6 +100,7 @@ TYPED_TEST(RecordAllocation, VehiclesAndCharactersMoveWithoutAny) {
 TYPED_TEST(RecordAllocation, BeltsAndReportsOfHitsNeedNone) {
   using S = TypeParam;
   for (std::uint32_t name = 0; name < kSolvers; ++name) {
+    if (left_out(SolverName{name}) != nullptr) continue;
     World<S> world(solver_settings<S>(static_cast<SolverName>(name)));
     const ShapeId crate = add_box(world, 0.25, 0.25, 0.25);
     for (int i = 0; i < 4; ++i) {

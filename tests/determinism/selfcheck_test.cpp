@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "built.hpp"
 #include "hostile_environment.hpp"
 #include "isostep/core/scalars.hpp"
 #include "isostep/core/simd_choice.hpp"
@@ -118,6 +119,7 @@ template <class S> struct Methods {
   std::set<Stepping> steppings;
 
   void look_at(const SelfcheckRecording& recording) {
+    if (check_replay(recording.file).left_out != nullptr) return;
     const ReplayReader replay(recording.file);
     EXPECT_EQ(replay.header().find("compiler"), nullptr) << "regenerating elsewhere would give other bytes";
     World<S> bodies;
@@ -145,7 +147,7 @@ TEST(Selfcheck, CarriesEveryMethodFromTheEmptyWorldOnInAThirdOfAMegabyte) {
     for (const SelfcheckRecording& recording : builtin()) {
       if (std::string(recording.scalar) == ScalarTraits<S>::kName) methods.look_at(recording);
     }
-    EXPECT_EQ(methods.solvers.size(), kSolvers);
+    EXPECT_EQ(methods.solvers.size(), std::size(kBuiltSolvers));
     EXPECT_EQ(methods.particle_solvers.size(), kParticleSolvers);
     EXPECT_EQ(methods.steppings.size(), kSteppings);
     EXPECT_EQ(methods.integrators.count(Integrator::implicit_euler), 1u);

@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include "built.hpp"
 #include "determinism/solver_cases.hpp"
 #include "determinism/solver_scene.hpp"
 #include "examples/thread_pool.hpp"
@@ -167,9 +168,10 @@ TYPED_TEST(Solvers, in_a_crowd_that_is_shared_out_give_the_hashes_of_one_thread)
 TEST(SolverNames, lead_to_different_futures) {
   std::set<std::uint64_t> ends;
   for (std::uint32_t i = 0; i < kSolvers; ++i) {
+    if (left_out(SolverName{i}) != nullptr) continue;
     ends.insert(hashes_of<double>(static_cast<SolverName>(i), Simd::best).back());
   }
-  EXPECT_EQ(ends.size(), kSolvers);
+  EXPECT_EQ(ends.size(), std::size(kBuiltSolvers));
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 
 #include "determinism/allocation_count.hpp"
 #include "isostep/articulation/articulation.hpp"
-#include "isostep/collision/broadphase/broad_phases.hpp"
 #include "isostep/core/random.hpp"
 #include "isostep/state/concepts.hpp"
+#include "isostep/store/chosen_broad_phase.hpp"
 
 namespace isostep::test {
 namespace {
@@ -68,7 +68,7 @@ TYPED_TEST_SUITE(StructureAllocation, AllocationScalars);
 
 TYPED_TEST(StructureAllocation, AWarmCoarseStructureAsksForNoMemory) {
 #define ISO_HOLD(name, Structure) hold_warm_frames<TypeParam, Structure<TypeParam>>(#name);
-  ISO_FOR_EACH_BROAD_PHASE(ISO_HOLD)
+  ISO_FOR_EACH_BUILT_BROAD_PHASE(ISO_HOLD)
 #undef ISO_HOLD
 }
 

@@ -1,6 +1,7 @@
 // Laws of the friction of materials: static beside dynamic, grain, pairs of kinds, and what bounces.
 // SPDX-License-Identifier: MIT
 
+#include "built.hpp"
 #include "isostep/dynamics/friction_presets.hpp"
 #include "unit/world/worlds.hpp"
 
@@ -10,8 +11,8 @@ namespace {
 template <class S> class FrictionLaws : public ::testing::Test {};
 TYPED_TEST_SUITE(FrictionLaws, AllScalars);
 
-constexpr SolverName kAllSolvers[] = {SolverName::soft_step, SolverName::pgs, SolverName::worst_first,
-                                      SolverName::direct};
+const std::vector<SolverName> kAllSolvers =
+    built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first, SolverName::direct});
 constexpr double kG = 10;  // [m/s^2]
 
 /// A flat ground that gravity meets at an angle, as a slope does that falls along x.

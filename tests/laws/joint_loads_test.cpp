@@ -1,6 +1,7 @@
 // Laws of measured joints: what they report, when they break, whatever the sub-steps and the solver.
 // SPDX-License-Identifier: MIT
 
+#include "built.hpp"
 #include "random/joint_angles.hpp"
 
 namespace isostep::test {
@@ -33,7 +34,8 @@ template <class S> class JointLoads : public ::testing::Test {
 };
 TYPED_TEST_SUITE(JointLoads, AllScalars);
 
-constexpr SolverName kAll[] = {SolverName::soft_step, SolverName::pgs, SolverName::direct, SolverName::worst_first};
+const std::vector<SolverName> kAll =
+    built({SolverName::soft_step, SolverName::pgs, SolverName::direct, SolverName::worst_first});
 
 TYPED_TEST(JointLoads, a_weight_pulls_with_its_weight_and_a_beam_turns_with_its_lever) {
   using S = TypeParam;

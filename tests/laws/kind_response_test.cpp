@@ -5,12 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "built.hpp"
 #include "laws/exact_rollback.hpp"
 
 namespace isostep::test {
 namespace {
 
-constexpr SolverName kResponding[] = {SolverName::soft_step, SolverName::pgs, SolverName::worst_first};
+const std::vector<SolverName> kResponding = built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first});
 
 const char* name_of(SolverName solver) { return kSolverNames[static_cast<int>(solver)]; }
 

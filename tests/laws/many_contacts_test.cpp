@@ -62,6 +62,7 @@ TYPED_TEST(ManyContacts, of_elastic_balls_keeps_most_of_its_energy_for_a_minute)
     const auto soft = this->kept(SolverName::soft_step, speed);
     EXPECT_GT(soft.least_left, 0.98) << speed;
     EXPECT_LT(soft.most, 1.005) << speed;
+    if (!kHasBook) continue;
     const auto book = this->kept(SolverName::worst_first, speed);
     EXPECT_GT(book.least_left, 0.98) << speed;
     EXPECT_LT(book.most, 1.005) << speed;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "built.hpp"
 #include "isostep/geometry/baked/surface_blob.hpp"
 #include "laws/exact_rollback.hpp"
 #include "random/dice.hpp"
@@ -362,7 +363,7 @@ TYPED_TEST(OneWays, keep_what_sleeps_on_them_and_are_refused_with_bad_numbers) {
 TYPED_TEST(OneWays, are_rolled_back_while_bodies_are_inside) {
   using S = TypeParam;
   for (const SolverName solver :
-       {SolverName::soft_step, SolverName::pgs, SolverName::worst_first, SolverName::direct}) {
+       built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first, SolverName::direct})) {
     Settings<S> s = settings<S>();
     s.solver = solver;
     this->w = World<S>(s);

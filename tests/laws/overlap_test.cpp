@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "built.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -88,6 +89,7 @@ TYPED_TEST(Overlap, a_crowd_in_one_place_parts_slowly) {
   }
 }
 TYPED_TEST(Overlap, worst_first_parts_a_crowd_without_any_motion) {
+  ISO_NEEDS_BOOK();
   for (const int kind : {0, 1, 2}) {
     const auto motion = this->crowd(SolverName::worst_first, 4, kind);
     EXPECT_LT(motion.speed, 0.01) << kind;

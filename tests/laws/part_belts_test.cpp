@@ -1,6 +1,7 @@
 // Laws of SurfaceVelocity records of parts: each child of a shape runs its own way, in place of the whole body's.
 // SPDX-License-Identifier: MIT
 
+#include "built.hpp"
 #include "isostep/geometry/baked/surface_blob.hpp"
 #include "isostep/store/state_validator.hpp"
 #include "laws/exact_rollback.hpp"
@@ -8,7 +9,8 @@
 namespace isostep::test {
 namespace {
 
-constexpr SolverName kAll[] = {SolverName::soft_step, SolverName::pgs, SolverName::worst_first, SolverName::direct};
+const std::vector<SolverName> kAll =
+    built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first, SolverName::direct});
 const char* name_of(SolverName solver) { return kSolverNames[static_cast<int>(solver)]; }
 
 template <class S> class PartBelts : public ::testing::Test {

@@ -88,6 +88,7 @@ template <class S> class RandomCoupledWorld {
     constexpr int kSubsteps[] = {1, 2, 4, 8};
     Settings<S> s = settings<S>(gravity_, hz_, kSubsteps[chance_.below(4)]);
     s.solver = static_cast<SolverName>(chance_.below(kSolvers));
+    if (left_out(s.solver) != nullptr) s.solver = SolverName::soft_step;
     s.allow_sleep = !chance_.one_in(4);
     text_ << "bodies " << kSolverNames[static_cast<int>(s.solver)] << " " << hz_ << " x " << s.substeps;
     return s;

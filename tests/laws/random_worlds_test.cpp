@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "built.hpp"
 #include "random/asked.hpp"
 #include "random/world.hpp"
 #include "sample.hpp"
@@ -118,7 +119,10 @@ TYPED_TEST_SUITE(RandomWorldLaws, AllScalars);
 
 TYPED_TEST(RandomWorldLaws, soft_step_gives_nothing) { this->try_solver(SolverName::soft_step); }
 TYPED_TEST(RandomWorldLaws, pgs_gives_nothing) { this->try_solver(SolverName::pgs); }
-TYPED_TEST(RandomWorldLaws, worst_first_gives_nothing) { this->try_solver(SolverName::worst_first); }
+TYPED_TEST(RandomWorldLaws, worst_first_gives_nothing) {
+  ISO_NEEDS_BOOK();
+  this->try_solver(SolverName::worst_first);
+}
 
 TEST(RandomWorlds, have_every_kind_of_record) {
   constexpr std::uint64_t kSeeds = 30, kFrames = 180;

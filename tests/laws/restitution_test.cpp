@@ -126,6 +126,7 @@ TYPED_TEST(Restitution, keeps_low_bounces_down_to_the_threshold) {
 
 TYPED_TEST(Restitution, of_no_solver_gains_energy_for_a_ball) {
   for (std::uint32_t solver = 0; solver < kSolvers; ++solver) {
+    if (left_out(SolverName{solver}) != nullptr) continue;
     const auto kept = this->drop_ball(60, 2, 10, static_cast<SolverName>(solver));
     EXPECT_LT(kept.most, pick<TypeParam>(1.001, 1.001, 1 + kFixedBar, 1.001)) << kSolverNames[solver];
   }

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "built.hpp"
 #include "isostep/geometry/baked/surface_blob.hpp"
 #include "random/dice.hpp"
 #include "random/energy_book.hpp"
@@ -161,7 +162,7 @@ template <class S> class RollingEdges : public ::testing::Test {
 TYPED_TEST_SUITE(RollingEdges, AllScalars);
 
 TYPED_TEST(RollingEdges, a_barrel_on_its_rim_gains_nothing) {
-  for (const SolverName solver : {SolverName::soft_step, SolverName::worst_first, SolverName::direct}) {
+  for (const SolverName solver : built({SolverName::soft_step, SolverName::worst_first, SolverName::direct})) {
     Roll barrel;
     barrel.solver = solver;
     this->expect_no_gain(barrel, 10);

@@ -1,6 +1,7 @@
 // Laws of SensorMount: where the sensor is, that its carrier never knows, that it is all state; and what is refused.
 // SPDX-License-Identifier: MIT
 
+#include "built.hpp"
 #include "isostep/store/state_validator.hpp"
 #include "laws/mounted_world.hpp"
 
@@ -101,7 +102,7 @@ TYPED_TEST(SensorMountPoses, move_in_the_step_with_their_carrier) {
 
 TYPED_TEST(SensorMountPoses, change_no_bit_of_what_their_carrier_does) {
   using S = TypeParam;
-  for (const SolverName solver : {SolverName::soft_step, SolverName::worst_first}) {
+  for (const SolverName solver : built({SolverName::soft_step, SolverName::worst_first})) {
     Settings<S> s = settings<S>();
     s.solver = solver;
     this->w = World<S>(s);

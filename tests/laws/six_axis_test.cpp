@@ -5,12 +5,15 @@
 
 #include <algorithm>
 
+#include "built.hpp"
+
 namespace isostep::test {
 namespace {
 
 TYPED_TEST_SUITE(SixAxis, AllScalars);
 
-constexpr SolverName kAll[] = {SolverName::soft_step, SolverName::pgs, SolverName::direct, SolverName::worst_first};
+const std::vector<SolverName> kAll =
+    built({SolverName::soft_step, SolverName::pgs, SolverName::direct, SolverName::worst_first});
 constexpr std::uint32_t kAllLocks = joint_flag::kLockPoint | joint_flag::kLockTurns;
 
 TYPED_TEST(SixAxis, moves_along_the_axis_that_is_not_locked_and_along_no_other) {

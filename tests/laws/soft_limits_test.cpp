@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "built.hpp"
 #include "laws/exact_rollback.hpp"
 #include "random/dice.hpp"
 
 namespace isostep::test {
 namespace {
 
-constexpr SolverName kAll[] = {SolverName::soft_step, SolverName::pgs, SolverName::direct, SolverName::worst_first};
+const std::vector<SolverName> kAll =
+    built({SolverName::soft_step, SolverName::pgs, SolverName::direct, SolverName::worst_first});
 constexpr double kTurn = 6.283185307179586;
 constexpr std::uint32_t kAllLocks = joint_flag::kLockPoint | joint_flag::kLockTurns;
 

@@ -1,6 +1,7 @@
 // Laws of spinning about a contact's normal: friction acts at a radius, so what turns on a point comes to rest.
 // SPDX-License-Identifier: MIT
 
+#include "built.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -32,7 +33,8 @@ template <class S> class SpinResistance : public ::testing::Test {
 };
 TYPED_TEST_SUITE(SpinResistance, AllScalars);
 
-constexpr SolverName kAll[] = {SolverName::soft_step, SolverName::worst_first, SolverName::direct, SolverName::pgs};
+const std::vector<SolverName> kAll =
+    built({SolverName::soft_step, SolverName::worst_first, SolverName::direct, SolverName::pgs});
 
 TYPED_TEST(SpinResistance, slows_a_ball_by_friction_times_its_radius) {
   using S = TypeParam;

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "built.hpp"
 #include "laws/exact_rollback.hpp"
 
 namespace isostep::test {
 namespace {
 
-constexpr SolverName kAll[] = {SolverName::soft_step, SolverName::pgs, SolverName::worst_first, SolverName::direct};
+const std::vector<SolverName> kAll =
+    built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first, SolverName::direct});
 const char* name_of(SolverName solver) { return kSolverNames[static_cast<int>(solver)]; }
 
 template <class S> class SurfaceVelocities : public ::testing::Test {

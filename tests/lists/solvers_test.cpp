@@ -10,14 +10,14 @@ class SolverList : public ListProbe {
  protected:
   void add_to_list() { edit("include/isostep/dynamics/solver_name.hpp", "X(direct)", "X(direct) X(probe)"); }
   void add_member() {
-    edit("include/isostep/dynamics/solvers/solvers.hpp", "  DirectSolver<S> direct;\n",
+    edit("include/isostep/world/solvers.hpp", "  DirectSolver<S> direct;\n",
          "  DirectSolver<S> direct;\n  DirectSolver<S> probe;\n");
   }
 };
 
 TEST_F(SolverList, without_its_member_it_does_not_compile) {
   add_to_list();
-  EXPECT_THAT(errors_of("isostep/dynamics/solvers/solvers.hpp"),
+  EXPECT_THAT(errors_of("isostep/world/solvers.hpp"),
               AllOf(HasSubstr("a solver has no member in Solvers"), HasSubstr("probe")));
 }
 

@@ -35,10 +35,13 @@ while IFS= read -r command; do
       background="$background $!"
       ;;
     *)
-      eval "\"\$tool\" $arguments" >/dev/null 2>&1
-      case $?,$arguments in
+      eval "\"\$tool\" $arguments" >/dev/null 2>"$dir/said"
+      status=$?
+      case $status,$arguments in
         0,* | 69,bake\ *) ;;  # 69: what reads such files was not there when the tool was built
-        *) complain "'$command' exits $?" ;;
+        64,*) # a build without the book's methods
+          if grep 'this build leaves out' "$dir/said"; then echo "skipped: '$command'"; else complain "'$command' exits 64"; fi ;;
+        *) complain "'$command' exits $status" ;;
       esac
       ;;
   esac

@@ -6,15 +6,19 @@
 #include <optional>
 #include <string_view>
 
+#include "isostep/core/book.hpp"
 #include "isostep/scalar/platform.hpp"
 
-/// ISO_FOR_EACH_SOLVER(X) expands X(name): in SolverName, in scene files and on the command line, and of the member of
-/// Solvers. What `substeps` means to each; h is the length of what it integrates at once:
+/// ISO_FOR_EACH_SOLVER(X) expands X(name): in SolverName, in scene files and on the command line;
+/// ISO_FOR_EACH_BUILT_SOLVER(X) for those that this build holds: of the member of Solvers. What `substeps` means to
+/// each; h is the length of what it integrates at once:
 ///   soft_step    so many sub-steps, in each one pass over contacts as springs; joints in trees, solved at once
 ///   pgs          one step of h = 1 / hz, and so many passes: projected Gauss-Seidel, errors closed by Baumgarte's term
 ///   worst_first  so many sub-steps, each resolved the worst contact first: velocities, then positions (Millington)
 ///   direct       so many sub-steps, each island solved simultaneously by pivoting
-#define ISO_FOR_EACH_SOLVER(X) X(soft_step) X(pgs) X(worst_first) X(direct)
+#define ISO_SOLVERS(X, BOOK) X(soft_step) X(pgs) BOOK(worst_first) X(direct)
+#define ISO_FOR_EACH_SOLVER(X) ISO_SOLVERS(X, X)
+#define ISO_FOR_EACH_BUILT_SOLVER(X) ISO_SOLVERS(X, ISO_BUILT_BOOK(X))
 
 namespace isostep {
 
@@ -32,6 +36,13 @@ ISO_INLINE std::optional<SolverName> solver_named(std::string_view name) {
     if (name == kSolverNames[i]) return static_cast<SolverName>(i);
   }
   return std::nullopt;
+}
+
+/// Null for a solver that this build holds, and for what is none: core/book.hpp.
+ISO_INLINE constexpr const char* expected_instead_of(SolverName solver) {
+  constexpr const char* kExpected[] = {ISO_SOLVERS(ISO_NOT_LEFT_OUT, ISO_LEFT_OUT)};
+  const auto index = static_cast<std::uint32_t>(solver);
+  return index < kSolvers ? kExpected[index] : nullptr;
 }
 
 /// Whether `substeps` are passes over one step of integration.

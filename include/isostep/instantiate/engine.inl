@@ -12,7 +12,6 @@
 #include "isostep/collision/narrowphase/pair_scalar.inl"
 #include "isostep/collision/narrowphase/polyhedra.inl"
 #include "isostep/collision/narrowphase/round_polyhedron.inl"
-#include "isostep/collision/narrowphase/v_clip.inl"
 #include "isostep/collision/query/closest_point.inl"
 #include "isostep/collision/query/ray_cast.inl"
 #include "isostep/collision/query/shape_cast.inl"
@@ -24,7 +23,6 @@
 #include "isostep/dynamics/solvers/body_kernel.inl"
 #include "isostep/dynamics/solvers/contact_kernel.inl"
 #include "isostep/dynamics/solvers/direct.inl"
-#include "isostep/dynamics/solvers/worst_first.inl"
 #include "isostep/geometry/baked/hull_content.inl"
 #include "isostep/geometry/baked/polyhedron.inl"
 #include "isostep/geometry/baked/polyhedron_surface.inl"
@@ -43,9 +41,13 @@
 #include "isostep/particles/instantiate.inl"
 #include "isostep/query/queries.inl"
 #include "isostep/scalar/math.inl"
+#include "isostep/store/chosen_broad_phase.inl"
 #include "isostep/world/engine_fields.inl"
 #include "isostep/world/engine_step.inl"
 #include "isostep/world/world.inl"
+#if !defined(ISOSTEP_NO_BOOK)
+#include "isostep/book/instantiate.inl"
+#endif
 
 /// World<S>, ParticleWorld<S> and what the public headers beneath them declare, for an S = Fixed<Rep, FracBits> that is
 /// not a shipped one.
@@ -89,13 +91,12 @@
   ISO_GJK_OF(, OwnScalar)                                                                                       \
   ISO_ROUND_POLYHEDRON_OF(, OwnScalar)                                                                          \
   ISO_EPA_OF(, OwnScalar)                                                                                       \
-  ISO_V_CLIP_OF(, OwnScalar)                                                                                    \
   ISO_SHAPE_CAST_OF(, OwnScalar)                                                                                \
   ISO_TIME_OF_IMPACT_OF(, OwnScalar)                                                                            \
   ISO_PLANE_IMPACT_OF(, OwnScalar)                                                                              \
   ISO_SHAPE_IMPACT_OF(, OwnScalar)                                                                              \
   ISO_BOX_TREES_OF(OwnScalar)                                                                                   \
-  ISO_COARSE_STRUCTURES_OF(OwnScalar)                                                                           \
+  template class ChosenBroadPhase<OwnScalar>;                                                                   \
   ISO_DECLARE_CONTACT_KERNELS(OwnScalar)                                                                        \
   ISO_DEFINE_SCALAR_CONTACT_KERNELS(OwnScalar)                                                                  \
   template <> const ContactKernels<OwnScalar>* contact_kernels<OwnScalar>(Simd simd) {                          \
@@ -119,7 +120,7 @@
     return here ? detail::kernel_table<TreeKernels<OwnScalar>, Simd::scalar>() : nullptr;                       \
   }                                                                                                             \
   template class JointTrees<OwnScalar>;                                                                         \
-  template class WorstFirstResolver<OwnScalar>;                                                                 \
+  ISO_IF_BOOK(ISO_BOOK_OF(OwnScalar))                                                                           \
   template class DirectSolver<OwnScalar>;                                                                       \
   ISO_INSTANTIATE_PARTICLES(OwnScalar)                                                                          \
   ISO_INSTANTIATE_WORLD_QUERIES(OwnScalar)                                                                      \

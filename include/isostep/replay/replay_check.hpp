@@ -22,6 +22,7 @@ struct CheckedReplay {
   std::string scene, scalar;  // empty where the file does not tell
   const char* lanes = "";     // that stepped it; empty: nothing did
   VerifyResult result{};
+  const char* left_out = nullptr;  // the method that this build lacks for it; it is incompatible then
 };
 
 /// Refuses what was made with another behaviour version, as it does every other required field.

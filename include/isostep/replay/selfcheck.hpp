@@ -20,6 +20,7 @@ struct SelfcheckPart {
   const char* lanes;         // World::simd_name()
   std::uint32_t recordings;  // replayed; 0: the library carries none of this scalar
   std::uint32_t failed;      // of these
+  std::uint32_t skipped;     // not replayed: of a method that the build leaves out
   std::uint64_t frames;      // whose hashes were computed again and agreed
 };
 
@@ -37,6 +38,7 @@ struct SelfcheckResult {
   std::uint32_t caller = 0;
   std::vector<SelfcheckPart> parts;
   std::optional<SelfcheckFailure> failure;
+  const char* left_out = nullptr;  // why recordings were skipped
 
   /// Every scalar of the build with every set of lanes has frames that agree, and none that does not.
   ISO_INLINE bool sound() const {

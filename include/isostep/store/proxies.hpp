@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "isostep/collision/broadphase/chosen_broad_phase.hpp"
 #include "isostep/collision/broadphase/pairs.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/body.hpp"
+#include "isostep/store/chosen_broad_phase.hpp"
 #include "isostep/store/crowd.hpp"
 #include "isostep/store/proxy.hpp"
 

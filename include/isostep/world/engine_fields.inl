@@ -8,6 +8,9 @@
 #include "isostep/dynamics/solvers/solver_fields.inl"
 #include "isostep/state/fields.inl"
 #include "isostep/world/engine.hpp"
+#if !defined(ISOSTEP_NO_BOOK)
+#include "isostep/book/worst_first_fields.inl"
+#endif
 
 namespace isostep {
 

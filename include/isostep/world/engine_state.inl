@@ -14,7 +14,8 @@ namespace detail {
 template <class S> Settings<S> in_range(Settings<S> s) {
   s.hz = clamp(s.hz, 10, 1000);
   s.substeps = clamp(s.substeps, 1, min(64, kMaxRate / s.hz));
-  if (static_cast<std::uint32_t>(s.solver) >= kSolvers) s.solver = SolverName::soft_step;
+  if (static_cast<std::uint32_t>(s.solver) >= kSolvers || left_out(s.solver) != nullptr)
+    s.solver = SolverName::soft_step;
   if (static_cast<std::uint32_t>(s.projection) >= kProjections) s.projection = Projection::nonlinear;
   s.id_space = min(s.id_space, SlotMap::kIdSpaces - 1u);
   s.most_pairs = clamp(s.most_pairs, kLeastPairs, kMostPairs);
@@ -33,8 +34,10 @@ template <class S> Settings<S> in_range(Settings<S> s) {
 template <class S> WorldEngine<S>::WorldEngine(const Settings<S>& settings) {
   tools_.use_simd(Simd::best);
   const Settings<S>& s = state_.settings = detail::in_range(settings);
+  const char* const instead = expected_instead_of(settings.solver);
   const FaultReport report =
       detail::Checklist()
+          .proper(instead == nullptr, "solver", instead)
           .in_range(s.hz == settings.hz, "hz", "10 to 1000")
           .in_range(s.substeps == settings.substeps, "substeps", "1 to 64, hz * substeps up to kMaxRate")
           .in_range(s.gravity == settings.gravity, "gravity", "components up to Limits::speed()")
@@ -92,7 +95,8 @@ template <class S> Result<void> WorldEngine<S>::read_portable(Reader& reader) {
   const auto read_store = [&](GeometryStore& store) { store.read(reader, *state_.geometry, assets_); };
   WorldState<S>::members(detail::StateReader(reader, read_store), next);
   if (reader.ok()) {
-    if (const char* rule = StateValidator<S>(next).broken_rule()) reader.fail(ErrorCode::corrupt, rule);
+    if (const char* missing = left_out(next.settings.solver)) reader.fail(ErrorCode::incompatible, missing);
+    else if (const char* rule = StateValidator<S>(next).broken_rule()) reader.fail(ErrorCode::corrupt, rule);
   }
   const Result<void> result = reader.result("world");
   if (!reader.ok()) return result;

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
-#include "isostep/dynamics/solvers/solvers.hpp"
 #include "isostep/store/body_map.hpp"
 #include "isostep/store/events.hpp"
 #include "isostep/systems/contacts/step_tools.hpp"
 #include "isostep/systems/forces/body_forces.hpp"
+#include "isostep/world/solvers.hpp"
 
 namespace isostep {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/core/stable_sort.hpp"
-#include "isostep/dynamics/solvers/solvers.inl"
+#include "isostep/world/solvers.inl"
 #include "isostep/world/step_solver.hpp"
 
 namespace isostep {

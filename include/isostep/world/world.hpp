@@ -58,14 +58,16 @@ template <class S> class World final : public WorldBase<World<S>> {
   using Scalar = S;
   using Command = isostep::Command<S>;
 
-  /// Settings out of range are brought into it, and that is a fault.
+  /// Settings out of range are brought into it, and that is a fault. So is a solver that the build leaves out
+  /// (ISOSTEP_BOOK): the world has soft_step then.
   explicit World(const Settings<S>& settings = {}) : Base(settings) {}
 
   /// Lanes for this world's solver. Never changes a bit; false and no change where this processor or build lacks them.
   bool use_simd(Simd simd);
   const char* simd_name() const;
   /// The structure that finds bodies near each other, and what queries meet: the tree of boxes unless told. Never
-  /// changes a bit. Grids move and insert more quickly, the tree finds pairs more quickly.
+  /// changes a bit. Grids move and insert more quickly, the tree finds pairs more quickly. One that the build leaves
+  /// out (ISOSTEP_BOOK) is refused.
   bool use_broad_phase(BroadPhaseName name);
   BroadPhaseName broad_phase() const;
   /// Threads that help with every step from now on; none by default. Never changes a bit. Small worlds stay on the

@@ -23,6 +23,8 @@ template <class S> bool World<S>::use_simd(Simd simd) {
 template <class S> bool World<S>::use_broad_phase(BroadPhaseName name) {
   const ExclusiveCall call = engine_->desk_.enter("use_broad_phase");
   if (!call.allowed() || static_cast<std::uint32_t>(name) >= kBroadPhases) return false;
+  if (const char* instead = expected_instead_of(name))
+    return engine_->desk_.faults.refuse_call("use_broad_phase", {Fault::bad_argument, "", "name", instead});
   if (name != broad_phase()) engine_->proxies_.use(name);
   return true;
 }

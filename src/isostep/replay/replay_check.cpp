@@ -3,6 +3,7 @@
 #include "isostep/replay/replay_check.hpp"
 
 #include "isostep/core/scalar_names.hpp"
+#include "isostep/dynamics/solver_name.hpp"
 #include "isostep/replay/world_kinds.hpp"
 
 namespace isostep {
@@ -64,6 +65,13 @@ void check_as(const ReplayReader& replay, const ReplayIdentity& claimed, const R
   world.write_portable(writer);
 }
 
+/// Null, or why this build cannot play a recording of such a world: core/book.hpp.
+const char* left_out_for(const ReplayIdentity& claimed) {
+  const bool rigid = claimed.world == WorldTraits<World<float>>::kName;
+  const std::optional<SolverName> solver = rigid ? solver_named(claimed.solver) : std::nullopt;
+  return solver ? left_out(*solver) : nullptr;
+}
+
 }  // namespace
 
 CheckedReplay check_replay(Bytes file, const ReplayCheck& check) {
@@ -83,6 +91,12 @@ CheckedReplay check_replay(Bytes file, const ReplayCheck& check) {
   const ReplayIdentity& claimed = identity.value();
   checked.scene = claimed.scene;
   checked.scalar = claimed.scalar;
+  checked.left_out = left_out_for(claimed);
+  if (checked.left_out != nullptr) {
+    checked.result = detail::incompatible({"solver", claimed.solver, {}});
+    checked.result.error = {ErrorCode::incompatible, checked.left_out, "solver"};
+    return checked;
+  }
   const std::string_view missing = with_world(claimed.world, claimed.scalar, [&](auto tag) {
     check_as<typename decltype(tag)::Type>(replay, claimed, check, checked);
   });

@@ -25,6 +25,11 @@ void replay_all(std::span<const SelfcheckRecording> recordings, Simd simd, Selfc
   for (const SelfcheckRecording& recording : recordings) {
     if (std::string_view(recording.scalar) != part.scalar) continue;
     const CheckedReplay checked = check_replay(recording.file, {.simd = simd});
+    if (checked.left_out != nullptr) {
+      part.skipped += 1;
+      result.left_out = checked.left_out;
+      continue;
+    }
     part.recordings += 1;
     if (checked.result.outcome == VerifyOutcome::verified) {
       part.frames += checked.result.frames;
@@ -39,7 +44,7 @@ template <class S> void replay_in(std::span<const SelfcheckRecording> recordings
   for (const Simd simd : kLanes) {
     World<S> world;
     if (!world.use_simd(simd)) continue;
-    SelfcheckPart part = {ScalarTraits<S>::kName, world.simd_name(), 0, 0, 0};
+    SelfcheckPart part = {ScalarTraits<S>::kName, world.simd_name(), 0, 0, 0, 0};
     replay_all(recordings, simd, part, result);
     result.parts.push_back(part);
   }
@@ -60,16 +65,18 @@ void add_word(std::string& words, const char* word) {
 /// "1200 frames of 24 replays agree: float double by scalar sse2"
 std::string compared_text(const SelfcheckResult& result) {
   std::string scalars, lanes, without;
-  std::uint32_t replays = 0, failed = 0;
+  std::uint32_t replays = 0, failed = 0, skipped = 0;
   for (const SelfcheckPart& part : result.parts) {
     add_word(part.recordings > 0 ? scalars : without, part.scalar);
     add_word(lanes, part.lanes);
     replays += part.recordings;
     failed += part.failed;
+    skipped += part.skipped;
   }
   std::string text = std::to_string(result.frames()) + " frames of " + std::to_string(replays) + " replays agree";
   if (replays > 0) text += ": " + scalars + " by " + lanes;
   if (failed > 0) text += "; " + std::to_string(failed) + " replays do not";
+  if (skipped > 0) text += "; " + std::to_string(skipped) + " replays skipped: " + result.left_out;
   if (!without.empty()) text += "; no replays of " + without;
   return text;
 }

@@ -6,6 +6,7 @@ namespace isostep::tool {
 
 void RigidGames::list(std::vector<SceneRow>& rows) {
   for (const scenes::NamedScene& entry : scenes::named_scenes()) {
+    if (entry.left_out != nullptr) continue;
     rows.push_back(row(entry.name, entry.description));
     rows.back().narrow = entry.narrow;
   }

@@ -34,6 +34,10 @@ scenes::Scene load_scene_file(const std::string& name_or_file) {
   }
 }
 
+void require_built(const scenes::Scene& asked) {
+  if (const char* why = scenes::left_out(asked)) throw ToolError(exit_status::kUsage, why);
+}
+
 void require_rigid_methods(const GameOptions& options) {
   if (!options.integrator.empty() || !options.stepping.empty())
     throw ToolError(exit_status::kUsage, "--integrator and --stepping are for scenes of particles");

@@ -24,6 +24,8 @@ scenes::Scene load_scene_file(const std::string& name_or_file);
 
 /// Throws ToolError 64 for methods that rigid bodies have not got.
 void require_rigid_methods(const GameOptions& options);
+/// Throws ToolError 64 for methods that this build leaves out.
+void require_built(const scenes::Scene& asked);
 /// Some worlds stay on the calling thread: for those a ToolError 64.
 template <class W> void use_threads(W& world, const TaskRunner& runner) {
   if constexpr (requires { world.use_threads(runner); }) {
@@ -80,7 +82,9 @@ template <class S> struct SceneGame {
     asked.substeps = scene.substeps;
     asked.solver = scene.solver;
     asked.projection = scene.projection;
+    asked.broad_phase = scene.broad_phase;
     ask(asked, options);
+    require_built(asked);
     return scenes::settings_of<S>(asked);
   }
   void before_step(World& any) const { scenes::before_step(script, any); }

@@ -4,8 +4,8 @@
 #include <iterator>
 #include <set>
 
-#include "isostep/dynamics/solver_name.hpp"
 #include "isostep/particles/settings.hpp"
+#include "rigid_run.hpp"
 #include "subject.hpp"
 #include "sweep.hpp"
 #include "tool/common/tool.hpp"
@@ -17,7 +17,7 @@ const std::vector<int> kSubsteps = {1, 2, 4, 8, 16, 32};
 
 std::vector<std::string> solvers_of(const std::string& model) {
   if (model == "particles") return {std::begin(kParticleSolverNames), std::end(kParticleSolverNames)};
-  return {std::begin(kSolverNames), std::end(kSolverNames)};
+  return rigid_solvers();
 }
 
 template <class T> bool contains(const std::vector<T>& list, const T& item) {

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "isostep/store/state.hpp"
 #include "result.hpp"
 #include "scenes/build.hpp"
@@ -11,6 +14,12 @@
 
 namespace isostep::tool::lab {
 
+/// Those that this build holds.
+inline std::vector<std::string> rigid_solvers() {
+#define ISO_NAME(name) #name,
+  return {ISO_FOR_EACH_BUILT_SOLVER(ISO_NAME)};
+#undef ISO_NAME
+}
 /// The solver of that name. Throws scenes::SceneError.
 inline SolverName rigid_solver(const std::string& name) {
   if (const std::optional<SolverName> solver = solver_named(name)) return *solver;

@@ -83,8 +83,11 @@ template <class Game> class Run {
     if (recorded_empty) static_cast<void>(Game(scene_, options_.game));  // a scene that is refused leaves no file
     game_.emplace(scene_, options_.game, [&](World& empty) {
       use_lanes(empty, simd_named(options_.simd).value());
-      if constexpr (requires { empty.broad_phase(); })
-        empty.use_broad_phase(broad_phase_named(options_.broad_phase).value());
+      if constexpr (requires { empty.broad_phase(); }) {
+        const BroadPhaseName name = broad_phase_named(options_.broad_phase).value();
+        if (const char* why = left_out(name)) throw ToolError(exit_status::kUsage, why);
+        empty.use_broad_phase(name);
+      }
       if (options_.threads > 1) use_threads(empty, threads_.emplace(options_.threads).runner());
       if (recorded_empty) open_recording(empty);
     });

@@ -22,6 +22,7 @@ void write_all(const std::string& directory) {
   if (error) throw ToolError(exit_status::kOutput, directory + ": " + error.message());
   for (const scenes::NamedScene& entry : scenes::named_scenes()) {
     stop_if_interrupted();
+    if (entry.left_out != nullptr) continue;
     write_file(directory + "/" + entry.name + ".json", scenes::write_scene(*scenes::find_scene(entry.name)));
   }
 }

@@ -78,6 +78,12 @@ CheckedFile check_golden(std::string_view line, Simd simd, const VerifySpan& spa
   file.scene = golden->scene;
   file.scalar = golden->scalar;
   const std::string_view missing = with_named_game(golden->scene, golden->scalar, [&](auto tag, const auto& scene) {
+    if constexpr (requires { scenes::left_out(scene); }) file.left_out = scenes::left_out(scene);
+    if (file.left_out != nullptr) {
+      file.result = isostep::detail::incompatible({"scene", std::string_view(golden->scene), {}});
+      file.result.error = {ErrorCode::incompatible, file.left_out, "scene"};
+      return;
+    }
     compare(*golden, hashes_in_time<typename decltype(tag)::Type>(scene, golden->frames, simd, span), file);
   });
   if (!missing.empty()) file.result = unknown(missing, missing == "scene" ? file.scene : file.scalar);

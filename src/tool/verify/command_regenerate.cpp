@@ -93,6 +93,7 @@ int record(const RegenerateOptions& options) {
 }  // namespace
 
 int command_regenerate(const RegenerateOptions& options) {
+  if (const char* why = left_out(SolverName::worst_first)) throw ToolError(exit_status::kUsage, why);
   if (options.record) return record(options);
   Directory directory(options.directory.empty() ? ISOSTEP_REPLAYS_DIR : options.directory);
   directory.put("goldens.txt", regenerate_all(directory.content_of("goldens.txt")));  // all or nothing

@@ -19,9 +19,12 @@ void print_table(const SelfcheckResult& result) {
   };
   arithmetic("engine", result.engine);
   arithmetic("this program", result.caller);
-  for (const SelfcheckPart& part : result.parts)
-    std::printf("%-7s %-6s %u of %u recordings, %llu frames\n", part.scalar, part.lanes, part.recordings - part.failed,
+  for (const SelfcheckPart& part : result.parts) {
+    std::printf("%-7s %-6s %u of %u recordings, %llu frames", part.scalar, part.lanes, part.recordings - part.failed,
                 part.recordings, static_cast<unsigned long long>(part.frames));
+    if (part.skipped > 0) std::printf(", %u skipped", part.skipped);
+    std::printf("\n");
+  }
 }
 
 ordered_json json_of(const SelfcheckFailure& failure) {
@@ -43,6 +46,7 @@ ordered_json json_of(const SelfcheckResult& result, double milliseconds) {
                      {"lanes", part.lanes},
                      {"recordings", part.recordings},
                      {"failed", part.failed},
+                     {"skipped", part.skipped},
                      {"frames", part.frames}});
   return {{"sound", result.sound()},
           {"version", kVersionText},
@@ -53,6 +57,7 @@ ordered_json json_of(const SelfcheckResult& result, double milliseconds) {
           {"caller", deviation_names(result.caller)},
           {"frames", result.frames()},
           {"parts", parts},
+          {"left_out", result.left_out != nullptr ? ordered_json(result.left_out) : ordered_json()},
           {"failure", result.failure ? json_of(*result.failure) : ordered_json()},
           {"milliseconds", milliseconds}};
 }

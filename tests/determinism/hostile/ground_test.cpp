@@ -12,6 +12,7 @@
 #include <set>
 #include <thread>
 
+#include "built.hpp"
 #include "determinism/particle_mess.hpp"
 #include "determinism/solver_scene.hpp"
 #include "isostep/scalar/text.hpp"
@@ -46,6 +47,7 @@ template <class S> Hashes hashes_on(const Ground& ground, int* calls = nullptr) 
     for (int f = 0; f < 8; ++f) step_on(w, holding, hashes);
   }
   for (std::uint32_t i = 0; i < kSolvers; ++i) {
+    if (left_out(SolverName{i}) != nullptr) continue;
     World<S> w(solver_settings<S>(static_cast<SolverName>(i)));
     w.use_simd(ground.simd);
     w.use_threads(holding.runner());
@@ -81,7 +83,7 @@ TYPED_TEST_SUITE(HostileGround, AllScalars);
 TYPED_TEST(HostileGround, is_crossed_by_scenes_in_which_every_frame_is_another) {
   const Hashes& hashes = this->expected();
   EXPECT_EQ(std::set<std::uint64_t>(hashes.begin(), hashes.end()).size(), hashes.size());
-  EXPECT_EQ(hashes.size(), 8u + 20u * kSolvers + 48u);
+  EXPECT_EQ(hashes.size(), 8u + 20u * std::size(kBuiltSolvers) + 48u);
 }
 
 TYPED_TEST(HostileGround, of_all_kinds_at_once_changes_no_bit) {

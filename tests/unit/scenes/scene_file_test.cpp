@@ -37,6 +37,7 @@ TYPED_TEST(SceneFiles, OfNamedScenesRunAsTheScenesDo) {
 
 TEST(SceneFile, ReadsBackWhatWasWritten) {
   for (const NamedScene& entry : named_scenes()) {
+    if (entry.left_out != nullptr) continue;
     const std::string text = write_scene(*find_scene(entry.name));
     EXPECT_EQ(write_scene(read_scene(text)), text) << entry.name;
   }

@@ -103,6 +103,7 @@ TYPED_TEST(SelfcheckScenes, MedleyAsksForEveryPartOfTheRigidEngine) {
 TYPED_TEST(SelfcheckScenes, MedleyByEverySolverHasContactsAndPulledJointsWithinThirtyFrames) {
   using S = TypeParam;
   for (std::uint32_t solver = 0; solver < kSolvers; ++solver) {
+    if (left_out(SolverName{solver}) != nullptr) continue;
     Scene scene = *find_scene("medley");
     scene.solver = static_cast<SolverName>(solver);
     World<S> world(settings_of<S>(scene));

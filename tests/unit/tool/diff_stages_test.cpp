@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "built.hpp"
 #include "tool/common/tool.hpp"
 #include "unit/tool/fault_injections.hpp"
 #include "unit/tool/staged_recordings.hpp"
@@ -129,6 +130,7 @@ TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithGaussSeidel) {
   inject_everywhere<World<Q32_32>>(input, rigid_scratch({"colours", "order"}, kBlocks, kBlocks), kRigidOwners, false);
 }
 TEST_F(Recorded, EveryArrayOfEveryStageIsNamedWithWorstFirst) {
+  ISO_NEEDS_BOOK();
   const tool::Input input(file("a", rigid_recording<Q16_16>(SolverName::worst_first, 44)));
   inject_everywhere<World<Q16_16>>(
       input, rigid_scratch({"points", "rolling", "held_joints", "ends", "neighbours"}, {}, {"points"}), kRigidOwners,

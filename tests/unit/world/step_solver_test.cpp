@@ -5,7 +5,8 @@
 
 #include <set>
 
-#include "isostep/dynamics/solvers/solvers.inl"
+#include "built.hpp"
+#include "isostep/world/solvers.inl"
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
@@ -82,6 +83,7 @@ TYPED_TEST(StepSolvers, the_solver_of_the_settings_moves_the_bodies_and_tells_th
   };
   std::set<const void*> all_used;
   for (std::uint32_t name = 0; name < kSolvers; ++name) {
+    if (left_out(SolverName{name}) != nullptr) continue;
     SCOPED_TRACE(kSolverNames[name]);
     state.settings.solver = static_cast<SolverName>(name);
     state.contacts.clear();
@@ -106,7 +108,7 @@ TYPED_TEST(StepSolvers, the_solver_of_the_settings_moves_the_bodies_and_tells_th
     EXPECT_NEAR(to_double(this->solver.impulses()[0]), 6, 0.05);
     EXPECT_EQ(state.contacts[0].flags, contact_flag::kTouching);
   }
-  EXPECT_EQ(all_used.size(), kSolvers) << "each name has a solver of its own";
+  EXPECT_EQ(all_used.size(), std::size(kBuiltSolvers)) << "each name has a solver of its own";
 }
 
 }  // namespace

@@ -228,6 +228,7 @@ TYPED_TEST(VehicleRecords, tell_how_far_their_wheels_are_steered) {
 TYPED_TEST(VehicleRecords, stand_by_every_solver) {
   using S = TypeParam;
   for (std::uint32_t solver = 0; solver < kSolvers; ++solver) {
+    if (left_out(SolverName{solver}) != nullptr) continue;
     Settings<S> s = settings<S>();
     s.solver = static_cast<SolverName>(solver);
     World<S> fresh(s);

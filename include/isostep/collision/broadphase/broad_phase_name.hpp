@@ -6,14 +6,20 @@
 #include <optional>
 #include <string_view>
 
+#include "isostep/core/book.hpp"
 #include "isostep/scalar/platform.hpp"
 
-/// ISO_FOR_EACH_BROAD_PHASE(X) expands X(name, Structure): in BroadPhaseName and of the structure that it names.
-#define ISO_FOR_EACH_BROAD_PHASE(X) \
-  X(box_tree, AabbTree)             \
-  X(sphere_tree, SphereTree)        \
-  X(bsp_tree, BspTree)              \
-  X(quad_tree, QuadTree) X(oct_tree, OctTree) X(grid, Grid) X(multi_grid, MultiGrid) X(sweep_and_prune, SweepAndPrune)
+/// ISO_FOR_EACH_BROAD_PHASE(X) expands X(name, Structure): in BroadPhaseName and of the structure that it names;
+/// ISO_FOR_EACH_BUILT_BROAD_PHASE(X) for those that this build holds.
+// clang-format off
+#define ISO_BROAD_PHASES(X, BOOK)                                 \
+  X(box_tree, AabbTree) BOOK(sphere_tree, SphereTree)             \
+  BOOK(bsp_tree, BspTree) BOOK(quad_tree, QuadTree)               \
+  BOOK(oct_tree, OctTree) BOOK(grid, Grid)                        \
+  BOOK(multi_grid, MultiGrid) BOOK(sweep_and_prune, SweepAndPrune)
+// clang-format on
+#define ISO_FOR_EACH_BROAD_PHASE(X) ISO_BROAD_PHASES(X, X)
+#define ISO_FOR_EACH_BUILT_BROAD_PHASE(X) ISO_BROAD_PHASES(X, ISO_BUILT_BOOK(X))
 
 namespace isostep {
 
@@ -31,6 +37,13 @@ ISO_INLINE std::optional<BroadPhaseName> broad_phase_named(std::string_view name
     if (name == kBroadPhaseNames[i]) return static_cast<BroadPhaseName>(i);
   }
   return std::nullopt;
+}
+
+/// Null for a structure that this build holds, and for what is none: core/book.hpp.
+ISO_INLINE constexpr const char* expected_instead_of(BroadPhaseName name) {
+  constexpr const char* kExpected[] = {ISO_BROAD_PHASES(ISO_NOT_LEFT_OUT, ISO_LEFT_OUT)};
+  const auto index = static_cast<std::uint32_t>(name);
+  return index < kBroadPhases ? kExpected[index] : nullptr;
 }
 
 }  // namespace isostep

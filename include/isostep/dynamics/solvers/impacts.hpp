@@ -8,8 +8,8 @@
 #include "isostep/core/disjoint_sets.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
+#include "isostep/dynamics/solvers/row_pushes.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
-#include "isostep/dynamics/solvers/worst_first_rows.hpp"
 
 namespace isostep {
 

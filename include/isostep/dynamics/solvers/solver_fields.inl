@@ -10,7 +10,6 @@
 #include "isostep/dynamics/solvers/contact_fields.inl"
 #include "isostep/dynamics/solvers/direct.hpp"
 #include "isostep/dynamics/solvers/sequential.hpp"
-#include "isostep/dynamics/solvers/worst_first.hpp"
 
 namespace isostep {
 
@@ -101,31 +100,6 @@ void Sequential<S>::visit_scratch(const Visit& visit, SolverStage stage, const S
   for (const Run& run : runs_) {
     for (std::uint32_t k = 0; k < run.count; ++k) prepared(run, k);
   }
-}
-
-// ---- worst first
-
-template <class S, class Queue>
-template <class Visit>
-void WorstFirstResolver<S, Queue>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>&) {
-  visit_rows(visit, stage, joints_, bodies_);
-  if (stage == SolverStage::colour) {
-    visit("points", points_);
-    visit("rolling", rolling_);
-    visit("held_joints", held_);
-    visit("ends", ends_);
-    visit("neighbours", std::span(neighbours_.data(), first_[bodies_.rows().mass.size()]));
-  }
-  if (stage != SolverStage::solve) return;
-  visit("islands_left", islands_left_);
-  visit.each("points", points_.size(), [&](const auto& of_point, std::size_t i) {
-    Point& point = points_[i];
-    of_point("contact", point.contact);
-    of_point("impulse", point.impulse);
-    of_point("total_impulse", point.total_impulse);
-    of_point("least_speed", point.least_speed);
-    of_point("friction_impulse", point.friction.impulse);
-  });
 }
 
 // ---- direct

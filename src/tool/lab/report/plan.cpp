@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "isostep/dynamics/solver_name.hpp"
 #include "scenes/named.hpp"
 #include "tool/common/tool.hpp"
+#include "tool/lab/rigid_run.hpp"
 
 namespace isostep::tool::lab {
 namespace {
@@ -29,8 +29,6 @@ constexpr SceneView kViews[] = {
     {"S8", "pyramid that may sleep: worst overlap", Measure::penetration, 1e3, "mm", true},
     {"S9", "drum of 600: worst overlap", Measure::penetration, 1e3, "mm", true},
 };
-
-std::vector<std::string> all_solvers() { return {std::begin(kSolverNames), std::end(kSolverNames)}; }
 
 /// Steps times bodies: what a run costs, roughly.
 double size_of(const scenes::Trial& trial) {
@@ -101,7 +99,7 @@ Plan whole_plan(double limit) {
                {2, 4, 8, 16},
                {{1, 4}, {1, 8}, {1, 16}, {1, 32}, {4, 8}, {8, 8}},
                scalar_names(),
-               all_solvers(),
+               rigid_solvers(),
                limit};
   for (const SceneView& view : kViews) plan.scenes.push_back(view.scene);
   for (const scenes::Trial& trial : scenes::trials()) plan.trials.push_back(trial.name);
@@ -110,7 +108,7 @@ Plan whole_plan(double limit) {
 
 Plan short_plan(double limit) {
   constexpr std::size_t kTrials = 16;
-  Plan plan = {{"S1x10", "S6v"}, {}, {4, 8}, {}, {{1, 8}}, scalar_names(), all_solvers(), std::min(limit, 2.0)};
+  Plan plan = {{"S1x10", "S6v"}, {}, {4, 8}, {}, {{1, 8}}, scalar_names(), rigid_solvers(), std::min(limit, 2.0)};
   std::vector<std::pair<double, std::string>> by_size;
   for (const scenes::Trial& trial : scenes::trials()) by_size.push_back({size_of(trial), trial.name});
   std::stable_sort(by_size.begin(), by_size.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "isostep/collision/broadphase/broad_phases.hpp"
+#include "isostep/collision/broadphase/broad_phase_name.hpp"
 
 namespace isostep::test {
 namespace {

@@ -1,0 +1,27 @@
+// The book's methods: their bodies, and the lists of what a scalar needs of them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/book/bsp_tree.inl"
+#include "isostep/book/cell_grid.inl"
+#include "isostep/book/cell_tree.inl"
+#include "isostep/book/hierarchy.inl"
+#include "isostep/book/sphere_tree.inl"
+#include "isostep/book/sweep_and_prune.inl"
+#include "isostep/book/v_clip.inl"
+#include "isostep/book/worst_first.inl"
+
+#define ISO_COARSE_STRUCTURES_OF(S)               \
+  template class Hierarchy<S, BoundingSphere<S>>; \
+  template class Hierarchy<S, Aabb<S>>;           \
+  template class SphereTree<S>;                   \
+  template class BspTree<S>;                      \
+  template class CellTree<S, 2>;                  \
+  template class CellTree<S, 3>;                  \
+  template class CellGrid<S, false>;              \
+  template class CellGrid<S, true>;               \
+  template class SweepAndPrune<S>;
+#define ISO_BOOK_OF(S)        \
+  ISO_COARSE_STRUCTURES_OF(S) \
+  ISO_V_CLIP_OF(, S)          \
+  template class WorstFirstResolver<S>;

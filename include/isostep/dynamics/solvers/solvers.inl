@@ -1,6 +1,0 @@
-// Bodies of the solvers that a world is instantiated with.
-// SPDX-License-Identifier: MIT
-#pragma once
-
-#include "isostep/dynamics/solvers/sequential.inl"
-#include "isostep/dynamics/solvers/solvers.hpp"
