@@ -1,5 +1,5 @@
 // Defects of the book's own resolver, which the solver worst_first has not got: rows 9 to 14 of the list, with every
-// projection. Row 9, creep on a slope, is a_block_rests_on_a_slope_... of tests/unit/dynamics/worst_first_test.cpp, and
+// projection. Row 9, creep on a slope, is a_block_rests_on_a_slope_... of tests/unit/book/worst_first_test.cpp, and
 // a resting ball that bounces by gravity alone, of row 11, is there too.
 // SPDX-License-Identifier: MIT
 

@@ -44,7 +44,7 @@ template <class S> struct VClipDistance {
 /// Source:  Mirtich 1998, V-Clip: Fast and Robust Polyhedral Collision Detection, ACM Trans. Graphics 17(3), sec. 3, 4.
 /// Differs: where an edge misses a face's region, the face's edge that is nearest to it follows, found by looking at
 ///          all. What is beyond a plane by no more than rounding is inside of it.
-/// Error:   tests/unit/collision/narrowphase/v_clip_test.cpp says in how many cases the distance is that of GJK.
+/// Error:   tests/unit/book/v_clip_test.cpp says in how many cases the distance is that of GJK.
 template <class S>
 VClipDistance<S> v_clip_distance(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
                                  const Transform<S>& tb, FeaturePair from);
