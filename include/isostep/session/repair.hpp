@@ -46,19 +46,4 @@ struct Repair {
   Frame present = 0;       // the frame that would be next by now; above the current one frames are stepped again
 };
 
-/// The host's, for each client.
-struct RepairService {
-  enum class Stage : std::uint8_t {
-    none,
-    waits,  // it was served a moment ago
-    needs,  // the next snapshot
-    receives,
-    restores  // it has all of it
-  };
-  Stage stage = Stage::none;
-  bool must_offer = false;
-  Time next = 0;            // [us] not before: a snapshot costs the host more than it costs to ask for one
-  std::uint32_t tells = 0;  // players of whom this client must hear that they are repaired, a bit each
-};
-
 }  // namespace isostep

@@ -49,14 +49,4 @@ Result<Statement> read_statement(Bytes message);
 void write_statements(const Statements& statements, std::vector<std::uint8_t>& out);
 Result<Statements> read_statements(Bytes message);
 
-/// The host's: it asks when the machines that differ from it, or those that could judge them, are not those of the
-/// last time.
-struct Inquiry {
-  Statements statements;
-  bool is_open = false;
-  Time until = 0;                          // [us] when it ends with the statements that came
-  Time next = 0;                           // [us] no other begins before
-  std::uint64_t differing = 0, asked = 0;  // machines, a bit each
-};
-
 }  // namespace isostep

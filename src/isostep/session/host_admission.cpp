@@ -1,7 +1,5 @@
-// Who gets which seat of the host's match, for whom seats are kept, and what the host's game has to say in that.
+// Whom the host lets in and sends away, and what its game has to say in that.
 // SPDX-License-Identifier: MIT
-#include <bit>
-
 #include "isostep/session/host_core.hpp"
 
 namespace isostep {
@@ -9,17 +7,10 @@ namespace {
 
 /// [us] from the connection to the hello, which is one way of the line: a second for it to be sent again, and one more.
 constexpr Time kGreeting = 2 * kSecond;
-
-/// [us] for who has a connection to have a state and others who agree with it, before its seat is anybody's.
-constexpr Time kJoining = 30 * kSecond;
 /// [us] that count of one turn: nobody can come back while our own process stands still.
 constexpr Time kLongestTurn = kSecond;
-
-/// 1 when they are equal, without a branch that would tell how.
-constexpr std::uint32_t equals(std::uint64_t a, std::uint64_t b) {
-  const std::uint64_t difference = a ^ b;
-  return static_cast<std::uint32_t>(~(difference | (0 - difference)) >> 63);
-}
+constexpr Frame kNotice = 30;         // [frames] between a seat's opening and its first frame
+constexpr Time kRefusalsAtOnce = 32;  // all players of another version; of who comes again and again one a second
 
 /// What the other side reads as a reason: see read_refusal.
 bool is_reason(std::string_view text) {
@@ -33,20 +24,19 @@ bool is_reason(std::string_view text) {
 
 void HostCore::tend_places(Time now) {
   const Time turn = now - turn_at_ < kLongestTurn ? now - turn_at_ : kLongestTurn;
-  const Time passed = is_paused() ? 0 : turn;
   turn_at_ = now;
-  for (Seat& seat : seats_) seat.idle = !started_ || seat.is_open ? 0 : seat.idle + passed;
+  seats_.pass(is_paused() ? 0 : turn);
   for (Guest& guest : guests_) {
-    const bool is_silent = guest.is_connected && guest.stage == Guest::Stage::connected && !guest.must_close;
+    const bool is_silent = guest.is_connected && guest.stage == Guest::Stage::connected && !guest.due.has(Due::close);
     if (!is_silent || now - guest.heard <= kGreeting) continue;
-    guest.must_close = true;  // and not refused: a machine that stood still comes again
+    guest.due.set(Due::close);  // and not refused: a machine that stood still comes again
     ++stats_.refused;
   }
 }
 
 // --- what the game decides ---
 
-HostCore::Guest* HostCore::applicant_of(std::uint64_t number) {
+Guest* HostCore::applicant_of(std::uint64_t number) {
   for (Guest& guest : guests_) {
     if (guest.is_connected && guest.stage == Guest::Stage::applies && guest.applicant == number) return &guest;
   }
@@ -59,7 +49,7 @@ std::optional<Applicant> HostCore::poll_applicant() {
     guest.is_shown = true;
     const Application& wish = guest.wish;
     return Applicant{guest.applicant, guest.peer, wish.spectator,
-                     wish.seat,       wish.seats, first_of(players_of(wish.token)),
+                     wish.seat,       wish.seats, first_of(seats_.players_of(wish.token)),
                      guest.credential};
   }
   return std::nullopt;
@@ -73,166 +63,121 @@ bool HostCore::admit(std::uint64_t applicant) {
 bool HostCore::refuse(std::uint64_t applicant, std::string_view reason) {
   Guest* guest = applicant_of(applicant);
   if (guest == nullptr || !is_reason(reason)) return false;
-  refuse(*guest, "admission", {}, reason);
+  refuse(*guest, {"admission", {}, reason});
   return true;
 }
 
 bool HostCore::kick(int player, std::string_view reason) {
-  if (!is_guests(player) || !seats_[player].is_taken || !is_reason(reason)) return false;
-  const int link = seats_[player].link;
-  // Of one machine: those who are away are known by their token.
-  std::uint32_t machine = 1u << player;
-  for (int p = 0; p < players(); ++p) {
-    const bool is_away_with = link < 0 && seats_[p].link < 0 && seats_[p].proof == seats_[player].proof;
-    if (is_guests(p) && seats_[p].is_taken && is_away_with) machine |= 1u << p;
-  }
-  if (link >= 0) {
-    machine = guests_[static_cast<std::size_t>(link)].players;
-    send_away(guests_[static_cast<std::size_t>(link)], "kicked", {}, reason);
-  }
-  for (int p = 0; p < players(); ++p) {
-    if ((machine >> p & 1) != 0) free_seat(p);
-  }
+  if (!seats_.is_guests(player) || !seats_[player].is_taken || !is_reason(reason)) return false;
+  Guest* guest = guest_of(player);
+  const std::uint32_t machine = guest != nullptr ? guest->players : seats_.away_with(player);
+  if (guest != nullptr) send_away(*guest, {"kicked", {}, reason});
+  for (const int p : EachPlayer(machine)) seats_.free(p);
   return true;
 }
 
 bool HostCore::kick_peer(PeerId peer, std::string_view reason) {
-  if (peer >= guests_.size() || !guests_[peer].is_connected) return false;
-  if (guests_[peer].player >= 0) return kick(guests_[peer].player, reason);
+  Guest* guest = guests_.find(peer);
+  if (guest == nullptr) return false;
+  if (guest->player >= 0) return kick(guest->player, reason);
   if (!is_reason(reason)) return false;
-  send_away(guests_[peer], "kicked", {}, reason);
+  send_away(*guest, {"kicked", {}, reason});
   return true;
 }
 
 std::optional<PeerId> HostCore::peer_of(int player) const {
-  if (!is_guests(player) || seats_[player].link < 0) return std::nullopt;
+  if (!seats_.is_guests(player) || seats_[player].link < 0) return std::nullopt;
   return static_cast<PeerId>(seats_[player].link);
 }
 
-// --- seats ---
+// --- who comes ---
 
-std::uint32_t HostCore::players_of(std::uint64_t token) const {
-  if (token == 0) return 0;
-  const std::uint64_t proof = proof_of(token);
-  std::uint32_t found = 0;  // a bit for each player: how long it takes tells nothing of the tokens
-  for (std::size_t p = 0; p < kMaxPlayers; ++p) {
-    found |= (equals(proof, seats_[p].proof) | equals(proof, seats_[p].former_proof)) << p;
+void HostCore::greet(Guest& guest, Bytes message) {
+  const Result<Hello> read = read_hello(message);
+  if (!read) {
+    refuse(guest, {read.error().place.view(), "unreadable", read.error().message.view()});
+    return;
   }
-  return found;
-}
-
-bool HostCore::is_free(int player) const {
-  if (!is_guests(player)) return false;
-  const Seat& seat = seats_[player];
-  if (!seat.is_taken || !started_ || seat.is_open) return !seat.is_taken;
-  // Who has a connection and does not play loses the seat as well: else whoever comes first keeps it for nothing.
-  return seat.idle >= config_.reservation && (seat.link < 0 || seat.idle >= kJoining);
-}
-
-bool HostCore::is_away(int player) const {
-  return is_guests(player) && seats_[player].is_taken && seats_[player].link < 0;
-}
-
-std::uint32_t HostCore::find_seats(Guest& guest) {
-  const std::uint32_t own = players_of(guest.wish.token);
-  // A token that is nobody's any more may come from a player who was away for too long: new, but not refused.
-  if (own == 0 && guest.wish.token != 0) ++stats_.refused;
-  return guest.wish.seat >= 0 ? wanted_seats(guest, own) : any_seats(guest, own);
-}
-
-std::uint32_t HostCore::wanted_seats(Guest& guest, std::uint32_t own) {
-  const int first = guest.wish.seat, end = first + guest.wish.seats;
-  const auto wanted = static_cast<std::uint32_t>(((std::uint64_t{1} << end) - 1) >> first << first);
-  const bool is_other = own != 0 && (own & wanted) == 0;
-  for (int p = first; p < end; ++p) {
-    if (p < players() && ((own >> p & 1) != 0 || (!is_other && is_free(p)))) continue;
-    ShortText<kReplayValueCap> number;
-    number.append_number(static_cast<std::uint64_t>(p));
-    refuse(guest, "seat", number.view(), is_other ? "another is yours" : is_away(p) ? "reserved" : "taken");
-    return 0;
+  const Hello& hello = read.value();
+  if (const Refusal why = mismatch_of(hello); !why.key.empty()) {
+    refuse(guest, why);
+    return;
   }
-  return wanted;
-}
-
-std::uint32_t HostCore::any_seats(Guest& guest, std::uint32_t own) {
-  std::uint32_t found = 0;
-  int left = guest.wish.seats;
-  const auto take_those = [&](auto&& is_ours) {
-    for (int p = 0; p < players() && left > 0; ++p) {
-      if ((found >> p & 1) != 0 || !is_guests(p) || !is_ours(p)) continue;
-      found |= 1u << p;
-      --left;
-    }
-  };
-  take_those([&](int p) { return (own >> p & 1) != 0; });
-  take_those([&](int p) { return !seats_[p].is_taken; });
-  take_those([&](int p) { return is_free(p); });
-  if (left == 0) return found;
-  bool is_reserved = false;
-  for (int p = 0; p < players(); ++p) is_reserved = is_reserved || is_away(p);
-  ShortText<kReplayValueCap> number;
-  number.append_number(static_cast<std::uint64_t>(left));
-  refuse(guest, "seats", left == 1 ? std::string_view("one more") : number.append(" more").view(),
-         is_reserved ? "reserved" : "all taken");
-  return 0;
-}
-
-void HostCore::take_seats(Guest& guest, std::uint32_t wanted) {
-  const std::uint32_t own = players_of(guest.wish.token);
-  // A host that follows another knows the tokens that the roster told of: where there may be one they stay the same.
-  const bool keeps_token = own != 0 && config_.migration > 0;
-  const std::uint64_t token = keeps_token ? guest.wish.token : draw(Purpose::token, tokens_++);
-  // A process that the former host numbered after its last roster is as good as a new one: both are voters later.
-  std::uint64_t life = 0;
-  for (int p = 0; p < players(); ++p) {
-    if ((own >> p & 1) != 0 && guest.wish.life != 0 && seats_[p].life == guest.wish.life) life = guest.wish.life;
+  guest.wish = hello;
+  guest.address = hello.address;
+  // Nobody follows an earlier host than it has known: the others decide anew.
+  const int voter = roster_.voter_of(hello.token, hello.life);
+  is_over_ = is_over_ || (started_ && voter >= 0 && hello.term > tenure_.term());
+  const bool is_member = inherited_.voter_of(hello.token, hello.life) >= 0;
+  if (!config_.asks_admission || is_member) {
+    let_in(guest);
+    return;
   }
-  if (life == 0) life = draw(Purpose::life, lives_++);
-  for (int p = 0; p < players(); ++p) {
-    const int link = seats_[p].link;
-    const bool is_owner = (own >> p & 1) != 0;
-    if (link < 0 || ((wanted | own) >> p & 1) == 0) continue;
-    send_away(guests_[static_cast<std::size_t>(link)], "seat", {},
-              is_owner ? "taken over from another address" : "not played on for too long");
-  }
-  for (int p = 0; p < players(); ++p) {
-    if (((wanted | own) >> p & 1) == 0) continue;
-    const bool is_kept = seats_[p].is_kept, is_owner = (own >> p & 1) != 0;
-    free_seat(p);
-    if ((wanted >> p & 1) == 0) continue;  // it comes back with fewer players
-    Seat& seat = seats_[p];
-    seat.is_taken = true;
-    seat.link = static_cast<int>(guest.peer);
-    seat.token = token;
-    seat.life = life;
-    seat.proof = proof_of(token);
-    seat.former_proof = is_owner && !keeps_token ? proof_of(guest.wish.token) : 0;
-    seat.is_kept = is_owner && is_kept;
-  }
-  guest.players = wanted;
-  guest.player = first_of(wanted);
+  guest.stage = Guest::Stage::applies;
+  guest.applicant = ++applicants_;
+  guest.credential.assign(hello.credential.begin(), hello.credential.end());
 }
 
-void HostCore::keep_seats(Guest& guest) {
-  for (int p = 0; p < players(); ++p) {
-    if (!has(guest, p) || !seats_[p].is_open) continue;
-    seats_[p].is_kept = true;
-    seats_[p].former_proof = 0;
+Refusal HostCore::mismatch_of(const Hello& hello) const {
+  Refusal why = compare_headers(hello.identity, config_.identity);
+  if (!why.key.empty()) return why;
+  if (!hello.spectator && hello.migration != config_.migration) {
+    why.key.append("migration");
+    why.in_file.append_number(hello.migration);
+    why.here.append_number(config_.migration);
+    return why;
   }
+  const bool is_start = hello.have.frame == 0 && hashes_.has_chain(0);
+  if (!started_ && !is_resumed() && (!is_start || hello.have.chain != hashes_.chain(0))) {
+    why.key.append("start");
+    why.in_file.append_hex(hello.have.chain);
+    why.here.append_hex(hashes_.chain(0));
+  }
+  return why;
 }
 
-void HostCore::free_seat(int player) {
-  // What the seat cost the others stays with it: who leaves and comes again has spent it.
-  Seat empty;
-  empty.lost = seats_[player].lost;
-  empty.shut_until = seats_[player].shut_until;
-  seats_[player] = empty;
+bool HostCore::let_in(Guest& guest) {
+  Refusal why;
+  if (guest.wish.spectator) {
+    if (!has_room_for_spectator()) why = {"spectators", "one more", "no room"};
+  } else {
+    // A token that is nobody's any more may come from a player who was away for too long: new, but not refused.
+    if (guest.wish.token != 0 && seats_.players_of(guest.wish.token) == 0) ++stats_.refused;
+    if (const std::uint32_t wanted = seats_.find(guest.wish, why)) seat(guest, wanted);
+  }
+  if (!why.key.empty()) {
+    refuse(guest, why);
+    return false;
+  }
+  guest.due.set(Due::welcome);
+  if (!started_ && guest.player >= 0) guest.opens = current();
+  const HashReport& has = guest.wish.have;
+  const Frame have = has.frame;
+  // A client may be ahead of us: what it was sent is final before we have stepped it. It is compared once we have.
+  const bool is_ahead = started_ && have > hashes_.settled().frame && have <= known_end();
+  bool has_inputs = is_ahead || (hashes_.has_chain(have) && hashes_.chain(have) == has.chain);
+  has_inputs = has_inputs && current() - have <= config_.most_replayed;
+  for (const InputStream& stream : streams_) has_inputs = has_inputs && stream.begin() <= have;
+  if (has_inputs) {
+    go_live(guest, have);
+    guest.start_chain = has.chain;
+  } else {
+    guest.stage = Guest::Stage::needs_snapshot;
+    guest.partial = guest.wish.partial_size > 0 ? guest.wish.partial : HashReport{};
+    guest.partial_size = guest.wish.partial_size;
+  }
+  return true;
 }
 
-void HostCore::send_away(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours) {
-  unseat(guest);
-  guest.stage = Guest::Stage::refused;
-  guest.refusal = {ShortText<kReplayKeyCap>(key), ShortText<kReplayValueCap>(theirs), ShortText<kReplayValueCap>(ours)};
+void HostCore::seat(Guest& guest, std::uint32_t wanted) {
+  const Seats::Claim claim = seats_.claim(guest.wish, wanted, numbers_);
+  for (const int p : EachPlayer(claim.wanted | claim.own)) {
+    const bool is_owner = (claim.own >> p & 1) != 0;
+    Guest* const other = guest_of(p);
+    const char* const why = is_owner ? "taken over from another address" : "not played on for too long";
+    if (other != nullptr) send_away(*other, {"seat", {}, why});
+  }
+  seats_.take(guest, claim);
 }
 
 bool HostCore::has_room_for_spectator() const {
@@ -242,7 +187,71 @@ bool HostCore::has_room_for_spectator() const {
                            guest.stage != Guest::Stage::refused;
     spectators += guest.is_connected && is_served && guest.player < 0 ? 1 : 0;
   }
-  return spectators < config_.max_peers - (players() - std::popcount(hosted_));
+  return spectators < config_.max_peers - (players() - std::popcount(seats_.hosted()));
+}
+
+void HostCore::go_live(Guest& guest, Frame start) {
+  guest.stage = Guest::Stage::live;
+  guest.start = start;
+  for (int p = 0; p < players(); ++p) guest.acked[p] = guest.burst_end[p] = guest.first_end[p] = guest.owes[p] = start;
+  guest.owes_since = guest.had_all_at = guest.heard;
+  guest.acked_at = guest.more_at = 0;
+  guest.has_spoken = guest.has_more = false;
+  guest.due.set(Due::roster, roster_.version > 0);
+  guest.due.set(Due::ballot, ballot_.is_open());
+}
+
+void HostCore::open_seats(Guest& guest, Time now) {
+  const bool is_shut = guest.player >= 0 && (now < seats_[guest.player].shut_until || guest.is_too_far);
+  if (!started_ || is_shut) return;  // later
+  guest.is_ready = false;
+  if (guest.player < 0 || seats_[guest.player].is_open) return;
+  const Frame trip = static_cast<Frame>(2 * guest.round_trip / clock_.period());
+  // From the horizon, not from what was granted before: who comes and goes must not push its stream out of the log.
+  guest.opens = horizon() + bounded(kNotice + (trip < 10 * kNotice ? trip : 10 * kNotice));
+  for (const int p : EachPlayer(guest.players)) {
+    const Frame end = streams_[static_cast<std::size_t>(p)].end();
+    if (end > guest.opens) guest.opens = end;
+  }
+  for (const int p : EachPlayer(guest.players)) {
+    streams_[static_cast<std::size_t>(p)].append_absent_until(guest.opens);
+    seats_[p].is_open = true;
+  }
+  guest.due.set(Due::open);
+}
+
+// --- who goes ---
+
+void HostCore::refuse(Guest& guest, const Refusal& refusal) {
+  send_away(guest, refusal);
+  ++stats_.refused;
+  if (refusals_until_ > turn_at_ + kRefusalsAtOnce * kSecond) return;
+  refusals_until_ = (refusals_until_ > turn_at_ ? refusals_until_ : turn_at_) + kSecond;
+  SessionEvent event{.kind = SessionEvent::Kind::refused};
+  event.field = refusal;
+  tell(event);
+}
+
+void HostCore::send_away(Guest& guest, const Refusal& refusal) {
+  unseat(guest);
+  guest.stage = Guest::Stage::refused;
+  guest.refusal = refusal;
+}
+
+void HostCore::unseat(Guest& guest) {
+  for (const int p : EachPlayer(guest.players)) {
+    was_repaired(static_cast<std::size_t>(p), kNoFrame);
+    inquiry_.forget(p);
+  }
+  seats_.leave(guest);
+}
+
+void HostCore::drop(Guest& guest) {
+  unseat(guest);
+  if (guest.stage == Guest::Stage::receives_snapshot) {
+    snapshots_.hold_until(current() + static_cast<Frame>(config_.silence / clock_.period()));
+  }
+  guest.clear();
 }
 
 }  // namespace isostep

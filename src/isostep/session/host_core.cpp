@@ -5,42 +5,40 @@
 namespace isostep {
 namespace {
 
-constexpr Frame kMostAhead = 128;  // [frames] beyond ours that a client's input may lie
+constexpr Frame kMostAhead = 128;               // [frames] beyond ours that a client's input may lie
+constexpr Time kBetweenRepairs = 10 * kSecond;  // [us] of one client, whose machine may go wrong again and again
 
 }  // namespace
 
 HostCore::HostCore(const SessionConfig& config, const InputRules& rules)
     : PeerCore(config, rules),
-      hosted_(static_cast<std::uint32_t>((std::uint64_t{1} << config.local_players) - 1)),
+      numbers_(config.seed),
+      seats_(config_, static_cast<std::uint32_t>((std::uint64_t{1} << config.local_players) - 1), slack_),
       guests_(static_cast<std::size_t>(config.max_peers + config.max_strangers)),
-      match_(draw(Purpose::match, 0)) {
-  for (int p = 0; p < config.local_players; ++p) seats_[p].is_taken = seats_[p].is_open = true;
-  for (std::size_t i = 0; i < guests_.size(); ++i) guests_[i].peer = static_cast<PeerId>(i);
-  own_life_ = draw(Purpose::life, lives_++);
-  if (config.migration > 0) own_token_ = draw(Purpose::token, tokens_++);
+      match_(numbers_.match(0)) {
+  own_life_ = numbers_.next_life();
+  if (config.migration > 0) own_token_ = numbers_.next_token();
 }
 
 void HostCore::connected(PeerId peer, Time now) {
-  if (peer >= guests_.size()) {
+  Guest* const guest = guests_.place(peer);
+  if (guest == nullptr) {
     ++stats_.refused;
     return;
   }
-  Guest& guest = guests_[peer];
-  if (used_ <= peer) used_ = peer + std::size_t{1};
-  if (guest.is_connected) drop(guest);
-  clear(guest);
-  guest.connect(now);
+  if (guest->is_connected) drop(*guest);
+  guest->clear();
+  guest->connect(now);
 }
 
 void HostCore::disconnected(PeerId peer, Time now) {
-  if (peer >= guests_.size() || !guests_[peer].is_connected) return;
-  Guest& guest = guests_[peer];
+  Guest* const guest = guests_.find(peer);
+  if (guest == nullptr) return;
   // Who hangs up while it hears us leaves; who has lost us looks for another host.
-  const bool leaves = guest.lease_from != 0 && now - guest.lease_from <= tenure_.lease();
-  const std::uint32_t its = guest.players;
-  drop(guest);
-  for (int p = 0; p < players(); ++p) {
-    if ((its >> p & 1) == 0) continue;
+  const bool leaves = guest->lease_from != 0 && now - guest->lease_from <= tenure_.lease();
+  const std::uint32_t its = guest->players;
+  drop(*guest);
+  for (const int p : EachPlayer(its)) {
     seats_[p].has_left = leaves;
     seats_[p].left_at = now;
   }
@@ -51,69 +49,128 @@ void HostCore::begin(Time now) {
   began_ = now;
   tenure_.begin(first_term_, config_.migration, 0, hashes_.settled().frame, now);
   clock_.start(now);
-  phase_ = hosted_ != 0 ? SessionPhase::playing : SessionPhase::watching;
-  for (int p = 0; p < players(); ++p) {
-    if (seats_[p].is_taken && (is_local(p) || seats_[p].link >= 0)) seats_[p].is_open = true;
-  }
-  has_wish_ = wished_.speed != Tempo::kNormal;
+  phase_ = seats_.hosted() != 0 ? SessionPhase::playing : SessionPhase::watching;
+  seats_.begin();
+  tempo_desk_.begin();
   tell_started();
 }
 
 void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
-  if (peer >= guests_.size() || !guests_[peer].is_connected) {
+  Guest* const guest = guests_.find(peer);
+  if (guest == nullptr) ++stats_.refused;
+  else if (channel == Channel::datagram) take_datagram(*guest, bytes, now);
+  else if (accept_message(*guest, bytes, now) && !take_message(*guest, bytes, now)) ++stats_.refused;
+}
+
+void HostCore::take_datagram(Guest& guest, Bytes bytes, Time now) {
+  Packet packet;
+  if (!accept_datagram(guest, bytes, now, packet)) return;
+  const bool is_ours = packet.header.match == match_;
+  if (is_ours && guest.stage == Guest::Stage::receives_snapshot) {
+    guest.set_clock(packet.header, now);
+    guest.measure(packet.header, now);
+    return;
+  }
+  if (!is_ours || !guest.is_live()) {
     ++stats_.refused;
     return;
   }
-  Guest& guest = guests_[peer];
-  if (channel == Channel::datagram) {
-    Packet packet;
-    if (!accept_datagram(guest, bytes, now, packet)) return;
-    if (guest.stage == Guest::Stage::receives_snapshot && packet.header.match == match_) {
-      guest.set_clock(packet.header, now);
-      measure(guest, packet.header, now);
-      return;
-    }
-    if (guest.stage != Guest::Stage::live || packet.header.match != match_) {
-      ++stats_.refused;
-      return;
-    }
-    if (now - guest.heard > config_.silence / 2) guest.back_at = now;
-    guest.heard = now;
-    guest.has_spoken = true;
-    renew_lease(guest, packet.header, now);
-    take_packet(guest, packet, now);
-    return;
-  }
-  if (!accept_message(guest, bytes, now)) return;
+  if (now - guest.heard > config_.silence / 2) guest.back_at = now;
+  guest.heard = now;
+  guest.has_spoken = true;
+  guest.renew_lease(packet.header, now);
+  take_packet(guest, packet, now);
+}
+
+bool HostCore::take_message(Guest& guest, Bytes bytes, Time now) {
   const MessageKind kind = message_kind(bytes).value();
-  if (kind == MessageKind::hello && !has_start_) {
-    guest.must_close = true;  // nothing was driven here yet: let it come again
-  } else if (kind == MessageKind::hello && guest.stage == Guest::Stage::connected) {
-    guest.heard = now;
-    greet(guest, bytes);
-  } else if (kind == MessageKind::farewell && bytes.size() == 1) {
-    guest.lease_from = 0;
-  } else if (kind == MessageKind::progress && receives_snapshot(guest)) {
-    take_progress(guest, bytes, now);
-  } else if (kind == MessageKind::enrolled && guest.stage == Guest::Stage::live) {
-    if (const Result<std::uint32_t> version = read_enrolled(bytes)) guest.enrolled = version.value();
-    else ++stats_.refused;
-  } else if ((kind == MessageKind::propose || kind == MessageKind::vote) && guest.stage == Guest::Stage::live) {
-    take_vote(guest, kind, bytes);
-  } else if (kind == MessageKind::ask && guest.stage == Guest::Stage::live) {
-    take_ask(guest, bytes);
-  } else if (kind == MessageKind::ready && guest.stage == Guest::Stage::live) {
-    guest.heard = now;
-    guest.is_ready = true;
-  } else if (!take_repair(guest, kind, bytes)) {
-    ++stats_.refused;
+  switch (kind) {
+    case MessageKind::hello:
+      if (!has_start_) {
+        guest.due.set(Due::close);  // nothing was driven here yet: let it come again
+        return true;
+      }
+      if (guest.stage != Guest::Stage::connected) return false;
+      guest.heard = now;
+      greet(guest, bytes);
+      return true;
+    case MessageKind::farewell:
+      if (bytes.size() == 1) guest.lease_from = 0;
+      return bytes.size() == 1;
+    case MessageKind::progress: return take_progress(guest, bytes, now);
+    default: break;
+  }
+  if (!guest.is_live()) return false;
+  switch (kind) {
+    case MessageKind::enrolled: {
+      const Result<std::uint32_t> version = read_enrolled(bytes);
+      if (version) guest.enrolled = version.value();
+      return version.ok();
+    }
+    case MessageKind::propose:
+    case MessageKind::vote: return take_vote(guest, kind, bytes);
+    case MessageKind::ask: return take_ask(guest, bytes);
+    case MessageKind::ready:
+      guest.heard = now;
+      guest.is_ready = true;
+      return true;
+    case MessageKind::statement: {
+      const Result<Statement> statement = read_statement(bytes);
+      return statement && guest.player >= 0 &&
+             inquiry_.take(guest.player, statement.value(), views_[guest.player].difference);
+    }
+    case MessageKind::resync: {
+      // What it has received may have been too long on its way.
+      const bool is_free =
+          guest.repair.stage == RepairService::Stage::none || guest.repair.stage == RepairService::Stage::restores;
+      if (!is_free || !started_ || bytes.size() != 1) return false;
+      guest.repair.stage = RepairService::Stage::waits;
+      return true;
+    }
+    case MessageKind::repaired: return take_repaired(guest, bytes);
+    default: return false;
   }
 }
 
+bool HostCore::take_repaired(Guest& guest, Bytes bytes) {
+  if (guest.repair.stage != RepairService::Stage::restores) return false;
+  const Result<Repaired> repaired = read_repaired(bytes);
+  // Nobody has had final states that we have not: it would have us ignore what it says from now on.
+  if (!repaired || repaired.value().after > known_end()) return false;
+  guest.repair.stage = RepairService::Stage::none;
+  if (guest.player < 0) return true;
+  const auto player = static_cast<std::uint8_t>(guest.player);
+  was_repaired(player, repaired.value().after);
+  inquiry_.forget(player);
+  guest.report = HashReport{};
+  for (Guest& other : guests_) {
+    if (&other == &guest || !other.is_live()) continue;
+    other.repair.tells |= std::uint32_t{1} << player;
+    other.due.set(Due::repaired);
+  }
+  tell({.kind = SessionEvent::Kind::repaired, .player = player, .frame = repaired.value().after});
+  return true;
+}
+
+bool HostCore::take_progress(Guest& guest, Bytes message, Time now) {
+  if (!guest.receives_snapshot()) return false;
+  const Result<std::uint32_t> arrived = read_progress(message);
+  if (!arrived || !guest.transfer.has_arrived(arrived.value())) return false;
+  guest.heard = now;
+  if (!guest.transfer.is_complete()) return true;
+  if (!guest.is_live()) {
+    go_live(guest, guest.start);
+    return true;
+  }
+  guest.repair.stage = RepairService::Stage::restores;
+  guest.repair.next = now + kBetweenRepairs;
+  return true;
+}
+
 void HostCore::take_packet(Guest& guest, const Packet& packet, Time now) {
-  keep_seats(guest);
+  seats_.keep(guest);
   take_header(guest, packet.header, now);
-  if (guest.repair.stage == RepairService::Stage::receives) measure(guest, packet.header, now);
+  if (guest.repair.stage == RepairService::Stage::receives) guest.measure(packet.header, now);
   // Nobody has final states that we have not: all inputs pass through us.
   if (packet.header.report.frame <= known_end()) {
     const Frame after = guest.player < 0 ? kNoFrame : views_[guest.player].after;
@@ -127,7 +184,7 @@ void HostCore::take_packet(Guest& guest, const Packet& packet, Time now) {
 }
 
 void HostCore::take_inputs(Guest& guest, const InputSlice& slice, Time now) {
-  if (slice.player >= players() || !has(guest, slice.player) || !seats_[slice.player].is_open) return;
+  if (slice.player >= players() || !guest.has(slice.player) || !seats_[slice.player].is_open) return;
   InputStream& stream = streams_[slice.player];
   if (slice.first > stream.end()) return;
   SliceReader reader(slice);
@@ -150,13 +207,13 @@ void HostCore::take_inputs(Guest& guest, const InputSlice& slice, Time now) {
 }
 
 Frame HostCore::horizon() const {
-  return hosted_ == 0 ? current() + 1 : streams_[static_cast<std::size_t>(local_player())].end();
+  return seats_.hosted() == 0 ? current() + 1 : streams_[static_cast<std::size_t>(local_player())].end();
 }
 
 Frame HostCore::sends_until(int player, const PeerLink& link) const {
   const Guest& guest = static_cast<const Guest&>(link);
   const Frame end = streams_[static_cast<std::size_t>(player)].end(), shown = shown_until(guest);
-  if (has(guest, player)) return seats_[player].is_open ? seats_[player].replaced_end : end;
+  if (guest.has(player)) return seats_[player].is_open ? seats_[player].replaced_end : end;
   return shown < end ? shown : end;
 }
 
@@ -168,11 +225,11 @@ void HostCore::before_steps(Time now) {
     next_tending_ = now + clock_.period();
     tend_guests(now);
   }
-  for (Guest& guest : guests()) {
+  for (Guest& guest : guests_) {
     if (guest.is_connected && guest.is_ready) open_seats(guest, now);
   }
   reports_count_ = now >= reports_from_;
-  grant_tempo();
+  if (const Tempo* const next = tempo_desk_.next(announced(), tempo())) announce(*next);
   // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
   if (started_) {
     fill_absent();
@@ -183,34 +240,39 @@ void HostCore::before_steps(Time now) {
 void HostCore::tend_guests(Time now) {
   tend_places(now);
   stats_.peers = 0;
-  for (Guest& guest : guests()) {
+  for (Guest& guest : guests_) {
     if (!guest.is_connected) continue;
     ++stats_.peers;
     if (now - guest.heard > config_.silence) {
-      guest.must_close = true;
-      close_seats(guest);
+      guest.due.set(Due::close);
+      seats_.close(guest);
     }
     judge_acknowledgements(guest, now);
-    guest.most_burst = is_in_match(guest) ? PeerLink::kPlayersBurst : PeerLink::kBurst;
+    guest.most_burst = seats_.play(guest) ? PeerLink::kPlayersBurst : PeerLink::kBurst;
     const bool receives = guest.stage == Guest::Stage::receives_snapshot;
     bool lags = false;  // inputs that it lacks have fallen out of the log
     for (int p = 0; p < players(); ++p) {
       const Frame lacks = receives ? guest.start : guest.acked[p];
       lags = lags || lacks < streams_[static_cast<std::size_t>(p)].begin();
     }
-    if (receives && lags) guest.must_close = true;  // others may wait for a newer one
-    if (guest.stage == Guest::Stage::live && lags) {
-      close_seats(guest);
+    if (receives && lags) guest.due.set(Due::close);  // others may wait for a newer one
+    if (guest.is_live() && lags) {
+      seats_.close(guest);
       guest.stage = Guest::Stage::needs_snapshot;
-      guest.must_welcome = true;
-      guest.must_open = guest.is_ready = false;
+      guest.due.set(Due::welcome);
+      for (const Due due : {Due::repaired, Due::offer, Due::open}) guest.due.set(due, false);
+      guest.is_ready = false;
       guest.repair = RepairService{.next = guest.repair.next};
       guest.opens = kNoFrame;
     }
-    tend_repair(guest, now);
+    const bool waits = guest.repair.stage == RepairService::Stage::waits && now >= guest.repair.next;
+    if (waits) guest.repair.stage = RepairService::Stage::needs;
     answer_asks(guest, now);
   }
-  tend_ballot(now);
+  if (ballot_box_.must_tell(now)) {
+    for (Guest& guest : guests_) guest.due.set(Due::ballot, guest.is_live());
+  }
+  voted(ballot_box_.tend(now));
   keep_roster();
   tend_inquiry(now);
   judge_lines(now);
@@ -226,7 +288,7 @@ void HostCore::before_frame(Time now) {
 void HostCore::fill_absent() {
   if (!tenure_.is_backed()) return;
   for (int p = 0; p < players(); ++p) {
-    if (is_guests(p) && !seats_[p].is_open) streams_[static_cast<std::size_t>(p)].append_absent_until(horizon());
+    if (seats_.is_guests(p) && !seats_[p].is_open) streams_[static_cast<std::size_t>(p)].append_absent_until(horizon());
   }
 }
 
@@ -249,8 +311,17 @@ void HostCore::charge(Time now) {
     if (is_local(p) || !seat.is_open || streams_[static_cast<std::size_t>(p)].end() > current()) continue;
     seat.lost.spend(passed, now);  // each in full: several who are silent at once cost the time of one
     if (seat.lost.spent(now) < config_.patience) continue;
-    leave_out(guests_[static_cast<std::size_t>(seat.link)], now);
+    seats_.leave_out(*guest_of(p), now);
   }
+}
+
+void HostCore::serve_snapshots() {
+  if (snapshots_.serve(guests_, current())) act(RequestKind::capture, snapshots_.state().frame);
+}
+
+SnapshotProgress HostCore::snapshot_progress(PeerId peer) const {
+  const Guest* const guest = guests_.find(peer);
+  return guest != nullptr && guest->receives_snapshot() ? guest->transfer.progress() : SnapshotProgress{};
 }
 
 void HostCore::unblocked(Time) {

@@ -37,10 +37,10 @@ void HostCore::replace_next(int player, Frame due, Time now) {
   seat.is_late = true;
   ++stats_.players[player].replaced;
   // Who is there and whose inputs do not count watches, as who holds all up; who is silent may come back.
-  Guest& guest = guests_[static_cast<std::size_t>(seat.link)];
+  Guest& guest = *guest_of(player);
   if (now - began_ < kFreeStart || now - guest.heard > kIsHeard) return;
   seat.replaced_for.spend(clock_.period(), now);
-  if (seat.replaced_for.spent(now) >= config_.patience) leave_out(guest, now);
+  if (seat.replaced_for.spent(now) >= config_.patience) seats_.leave_out(guest, now);
 }
 
 void HostCore::tell_replaced(int player, Time now) {
@@ -63,11 +63,11 @@ void HostCore::note_replaced(const InputSlice& slice, Time now) {
 Frame HostCore::shown_until(const Guest& guest) const {
   if (config_.deadline == 0) return kLastFrame + 1;
   // Who does not play may sit beside one who does.
-  if (!is_in_match(guest)) return known_end();
+  if (!seats_.play(guest)) return known_end();
   Frame shown = kLastFrame + 1;  // players on one machine see the same picture
   for (int p = 0; p < players(); ++p) {
     const Frame end = streams_[static_cast<std::size_t>(p)].end();
-    if (has(guest, p) && end < shown) shown = end;
+    if (guest.has(p) && end < shown) shown = end;
   }
   return shown;
 }

@@ -13,14 +13,6 @@ constexpr Time kToRecover = kSecond;          // [us] in which who was silent fo
 
 }  // namespace
 
-void HostCore::clear(Guest& guest) {
-  const PeerId peer = guest.peer;
-  const Time probe_every = guest.probe_every;
-  guest = Guest{};
-  guest.peer = peer;
-  guest.probe_every = probe_every;
-}
-
 bool HostCore::lacks_inputs(const Guest& guest) const {
   for (int p = 0; p < players(); ++p) {
     if (guest.acked[p] < sends_until(p, guest)) return true;
@@ -28,34 +20,31 @@ bool HostCore::lacks_inputs(const Guest& guest) const {
   return false;
 }
 
-/// Anybody may come and watch, so a spectator has to show first that it takes what it is sent; a player has a seat.
-bool HostCore::is_unproven(const Guest& guest) const { return guest.player < 0 && guest.acked_at == 0; }
-
 bool HostCore::acknowledges(const Guest& guest, Time now) const {
   const Time last = guest.acked_at > guest.had_all_at ? guest.acked_at : guest.had_all_at;
   return now - last <= kStalled;
 }
 
 void HostCore::judge_acknowledgements(Guest& guest, Time now) {
-  if (guest.stage != Guest::Stage::live) return;
+  if (!guest.is_live()) return;
   const bool lacks = lacks_inputs(guest);
   if (!lacks) guest.had_all_at = now;
   bool is_due = lacks && is_unproven(guest);
-  for (int p = 0; p < players(); ++p) is_due = is_due || (sends(p, guest) && guest.acked[p] < guest.due[p]);
+  for (int p = 0; p < players(); ++p) is_due = is_due || (sends(p, guest) && guest.acked[p] < guest.owes[p]);
   if (!is_due) {
-    guest.due_since = now;
+    guest.owes_since = now;
     // A second of the match: who needs the whole silence for that falls behind for ever. Who steps slowly may.
     for (int p = 0; p < players(); ++p) {
       const Frame second = guest.acked[p] + config_.hz;
-      guest.due[p] = guest.burst_end[p] < second ? guest.burst_end[p] : second;
+      guest.owes[p] = guest.burst_end[p] < second ? guest.burst_end[p] : second;
     }
   }
   // After a pause of its own, or of its line, it has what was sent before, and must be given the time to say so.
   const bool is_back = !is_unproven(guest) && guest.back_at != 0 && now - guest.back_at <= kToRecover;
-  if (now - guest.due_since <= config_.silence || is_back) return;
+  if (now - guest.owes_since <= config_.silence || is_back) return;
   ++stats_.put_out;
-  guest.must_close = true;
-  close_seats(guest);
+  guest.due.set(Due::close);
+  seats_.close(guest);
 }
 
 Frame HostCore::most_frames(const Guest& guest, Time now) const {
@@ -82,7 +71,7 @@ void HostCore::was_sent(Guest& guest, std::size_t bytes, Time now) {
     guest.probe_every = twice < config_.silence / 2 ? twice : config_.silence / 2;
     return;
   }
-  guest.probe_every = kFirstProbe;
+  guest.probe_every = Guest::kFirstProbe;
   if (guest.burst > 1) return;
   guest.takes_bursts = has_first(guest);
   for (int p = 0; p < players(); ++p) guest.first_end[p] = guest.burst_end[p];

@@ -17,12 +17,12 @@ void HostCore::keep_figures(Time now) {
     figures.waited = static_cast<std::uint32_t>(seats_[p].lost.spent(now));
     figures.round_trip = figures.jitter = figures.loss = 0;
   }
-  for (Guest& guest : guests()) {
-    if (guest.stage != Guest::Stage::live) continue;
+  for (Guest& guest : guests_) {
+    if (!guest.is_live()) continue;
     // Who does not acknowledge is sent no more than it has to be.
     guest.figures_left = !is_unproven(guest) && acknowledges(guest, now) ? players() : 0;
     for (int p = 0; p < players(); ++p) {
-      if (!has(guest, p)) continue;
+      if (!guest.has(p)) continue;
       PlayerStats& figures = stats_.players[p];
       figures.round_trip = static_cast<std::uint32_t>(guest.round_trip);
       figures.jitter = guest.meter.jitter(now);

@@ -36,8 +36,8 @@ Time HostCore::judge_farthest() const {
   // The middle one of all lines: the better half of the players does not wait for the worse.
   Time trips[kMaxPlayers] = {};
   std::uint32_t count = 0;
-  for (const Guest& guest : guests()) {
-    if (is_in_match(guest)) trips[count++] = guest.round_trip;
+  for (const Guest& guest : guests_) {
+    if (seats_.play(guest)) trips[count++] = guest.round_trip;
   }
   if (count == 0) return 0;
   insertion_sort(trips, count, OwnKey{});
@@ -46,9 +46,9 @@ Time HostCore::judge_farthest() const {
 
 void HostCore::judge_lines(Time now) {
   farthest_ = judge_farthest();
-  for (Guest& guest : guests()) {
+  for (Guest& guest : guests_) {
     // A period less on the way back, so that jitter does not change it again and again.
-    guest.is_far = is_in_match(guest) && guest.round_trip > farthest_ - (guest.is_far ? clock_.period() : 0);
+    guest.is_far = seats_.play(guest) && guest.round_trip > farthest_ - (guest.is_far ? clock_.period() : 0);
     judge_distance(guest, now);
   }
 }
@@ -61,22 +61,22 @@ void HostCore::judge_distance(Guest& guest, Time now) {
   }
   if (guest.is_too_far || now - guest.covered_at < kTooFar) return;
   guest.is_too_far = true;
-  close_seats(guest);
+  seats_.close(guest);
   tell_of(SessionEvent::Kind::too_far, guest.player);
 }
 
 Frame HostCore::slack_of(int player) const {
   const Frame here = is_local(player) ? delay_.frames() + 1 : slack_[player].value();
   const bool is_known = here != RecentLeast::kNothing;
-  const int link = seats_[player].link;
-  const Frame longer = link < 0 ? 0 : lengthened(guests_[static_cast<std::size_t>(link)].round_trip, clock_);
+  const Guest* const its = guest_of(player);
+  const Frame longer = its == nullptr ? 0 : lengthened(its->round_trip, clock_);
   const Frame spared = thrift_.frames() > 0 ? thrift_.frames() + longer : 0;
   Frame least = is_local(player) ? RecentLeast::kNothing : is_known ? here - spared : here;
   if (!is_known || !reports_count_) return least;
   const Time farthest = farthest_that_counts();
   const Frame beyond = stats_.stretch > 0 ? kLateWhenSlow : kLateBeyond;
-  for (const Guest& guest : guests()) {
-    if (!is_in_match(guest) || has(guest, player) || (guest.reported_mask >> player & 1) == 0) continue;
+  for (const Guest& guest : guests_) {
+    if (!seats_.play(guest) || guest.has(player) || (guest.reported_mask >> player & 1) == 0) continue;
     if (was_held_back(guest, player) || guest.slack[player] == RecentLeast::kNothing) continue;
     // What was early here is not later there than the way explains and lines that lose as much as its own do, whatever
     // is said.
@@ -94,8 +94,8 @@ Frame HostCore::slack_of(int player) const {
 
 void HostCore::observe_delay() {
   stats_.round_trip = 0;
-  for (const Guest& guest : guests()) {
-    if (is_in_match(guest) && guest.round_trip > stats_.round_trip) stats_.round_trip = guest.round_trip;
+  for (const Guest& guest : guests_) {
+    if (seats_.play(guest) && guest.round_trip > stats_.round_trip) stats_.round_trip = guest.round_trip;
   }
   Frame least = RecentLeast::kNothing;
   for (int p = 0; p < players(); ++p) {
@@ -111,14 +111,14 @@ void HostCore::choose_pace(Time now) {
   const auto weight = [&](int player, int stretch) {
     return stretch > 0 && player == slowest() && stats_.stretch > 0 ? stretch + kAsSlow : stretch;
   };
-  int whose = hosted_ == 0 ? 0xff : local_player();
+  int whose = seats_.hosted() == 0 ? 0xff : local_player();
   int stretch = own_stretch(), most = weight(whose, stretch);
   int needed = stretch;
-  for (Guest& guest : guests()) {
-    const bool is_too_slow = is_in_match(guest) && guest.stretch > kMostStretch + kCatchingUp;
+  for (Guest& guest : guests_) {
+    const bool is_too_slow = seats_.play(guest) && guest.stretch > kMostStretch + kCatchingUp;
     if (!is_too_slow) guest.too_slow_since = now;
-    if (now - guest.too_slow_since >= kTooSlow) close_seats(guest);
-    if (!is_in_match(guest)) continue;
+    if (now - guest.too_slow_since >= kTooSlow) seats_.close(guest);
+    if (!seats_.play(guest)) continue;
     stretch = guest.stretch < kMostStretch ? guest.stretch : kMostStretch;
     if (stretch > needed) needed = stretch;
     if (weight(guest.player, stretch) <= most) continue;
@@ -134,8 +134,8 @@ void HostCore::judge_own_pace(Time now) {
   const bool is_loop = turn_rate_.stretch() >= kMostStretch && now - turn_rate_.slow_since() >= kTooSlow;
   if (!is_loop && now - own_slow_since_ < kTooSlow) return;
   std::uint64_t unfit = 0;
-  for (const Guest& guest : guests()) {
-    const bool is_sound = is_in_match(guest) && guest.stretch < kMostStretch && acknowledges(guest, now);
+  for (const Guest& guest : guests_) {
+    const bool is_sound = seats_.play(guest) && guest.stretch < kMostStretch && acknowledges(guest, now);
     if (guest.player >= 0 && !is_sound) unfit |= std::uint64_t{1} << guest.player;
   }
   is_too_slow_ = tenure_.is_backed() && could_others(unfit);

@@ -1,29 +1,20 @@
 // A host that goes on with a saved match: from its state, with its seats, and when all of its players are back.
 // SPDX-License-Identifier: MIT
-#include <bit>
-
 #include "isostep/session/host_core.hpp"
 
 namespace isostep {
 
 HostCore::HostCore(const SessionConfig& config, const InputRules& rules, SavedMatch&& saved) : HostCore(config, rules) {
-  hosted_ = saved.hosted;
-  tokens_ = saved.tokens;
+  seats_.resume(saved);
+  numbers_.go_on_after(saved.tokens);
   sequels_ = saved.sequels + 1;
   first_term_ = saved.term + 1;
-  match_ = draw(Purpose::match, sequels_);
-  if (config.migration > 0) own_token_ = draw(Purpose::token, tokens_++);
+  match_ = numbers_.match(sequels_);
+  if (config.migration > 0) own_token_ = numbers_.next_token();
   resumed_ = saved.start;
   resumed_hash_ = saved.hash;
-  wished_.speed = saved.speed;
+  tempo_desk_.resume_with(saved.speed);
   portable_ = std::move(saved.state);
-  for (int p = 0; p < players(); ++p) {
-    seats_[p] = Seat{};
-    seats_[p].proof = saved.proofs[p];
-    seats_[p].is_kept = saved.proofs[p] != 0;
-    seats_[p].is_taken = is_local(p) || seats_[p].is_kept;
-    seats_[p].is_open = is_local(p);
-  }
   timeline_.restart(resumed_.frame);
   for (InputStream& stream : streams_) stream.reset(resumed_.frame);
 }
@@ -65,7 +56,8 @@ bool HostCore::all_are_here() const {
   for (int p = 0; p < players(); ++p) {
     const Seat& seat = seats_[p];
     if (is_local(p) || (!is_resumed() && seat.is_taken)) continue;
-    if (seat.link < 0 || guests_[static_cast<std::size_t>(seat.link)].stage != Guest::Stage::live) return false;
+    const Guest* const guest = guest_of(p);
+    if (guest == nullptr || !guest->is_live()) return false;
   }
   return true;
 }
@@ -76,9 +68,9 @@ std::optional<SavedMatch> HostCore::save_match() const {
   saved.identity = config_.identity;
   saved.start = hashes_.settled();
   saved.hash = hashes_.hash(saved.start.frame);
-  saved.hosted = hosted_;
+  saved.hosted = seats_.hosted();
   saved.speed = announced().speed;
-  saved.tokens = tokens_;
+  saved.tokens = numbers_.tokens();
   saved.sequels = sequels_;
   saved.term = tenure_.term();
   saved.players = static_cast<std::uint8_t>(players());

@@ -6,6 +6,8 @@
 namespace isostep {
 namespace {
 
+constexpr Time kFarewell = kSecond / 4;  // [us] in which all hear why the host gives way
+
 bool same_machine(const Roster::Machine& a, const Roster::Machine& b) {
   return a.players == b.players && a.proof == b.proof && a.life == b.life && a.is_in == b.is_in &&
          a.was_in == b.was_in && a.address == b.address;
@@ -27,7 +29,7 @@ Roster HostCore::drafted() const {
   next.version = roster_.version + 1;
   copy_match_settings(config_, next.settings);
   Roster::Machine& own = next.machines[next.count++];
-  own = {hosted_, proof_of(own_token_), own_life_, true, true, config_.address};
+  own = {seats_.hosted(), proof_of(own_token_), own_life_, true, true, config_.address};
   for (int p = 0; p < players(); ++p) {
     const Seat& seat = seats_[p];
     const int before = roster_.machine_with(p);
@@ -50,8 +52,8 @@ Roster HostCore::drafted() const {
       machine.was_in = former.is_in;
       continue;
     }
-    const Guest* guest = seat.link < 0 ? nullptr : &guests_[static_cast<std::size_t>(seat.link)];
-    machine.is_in = guest != nullptr && guest->stage == Guest::Stage::live && !guest->must_close;
+    const Guest* const guest = guest_of(p);
+    machine.is_in = guest != nullptr && guest->is_live() && !guest->due.has(Due::close);
     machine.was_in = roster_.version == 0 ? machine.is_in : is_same && was_in;
     if (machine.is_in && seat.is_open) machine.address = guest->address;
   }
@@ -75,7 +77,7 @@ Frame HostCore::end_at(const Guest& guest) const {
   Frame end = kLastFrame;
   for (int p = 0; p < players(); ++p) {
     // Its own inputs it has, but for those that were replaced and that it has not been told.
-    const bool is_its = has(guest, p) && seats_[p].is_open && seats_[p].replaced_end == 0;
+    const bool is_its = guest.has(p) && seats_[p].is_open && seats_[p].replaced_end == 0;
     const Frame its = is_its ? streams_[static_cast<std::size_t>(p)].end() : guest.acked[p];
     if (its < end) end = its;
   }
@@ -84,9 +86,9 @@ Frame HostCore::end_at(const Guest& guest) const {
 
 void HostCore::look_at_followers(Time now) {
   for (Follower& follower : followers_) follower = Follower{};
-  for (const Guest& guest : guests()) {
+  for (const Guest& guest : guests_) {
     const int machine = voter_of(guest);
-    if (machine < 0 || guest.stage != Guest::Stage::live) continue;
+    if (machine < 0 || !guest.is_live()) continue;
     followers_[machine].heard = guest.lease_from;
     followers_[machine].has = end_at(guest);
   }
@@ -101,19 +103,9 @@ void HostCore::look_at_followers(Time now) {
   }
 }
 
-void HostCore::renew_lease(Guest& guest, const PacketHeader& header, Time now) {
-  if (!header.has_echo || header.waited == 255) return;
-  const auto said = static_cast<std::uint16_t>(header.echo - header.waited);
-  const auto age = static_cast<std::uint16_t>(static_cast<std::uint16_t>(now / 1000) - said);
-  if (age > 32767 || Time{age} * 1000 > now) return;
-  // The clock of datagrams ticks in milliseconds.
-  const Time from = now / 1000 * 1000 - Time{age} * 1000;
-  if (from > guest.lease_from) guest.lease_from = from;
-}
-
 template <class Predicate> std::uint64_t HostCore::group(const Predicate& is_counted) const {
   std::uint64_t group = std::uint64_t{1} << roster_.host;
-  for (const Guest& guest : guests()) {
+  for (const Guest& guest : guests_) {
     const int machine = voter_of(guest);
     if (machine >= 0 && is_counted(guest)) group |= std::uint64_t{1} << machine;
   }
@@ -121,8 +113,7 @@ template <class Predicate> std::uint64_t HostCore::group(const Predicate& is_cou
 }
 
 std::uint64_t HostCore::followers_here(Time now) const {
-  return group(
-      [&](const Guest& guest) { return guest.stage == Guest::Stage::live && now - guest.heard <= config_.migration; });
+  return group([&](const Guest& guest) { return guest.is_live() && now - guest.heard <= config_.migration; });
 }
 
 void HostCore::keep_roster() {
@@ -141,7 +132,7 @@ void HostCore::replace_roster(const Roster& next) {
     roster_.machines[m].seal = token == 0 ? 0 : seal_of(roster_, token, message_);
   }
   stats_.machines = next.count_in();
-  for (Guest& guest : guests_) guest.must_enroll = guest.stage == Guest::Stage::live;
+  for (Guest& guest : guests_) guest.due.set(Due::roster, guest.is_live());
 }
 
 void HostCore::reform_roster(std::uint64_t group) {
@@ -159,14 +150,36 @@ void HostCore::reform_roster(std::uint64_t group) {
 bool HostCore::go_on(Time now) {
   if (roster_.version == 0 || tenure_.is_backed()) return false;
   const std::uint64_t here = followers_here(now);
-  for (Guest& guest : guests()) {
+  for (Guest& guest : guests_) {
     const int machine = voter_of(guest);
     if (machine < 0 || (here >> machine & 1) != 0) continue;
-    guest.must_close = true;  // it may come again, as one that was away
-    close_seats(guest);
+    guest.due.set(Due::close);  // it may come again, as one that was away
+    seats_.close(guest);
   }
   reform_roster(here);
   return true;
+}
+
+void HostCore::tend_inquiry(Time now) {
+  std::uint64_t differing = 0;
+  for (std::size_t p = 0; p < kMaxPlayers; ++p) differing |= (views_[p].differs() ? std::uint64_t{1} : 0) << p;
+  if (!inquiry_.tend(guests_, differing, hashes_.settled(), now)) return;
+  const Verdict verdict = tell_verdict(inquiry_.statements());
+  const bool is_ours = (verdict.minority >> kHostMachine & 1) != 0;
+  if (is_ours && config_.repair && could_others(verdict.minority)) steps_down_at_ = now + kFarewell;
+}
+
+bool HostCore::could_others(std::uint64_t unfit) const {
+  std::uint64_t others = 0;
+  bool has_candidate = false;
+  for (int m = 0; m < roster_.count; ++m) {
+    const Roster::Machine& machine = roster_.machines[m];
+    if (m == roster_.host || !machine.is_in || machine.players == 0) continue;
+    others |= std::uint64_t{1} << m;
+    const bool is_right = (unfit >> first_of(machine.players) & 1) == 0;
+    has_candidate = has_candidate || (is_right && !machine.address.view().empty());
+  }
+  return has_candidate && roster_.is_majority(others);
 }
 
 std::unique_ptr<SessionCore> HostCore::succeed(Time now) {
@@ -181,7 +194,7 @@ std::unique_ptr<SessionCore> HostCore::succeed(Time now) {
 }
 
 std::unique_ptr<SessionCore> HostCore::retreat(Time now, bool is_outvoted) {
-  Retreat retreat{roster_, hosted_, own_token_, own_life_, {}, 0, {}, is_outvoted};
+  Retreat retreat{roster_, seats_.hosted(), own_token_, own_life_, {}, 0, {}, is_outvoted};
   retreat.election.follow(tenure_.term());
   retreat.election.has_log_of(tenure_.term());
   for (int m = 0; m < roster_.count; ++m) {
@@ -196,9 +209,10 @@ std::unique_ptr<SessionCore> HostCore::retreat(Time now, bool is_outvoted) {
 
 HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
     : PeerCore(std::move(client)),
-      hosted_(succession.roster.machines[succession.machine].players),
+      numbers_(config_.seed),
+      seats_(config_, succession.roster.machines[succession.machine].players, slack_),
       guests_(static_cast<std::size_t>(config_.max_peers + config_.max_strangers)),
-      match_(draw(Purpose::match, 0)) {
+      match_(numbers_.match(0)) {
   config_.host = true;
   copy_match_settings(succession.roster.settings, config_);
   inherited_ = roster_ = succession.roster;
@@ -208,16 +222,7 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
   own_life_ = succession.life;
   // What is final somewhere ends before that: we have all of it.
   tenure_.begin(succession.election.term(), config_.migration, known_end(), hashes_.settled().frame, now);
-  for (std::size_t i = 0; i < guests_.size(); ++i) guests_[i].peer = static_cast<PeerId>(i);
-  for (int m = 0; m < roster_.count; ++m) {
-    for (int p = 0; p < players(); ++p) {
-      if ((roster_.machines[m].players >> p & 1) == 0) continue;
-      seats_[p].is_taken = seats_[p].is_kept = true;
-      seats_[p].proof = roster_.machines[m].proof;
-      seats_[p].life = roster_.machines[m].life;
-      seats_[p].is_open = is_local(p);
-    }
-  }
+  seats_.take_over(roster_);
   for (RecentLeast& slack : slack_) slack = RecentLeast{};
   delay_.keep_to_most();  // no deadline replaces ours
   for (int p = 0; p < players(); ++p) seats_[p].replaced_told = stats_.players[p].replaced;
@@ -230,26 +235,25 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
   go_at_pace_of(0xff, 0);
   goes_on();
   phase_ = SessionPhase::playing;
-  for (std::size_t i = 0; i < succession.callers.size() && i < guests_.size(); ++i) {
+  for (std::size_t i = 0; i < succession.callers.size(); ++i) {
     const Caller& caller = succession.callers[i];
-    if (!caller.is_connected) continue;
-    guests_[i].connect(now);
-    used_ = i + 1;
+    Guest* const guest = caller.is_connected ? guests_.place(static_cast<PeerId>(i)) : nullptr;
+    if (guest == nullptr) continue;
+    guest->connect(now);
     if (caller.hello.empty()) continue;
     const bool supports = succession.election.has_won_with(caller.voter);
-    if (supports) guests_[i].enrolled = roster_.version;
-    greet(guests_[i], caller.hello);
-    if (supports) guests_[i].lease_from = succession.election.called_at();
-    resume(guests_[i]);
+    if (supports) guest->enrolled = roster_.version;
+    greet(*guest, caller.hello);
+    if (supports) guest->lease_from = succession.election.called_at();
+    resume(*guest);
   }
   if (!succession.election.has_majority(succession.roster)) reform_roster(succession.election.supporters());
   tell_of(SessionEvent::Kind::new_host, local_player());
 }
 
 void HostCore::resume(Guest& guest) {
-  if (guest.stage != Guest::Stage::live) return;
-  for (int p = 0; p < players(); ++p) {
-    if (!has(guest, p)) continue;
+  if (!guest.is_live()) return;
+  for (const int p : EachPlayer(guest.players)) {
     Seat& seat = seats_[p];
     seat.is_open = true;
     seat.replaced = guest.start;

@@ -1,187 +1,202 @@
-// The host's seats: who may take part, who sits where, who is in the match.
+// Who gets which seat of the host's match, and for whom seats are kept.
 // SPDX-License-Identifier: MIT
-#include "isostep/session/host_core.hpp"
-#include "isostep/session/siphash.hpp"
+#include "isostep/session/host_seats.hpp"
 
 namespace isostep {
 namespace {
 
-constexpr Frame kNotice = 30;         // [frames] between a seat's opening and its first frame
-constexpr Time kRefusalsAtOnce = 32;  // all players of another version; of who comes again and again one a second
+/// [us] for who has a connection to have a state and others who agree with it, before its seat is anybody's.
+constexpr Time kJoining = 30 * kSecond;
+
+/// 1 when they are equal, without a branch that would tell how.
+constexpr std::uint32_t equals(std::uint64_t a, std::uint64_t b) {
+  const std::uint64_t difference = a ^ b;
+  return static_cast<std::uint32_t>(~(difference | (0 - difference)) >> 63);
+}
 
 }  // namespace
 
-std::uint64_t HostCore::draw(Purpose purpose, std::uint64_t n) const {
-  std::uint8_t words[24] = {};
-  store_le(words, static_cast<std::uint64_t>(purpose));
-  store_le(words + 8, n);
-  for (std::uint64_t again = 0;; ++again) {
-    store_le(words + 16, again);
-    if (const std::uint64_t number = siphash_2_4({config_.seed, 0}, words)) return number;
+Seats::Seats(const SessionConfig& config, std::uint32_t hosted, RecentLeast (&slack)[kMaxPlayers])
+    : config_(config), hosted_(hosted), slack_(slack) {
+  for (const int p : EachPlayer(hosted)) seats_[p].is_taken = seats_[p].is_open = true;
+}
+
+void Seats::resume(const SavedMatch& saved) {
+  hosted_ = saved.hosted;
+  for (int p = 0; p < config_.players; ++p) {
+    seats_[p] = Seat{};
+    seats_[p].proof = saved.proofs[p];
+    seats_[p].is_kept = saved.proofs[p] != 0;
+    seats_[p].is_taken = is_local(p) || seats_[p].is_kept;
+    seats_[p].is_open = is_local(p);
   }
 }
 
-void HostCore::refuse(Guest& guest, std::string_view key, std::string_view theirs, std::string_view ours) {
-  send_away(guest, key, theirs, ours);
-  ++stats_.refused;
-  tell_refusal(guest.refusal);
-}
-
-void HostCore::tell_refusal(const Refusal& refusal) {
-  if (refusals_until_ > turn_at_ + kRefusalsAtOnce * kSecond) return;
-  refusals_until_ = (refusals_until_ > turn_at_ ? refusals_until_ : turn_at_) + kSecond;
-  SessionEvent event{.kind = SessionEvent::Kind::refused};
-  event.field = refusal;
-  tell(event);
-}
-
-bool HostCore::is_refused(Guest& guest, const Hello& hello) {
-  const HeaderMismatch mismatch = compare_headers(hello.identity, config_.identity);
-  if (!mismatch.key.empty()) {
-    refuse(guest, mismatch.key.view(), mismatch.in_file.view(), mismatch.here.view());
-    return true;
-  }
-  if (!hello.spectator && hello.migration != config_.migration) {
-    ShortText<kReplayValueCap> theirs, ours;
-    refuse(guest, "migration", theirs.append_number(hello.migration).view(),
-           ours.append_number(config_.migration).view());
-    return true;
-  }
-  const bool is_start = hello.have.frame == 0 && hashes_.has_chain(0);
-  if (!started_ && !is_resumed() && (!is_start || hello.have.chain != hashes_.chain(0))) {
-    ShortText<kReplayValueCap> theirs, ours;
-    refuse(guest, "start", theirs.append_hex(hello.have.chain).view(), ours.append_hex(hashes_.chain(0)).view());
-    return true;
-  }
-  return false;
-}
-
-void HostCore::greet(Guest& guest, Bytes message) {
-  const Result<Hello> read = read_hello(message);
-  if (!read) {
-    refuse(guest, read.error().place.view(), "unreadable", read.error().message.view());
-    return;
-  }
-  const Hello& hello = read.value();
-  if (is_refused(guest, hello)) return;
-  guest.wish = hello;
-  guest.address = hello.address;
-  // Nobody follows an earlier host than it has known: the others decide anew.
-  const int voter = roster_.voter_of(hello.token, hello.life);
-  is_over_ = is_over_ || (started_ && voter >= 0 && hello.term > tenure_.term());
-  const bool is_member = inherited_.voter_of(hello.token, hello.life) >= 0;
-  if (!config_.asks_admission || is_member) {
-    let_in(guest);
-    return;
-  }
-  guest.stage = Guest::Stage::applies;
-  guest.applicant = ++applicants_;
-  guest.credential.assign(hello.credential.begin(), hello.credential.end());
-}
-
-bool HostCore::let_in(Guest& guest) {
-  if (guest.wish.spectator) {
-    if (!has_room_for_spectator()) {
-      refuse(guest, "spectators", "one more", "no room");
-      return false;
+void Seats::take_over(const Roster& roster) {
+  has_begun_ = true;
+  for (int m = 0; m < roster.count; ++m) {
+    for (const int p : EachPlayer(roster.machines[m].players)) {
+      seats_[p].is_taken = seats_[p].is_kept = true;
+      seats_[p].proof = roster.machines[m].proof;
+      seats_[p].life = roster.machines[m].life;
+      seats_[p].is_open = is_local(p);
     }
-  } else {
-    const std::uint32_t seats = find_seats(guest);
-    if (seats == 0) return false;
-    take_seats(guest, seats);
   }
-  guest.must_welcome = true;
-  if (!started_ && guest.player >= 0) guest.opens = current();
-  const HashReport& has = guest.wish.have;
-  const Frame have = has.frame;
-  // A client may be ahead of us: what it was sent is final before we have stepped it. It is compared once we have.
-  const bool is_ahead = started_ && have > hashes_.settled().frame && have <= known_end();
-  bool has_inputs = is_ahead || (hashes_.has_chain(have) && hashes_.chain(have) == has.chain);
-  has_inputs = has_inputs && current() - have <= config_.most_replayed;
-  for (const InputStream& stream : streams_) has_inputs = has_inputs && stream.begin() <= have;
-  if (has_inputs) {
-    go_live(guest, have);
-    guest.start_chain = has.chain;
-  } else {
-    guest.stage = Guest::Stage::needs_snapshot;
-    guest.partial = guest.wish.partial_size > 0 ? guest.wish.partial : HashReport{};
-    guest.partial_size = guest.wish.partial_size;
-  }
-  return true;
 }
 
-void HostCore::go_live(Guest& guest, Frame start) {
-  guest.stage = Guest::Stage::live;
-  guest.start = start;
-  for (int p = 0; p < players(); ++p) guest.acked[p] = guest.burst_end[p] = guest.first_end[p] = guest.due[p] = start;
-  guest.due_since = guest.had_all_at = guest.heard;
-  guest.acked_at = guest.more_at = 0;
-  guest.has_spoken = guest.has_more = false;
-  guest.must_enroll = roster_.version > 0;
-  guest.must_tell_ballot = ballot_.is_open();
-}
-
-void HostCore::open_seats(Guest& guest, Time now) {
-  const bool is_shut = guest.player >= 0 && (now < seats_[guest.player].shut_until || guest.is_too_far);
-  if (!started_ || is_shut) return;  // later
-  guest.is_ready = false;
-  if (guest.player < 0 || seats_[guest.player].is_open) return;
-  const Frame trip = static_cast<Frame>(2 * guest.round_trip / clock_.period());
-  // From the horizon, not from what was granted before: who comes and goes must not push its stream out of the log.
-  guest.opens = horizon() + bounded(kNotice + (trip < 10 * kNotice ? trip : 10 * kNotice));
-  for (int p = 0; p < players(); ++p) {
-    const Frame end = streams_[static_cast<std::size_t>(p)].end();
-    if (has(guest, p) && end > guest.opens) guest.opens = end;
+void Seats::begin() {
+  has_begun_ = true;
+  for (int p = 0; p < config_.players; ++p) {
+    if (seats_[p].is_taken && (is_local(p) || seats_[p].link >= 0)) seats_[p].is_open = true;
   }
-  for (int p = 0; p < players(); ++p) {
-    if (!has(guest, p)) continue;
-    streams_[static_cast<std::size_t>(p)].append_absent_until(guest.opens);
-    seats_[p].is_open = true;
+}
+
+std::uint32_t Seats::open() const {
+  std::uint32_t players = 0;
+  for (int p = 0; p < config_.players; ++p) players |= (seats_[p].is_open ? 1u : 0u) << p;
+  return players;
+}
+
+std::uint32_t Seats::players_of(std::uint64_t token) const {
+  if (token == 0) return 0;
+  const std::uint64_t proof = proof_of(token);
+  std::uint32_t found = 0;  // a bit for each player: how long it takes tells nothing of the tokens
+  for (std::size_t p = 0; p < kMaxPlayers; ++p) {
+    found |= (equals(proof, seats_[p].proof) | equals(proof, seats_[p].former_proof)) << p;
   }
-  guest.must_open = true;
+  return found;
 }
 
-void HostCore::close_seat(int player) {
-  if (seats_[player].link >= 0) close_seats(guests_[static_cast<std::size_t>(seats_[player].link)]);
+std::uint32_t Seats::away_with(int player) const {
+  std::uint32_t machine = 1u << player;
+  for (int p = 0; p < config_.players; ++p) {
+    if (is_away(p) && seats_[p].proof == seats_[player].proof) machine |= 1u << p;
+  }
+  return machine;
 }
 
-void HostCore::close_seats(Guest& guest) {
-  for (int p = 0; p < players(); ++p) {
+bool Seats::is_free(int player) const {
+  if (!is_guests(player)) return false;
+  const Seat& seat = seats_[player];
+  if (!seat.is_taken || !has_begun_ || seat.is_open) return !seat.is_taken;
+  // Who has a connection and does not play loses the seat as well: else whoever comes first keeps it for nothing.
+  return seat.idle >= config_.reservation && (seat.link < 0 || seat.idle >= kJoining);
+}
+
+std::uint32_t Seats::find(const Application& wish, Refusal& why) const {
+  const std::uint32_t own = players_of(wish.token);
+  return wish.seat >= 0 ? find_wanted(wish, own, why) : find_any(wish, own, why);
+}
+
+std::uint32_t Seats::find_wanted(const Application& wish, std::uint32_t own, Refusal& why) const {
+  const int first = wish.seat, end = first + wish.seats;
+  const auto wanted = static_cast<std::uint32_t>(((std::uint64_t{1} << end) - 1) >> first << first);
+  const bool is_other = own != 0 && (own & wanted) == 0;
+  for (int p = first; p < end; ++p) {
+    if (p < config_.players && ((own >> p & 1) != 0 || (!is_other && is_free(p)))) continue;
+    why = {"seat", {}, is_other ? "another is yours" : is_away(p) ? "reserved" : "taken"};
+    why.in_file.append_number(static_cast<std::uint64_t>(p));
+    return 0;
+  }
+  return wanted;
+}
+
+std::uint32_t Seats::find_any(const Application& wish, std::uint32_t own, Refusal& why) const {
+  std::uint32_t found = 0, away = 0;
+  int left = wish.seats;
+  const auto take_those = [&](auto&& is_ours) {
+    for (int p = 0; p < config_.players && left > 0; ++p) {
+      if ((found >> p & 1) != 0 || !is_guests(p) || !is_ours(p)) continue;
+      found |= 1u << p;
+      --left;
+    }
+  };
+  take_those([&](int p) { return (own >> p & 1) != 0; });
+  take_those([&](int p) { return !seats_[p].is_taken; });
+  take_those([&](int p) { return is_free(p); });
+  if (left == 0) return found;
+  for (int p = 0; p < config_.players; ++p) away |= (is_away(p) ? 1u : 0u) << p;
+  why = {"seats", {}, away != 0 ? "reserved" : "all taken"};
+  if (left == 1) why.in_file.append("one more");
+  else why.in_file.append_number(static_cast<std::uint64_t>(left)).append(" more");
+  return 0;
+}
+
+Seats::Claim Seats::claim(const Application& wish, std::uint32_t wanted, SecretNumbers& numbers) const {
+  Claim claim{wanted, players_of(wish.token)};
+  // A host that follows another knows the tokens that the roster told of: where there may be one they stay the same.
+  claim.keeps_token = claim.own != 0 && config_.migration > 0;
+  claim.token = claim.keeps_token ? wish.token : numbers.next_token();
+  // A process that the former host numbered after its last roster is as good as a new one: both are voters later.
+  for (const int p : EachPlayer(claim.own)) {
+    if (wish.life != 0 && seats_[p].life == wish.life) claim.life = wish.life;
+  }
+  if (claim.life == 0) claim.life = numbers.next_life();
+  return claim;
+}
+
+void Seats::take(Guest& guest, const Claim& claim) {
+  for (const int p : EachPlayer(claim.wanted | claim.own)) {
+    const bool is_kept = seats_[p].is_kept, is_owner = (claim.own >> p & 1) != 0;
+    free(p);
+    if ((claim.wanted >> p & 1) == 0) continue;  // it comes back with fewer players
     Seat& seat = seats_[p];
-    if (!has(guest, p) || !seat.is_open) continue;
+    seat.is_taken = true;
+    seat.link = static_cast<int>(guest.peer);
+    seat.token = claim.token;
+    seat.life = claim.life;
+    seat.proof = proof_of(claim.token);
+    seat.former_proof = is_owner && !claim.keeps_token ? proof_of(guest.wish.token) : 0;
+    seat.is_kept = is_owner && is_kept;
+  }
+  guest.players = claim.wanted;
+  guest.player = first_of(claim.wanted);
+}
+
+void Seats::keep(const Guest& guest) {
+  for (const int p : EachPlayer(guest.players)) {
+    if (!seats_[p].is_open) continue;
+    seats_[p].is_kept = true;
+    seats_[p].former_proof = 0;
+  }
+}
+
+void Seats::free(int player) {
+  // What the seat cost the others stays with it: who leaves and comes again has spent it.
+  Seat empty;
+  empty.lost = seats_[player].lost;
+  empty.shut_until = seats_[player].shut_until;
+  seats_[player] = empty;
+}
+
+void Seats::close(const Guest& guest) {
+  for (const int p : EachPlayer(guest.players)) {
+    Seat& seat = seats_[p];
+    if (!seat.is_open) continue;
     seat.is_open = false;
     seat.replaced_end = 0;
     seat.is_late = false;
-    if (started_) slack_[p] = RecentLeast{};
+    slack_[p] = RecentLeast{};
   }
 }
 
-void HostCore::leave_out(Guest& guest, Time now) {
-  close_seats(guest);
-  for (int p = 0; p < players(); ++p) {
-    if (has(guest, p)) seats_[p].shut_until = now + config_.exclusion;
-  }
+void Seats::leave_out(const Guest& guest, Time now) {
+  close(guest);
+  for (const int p : EachPlayer(guest.players)) seats_[p].shut_until = now + config_.exclusion;
 }
 
-void HostCore::unseat(Guest& guest) {
-  close_seats(guest);
-  for (int p = 0; p < players(); ++p) {
-    if (!has(guest, p)) continue;
+void Seats::leave(Guest& guest) {
+  close(guest);
+  for (const int p : EachPlayer(guest.players)) {
     seats_[p].link = -1;
-    was_repaired(static_cast<std::size_t>(p), kNoFrame);
-    inquiry_.differing &= ~(std::uint64_t{1} << p);
-    if (!seats_[p].is_kept) free_seat(p);
+    if (!seats_[p].is_kept) free(p);
   }
   guest.players = 0;
   guest.player = -1;
 }
 
-void HostCore::drop(Guest& guest) {
-  unseat(guest);
-  if (guest.stage == Guest::Stage::receives_snapshot) {
-    held_until_ = current() + static_cast<Frame>(config_.silence / clock_.period());
-  }
-  clear(guest);
+void Seats::pass(Time time) {
+  for (Seat& seat : seats_) seat.idle = !has_begun_ || seat.is_open ? 0 : seat.idle + time;
 }
 
 }  // namespace isostep

@@ -5,12 +5,11 @@
 namespace isostep {
 
 std::optional<Outgoing> HostCore::poll_send(Time now) {
-  for (std::size_t i = 0; i < used_; ++i) {
-    Guest& guest = guests_[next_guest_];
-    next_guest_ = (next_guest_ + 1) % used_;
+  for (std::size_t i = 0; i < guests_.size(); ++i) {
+    Guest& guest = guests_.next_in_turn();
     if (!guest.is_connected) continue;
     if (std::optional<Outgoing> out = next_message(guest, now)) {
-      next_guest_ = guest.peer;  // all of its messages, in order
+      guests_.stay_with(guest);  // all of its messages, in order
       return out;
     }
     if (std::optional<Outgoing> out = next_datagram(guest, now)) return out;
@@ -23,72 +22,85 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
     stats_.bytes_out += message_.size();
     return Outgoing{guest.peer, Channel::reliable, message_};
   };
-  if (guest.stage == Guest::Stage::refused && !guest.must_close) {
-    guest.must_close = true;
+  if (guest.due.has(Due::close)) {
+    drop(guest);
+    return Outgoing{guest.peer, Channel::reliable, {}, true};
+  }
+  if (guest.stage == Guest::Stage::receives_snapshot && awaits_capture()) return std::nullopt;
+  // The game has no portable form.
+  if (guest.stage == Guest::Stage::receives_snapshot && portable_.empty())
+    refuse(guest, {"snapshot", "needed", "none"});
+  if (guest.stage == Guest::Stage::refused) {
+    guest.due.set(Due::close);
     write_refusal(guest.refusal, message_);
     return message();
   }
-  if (guest.must_close) {
-    const PeerId peer = guest.peer;
-    drop(guest);
-    return Outgoing{peer, Channel::reliable, {}, true};
+  const bool joins = guest.stage == Guest::Stage::receives_snapshot;
+  if (!joins && !guest.is_live()) return std::nullopt;
+  // Who joins hears nothing else before it is there.
+  std::optional<Due> due = joins && !guest.due.has(Due::welcome) ? std::nullopt : guest.due.first();
+  if (due == Due::offer && awaits_capture()) {
+    due = guest.due.first_but(Due::offer);
+  } else if ((!due || due == Due::open) && guest.receives_snapshot()) {
+    if (snapshots_.next_piece(guest, now, message_)) return message();
   }
-  const bool sending = guest.stage == Guest::Stage::receives_snapshot;
-  if (sending && awaits_capture()) return std::nullopt;
-  if (sending && portable_.empty()) {  // the game has no portable form
-    unseat(guest);
-    refuse(guest, "snapshot", "needed", "none");
-    return next_message(guest, now);
-  }
-  if (guest.must_welcome && (sending || guest.stage == Guest::Stage::live)) {
-    guest.must_welcome = false;
-    Welcome welcome;
-    welcome.match = match_;
-    welcome.players = static_cast<std::uint8_t>(players());
-    welcome.hosted = hosted_;
-    welcome.player = guest.player < 0 ? 0xff : static_cast<std::uint8_t>(guest.player);
-    welcome.others = guest.player < 0 ? 0 : guest.players & (guest.players - 1);  // without the first
-    welcome.token = guest.player < 0 ? 0 : seats_[guest.player].token;
-    welcome.life = guest.player < 0 ? 0 : seats_[guest.player].life;
-    welcome.term = config_.migration > 0 ? (started_ ? tenure_.term() : first_term_) : 0;
-    welcome.term_start = config_.migration > 0 ? tenure_.start() : 0;
-    welcome.start = sending ? snapshot_ : HashReport{guest.start, guest.start_chain};
-    welcome.hash = sending ? snapshot_hash_ : 0;  // it has that state
-    if (sending) {
-      begin_transfer(guest);
-      welcome.snapshot_size = guest.transfer.progress().size;
-      welcome.snapshot_from = guest.transfer.progress().arrived;
-      if (guest.transfer.is_complete()) go_live(guest, guest.start);
+  if (!due) return std::nullopt;
+  guest.due.set(*due, false);
+  switch (*due) {
+    case Due::close: break;  // see above
+    case Due::welcome: write_welcome(welcome_for(guest), message_); break;
+    case Due::roster: write_roster(roster_, message_); break;
+    case Due::ballot: write_ballot(ballot_, message_); break;
+    case Due::inquiry: write_inquiry(inquiry_.statements().frame, message_); break;
+    case Due::statements: write_statements(inquiry_.statements(), message_); break;
+    case Due::repaired: {
+      const int player = first_of(guest.repair.tells);
+      guest.repair.tells &= guest.repair.tells - 1;
+      guest.due.set(Due::repaired, guest.repair.tells != 0);
+      write_repaired({static_cast<std::uint8_t>(player), views_[player].after}, message_);
+      break;
     }
-    welcome.opens = guest.opens;
-    write_welcome(welcome, message_);
-    return message();
+    case Due::offer:
+      snapshots_.begin_repair(guest);
+      write_offer({snapshots_.state(), snapshots_.hash(), guest.transfer.progress().size}, message_);
+      break;
+    case Due::open: write_open(guest.opens, message_); break;
   }
-  if (sending) {
-    if (std::optional<Outgoing> out = next_piece(guest, now)) return out;
+  return message();
+}
+
+Welcome HostCore::welcome_for(Guest& guest) {
+  Welcome welcome;
+  welcome.match = match_;
+  welcome.players = static_cast<std::uint8_t>(players());
+  welcome.hosted = seats_.hosted();
+  if (guest.player >= 0) {
+    welcome.player = static_cast<std::uint8_t>(guest.player);
+    welcome.others = guest.players & (guest.players - 1);  // without the first
+    welcome.token = seats_[guest.player].token;
+    welcome.life = seats_[guest.player].life;
   }
-  if (guest.must_enroll && guest.stage == Guest::Stage::live) {
-    guest.must_enroll = false;
-    write_roster(roster_, message_);
-    return message();
+  if (config_.migration > 0) {
+    welcome.term = started_ ? tenure_.term() : first_term_;
+    welcome.term_start = tenure_.start();
   }
-  if (guest.must_tell_ballot && guest.stage == Guest::Stage::live) {
-    guest.must_tell_ballot = false;
-    write_ballot(ballot_, message_);
-    return message();
+  if (guest.is_live()) {
+    welcome.start = {guest.start, guest.start_chain};
+  } else {
+    snapshots_.begin(guest);
+    welcome.start = snapshots_.state();
+    welcome.hash = snapshots_.hash();
+    welcome.snapshot_size = guest.transfer.progress().size;
+    welcome.snapshot_from = guest.transfer.progress().arrived;
+    if (guest.transfer.is_complete()) go_live(guest, guest.start);
   }
-  if (std::optional<Outgoing> out = next_repair_message(guest, now)) return out;
-  if (guest.must_open) {
-    guest.must_open = false;
-    write_open(guest.opens, message_);
-    return message();
-  }
-  return std::nullopt;
+  welcome.opens = guest.opens;
+  return welcome;
 }
 
 std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
   const bool sending = guest.stage == Guest::Stage::receives_snapshot;
-  if (guest.stage != Guest::Stage::live && !(sending && guest.transfer.is_answered())) return std::nullopt;
+  if (!guest.is_live() && !(sending && guest.transfer.is_answered())) return std::nullopt;
   const Frame most = sending ? 0 : most_frames(guest, now);
   if ((most == 0 && !sending) || !guest.may_send(current(), clock_.period(), now)) return std::nullopt;
   PacketHeader header;
@@ -101,9 +113,9 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
   header.tempo = announced();
   if (config_.migration > 0) header.final_end = tenure_.final_end();
   // A closed seat acknowledges nothing: its frames are not the player's, who would take its own for accepted.
-  for (int p = 0; p < players(); ++p) {
+  for (const int p : EachPlayer(guest.players)) {
     Seat& seat = seats_[p];
-    if (!has(guest, p) || !seat.is_open) continue;
+    if (!seat.is_open) continue;
     header.ack_mask |= 1u << p;
     // What took the place of its own inputs it has to know before they count as had.
     if (guest.acked[p] >= seat.replaced_end) seat.replaced_end = 0;
@@ -111,8 +123,8 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
     header.slack[p] = static_cast<std::int8_t>(told_slack(guest, p));
   }
   // One other machine's word on its states with every datagram, in turns.
-  for (std::size_t i = 0; i < used_; ++i) {
-    guest.next_reporter = (guest.next_reporter + 1) % used_;
+  for (std::size_t i = 0; i < guests_.size(); ++i) {
+    guest.next_reporter = (guest.next_reporter + 1) % guests_.size();
     const Guest& other = guests_[guest.next_reporter];
     if (&other == &guest || other.player < 0 || other.report.frame == kNoFrame) continue;
     header.reporter = static_cast<std::uint8_t>(other.player);

@@ -1,102 +1,88 @@
 // The host's snapshot: when it is taken, who shares it, and how it reaches who needs it.
 // SPDX-License-Identifier: MIT
-#include "isostep/session/host_core.hpp"
+#include "isostep/session/host_snapshots.hpp"
 
 namespace isostep {
 
-SnapshotProgress HostCore::snapshot_progress(PeerId peer) const {
-  const bool receives = peer < guests_.size() && receives_snapshot(guests_[peer]);
-  return receives ? guests_[peer].transfer.progress() : SnapshotProgress{};
-}
-
-void HostCore::serve_snapshots() {
-  bool wanted = false;
-  for (const Guest& guest : guests()) wanted = wanted || needs_snapshot(guest);
-  if (!wanted) return;
-  if (!may_share_snapshot()) {
-    for (const Guest& guest : guests()) {
-      if (receives_snapshot(guest)) return;
+bool SnapshotDesk::serve(Guests& guests, Frame current) {
+  bool is_wanted = false;
+  for (const Guest& guest : guests) is_wanted = is_wanted || guest.needs_snapshot();
+  if (!is_wanted) return false;
+  const bool is_new = !may_share(guests, current);
+  if (is_new) {
+    for (const Guest& guest : guests) {
+      if (guest.receives_snapshot()) return false;
     }
     // A state that is final: the present one may rest on guesses.
-    snapshot_ = hashes_.settled();
-    snapshot_hash_ = hashes_.hash(snapshot_.frame);
+    state_ = hashes_.settled();
+    hash_ = hashes_.hash(state_.frame);
     held_until_ = 0;
-    act(RequestKind::capture, snapshot_.frame);
   }
-  for (Guest& guest : guests()) {
+  for (Guest& guest : guests) {
     if (guest.repair.stage == RepairService::Stage::needs) {
       guest.repair.stage = RepairService::Stage::receives;
-      guest.repair.must_offer = true;
+      guest.due.set(Due::offer);
       guest.transfer = SnapshotTransfer{};
     }
     if (guest.stage != Guest::Stage::needs_snapshot) continue;
     guest.stage = Guest::Stage::receives_snapshot;
-    guest.start = snapshot_.frame;
+    guest.start = state_.frame;
     guest.transfer = SnapshotTransfer{};
   }
+  return is_new;
 }
 
-void HostCore::capture_lost() {
-  snapshot_ = HashReport{};
-  for (Guest& guest : guests()) {
+void SnapshotDesk::lost(Guests& guests) {
+  state_ = HashReport{};
+  for (Guest& guest : guests) {
     if (guest.stage == Guest::Stage::receives_snapshot) guest.stage = Guest::Stage::needs_snapshot;
     if (guest.repair.stage == RepairService::Stage::receives) guest.repair.stage = RepairService::Stage::needs;
   }
 }
 
-bool HostCore::may_share_snapshot() {
-  if (snapshot_.frame == kNoFrame) return false;
-  // One of this second serves everybody: who comes again and again costs no more than that.
-  const Frame age = hashes_.settled().frame - snapshot_.frame;
-  if (age <= bounded(config_.hz)) return true;
-  bool in_use = current() < held_until_;
-  for (const Guest& guest : guests()) {
+bool SnapshotDesk::may_share(Guests& guests, Frame current) {
+  if (state_.frame == kNoFrame) return false;
+  // One of this second serves everybody: who comes again and again costs no more than that. Of a short log less.
+  const Frame age = hashes_.settled().frame - state_.frame;
+  if (age <= (config_.hz < config_.history / 4 ? config_.hz : config_.history / 4)) return true;
+  bool in_use = current < held_until_;
+  for (const Guest& guest : guests) {
     const bool has_some = guest.stage == Guest::Stage::needs_snapshot && has_part(guest);
-    in_use = in_use || has_some || receives_snapshot(guest);
+    in_use = in_use || has_some || guest.receives_snapshot();
   }
   // Half of the log is for its way to the last who shares it.
   if (age <= config_.history / 2) return in_use;
-  for (Guest& guest : guests()) {
+  for (Guest& guest : guests) {
     // At this pace the inputs since are gone before it has arrived: that must not keep others out.
     const SnapshotProgress has = guest.transfer.progress();
     const bool is_slow = std::uint64_t{has.arrived} * static_cast<std::uint64_t>(config_.history) <
                          std::uint64_t{has.size} * static_cast<std::uint64_t>(age);
-    if (guest.stage == Guest::Stage::receives_snapshot && is_slow) guest.must_close = true;
-    if (guest.repair.stage == RepairService::Stage::receives && is_slow) end_repair(guest);
+    if (guest.stage == Guest::Stage::receives_snapshot && is_slow) guest.due.set(Due::close);
+    if (guest.repair.stage != RepairService::Stage::receives || !is_slow) continue;
+    guest.repair.stage = RepairService::Stage::none;
+    guest.due.set(Due::offer);
   }
   return false;
 }
 
-void HostCore::begin_transfer(Guest& guest) {
-  const auto size = static_cast<std::uint32_t>(portable_.size());
+void SnapshotDesk::begin(Guest& guest) {
+  const auto size = static_cast<std::uint32_t>(bytes_.size());
   guest.transfer.begin(has_part(guest) && guest.partial_size <= size ? guest.partial_size : 0, size);
 }
 
-std::optional<Outgoing> HostCore::next_piece(Guest& guest, Time now) {
+void SnapshotDesk::begin_repair(Guest& guest) {
+  const bool is_served = guest.repair.stage == RepairService::Stage::receives && !bytes_.empty();
+  guest.transfer.begin_at_once(is_served ? static_cast<std::uint32_t>(bytes_.size()) : 0);
+  if (!is_served) guest.repair.stage = RepairService::Stage::none;
+}
+
+bool SnapshotDesk::next_piece(Guest& guest, Time now, std::vector<std::uint8_t>& message) {
   const std::uint32_t size = guest.transfer.next_piece(now);
-  if (size == 0) return std::nullopt;
+  if (size == 0) return false;
   const std::uint32_t offset = guest.transfer.sent();
-  write_piece({offset, Bytes(portable_).subspan(offset, size)}, message_);
+  write_piece({offset, Bytes(bytes_).subspan(offset, size)}, message);
   guest.transfer.was_sent(size, now);
-  stats_.bytes_out += message_.size();
-  return Outgoing{guest.peer, Channel::reliable, message_};
-}
-
-void HostCore::measure(Guest& guest, const PacketHeader& header, Time now) {
-  const std::uint16_t trip = static_cast<std::uint16_t>(static_cast<std::uint16_t>(now / 1000) - header.echo);
-  if (header.has_echo) guest.transfer.measured(Time{trip} * 1000, now);
-}
-
-void HostCore::take_progress(Guest& guest, Bytes message, Time now) {
-  const Result<std::uint32_t> arrived = read_progress(message);
-  if (!arrived || !guest.transfer.has_arrived(arrived.value())) {
-    ++stats_.refused;
-    return;
-  }
-  guest.heard = now;
-  if (!guest.transfer.is_complete()) return;
-  if (guest.stage == Guest::Stage::live) has_repair(guest, now);
-  else go_live(guest, guest.start);
+  return true;
 }
 
 }  // namespace isostep

@@ -1,0 +1,48 @@
+// Guests: the host's connections, by PeerId, and whose turn it is to be sent something.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "isostep/session/host_guest.hpp"
+
+namespace isostep {
+
+/// Goes through those that a connection ever had: few, of many places.
+class Guests {
+ public:
+  explicit Guests(std::size_t most) : all_(most) {
+    for (std::size_t i = 0; i < most; ++i) all_[i].peer = static_cast<PeerId>(i);
+  }
+  Guest* begin() { return all_.data(); }
+  Guest* end() { return all_.data() + used_; }
+  const Guest* begin() const { return all_.data(); }
+  const Guest* end() const { return all_.data() + used_; }
+  std::size_t size() const { return used_; }
+
+  /// Those in the places that were ever used.
+  Guest& operator[](std::size_t place) { return all_[place]; }
+  const Guest& operator[](std::size_t place) const { return all_[place]; }
+  /// Null: it has no connection.
+  Guest* find(PeerId peer) { return peer < used_ && all_[peer].is_connected ? &all_[peer] : nullptr; }
+  const Guest* find(PeerId peer) const { return peer < used_ && all_[peer].is_connected ? &all_[peer] : nullptr; }
+  /// Null: there are not so many places.
+  Guest* place(PeerId peer) {
+    if (peer >= all_.size()) return nullptr;
+    if (used_ <= peer) used_ = peer + std::size_t{1};
+    return &all_[peer];
+  }
+  Guest& next_in_turn() {
+    Guest& guest = all_[next_];
+    next_ = (next_ + 1) % used_;
+    return guest;
+  }
+  /// It is its turn once more.
+  void stay_with(const Guest& guest) { next_ = guest.peer; }
+
+ private:
+  std::vector<Guest> all_;
+  std::size_t used_ = 0, next_ = 0;
+};
+
+}  // namespace isostep
