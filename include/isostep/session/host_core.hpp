@@ -2,17 +2,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/session/failover.hpp"
 #include "isostep/session/host_ballot.hpp"
 #include "isostep/session/host_guests.hpp"
 #include "isostep/session/host_inquiry.hpp"
-#include "isostep/session/host_numbers.hpp"
+#include "isostep/session/host_leadership.hpp"
 #include "isostep/session/host_seats.hpp"
 #include "isostep/session/host_snapshots.hpp"
 #include "isostep/session/host_tempo.hpp"
 #include "isostep/session/peer_core.hpp"
 #include "isostep/session/repair.hpp"
-#include "isostep/session/tenure.hpp"
 #include "isostep/session/turn_rate.hpp"
 
 namespace isostep {
@@ -33,10 +31,10 @@ class HostCore : public PeerCore {
   std::optional<Outgoing> poll_send(Time now) override;
   std::unique_ptr<SessionCore> succeed(Time now) override;
   void start(Time) override { must_start_ = true; }
-  bool go_on(Time now) override;
+  bool go_on(Time now) override { return leadership_.go_on(now); }
   void restored(bool ok) override;
   std::optional<SavedMatch> save_match() const override;
-  std::uint64_t token() const override { return own_token_; }
+  std::uint64_t token() const override { return leadership_.own_token(); }
   std::uint32_t local_players() const override { return seats_.hosted(); }
   SnapshotProgress snapshot_progress(PeerId peer) const override;
   bool pause(bool on) override;
@@ -64,7 +62,8 @@ class HostCore : public PeerCore {
   /// A frame that no majority has may be otherwise in the match that goes on without us.
   Frame final_limit() const override {
     const Frame limit = PeerCore::final_limit();
-    return config_.migration > 0 && tenure_.final_end() < limit ? tenure_.final_end() : limit;
+    const Frame end = leadership_.tenure().final_end();
+    return config_.migration > 0 && end < limit ? end : limit;
   }
   void paused(Time now) override;
   void blocked(Time now) override;
@@ -87,26 +86,7 @@ class HostCore : public PeerCore {
   void answer(const Guest& guest, const Ask& ask);
   /// Once a frame of time, for what changes no faster: who is silent, lags, or is far away.
   void tend_guests(Time now);
-  /// One roster after the other: the next when a majority has this one.
-  void keep_roster();
-  Roster drafted() const;
-  void replace_roster(const Roster& next);
-  /// Those who are with us are all of the match from now on.
-  void reform_roster(std::uint64_t group);
-  /// Its place in the roster, as a voter.
-  int voter_of(const Guest& guest) const;
-  /// Inputs before this frame are there.
-  Frame end_at(const Guest& guest) const;
-  /// Fills followers_ for each machine of the roster.
-  void look_at_followers(Time now);
-  /// Us and those voters that `is_counted`, as places in the roster, a bit each.
-  template <class Predicate> std::uint64_t group(const Predicate& is_counted) const;
-  std::uint64_t followers_here(Time now) const;
-  std::unique_ptr<SessionCore> retreat(Time now, bool is_outvoted);
-
   void tend_inquiry(Time now);
-  /// Can the others go on without us, at one that is not among these (machines as in a Verdict)?
-  bool could_others(std::uint64_t unfit) const;
   bool take_repaired(Guest& guest, Bytes bytes);
   /// Its players go on where their inputs end, and are told those that they do not know to be final.
   void resume(Guest& guest);
@@ -199,14 +179,7 @@ class HostCore : public PeerCore {
   Seats seats_;
   Guests guests_;
   bool started_ = false, must_start_ = false;
-  Roster roster_;
-  std::uint64_t own_token_ = 0;  // with which our players come back to who follows us
-  std::uint64_t own_life_ = 0;
-  std::uint32_t first_term_ = 1;  // a match that was saved has had others
-  Tenure tenure_;
-  Follower followers_[kMaxPlayers + 1];  // by their places in the roster
-  bool is_over_ = false;                 // somebody knows of a later host
-  Roster inherited_;                     // that we took over: its members were let in before
+  Leadership leadership_{config_, seats_, guests_, streams_, stats_, message_};
   TurnRate turn_rate_;
   Inquiry inquiry_{seats_};
   Time steps_down_at_ = 0;        // [us] our states are wrong, and another machine is to be the host; 0: no

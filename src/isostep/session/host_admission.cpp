@@ -105,11 +105,8 @@ void HostCore::greet(Guest& guest, Bytes message) {
   }
   guest.wish = hello;
   guest.address = hello.address;
-  // Nobody follows an earlier host than it has known: the others decide anew.
-  const int voter = roster_.voter_of(hello.token, hello.life);
-  is_over_ = is_over_ || (started_ && voter >= 0 && hello.term > tenure_.term());
-  const bool is_member = inherited_.voter_of(hello.token, hello.life) >= 0;
-  if (!config_.asks_admission || is_member) {
+  leadership_.hear(hello);
+  if (!config_.asks_admission || leadership_.is_member(hello)) {
     let_in(guest);
     return;
   }
@@ -197,7 +194,7 @@ void HostCore::go_live(Guest& guest, Frame start) {
   guest.owes_since = guest.had_all_at = guest.heard;
   guest.acked_at = guest.more_at = 0;
   guest.has_spoken = guest.has_more = false;
-  guest.due.set(Due::roster, roster_.version > 0);
+  guest.due.set(Due::roster, leadership_.roster().version > 0);
   guest.due.set(Due::ballot, ballot_.is_open());
 }
 

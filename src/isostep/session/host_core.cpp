@@ -16,8 +16,9 @@ HostCore::HostCore(const SessionConfig& config, const InputRules& rules)
       seats_(config_, static_cast<std::uint32_t>((std::uint64_t{1} << config.local_players) - 1), slack_),
       guests_(static_cast<std::size_t>(config.max_peers + config.max_strangers)),
       match_(numbers_.match(0)) {
-  own_life_ = numbers_.next_life();
-  if (config.migration > 0) own_token_ = numbers_.next_token();
+  const std::uint64_t life = numbers_.next_life();
+  const std::uint64_t token = config.migration > 0 ? numbers_.next_token() : 0;
+  leadership_.know_ourselves(token, life);
 }
 
 void HostCore::connected(PeerId peer, Time now) {
@@ -35,7 +36,7 @@ void HostCore::disconnected(PeerId peer, Time now) {
   Guest* const guest = guests_.find(peer);
   if (guest == nullptr) return;
   // Who hangs up while it hears us leaves; who has lost us looks for another host.
-  const bool leaves = guest->lease_from != 0 && now - guest->lease_from <= tenure_.lease();
+  const bool leaves = guest->lease_from != 0 && now - guest->lease_from <= leadership_.tenure().lease();
   const std::uint32_t its = guest->players;
   drop(*guest);
   for (const int p : EachPlayer(its)) {
@@ -47,7 +48,7 @@ void HostCore::disconnected(PeerId peer, Time now) {
 void HostCore::begin(Time now) {
   started_ = true;
   began_ = now;
-  tenure_.begin(first_term_, config_.migration, 0, hashes_.settled().frame, now);
+  leadership_.begin(hashes_.settled().frame, now);
   clock_.start(now);
   phase_ = seats_.hosted() != 0 ? SessionPhase::playing : SessionPhase::watching;
   seats_.begin();
@@ -273,7 +274,7 @@ void HostCore::tend_guests(Time now) {
     for (Guest& guest : guests_) guest.due.set(Due::ballot, guest.is_live());
   }
   voted(ballot_box_.tend(now));
-  keep_roster();
+  leadership_.keep_roster();
   tend_inquiry(now);
   judge_lines(now);
   choose_pace(now);
@@ -286,7 +287,7 @@ void HostCore::before_frame(Time now) {
 }
 
 void HostCore::fill_absent() {
-  if (!tenure_.is_backed()) return;
+  if (!leadership_.tenure().is_backed()) return;
   for (int p = 0; p < players(); ++p) {
     if (seats_.is_guests(p) && !seats_[p].is_open) streams_[static_cast<std::size_t>(p)].append_absent_until(horizon());
   }
@@ -305,7 +306,7 @@ void HostCore::blocked(Time now) {
 void HostCore::charge(Time now) {
   const Time passed = now - charged_at_;
   charged_at_ = now;
-  if (now - began_ < kFreeStart || !tenure_.is_backed()) return;
+  if (now - began_ < kFreeStart || !leadership_.tenure().is_backed()) return;
   for (int p = 0; p < players(); ++p) {
     Seat& seat = seats_[p];
     if (is_local(p) || !seat.is_open || streams_[static_cast<std::size_t>(p)].end() > current()) continue;

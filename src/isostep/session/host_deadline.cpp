@@ -12,7 +12,7 @@ constexpr Time kIsHeard = kSecond / 5;   // [us] since its last word: its line i
 }  // namespace
 
 void HostCore::replace_late(Time now) {
-  if (config_.deadline == 0 || now < due_from_ || !tenure_.is_backed()) return;
+  if (config_.deadline == 0 || now < due_from_ || !leadership_.tenure().is_backed()) return;
   const Frame due = current() + (is_blocked_ ? clock_.overdue(now) : 0);
   // Of a player of whom one input was replaced and nothing came since the next is waited for as long as nobody stands:
   // what a rollback affords in every frame.

@@ -138,7 +138,7 @@ void HostCore::judge_own_pace(Time now) {
     const bool is_sound = seats_.play(guest) && guest.stretch < kMostStretch && acknowledges(guest, now);
     if (guest.player >= 0 && !is_sound) unfit |= std::uint64_t{1} << guest.player;
   }
-  is_too_slow_ = tenure_.is_backed() && could_others(unfit);
+  is_too_slow_ = leadership_.tenure().is_backed() && leadership_.could_others(unfit);
 }
 
 }  // namespace isostep

@@ -8,9 +8,9 @@ HostCore::HostCore(const SessionConfig& config, const InputRules& rules, SavedMa
   seats_.resume(saved);
   numbers_.go_on_after(saved.tokens);
   sequels_ = saved.sequels + 1;
-  first_term_ = saved.term + 1;
   match_ = numbers_.match(sequels_);
-  if (config.migration > 0) own_token_ = numbers_.next_token();
+  const std::uint64_t token = config.migration > 0 ? numbers_.next_token() : 0;
+  leadership_.resume(saved.term + 1, token);
   resumed_ = saved.start;
   resumed_hash_ = saved.hash;
   tempo_desk_.resume_with(saved.speed);
@@ -72,7 +72,7 @@ std::optional<SavedMatch> HostCore::save_match() const {
   saved.speed = announced().speed;
   saved.tokens = numbers_.tokens();
   saved.sequels = sequels_;
-  saved.term = tenure_.term();
+  saved.term = leadership_.tenure().term();
   saved.players = static_cast<std::uint8_t>(players());
   for (int p = 0; p < players(); ++p) saved.proofs[p] = is_local(p) || !seats_[p].is_kept ? 0 : seats_[p].proof;
   return saved;

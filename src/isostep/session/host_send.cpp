@@ -49,7 +49,7 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
   switch (*due) {
     case Due::close: break;  // see above
     case Due::welcome: write_welcome(welcome_for(guest), message_); break;
-    case Due::roster: write_roster(roster_, message_); break;
+    case Due::roster: write_roster(leadership_.roster(), message_); break;
     case Due::ballot: write_ballot(ballot_, message_); break;
     case Due::inquiry: write_inquiry(inquiry_.statements().frame, message_); break;
     case Due::statements: write_statements(inquiry_.statements(), message_); break;
@@ -81,8 +81,8 @@ Welcome HostCore::welcome_for(Guest& guest) {
     welcome.life = seats_[guest.player].life;
   }
   if (config_.migration > 0) {
-    welcome.term = started_ ? tenure_.term() : first_term_;
-    welcome.term_start = tenure_.start();
+    welcome.term = leadership_.term();
+    welcome.term_start = leadership_.tenure().start();
   }
   if (guest.is_live()) {
     welcome.start = {guest.start, guest.start_chain};
@@ -111,7 +111,7 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
   header.slowest = static_cast<std::uint8_t>(slowest());
   header.waits_for = waits_for();
   header.tempo = announced();
-  if (config_.migration > 0) header.final_end = tenure_.final_end();
+  if (config_.migration > 0) header.final_end = leadership_.tenure().final_end();
   // A closed seat acknowledges nothing: its frames are not the player's, who would take its own for accepted.
   for (const int p : EachPlayer(guest.players)) {
     Seat& seat = seats_[p];

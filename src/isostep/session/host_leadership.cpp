@@ -1,12 +1,9 @@
-// The host's roster: who could go on without it, whether they do, and a host that follows another.
+// The host's roster: who could go on without it, and whether they do.
 // SPDX-License-Identifier: MIT
-#include "isostep/session/client_core.hpp"
-#include "isostep/session/host_core.hpp"
+#include "isostep/session/host_leadership.hpp"
 
 namespace isostep {
 namespace {
-
-constexpr Time kFarewell = kSecond / 4;  // [us] in which all hear why the host gives way
 
 bool same_machine(const Roster::Machine& a, const Roster::Machine& b) {
   return a.players == b.players && a.proof == b.proof && a.life == b.life && a.is_in == b.is_in &&
@@ -23,14 +20,14 @@ bool same_roster(const Roster& a, const Roster& b) {
 
 }  // namespace
 
-Roster HostCore::drafted() const {
+Roster Leadership::drafted() const {
   Roster next;
   next.term = tenure_.term();
   next.version = roster_.version + 1;
   copy_match_settings(config_, next.settings);
   Roster::Machine& own = next.machines[next.count++];
   own = {seats_.hosted(), proof_of(own_token_), own_life_, true, true, config_.address};
-  for (int p = 0; p < players(); ++p) {
+  for (int p = 0; p < config_.players; ++p) {
     const Seat& seat = seats_[p];
     const int before = roster_.machine_with(p);
     const bool was_in = before >= 0 && roster_.machines[before].is_in;
@@ -38,7 +35,7 @@ Roster HostCore::drafted() const {
     if (with >= 0) next.machines[with].players |= 1u << p;
     // A machine whose players have gone is one, as before: it is found with the first of them.
     const bool is_first = before >= 0 && first_of(roster_.machines[before].players) == p;
-    if (is_local(p) || with >= 0 || !(seat.is_taken || (was_in && is_first))) continue;
+    if (seats_.is_local(p) || with >= 0 || !(seat.is_taken || (was_in && is_first))) continue;
     Roster::Machine& machine = next.machines[next.count++];
     machine.players = 1u << p;
     machine.proof = seat.proof;
@@ -52,7 +49,7 @@ Roster HostCore::drafted() const {
       machine.was_in = former.is_in;
       continue;
     }
-    const Guest* const guest = guest_of(p);
+    const Guest* const guest = seat.link < 0 ? nullptr : &guests_[static_cast<std::size_t>(seat.link)];
     machine.is_in = guest != nullptr && guest->is_live() && !guest->due.has(Due::close);
     machine.was_in = roster_.version == 0 ? machine.is_in : is_same && was_in;
     if (machine.is_in && seat.is_open) machine.address = guest->address;
@@ -64,7 +61,7 @@ Roster HostCore::drafted() const {
   return next;
 }
 
-int HostCore::voter_of(const Guest& guest) const {
+int Leadership::voter_of(const Guest& guest) const {
   if (!guest.is_connected || guest.player < 0) return -1;
   const Seat& seat = seats_[guest.player];
   const int machine = roster_.machine_with(guest.player);
@@ -73,9 +70,9 @@ int HostCore::voter_of(const Guest& guest) const {
   return its.proof == seat.proof && its.life == seat.life ? machine : -1;
 }
 
-Frame HostCore::end_at(const Guest& guest) const {
+Frame Leadership::end_at(const Guest& guest) const {
   Frame end = kLastFrame;
-  for (int p = 0; p < players(); ++p) {
+  for (int p = 0; p < config_.players; ++p) {
     // Its own inputs it has, but for those that were replaced and that it has not been told.
     const bool is_its = guest.has(p) && seats_[p].is_open && seats_[p].replaced_end == 0;
     const Frame its = is_its ? streams_[static_cast<std::size_t>(p)].end() : guest.acked[p];
@@ -84,7 +81,7 @@ Frame HostCore::end_at(const Guest& guest) const {
   return end;
 }
 
-void HostCore::look_at_followers(Time now) {
+void Leadership::look_at_followers(Time now) {
   for (Follower& follower : followers_) follower = Follower{};
   for (const Guest& guest : guests_) {
     const int machine = voter_of(guest);
@@ -103,7 +100,7 @@ void HostCore::look_at_followers(Time now) {
   }
 }
 
-template <class Predicate> std::uint64_t HostCore::group(const Predicate& is_counted) const {
+template <class Predicate> std::uint64_t Leadership::group(const Predicate& is_counted) const {
   std::uint64_t group = std::uint64_t{1} << roster_.host;
   for (const Guest& guest : guests_) {
     const int machine = voter_of(guest);
@@ -112,30 +109,30 @@ template <class Predicate> std::uint64_t HostCore::group(const Predicate& is_cou
   return group;
 }
 
-std::uint64_t HostCore::followers_here(Time now) const {
+std::uint64_t Leadership::here(Time now) const {
   return group([&](const Guest& guest) { return guest.is_live() && now - guest.heard <= config_.migration; });
 }
 
-void HostCore::keep_roster() {
-  if (config_.migration == 0 || !started_) return;
+void Leadership::keep_roster() {
+  if (config_.migration == 0 || !has_begun()) return;
   const std::uint64_t enrolled = group([&](const Guest& guest) { return guest.enrolled == roster_.version; });
   if (roster_.version > 0 && !tenure_.may_go_on_to_next(roster_, enrolled, followers_)) return;
   const Roster next = drafted();
-  if (!same_roster(next, roster_)) replace_roster(next);
+  if (!same_roster(next, roster_)) replace(next);
 }
 
-void HostCore::replace_roster(const Roster& next) {
+void Leadership::replace(const Roster& next) {
   roster_ = next;
   for (int m = 0; m < roster_.count; ++m) {
     const int player = std::countr_zero(roster_.machines[m].players);
     const std::uint64_t token = m == roster_.host ? own_token_ : seats_[player].token;
-    roster_.machines[m].seal = token == 0 ? 0 : seal_of(roster_, token, message_);
+    roster_.machines[m].seal = token == 0 ? 0 : seal_of(roster_, token, scratch_);
   }
   stats_.machines = next.count_in();
   for (Guest& guest : guests_) guest.due.set(Due::roster, guest.is_live());
 }
 
-void HostCore::reform_roster(std::uint64_t group) {
+void Leadership::reform(std::uint64_t group) {
   Roster next = drafted();
   for (int m = 0; m < next.count; ++m) {
     Roster::Machine& machine = next.machines[m];
@@ -144,32 +141,23 @@ void HostCore::reform_roster(std::uint64_t group) {
     machine.is_in = machine.was_in = stays;
   }
   next.casting = next.was_casting = next.host;
-  replace_roster(next);
+  replace(next);
 }
 
-bool HostCore::go_on(Time now) {
+bool Leadership::go_on(Time now) {
   if (roster_.version == 0 || tenure_.is_backed()) return false;
-  const std::uint64_t here = followers_here(now);
+  const std::uint64_t stay = here(now);
   for (Guest& guest : guests_) {
     const int machine = voter_of(guest);
-    if (machine < 0 || (here >> machine & 1) != 0) continue;
+    if (machine < 0 || (stay >> machine & 1) != 0) continue;
     guest.due.set(Due::close);  // it may come again, as one that was away
     seats_.close(guest);
   }
-  reform_roster(here);
+  reform(stay);
   return true;
 }
 
-void HostCore::tend_inquiry(Time now) {
-  std::uint64_t differing = 0;
-  for (std::size_t p = 0; p < kMaxPlayers; ++p) differing |= (views_[p].differs() ? std::uint64_t{1} : 0) << p;
-  if (!inquiry_.tend(guests_, differing, hashes_.settled(), now)) return;
-  const Verdict verdict = tell_verdict(inquiry_.statements());
-  const bool is_ours = (verdict.minority >> kHostMachine & 1) != 0;
-  if (is_ours && config_.repair && could_others(verdict.minority)) steps_down_at_ = now + kFarewell;
-}
-
-bool HostCore::could_others(std::uint64_t unfit) const {
+bool Leadership::could_others(std::uint64_t unfit) const {
   std::uint64_t others = 0;
   bool has_candidate = false;
   for (int m = 0; m < roster_.count; ++m) {
@@ -182,18 +170,15 @@ bool HostCore::could_others(std::uint64_t unfit) const {
   return has_candidate && roster_.is_majority(others);
 }
 
-std::unique_ptr<SessionCore> HostCore::succeed(Time now) {
-  if (config_.migration == 0) return nullptr;
+bool Leadership::turn(Frame known_end, Time now) {
   look_at_followers(now);
-  const std::span<const Follower> followers(followers_, roster_.count);
-  const bool is_outvoted = steps_down_at_ != 0 && now >= steps_down_at_;
-  const Tenure::Duty duty = started_ ? tenure_.turn(roster_, followers, known_end(), now) : Tenure::Duty::serves;
-  if (duty == Tenure::Duty::reforms) reform_roster(followers_here(now));
-  if (duty != Tenure::Duty::steps_down && !is_outvoted && !is_over_ && !is_too_slow_) return nullptr;
-  return retreat(now, is_outvoted);
+  if (!has_begun()) return !is_over_;
+  const Tenure::Duty duty = tenure_.turn(roster_, {followers_, roster_.count}, known_end, now);
+  if (duty == Tenure::Duty::reforms) reform(here(now));
+  return duty != Tenure::Duty::steps_down && !is_over_;
 }
 
-std::unique_ptr<SessionCore> HostCore::retreat(Time now, bool is_outvoted) {
+Retreat Leadership::retreat(bool is_outvoted) const {
   Retreat retreat{roster_, seats_.hosted(), own_token_, own_life_, {}, 0, {}, is_outvoted};
   retreat.election.follow(tenure_.term());
   retreat.election.has_log_of(tenure_.term());
@@ -203,63 +188,25 @@ std::unique_ptr<SessionCore> HostCore::retreat(Time now, bool is_outvoted) {
   for (const Guest& guest : guests_) {
     if (guest.is_connected) retreat.guests.push_back(guest.peer);
   }
-  tell_of(SessionEvent::Kind::deposed);
-  return std::make_unique<ClientCore>(std::move(*this), std::move(retreat), now);
+  return retreat;
 }
 
-HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
-    : PeerCore(std::move(client)),
-      numbers_(config_.seed),
-      seats_(config_, succession.roster.machines[succession.machine].players, slack_),
-      guests_(static_cast<std::size_t>(config_.max_peers + config_.max_strangers)),
-      match_(numbers_.match(0)) {
-  config_.host = true;
-  copy_match_settings(succession.roster.settings, config_);
+void Leadership::take_over(const Succession& succession, Frame known_end, Frame final_end, Time now) {
   inherited_ = roster_ = succession.roster;
   roster_.host = static_cast<std::uint8_t>(succession.machine);
   roster_.term = succession.election.term();
-  own_token_ = succession.token;
-  own_life_ = succession.life;
+  know_ourselves(succession.token, succession.life);
   // What is final somewhere ends before that: we have all of it.
-  tenure_.begin(succession.election.term(), config_.migration, known_end(), hashes_.settled().frame, now);
-  seats_.take_over(roster_);
-  for (RecentLeast& slack : slack_) slack = RecentLeast{};
-  delay_.keep_to_most();  // no deadline replaces ours
-  for (int p = 0; p < players(); ++p) seats_[p].replaced_told = stats_.players[p].replaced;
-  for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
-  end_ballot();
-  started_ = true;
-  began_ = turn_at_ = now;
-  clock_.forget_lean();
-  clock_.start(now);
-  go_at_pace_of(0xff, 0);
-  goes_on();
-  phase_ = SessionPhase::playing;
-  for (std::size_t i = 0; i < succession.callers.size(); ++i) {
-    const Caller& caller = succession.callers[i];
-    Guest* const guest = caller.is_connected ? guests_.place(static_cast<PeerId>(i)) : nullptr;
-    if (guest == nullptr) continue;
-    guest->connect(now);
-    if (caller.hello.empty()) continue;
-    const bool supports = succession.election.has_won_with(caller.voter);
-    if (supports) guest->enrolled = roster_.version;
-    greet(*guest, caller.hello);
-    if (supports) guest->lease_from = succession.election.called_at();
-    resume(*guest);
-  }
-  if (!succession.election.has_majority(succession.roster)) reform_roster(succession.election.supporters());
-  tell_of(SessionEvent::Kind::new_host, local_player());
+  tenure_.begin(roster_.term, config_.migration, known_end, final_end, now);
 }
 
-void HostCore::resume(Guest& guest) {
-  if (!guest.is_live()) return;
-  for (const int p : EachPlayer(guest.players)) {
-    Seat& seat = seats_[p];
-    seat.is_open = true;
-    seat.replaced = guest.start;
-    seat.replaced_end = streams_[static_cast<std::size_t>(p)].end();
-    if (seat.replaced_end > guest.opens) guest.opens = seat.replaced_end;
-  }
+void Leadership::reform_with(const Election& election) {
+  if (!election.has_majority(inherited_)) reform(election.supporters());
+}
+
+void Leadership::hear(const Application& wish) {
+  // Nobody follows an earlier host than it has known: the others decide anew.
+  is_over_ = is_over_ || (roster_.voter_of(wish.token, wish.life) >= 0 && wish.term > tenure_.term());
 }
 
 }  // namespace isostep
