@@ -40,11 +40,27 @@ struct Guest : PeerLink {
     probe_every = its_probe_every;
   }
   bool has(int its_player) const { return (players >> its_player & 1) != 0; }
+  bool applies() const { return is_connected && stage == Stage::applies; }
   bool is_live() const { return stage == Stage::live; }
+  /// It is let in: it is in the match, or on the way.
+  bool is_served() const {
+    return is_connected && stage != Stage::connected && stage != Stage::applies && stage != Stage::refused;
+  }
+  /// Anybody may come and watch, so a spectator has to show first that it takes what it is sent; a player has a seat.
+  bool is_unproven() const { return player < 0 && acked_at == 0; }
   /// Waits for the next snapshot, or is on the way to have this one: into the match, or in it.
   bool needs_snapshot() const { return stage == Stage::needs_snapshot || repair.stage == RepairService::Stage::needs; }
   bool receives_snapshot() const {
     return stage == Stage::receives_snapshot || repair.stage == RepairService::Stage::receives;
+  }
+  /// It needs a snapshot: inputs that it lacks are gone.
+  void fall_behind() {
+    stage = Stage::needs_snapshot;
+    due.set(Due::welcome);
+    for (const Due no_more : {Due::repaired, Due::offer, Due::open}) due.set(no_more, false);
+    is_ready = false;
+    repair = RepairService{.next = repair.next};
+    opens = kNoFrame;
   }
   /// While a snapshot is under way datagrams only measure the line.
   void measure(const PacketHeader& header, Time now) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "isostep/session/host_guest.hpp"
+#include "isostep/session/host_seat.hpp"
 
 namespace isostep {
 
@@ -26,6 +27,23 @@ class Guests {
   /// Null: it has no connection.
   Guest* find(PeerId peer) { return peer < used_ && all_[peer].is_connected ? &all_[peer] : nullptr; }
   const Guest* find(PeerId peer) const { return peer < used_ && all_[peer].is_connected ? &all_[peer] : nullptr; }
+  /// Null: nobody is there.
+  Guest* on(const Seat& seat) { return seat.link < 0 ? nullptr : &all_[static_cast<std::size_t>(seat.link)]; }
+  const Guest* on(const Seat& seat) const {
+    return seat.link < 0 ? nullptr : &all_[static_cast<std::size_t>(seat.link)];
+  }
+  /// Null: it is decided, or gone.
+  Guest* applicant(std::uint64_t number) {
+    for (Guest& guest : *this) {
+      if (guest.applies() && guest.applicant == number) return &guest;
+    }
+    return nullptr;
+  }
+  int spectators() const {
+    int count = 0;
+    for (const Guest& guest : *this) count += guest.is_served() && guest.player < 0 ? 1 : 0;
+    return count;
+  }
   /// Null: there are not so many places.
   Guest* place(PeerId peer) {
     if (peer >= all_.size()) return nullptr;

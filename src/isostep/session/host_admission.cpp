@@ -5,10 +5,6 @@
 namespace isostep {
 namespace {
 
-/// [us] from the connection to the hello, which is one way of the line: a second for it to be sent again, and one more.
-constexpr Time kGreeting = 2 * kSecond;
-/// [us] that count of one turn: nobody can come back while our own process stands still.
-constexpr Time kLongestTurn = kSecond;
 constexpr Frame kNotice = 30;         // [frames] between a seat's opening and its first frame
 constexpr Time kRefusalsAtOnce = 32;  // all players of another version; of who comes again and again one a second
 
@@ -22,30 +18,11 @@ bool is_reason(std::string_view text) {
 
 }  // namespace
 
-void HostCore::tend_places(Time now) {
-  const Time turn = now - turn_at_ < kLongestTurn ? now - turn_at_ : kLongestTurn;
-  turn_at_ = now;
-  seats_.pass(is_paused() ? 0 : turn);
-  for (Guest& guest : guests_) {
-    const bool is_silent = guest.is_connected && guest.stage == Guest::Stage::connected && !guest.due.has(Due::close);
-    if (!is_silent || now - guest.heard <= kGreeting) continue;
-    guest.due.set(Due::close);  // and not refused: a machine that stood still comes again
-    ++stats_.refused;
-  }
-}
-
 // --- what the game decides ---
-
-Guest* HostCore::applicant_of(std::uint64_t number) {
-  for (Guest& guest : guests_) {
-    if (guest.is_connected && guest.stage == Guest::Stage::applies && guest.applicant == number) return &guest;
-  }
-  return nullptr;
-}
 
 std::optional<Applicant> HostCore::poll_applicant() {
   for (Guest& guest : guests_) {
-    if (!guest.is_connected || guest.stage != Guest::Stage::applies || guest.is_shown) continue;
+    if (!guest.applies() || guest.is_shown) continue;
     guest.is_shown = true;
     const Application& wish = guest.wish;
     return Applicant{guest.applicant, guest.peer, wish.spectator,
@@ -56,12 +33,12 @@ std::optional<Applicant> HostCore::poll_applicant() {
 }
 
 bool HostCore::admit(std::uint64_t applicant) {
-  Guest* guest = applicant_of(applicant);
+  Guest* guest = guests_.applicant(applicant);
   return guest != nullptr && let_in(*guest);
 }
 
 bool HostCore::refuse(std::uint64_t applicant, std::string_view reason) {
-  Guest* guest = applicant_of(applicant);
+  Guest* guest = guests_.applicant(applicant);
   if (guest == nullptr || !is_reason(reason)) return false;
   refuse(*guest, {"admission", {}, reason});
   return true;
@@ -69,7 +46,7 @@ bool HostCore::refuse(std::uint64_t applicant, std::string_view reason) {
 
 bool HostCore::kick(int player, std::string_view reason) {
   if (!seats_.is_guests(player) || !seats_[player].is_taken || !is_reason(reason)) return false;
-  Guest* guest = guest_of(player);
+  Guest* guest = guests_.on(seats_[player]);
   const std::uint32_t machine = guest != nullptr ? guest->players : seats_.away_with(player);
   if (guest != nullptr) send_away(*guest, {"kicked", {}, reason});
   for (const int p : EachPlayer(machine)) seats_.free(p);
@@ -136,7 +113,9 @@ Refusal HostCore::mismatch_of(const Hello& hello) const {
 bool HostCore::let_in(Guest& guest) {
   Refusal why;
   if (guest.wish.spectator) {
-    if (!has_room_for_spectator()) why = {"spectators", "one more", "no room"};
+    // Spectators leave room for the players.
+    const int room = config_.max_peers - (players() - std::popcount(seats_.hosted()));
+    if (guests_.spectators() >= room) why = {"spectators", "one more", "no room"};
   } else {
     // A token that is nobody's any more may come from a player who was away for too long: new, but not refused.
     if (guest.wish.token != 0 && seats_.players_of(guest.wish.token) == 0) ++stats_.refused;
@@ -170,21 +149,11 @@ void HostCore::seat(Guest& guest, std::uint32_t wanted) {
   const Seats::Claim claim = seats_.claim(guest.wish, wanted, numbers_);
   for (const int p : EachPlayer(claim.wanted | claim.own)) {
     const bool is_owner = (claim.own >> p & 1) != 0;
-    Guest* const other = guest_of(p);
+    Guest* const other = guests_.on(seats_[p]);
     const char* const why = is_owner ? "taken over from another address" : "not played on for too long";
     if (other != nullptr) send_away(*other, {"seat", {}, why});
   }
   seats_.take(guest, claim);
-}
-
-bool HostCore::has_room_for_spectator() const {
-  int spectators = 0;
-  for (const Guest& guest : guests_) {
-    const bool is_served = guest.stage != Guest::Stage::connected && guest.stage != Guest::Stage::applies &&
-                           guest.stage != Guest::Stage::refused;
-    spectators += guest.is_connected && is_served && guest.player < 0 ? 1 : 0;
-  }
-  return spectators < config_.max_peers - (players() - std::popcount(seats_.hosted()));
 }
 
 void HostCore::go_live(Guest& guest, Frame start) {

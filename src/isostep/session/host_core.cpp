@@ -5,6 +5,10 @@
 namespace isostep {
 namespace {
 
+/// [us] from the connection to the hello, which is one way of the line: a second for it to be sent again, and one more.
+constexpr Time kGreeting = 2 * kSecond;
+/// [us] that count of one turn: nobody can come back while our own process stands still.
+constexpr Time kLongestTurn = kSecond;
 constexpr Frame kMostAhead = 128;               // [frames] beyond ours that a client's input may lie
 constexpr Time kBetweenRepairs = 10 * kSecond;  // [us] of one client, whose machine may go wrong again and again
 
@@ -47,7 +51,7 @@ void HostCore::disconnected(PeerId peer, Time now) {
 
 void HostCore::begin(Time now) {
   started_ = true;
-  began_ = now;
+  deadline_.begin(now);
   leadership_.begin(hashes_.settled().frame, now);
   clock_.start(now);
   phase_ = seats_.hosted() != 0 ? SessionPhase::playing : SessionPhase::watching;
@@ -80,7 +84,19 @@ void HostCore::take_datagram(Guest& guest, Bytes bytes, Time now) {
   guest.heard = now;
   guest.has_spoken = true;
   guest.renew_lease(packet.header, now);
-  take_packet(guest, packet, now);
+  seats_.keep(guest);
+  take_header(guest, packet.header, now);
+  if (guest.repair.stage == RepairService::Stage::receives) guest.measure(packet.header, now);
+  // Nobody has final states that we have not: all inputs pass through us.
+  const HashReport& report = packet.header.report;
+  if (report.frame <= known_end()) {
+    const Frame after = guest.player < 0 ? kNoFrame : views_[guest.player].after;
+    if (report.frame > guest.report.frame && report.frame > after) guest.report = report;
+    if (guest.player >= 0) take_hash(static_cast<std::size_t>(guest.player), report);
+  } else {
+    ++stats_.refused;
+  }
+  for (std::uint8_t i = 0; i < packet.slice_count; ++i) take_inputs(guest, packet.slices[i], now);
 }
 
 bool HostCore::take_message(Guest& guest, Bytes bytes, Time now) {
@@ -110,7 +126,12 @@ bool HostCore::take_message(Guest& guest, Bytes bytes, Time now) {
     }
     case MessageKind::propose:
     case MessageKind::vote: return take_vote(guest, kind, bytes);
-    case MessageKind::ask: return take_ask(guest, bytes);
+    case MessageKind::ask: {
+      const Result<Ask> ask = read_ask(bytes);
+      const bool is_good = ask && seats_.play(guest);
+      if (is_good) (ask.value().speed != 0 ? guest.asks_speed : guest.asks_pause) = ask.value();
+      return is_good;
+    }
     case MessageKind::ready:
       guest.heard = now;
       guest.is_ready = true;
@@ -168,22 +189,6 @@ bool HostCore::take_progress(Guest& guest, Bytes message, Time now) {
   return true;
 }
 
-void HostCore::take_packet(Guest& guest, const Packet& packet, Time now) {
-  seats_.keep(guest);
-  take_header(guest, packet.header, now);
-  if (guest.repair.stage == RepairService::Stage::receives) guest.measure(packet.header, now);
-  // Nobody has final states that we have not: all inputs pass through us.
-  if (packet.header.report.frame <= known_end()) {
-    const Frame after = guest.player < 0 ? kNoFrame : views_[guest.player].after;
-    const bool is_newest = packet.header.report.frame > guest.report.frame && packet.header.report.frame > after;
-    if (is_newest) guest.report = packet.header.report;
-    if (guest.player >= 0) take_hash(static_cast<std::size_t>(guest.player), packet.header.report);
-  } else {
-    ++stats_.refused;
-  }
-  for (std::uint8_t i = 0; i < packet.slice_count; ++i) take_inputs(guest, packet.slices[i], now);
-}
-
 void HostCore::take_inputs(Guest& guest, const InputSlice& slice, Time now) {
   if (slice.player >= players() || !guest.has(slice.player) || !seats_[slice.player].is_open) return;
   InputStream& stream = streams_[slice.player];
@@ -203,7 +208,9 @@ void HostCore::take_inputs(Guest& guest, const InputSlice& slice, Time now) {
     seats_[slice.player].is_late = false;
     stream.append(entry);
   }
-  if (!noted) note_replaced(slice, now);
+  // All of it came too late: by how much, its player has to know to send them earlier.
+  const Frame end = slice.first + slice.count;
+  if (!noted && deadline_.is_news(slice.player, end)) note_arrival(slice.player, end, now);
   if (reader.failed()) ++stats_.refused;
 }
 
@@ -211,64 +218,52 @@ Frame HostCore::horizon() const {
   return seats_.hosted() == 0 ? current() + 1 : streams_[static_cast<std::size_t>(local_player())].end();
 }
 
-Frame HostCore::sends_until(int player, const PeerLink& link) const {
-  const Guest& guest = static_cast<const Guest&>(link);
-  const Frame end = streams_[static_cast<std::size_t>(player)].end(), shown = shown_until(guest);
-  if (guest.has(player)) return seats_[player].is_open ? seats_[player].replaced_end : end;
-  return shown < end ? shown : end;
-}
-
 void HostCore::before_steps(Time now) {
-  if (started_ && !is_paused()) turn_rate_.turn(now, pace_.most_steps(kDueSteps), clock_.nominal());
+  if (started_ && !is_paused()) match_pace_.turn(now, pace_.most_steps(kDueSteps), clock_.nominal());
   if (!started_ && (all_are_here() || must_start_)) begin(now);
-  if (!started_ && is_resumed()) serve_snapshots();
+  if (!started_ && is_resumed()) after_steps();
   if (now >= next_tending_) {
     next_tending_ = now + clock_.period();
-    tend_guests(now);
+    tend(now);
   }
   for (Guest& guest : guests_) {
     if (guest.is_connected && guest.is_ready) open_seats(guest, now);
   }
-  reports_count_ = now >= reports_from_;
+  lines_.begin_turn(now);
   if (const Tempo* const next = tempo_desk_.next(announced(), tempo())) announce(*next);
   // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
-  if (started_) {
-    fill_absent();
-    replace_late(now);
+  if (started_) before_frame(now);
+}
+
+void HostCore::before_frame(Time now) {
+  if (!leadership_.tenure().is_backed()) return;
+  for (int p = 0; p < players(); ++p) {
+    if (seats_.is_guests(p) && !seats_[p].is_open) streams_[static_cast<std::size_t>(p)].append_absent_until(horizon());
+  }
+  if (!deadline_.applies(now)) return;
+  const Frame due = current() + (is_blocked_ ? clock_.overdue(now) : 0);
+  for (int p = 0; p < players(); ++p) {
+    if (is_local(p)) continue;
+    std::uint8_t buffer[kInputCap];
+    while (deadline_.is_over(p, due, window()))
+      deadline_.replace(p, guess_next(streams_[static_cast<std::size_t>(p)], buffer), due, now);
+    if (deadline_.must_tell(p, now)) tell_of(SessionEvent::Kind::replaced, p);
   }
 }
 
-void HostCore::tend_guests(Time now) {
-  tend_places(now);
+void HostCore::after_steps() {
+  if (snapshots_.serve(guests_, current())) act(RequestKind::capture, snapshots_.state().frame);
+}
+
+void HostCore::tend(Time now) {
+  const Time turn = now - turn_at_ < kLongestTurn ? now - turn_at_ : kLongestTurn;
+  turn_at_ = now;
+  seats_.pass(is_paused() ? 0 : turn);
   stats_.peers = 0;
   for (Guest& guest : guests_) {
     if (!guest.is_connected) continue;
     ++stats_.peers;
-    if (now - guest.heard > config_.silence) {
-      guest.due.set(Due::close);
-      seats_.close(guest);
-    }
-    judge_acknowledgements(guest, now);
-    guest.most_burst = seats_.play(guest) ? PeerLink::kPlayersBurst : PeerLink::kBurst;
-    const bool receives = guest.stage == Guest::Stage::receives_snapshot;
-    bool lags = false;  // inputs that it lacks have fallen out of the log
-    for (int p = 0; p < players(); ++p) {
-      const Frame lacks = receives ? guest.start : guest.acked[p];
-      lags = lags || lacks < streams_[static_cast<std::size_t>(p)].begin();
-    }
-    if (receives && lags) guest.due.set(Due::close);  // others may wait for a newer one
-    if (guest.is_live() && lags) {
-      seats_.close(guest);
-      guest.stage = Guest::Stage::needs_snapshot;
-      guest.due.set(Due::welcome);
-      for (const Due due : {Due::repaired, Due::offer, Due::open}) guest.due.set(due, false);
-      guest.is_ready = false;
-      guest.repair = RepairService{.next = guest.repair.next};
-      guest.opens = kNoFrame;
-    }
-    const bool waits = guest.repair.stage == RepairService::Stage::waits && now >= guest.repair.next;
-    if (waits) guest.repair.stage = RepairService::Stage::needs;
-    answer_asks(guest, now);
+    tend(guest, now);
   }
   if (ballot_box_.must_tell(now)) {
     for (Guest& guest : guests_) guest.due.set(Due::ballot, guest.is_live());
@@ -276,58 +271,86 @@ void HostCore::tend_guests(Time now) {
   voted(ballot_box_.tend(now));
   leadership_.keep_roster();
   tend_inquiry(now);
-  judge_lines(now);
-  choose_pace(now);
-  keep_figures(now);
-}
-
-void HostCore::before_frame(Time now) {
-  fill_absent();
-  replace_late(now);
-}
-
-void HostCore::fill_absent() {
-  if (!leadership_.tenure().is_backed()) return;
-  for (int p = 0; p < players(); ++p) {
-    if (seats_.is_guests(p) && !seats_[p].is_open) streams_[static_cast<std::size_t>(p)].append_absent_until(horizon());
+  lines_.judge();
+  for (Guest& guest : guests_) {
+    const bool is_covered = guest.is_too_far ? !is_still_beyond(guest.round_trip) : !is_beyond(guest.round_trip);
+    if (!LineJudge::loses(guest, is_covered, now)) continue;
+    seats_.close(guest);
+    tell_of(SessionEvent::Kind::too_far, guest.player);
   }
+  const MatchPace::Choice pace = match_pace_.choose({slowest(), stats_.stretch}, now);
+  go_at_pace_of(pace.player, pace.stretch);
+  if (match_pace_.is_too_slow(now)) {
+    const bool may_go = leadership_.tenure().is_backed();
+    is_too_slow_ = may_go && leadership_.could_others(match_pace_.unfit(flow_, now));
+  }
+  if (started_) figures_.keep(players(), now);
+}
+
+void HostCore::tend(Guest& guest, Time now) {
+  if (guest.stage == Guest::Stage::connected && !guest.due.has(Due::close) && now - guest.heard > kGreeting) {
+    guest.due.set(Due::close);  // and not refused: a machine that stood still comes again
+    ++stats_.refused;
+  }
+  if (now - guest.heard > config_.silence) {
+    guest.due.set(Due::close);
+    seats_.close(guest);
+  }
+  if (guest.is_live() && !flow_.tend(guest, now)) {
+    ++stats_.put_out;
+    guest.due.set(Due::close);
+    seats_.close(guest);
+  }
+  guest.most_burst = seats_.play(guest) ? PeerLink::kPlayersBurst : PeerLink::kBurst;
+  const bool receives = guest.stage == Guest::Stage::receives_snapshot;
+  bool lags = false;  // inputs that it lacks have fallen out of the log
+  for (int p = 0; p < players(); ++p) {
+    const Frame lacks = receives ? guest.start : guest.acked[p];
+    lags = lags || lacks < streams_[static_cast<std::size_t>(p)].begin();
+  }
+  if (receives && lags) guest.due.set(Due::close);  // others may wait for a newer one
+  if (guest.is_live() && lags) {
+    seats_.close(guest);
+    guest.fall_behind();
+  }
+  const bool waits = guest.repair.stage == RepairService::Stage::waits && now >= guest.repair.next;
+  if (waits) guest.repair.stage = RepairService::Stage::needs;
+  answer_asks(guest, now);
+}
+
+void HostCore::observe_delay() {
+  stats_.round_trip = lines_.longest_round_trip();
+  Frame least = RecentLeast::kNothing;
+  for (const int p : EachPlayer(seats_.hosted())) {
+    const Frame slack = lines_.slack_of(p, current(), stats_.stretch > 0);
+    if (slack < least) least = slack;
+  }
+  if (least != RecentLeast::kNothing) delay_.observe(least);
+}
+
+void HostCore::paused(Time now) {
+  lines_.excuse(now);
+  deadline_.excuse(now);
+  forgive_own_pause(now);
 }
 
 void HostCore::blocked(Time now) {
-  if (blocked_since_ == 0) blocked_since_ = charged_at_ = now;
   std::uint32_t missing = 0;
   for (int p = 0; p < players(); ++p) {
     if (streams_[static_cast<std::size_t>(p)].end() == known_end()) missing |= 1u << p;
   }
-  if (now - blocked_since_ >= kTellBlocked) stands_for(missing);
-  charge(now);
+  if (deadline_.stands(now, kTellBlocked)) stands_for(missing);
+  deadline_.charge(current(), leadership_.tenure().is_backed(), now);
 }
 
-void HostCore::charge(Time now) {
-  const Time passed = now - charged_at_;
-  charged_at_ = now;
-  if (now - began_ < kFreeStart || !leadership_.tenure().is_backed()) return;
-  for (int p = 0; p < players(); ++p) {
-    Seat& seat = seats_[p];
-    if (is_local(p) || !seat.is_open || streams_[static_cast<std::size_t>(p)].end() > current()) continue;
-    seat.lost.spend(passed, now);  // each in full: several who are silent at once cost the time of one
-    if (seat.lost.spent(now) < config_.patience) continue;
-    seats_.leave_out(*guest_of(p), now);
-  }
-}
-
-void HostCore::serve_snapshots() {
-  if (snapshots_.serve(guests_, current())) act(RequestKind::capture, snapshots_.state().frame);
+void HostCore::unblocked(Time) {
+  deadline_.goes_on();
+  goes_on();
 }
 
 SnapshotProgress HostCore::snapshot_progress(PeerId peer) const {
   const Guest* const guest = guests_.find(peer);
   return guest != nullptr && guest->receives_snapshot() ? guest->transfer.progress() : SnapshotProgress{};
-}
-
-void HostCore::unblocked(Time) {
-  blocked_since_ = 0;
-  goes_on();
 }
 
 }  // namespace isostep

@@ -49,7 +49,7 @@ Roster Leadership::drafted() const {
       machine.was_in = former.is_in;
       continue;
     }
-    const Guest* const guest = seat.link < 0 ? nullptr : &guests_[static_cast<std::size_t>(seat.link)];
+    const Guest* const guest = guests_.on(seat);
     machine.is_in = guest != nullptr && guest->is_live() && !guest->due.has(Due::close);
     machine.was_in = roster_.version == 0 ? machine.is_in : is_same && was_in;
     if (machine.is_in && seat.is_open) machine.address = guest->address;

@@ -56,7 +56,7 @@ bool HostCore::all_are_here() const {
   for (int p = 0; p < players(); ++p) {
     const Seat& seat = seats_[p];
     if (is_local(p) || (!is_resumed() && seat.is_taken)) continue;
-    const Guest* const guest = guest_of(p);
+    const Guest* const guest = guests_.on(seat);
     if (guest == nullptr || !guest->is_live()) return false;
   }
   return true;

@@ -101,7 +101,7 @@ Welcome HostCore::welcome_for(Guest& guest) {
 std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
   const bool sending = guest.stage == Guest::Stage::receives_snapshot;
   if (!guest.is_live() && !(sending && guest.transfer.is_answered())) return std::nullopt;
-  const Frame most = sending ? 0 : most_frames(guest, now);
+  const Frame most = sending ? 0 : flow_.most_frames(guest, now);
   if ((most == 0 && !sending) || !guest.may_send(current(), clock_.period(), now)) return std::nullopt;
   PacketHeader header;
   header.match = match_;
@@ -120,7 +120,7 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
     // What took the place of its own inputs it has to know before they count as had.
     if (guest.acked[p] >= seat.replaced_end) seat.replaced_end = 0;
     header.ack[p] = seat.replaced_end > 0 ? seat.replaced : streams_[static_cast<std::size_t>(p)].end();
-    header.slack[p] = static_cast<std::int8_t>(told_slack(guest, p));
+    header.slack[p] = static_cast<std::int8_t>(lines_.told_slack(guest, p, current(), stats_.stretch > 0));
   }
   // One other machine's word on its states with every datagram, in turns.
   for (std::size_t i = 0; i < guests_.size(); ++i) {
@@ -135,9 +135,9 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
     header.figured = static_cast<std::uint8_t>(--guest.figures_left);
     header.figures = stats_.players[header.figured];
   }
-  note_held_back(guest);
+  flow_.note_held_back(guest, current());
   const Bytes bytes = compose(guest, header, now, most);
-  if (!sending) was_sent(guest, bytes.size(), now);
+  if (!sending) flow_.was_sent(guest, bytes.size(), now);
   return Outgoing{guest.peer, Channel::datagram, bytes};
 }
 

@@ -44,7 +44,8 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
   for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
   end_ballot();
   started_ = true;
-  began_ = turn_at_ = now;
+  turn_at_ = now;
+  deadline_.begin(now);
   clock_.forget_lean();
   clock_.start(now);
   go_at_pace_of(0xff, 0);
@@ -60,21 +61,18 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
     if (supports) guest->enrolled = succession.roster.version;
     greet(*guest, caller.hello);
     if (supports) guest->lease_from = succession.election.called_at();
-    resume(*guest);
+    if (!guest->is_live()) continue;
+    // Its players go on where their inputs end, and are told those that they do not know to be final.
+    for (const int p : EachPlayer(guest->players)) {
+      Seat& seat = seats_[p];
+      seat.is_open = true;
+      seat.replaced = guest->start;
+      seat.replaced_end = streams_[static_cast<std::size_t>(p)].end();
+      if (seat.replaced_end > guest->opens) guest->opens = seat.replaced_end;
+    }
   }
   leadership_.reform_with(succession.election);
   tell_of(SessionEvent::Kind::new_host, local_player());
-}
-
-void HostCore::resume(Guest& guest) {
-  if (!guest.is_live()) return;
-  for (const int p : EachPlayer(guest.players)) {
-    Seat& seat = seats_[p];
-    seat.is_open = true;
-    seat.replaced = guest.start;
-    seat.replaced_end = streams_[static_cast<std::size_t>(p)].end();
-    if (seat.replaced_end > guest.opens) guest.opens = seat.replaced_end;
-  }
 }
 
 }  // namespace isostep

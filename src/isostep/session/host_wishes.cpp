@@ -24,13 +24,6 @@ bool HostCore::set_speed(int speed) {
   return tempo_desk_.wish(tempo);
 }
 
-bool HostCore::take_ask(Guest& guest, Bytes message) {
-  const Result<Ask> ask = read_ask(message);
-  if (!ask || !seats_.play(guest)) return false;
-  (ask.value().speed != 0 ? guest.asks_speed : guest.asks_pause) = ask.value();
-  return true;
-}
-
 void HostCore::answer_asks(Guest& guest, Time now) {
   if (now < guest.may_ask_at || (!guest.asks_pause && !guest.asks_speed)) return;
   guest.may_ask_at = now + kOneAsk;

@@ -1,6 +1,6 @@
-// The host's figures of every player: measured here, and told to all once a second.
+// The host measures every player's figures.
 // SPDX-License-Identifier: MIT
-#include "isostep/session/host_core.hpp"
+#include "isostep/session/host_figures.hpp"
 
 namespace isostep {
 namespace {
@@ -9,10 +9,10 @@ constexpr Time kTellFigures = kSecond;  // [us] for people to read
 
 }  // namespace
 
-void HostCore::keep_figures(Time now) {
-  if (!started_ || now < figures_at_) return;
-  figures_at_ = now + kTellFigures;
-  for (int p = 0; p < players(); ++p) {
+void Figures::keep(int players, Time now) {
+  if (now < told_again_at_) return;
+  told_again_at_ = now + kTellFigures;
+  for (int p = 0; p < players; ++p) {
     PlayerStats& figures = stats_.players[p];
     figures.waited = static_cast<std::uint32_t>(seats_[p].lost.spent(now));
     figures.round_trip = figures.jitter = figures.loss = 0;
@@ -20,9 +20,8 @@ void HostCore::keep_figures(Time now) {
   for (Guest& guest : guests_) {
     if (!guest.is_live()) continue;
     // Who does not acknowledge is sent no more than it has to be.
-    guest.figures_left = !is_unproven(guest) && acknowledges(guest, now) ? players() : 0;
-    for (int p = 0; p < players(); ++p) {
-      if (!guest.has(p)) continue;
+    guest.figures_left = !guest.is_unproven() && flow_.acknowledges(guest, now) ? players : 0;
+    for (const int p : EachPlayer(guest.players)) {
       PlayerStats& figures = stats_.players[p];
       figures.round_trip = static_cast<std::uint32_t>(guest.round_trip);
       figures.jitter = guest.meter.jitter(now);
