@@ -86,7 +86,7 @@ class HostCore : public PeerCore {
   void tend_inquiry(Time now);
   /// The host answers a guest once a second.
   void answer_asks(Guest& guest, Time now);
-  void answer(const Guest& guest, const Ask& ask);
+  void answer(std::uint8_t player, const Ask& ask);
   /// Does what has passed. False: it was not to be said.
   bool voted(BallotBox::Effect effect);
 
@@ -116,8 +116,6 @@ class HostCore : public PeerCore {
   void drop(Guest& guest);
   /// Inputs of absent players are final up to here.
   Frame horizon() const;
-  /// What lies ahead of us takes the place of what others may still lack: of a short log little.
-  Frame bounded(Frame ahead) const { return ahead < config_.history / 4 ? ahead : config_.history / 4; }
 
   SecretNumbers numbers_;
   Seats seats_;
@@ -130,7 +128,7 @@ class HostCore : public PeerCore {
   Figures figures_{seats_, guests_, flow_, stats_};
   Inquiry inquiry_{seats_};
   BallotBox ballot_box_{config_, seats_, ballot_};
-  TempoDesk tempo_desk_{config_};
+  TempoDesk tempo_desk_{config_, announced()};
   SnapshotDesk snapshots_{config_, hashes_, portable_};
   std::uint64_t match_;
   bool started_ = false, must_start_ = false;

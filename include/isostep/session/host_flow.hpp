@@ -24,8 +24,10 @@ class InputFlow {
   void note_held_back(Guest& guest, Frame current) const;
   /// Lately: then what it says of that player's inputs speaks of its own.
   static bool was_held_back(const Guest& guest, int player, Frame current) {
-    return guest.held_back[player] != kNoFrame && current - guest.held_back[player] < InputDelay::kSettling;
+    return current < guest.held_back_until[player];
   }
+  /// [frames] What lies ahead of us takes the place of what others may still lack: of a short log little.
+  Frame bounded(Frame ahead) const { return ahead < config_.history / 4 ? ahead : config_.history / 4; }
 
  private:
   Frame end(int player) const { return streams_[static_cast<std::size_t>(player)].end(); }

@@ -28,9 +28,6 @@ struct RepairService {
 
 /// A client, on its way in.
 struct Guest : PeerLink {
-  Guest() {
-    for (Frame& frame : held_back) frame = kNoFrame;
-  }
   /// For who comes next in its place.
   void clear() {
     const PeerId its_peer = peer;
@@ -98,8 +95,7 @@ struct Guest : PeerLink {
   bool is_far = false;                        // its line is worse than the others'
   bool is_too_far = false;                    // no delay covers it: it watches
   Time covered_at = 0;                        // [us] when one did
-  // Our frame when it was last not sent all inputs of a player.
-  Frame held_back[kMaxPlayers];
+  Frame held_back_until[kMaxPlayers] = {};    // what it says of a player speaks of its own: it lacked inputs then
   Frame opens = kNoFrame;
   Frame start = 0;                 // the state from which it goes on
   std::uint64_t start_chain = 0;   // without a snapshot: as it said itself

@@ -12,8 +12,7 @@ struct Seat {
   std::uint64_t token = 0;
   std::uint64_t proof = 0;
   std::uint64_t life = 0;  // of its player's process: see Roster
-  bool has_left = false;   // it hung up, and was not cut off
-  Time left_at = 0;        // [us]
+  Time left_at = 0;        // [us] when it hung up; 0: it did not, or was cut off
   /// Of what its player came back with, while it may not have read the new one: the connection may end before.
   std::uint64_t former_proof = 0;
   bool is_kept = false;                  // it was played on, and its player knows a token: it is reserved for that

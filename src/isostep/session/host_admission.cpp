@@ -174,7 +174,7 @@ void HostCore::open_seats(Guest& guest, Time now) {
   if (guest.player < 0 || seats_[guest.player].is_open) return;
   const Frame trip = static_cast<Frame>(2 * guest.round_trip / clock_.period());
   // From the horizon, not from what was granted before: who comes and goes must not push its stream out of the log.
-  guest.opens = horizon() + bounded(kNotice + (trip < 10 * kNotice ? trip : 10 * kNotice));
+  guest.opens = horizon() + flow_.bounded(kNotice + (trip < 10 * kNotice ? trip : 10 * kNotice));
   for (const int p : EachPlayer(guest.players)) {
     const Frame end = streams_[static_cast<std::size_t>(p)].end();
     if (end > guest.opens) guest.opens = end;

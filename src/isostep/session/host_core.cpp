@@ -43,10 +43,7 @@ void HostCore::disconnected(PeerId peer, Time now) {
   const bool leaves = guest->lease_from != 0 && now - guest->lease_from <= leadership_.tenure().lease();
   const std::uint32_t its = guest->players;
   drop(*guest);
-  for (const int p : EachPlayer(its)) {
-    seats_[p].has_left = leaves;
-    seats_[p].left_at = now;
-  }
+  for (const int p : EachPlayer(its)) seats_[p].left_at = leaves ? now : 0;
 }
 
 void HostCore::begin(Time now) {
@@ -202,7 +199,7 @@ void HostCore::take_inputs(Guest& guest, const InputSlice& slice, Time now) {
       ++stats_.refused;
       return;
     }
-    if (frame >= current() + bounded(kMostAhead)) return;
+    if (frame >= current() + flow_.bounded(kMostAhead)) return;
     if (!noted) note_arrival(slice.player, stream.end(), now);
     noted = true;
     seats_[slice.player].is_late = false;
@@ -230,7 +227,7 @@ void HostCore::before_steps(Time now) {
     if (guest.is_connected && guest.is_ready) open_seats(guest, now);
   }
   lines_.begin_turn(now);
-  if (const Tempo* const next = tempo_desk_.next(announced(), tempo())) announce(*next);
+  if (const Tempo* const next = tempo_desk_.next(tempo())) announce(*next);
   // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
   if (started_) before_frame(now);
 }

@@ -33,7 +33,7 @@ Frame InputFlow::until(int player, const Guest& guest) const {
 void InputFlow::note_held_back(Guest& guest, Frame current) const {
   const Frame shown = shown_until(guest);
   for (int p = 0; p < config_.players; ++p) {
-    if (shown < end(p)) guest.held_back[p] = current;
+    if (shown < end(p)) guest.held_back_until[p] = current + InputDelay::kSettling;
   }
 }
 

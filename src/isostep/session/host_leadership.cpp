@@ -95,7 +95,7 @@ void Leadership::look_at_followers(Time now) {
     const Seat& seat = seats_[player];
     const bool is_another = seat.link >= 0 && seat.life != roster_.machines[m].life;
     // Who was cut off instead comes back before that, or is heard of as who looks for another host.
-    const bool has_left = seat.link < 0 && seat.has_left && now - seat.left_at >= config_.migration + kSecond;
+    const bool has_left = seat.link < 0 && seat.left_at != 0 && now - seat.left_at >= config_.migration + kSecond;
     followers_[m].is_over = is_another || has_left;
   }
 }

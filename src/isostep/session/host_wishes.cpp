@@ -9,44 +9,31 @@ constexpr Time kOneAsk = kSecond;  // [us] of a guest: a pause is long, and its 
 
 }  // namespace
 
-bool HostCore::pause(bool on) {
-  Tempo tempo = tempo_desk_.latest(announced());
-  tempo.is_paused = on;
-  tempo.by = 0xff;
-  return started_ && tempo_desk_.wish(tempo);
-}
+bool HostCore::pause(bool on) { return started_ && tempo_desk_.wish_pause(on, 0xff); }
 
-bool HostCore::set_speed(int speed) {
-  if (!started_ || !Tempo::is_speed(speed)) return false;
-  Tempo tempo = tempo_desk_.latest(announced());
-  tempo.speed = static_cast<std::uint8_t>(speed);
-  tempo.by = 0xff;
-  return tempo_desk_.wish(tempo);
-}
+bool HostCore::set_speed(int speed) { return started_ && tempo_desk_.wish_speed(speed, 0xff); }
 
 void HostCore::answer_asks(Guest& guest, Time now) {
   if (now < guest.may_ask_at || (!guest.asks_pause && !guest.asks_speed)) return;
   guest.may_ask_at = now + kOneAsk;
   for (std::optional<Ask>* asks : {&guest.asks_pause, &guest.asks_speed}) {
-    if (*asks && seats_.play(guest)) answer(guest, **asks);
+    if (*asks && seats_.play(guest)) answer(static_cast<std::uint8_t>(guest.player), **asks);
     asks->reset();
   }
 }
 
-void HostCore::answer(const Guest& guest, const Ask& ask) {
-  Tempo tempo = tempo_desk_.latest(announced());
-  tempo.by = static_cast<std::uint8_t>(guest.player);
-  if (ask.speed != 0) tempo.speed = ask.speed;
-  else tempo.is_paused = ask.is_paused;
+void HostCore::answer(std::uint8_t player, const Ask& ask) {
+  const bool is_speed = ask.speed != 0;
   if (config_.players_set_tempo) {
-    if (!tempo_desk_.wish(tempo)) ++stats_.refused;
+    const bool is_good =
+        is_speed ? tempo_desk_.wish_speed(ask.speed, player) : tempo_desk_.wish_pause(ask.is_paused, player);
+    if (!is_good) ++stats_.refused;
     return;
   }
-  SessionEvent event{.kind = ask.speed != 0  ? SessionEvent::Kind::asks_speed
-                             : ask.is_paused ? SessionEvent::Kind::asks_pause
-                                             : SessionEvent::Kind::asks_unpause,
-                     .player = tempo.by,
-                     .frame = current()};
+  using Kind = SessionEvent::Kind;
+  SessionEvent event{.kind = is_speed ? Kind::asks_speed : ask.is_paused ? Kind::asks_pause : Kind::asks_unpause};
+  event.player = player;
+  event.frame = current();
   event.speed = ask.speed;
   tell(event);
 }
@@ -76,16 +63,15 @@ bool HostCore::voted(BallotBox::Effect effect) {
   tell_ballot();
   if (ballot_.outcome != Ballot::Outcome::passed) return true;
   const auto subject = static_cast<int>(ballot_.proposal.subject);
-  Tempo tempo = tempo_desk_.latest(announced());
-  tempo.by = ballot_.by;
+  bool is_done = true;
   switch (ballot_.proposal.kind) {
-    case Proposal::Kind::pause: tempo.is_paused = true; break;
-    case Proposal::Kind::unpause: tempo.is_paused = false; break;
-    case Proposal::Kind::speed: tempo.speed = static_cast<std::uint8_t>(subject); break;
-    case Proposal::Kind::kick: static_cast<void>(kick(subject, "voted out")); return true;
-    case Proposal::Kind::other: return true;
+    case Proposal::Kind::pause: is_done = tempo_desk_.wish_pause(true, ballot_.by); break;
+    case Proposal::Kind::unpause: is_done = tempo_desk_.wish_pause(false, ballot_.by); break;
+    case Proposal::Kind::speed: is_done = tempo_desk_.wish_speed(subject, ballot_.by); break;
+    case Proposal::Kind::kick: static_cast<void>(kick(subject, "voted out")); break;
+    case Proposal::Kind::other: break;
   }
-  if (!tempo_desk_.wish(tempo)) ++stats_.refused;
+  if (!is_done) ++stats_.refused;
   return true;
 }
 
