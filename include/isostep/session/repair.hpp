@@ -1,4 +1,4 @@
-// Repair: a client in the match takes a state of the host's again, and steps from there to where it was.
+// A client in the match takes a state of the host's again: what it and the host say of that.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -28,22 +28,5 @@ struct Repaired {
 };
 void write_repaired(const Repaired& repaired, std::vector<std::uint8_t>& out);
 Result<Repaired> read_repaired(Bytes message);
-
-/// The client's part. It plays on in its own states until the whole of the host's has arrived. From then on it steps
-/// the frames since as fast as it can, while its player's inputs go on at the pace of the match: nobody else notices.
-struct Repair {
-  enum class Stage : std::uint8_t {
-    none,
-    asks,      // must send the request
-    waits,     // for the host's answer
-    receives,  // the snapshot's pieces
-    restores   // the game was given the state, and its hash is not known yet
-  };
-  Stage stage = Stage::none;
-  RepairOffer offer;
-  Frame after = kNoFrame;  // the newest state that was final before
-  bool must_tell = false;  // that it is done
-  Frame present = 0;       // the frame that would be next by now; above the current one frames are stepped again
-};
 
 }  // namespace isostep
