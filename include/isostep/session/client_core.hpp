@@ -3,12 +3,10 @@
 #pragma once
 
 #include "isostep/session/client_callers.hpp"
-#include "isostep/session/client_candidacy.hpp"
 #include "isostep/session/client_distance.hpp"
 #include "isostep/session/client_repair.hpp"
 #include "isostep/session/client_search.hpp"
 #include "isostep/session/client_supporter.hpp"
-#include "isostep/session/client_vouching.hpp"
 #include "isostep/session/client_wishes.hpp"
 #include "isostep/session/peer_core.hpp"
 
@@ -134,13 +132,11 @@ class ClientCore : public PeerCore {
   Entry entry_{arrival_, false};
   OwnSeats own_{streams_, timeline_, host_};
   FollowerLog log_{streams_, timeline_, own_, entry_};
-  Vouching vouching_{streams_, own_};
   Distance distance_{config_, host_, clock_};
   Repair repair_{arrival_, hashes_};
   HostSearch search_;
-  Callers callers_{search_.roster(), search_.election(), partings_};
+  Callers callers_{search_.roster(), search_.election(), partings_, streams_, timeline_, rules_, own_, log_};
   Supporter supporter_{search_.roster(), search_.election(), streams_, log_};
-  Candidacy candidacy_{search_.roster(), streams_, timeline_, rules_, own_, log_};
   bool is_too_far_ = false;    // no delay covers our line
   std::uint32_t figured_ = 0;  // players, a bit each, whose figures we know
 };

@@ -7,6 +7,7 @@
 #include "isostep/session/frame_clock.hpp"
 #include "isostep/session/hash_log.hpp"
 #include "isostep/session/repair.hpp"
+#include "isostep/session/verdict.hpp"
 
 namespace isostep {
 
@@ -38,14 +39,27 @@ class Repair {
   void is_refused() { stage_ = Stage::none; }
   /// There is another beginning.
   void leave() {
-    stage_ = Stage::none;
+    is_refused();
     offer_ = RepairOffer{};
     after_ = kNoFrame;
     present_ = 0;
     due_.drop(MessageKind::repaired);
   }
   /// Once a turn, true: the game restores the state of the offer.
-  bool tend(const std::vector<InputStream>& streams, Frame current, FrameClock& clock, Time now);
+  bool tend(const std::vector<InputStream>& streams, Frame current, FrameClock& clock, Time now) {
+    for (; present_ > current && clock.is_due(now); ++present_) clock.stepped(now);
+    if (receives() && arrival_.is_whole() && current >= offer_.start.frame) {
+      stage_ = Stage::restores;
+      for (const InputStream& stream : streams) {
+        if (stream.begin() > offer_.start.frame) stage_ = Stage::asks;  // it was too long on its way: another
+      }
+      if (!restores()) return false;
+      after_ = hashes_.settled().frame;
+      present_ = current;
+    }
+    // Which it still is where the requests of the last turn were not carried out.
+    return restores();
+  }
   /// False: its hash is not the host's.
   bool has_hash(std::uint64_t hash) {
     if (hash != offer_.hash) return false;
@@ -55,7 +69,21 @@ class Repair {
   }
   /// The host asks for our hash chain of this state; kNoFrame: of none.
   void inquire(Frame state) { inquired_ = state; }
-  bool write_next(std::vector<std::uint8_t>& message);
+  bool write_next(std::vector<std::uint8_t>& message) {
+    if (inquired_ != kNoFrame && hashes_.settled().frame >= inquired_) {
+      const bool is_known = hashes_.has_chain(inquired_);
+      write_statement({inquired_, is_known, is_known ? hashes_.chain(inquired_) : 0}, message);
+      inquired_ = kNoFrame;
+    } else if (stage_ == Stage::asks) {
+      stage_ = Stage::waits;
+      write_resync(message);
+    } else if (arrival_.is_told() && due_.take(MessageKind::repaired)) {  // first things first
+      write_repaired({0xff, after_}, message);
+    } else {
+      return false;
+    }
+    return true;
+  }
 
  private:
   enum class Stage : std::uint8_t {
@@ -71,7 +99,7 @@ class Repair {
   Stage stage_ = Stage::none;
   RepairOffer offer_;
   Frame after_ = kNoFrame, present_ = 0, inquired_ = kNoFrame;
-  DueMessages due_;
+  DueMessages due_;  // repaired
 };
 
 }  // namespace isostep

@@ -13,7 +13,12 @@ namespace isostep {
 class HostSearch {
  public:
   explicit HostSearch(std::uint64_t token) : token_(token) {}
-  explicit HostSearch(const Retreat& retreat);
+  explicit HostSearch(const Retreat& retreat)
+      : roster_(retreat.roster), election_(retreat.election), token_(retreat.token), life_(retreat.life) {
+    for (int m = 0; m < roster_.count; ++m) {
+      if ((retreat.over >> m & 1) != 0) election_.is_over(m);
+    }
+  }
 
   const Roster& roster() const { return roster_; }
   Election& election() { return election_; }
@@ -29,20 +34,53 @@ class HostSearch {
   bool can_begin() const { return election_.target(roster_, own_machine()) >= 0; }
 
   /// `knocks`: the host spoke until now, and may live.
-  void begin(Time now, bool knocks);
-  Election::Step turn(bool may_stand, Time now);
+  void begin(Time now, bool knocks) {
+    election_.begin(now, knocks && !roster_.machines[roster_.host].address.view().empty());
+    is_elected_ = false;
+  }
+  Election::Step turn(bool may_stand, Time now) {
+    const Election::Step step = election_.turn(roster_, own_machine(), may_stand, now);
+    if (step == Election::Step::wins) is_elected_ = true;
+    if (step == Election::Step::gives_up) next_.reset();
+    return step;
+  }
   /// The machine that is to be asked now.
-  void ask_next();
+  void ask_next() {
+    const int machine = election_.target(roster_, own_machine());
+    next_.reset();
+    if (machine >= 0 && machine != own_machine()) next_ = roster_.machines[machine].address;
+  }
   /// We ask there next; an empty address is nobody's.
-  void go_to(const Address& address, Time now);
+  void go_to(const Address& address, Time now) {
+    next_.reset();
+    if (!address.view().empty()) next_ = address;
+    election_.was_sent_on(now);
+  }
   /// Each address once.
-  std::optional<Address> poll_connect();
-  void end();
-
-  /// False: it is none that we did not have; true: all places are others.
-  bool take_newer(const Roster& roster);
-  void is_welcome(const Welcome& welcome);
-  Succession hand_over(std::vector<Caller>&& callers);
+  std::optional<Address> poll_connect() {
+    const std::optional<Address> address = next_;
+    next_.reset();
+    return address;
+  }
+  void end() {
+    election_.end();
+    next_.reset();
+  }
+  /// False: we have it, or a newer one; true: all places are others.
+  bool take_newer(const Roster& roster) {
+    if (!roster.is_newer_than(roster_)) return false;
+    roster_ = roster;
+    election_.has_new_roster();
+    return true;
+  }
+  void is_welcome(const Welcome& welcome) {
+    token_ = welcome.token;
+    life_ = welcome.life;
+    election_.follow(welcome.term);
+  }
+  Succession hand_over(std::vector<Caller>&& callers) {
+    return {roster_, own_machine(), token_, life_, election_, std::move(callers)};
+  }
 
  private:
   Roster roster_;

@@ -8,8 +8,9 @@
 
 namespace isostep {
 
-/// In: what the host says of our seats and inputs. Out: our streams, as they count, and who of them may play. Keeps:
-/// which seats are ours, whether they are open, and the first input of each that the host lacks.
+/// In: what the host says of our seats and inputs, and who has the states that we have. Out: our streams, as they count,
+/// and whether our players may play. Keeps: which seats are ours, whether they are open, the first input of each that
+/// the host lacks, and since when we have caught up.
 class OwnSeats {
  public:
   OwnSeats(std::vector<InputStream>& streams, Timeline& timeline, PeerLink& host)
@@ -26,6 +27,18 @@ class OwnSeats {
   int first() const { return first_of(players_); }
   bool is_open() const { return stage_ == Stage::open; }
   bool is_closed() const { return stage_ == Stage::closed; }
+  /// We step anew from here on; after a repair from there, in the same match.
+  void begin_at(Frame base) {
+    base_ = base;
+    near_since_ = 0;
+  }
+  void is_repaired_at(Frame base) { base_ = base; }
+  /// The state with which our part of the match began.
+  Frame base() const { return base_; }
+  void is_near(Time now) { near_since_ = near_since_ == 0 ? now : near_since_; }
+  /// Do the host's machine and enough others have the states that we have? Machines, a bit each: whose states since
+  /// base() were ours, and who differs; `with_host`: players who share a machine with the host.
+  bool are_vouched_for(std::uint64_t agreeing, std::uint64_t differing, std::uint32_t with_host, Time now) const;
   /// The host is told that we may play; until it answers, or the connection is another.
   void ask() { stage_ = Stage::asked; }
   void stop_asking() {
@@ -58,7 +71,8 @@ class OwnSeats {
   PeerLink& host_;
   std::uint32_t players_ = 0;
   Stage stage_ = Stage::closed;
-  Frame opens_ = kNoFrame;
+  Frame opens_ = kNoFrame, base_ = 0;
+  Time near_since_ = 0;  // [us] when we first had nearly caught up; 0: not yet
   Frame accepted_[kMaxPlayers] = {};
 };
 

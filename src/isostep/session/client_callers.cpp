@@ -52,7 +52,9 @@ void Callers::has_new_roster() {
   }
 }
 
-void Callers::ask_all() {
+void Callers::call() {
+  log_.note_ends();
+  log_.copy_ends(told_);
   for (Caller& caller : all_) {
     const bool is_asked = caller.is_connected && caller.machine >= 0;
     caller.due.set(MessageKind::roster, is_asked);
@@ -81,7 +83,7 @@ std::uint64_t Callers::tend(bool has_host, Time now) {
   return silent;
 }
 
-std::optional<PeerId> Callers::write_next(const FollowerLog& log, std::vector<std::uint8_t>& message) {
+std::optional<PeerId> Callers::write_next(std::vector<std::uint8_t>& message) {
   for (std::size_t i = 0; i < all_.size(); ++i) {
     Caller& caller = all_[i];
     if (!caller.is_connected || caller.due.is_empty()) continue;
@@ -93,30 +95,68 @@ std::optional<PeerId> Callers::write_next(const FollowerLog& log, std::vector<st
     } else if (caller.due.take(MessageKind::roster)) {
       write_roster(roster_, message);
     } else if (caller.due.take(MessageKind::candidate)) {
-      write_call(log, message);
+      write_call(message);
     }
     return peer;
   }
   return std::nullopt;
 }
 
-void Callers::write_call(const FollowerLog& log, std::vector<std::uint8_t>& message) const {
+void Callers::write_call(std::vector<std::uint8_t>& message) const {
   Candidate candidate;
   candidate.term = election_.term();
   candidate.log_term = election_.log_term();
   candidate.roster_term = roster_.term;
   candidate.version = roster_.version;
-  log.copy_ends(candidate.ends);
+  log_.copy_ends(candidate.ends);
   write_candidate(candidate, message);
 }
 
-std::uint32_t Callers::players_of_supporters() const {
-  std::uint32_t players = 0;
+bool Callers::take_known(const Caller& caller, const InputSlice& slice, Frame most) {
+  if (slice.player >= streams_.size()) return false;
+  InputStream& stream = streams_[slice.player];
+  if (slice.first > stream.end()) return true;  // what is missing before it did not arrive: see Supporter
+  const bool is_own = own_.is_open() && own_.has(slice.player);
+  const bool is_its = owns_inputs() && (roster_.machines[caller.machine].players >> slice.player & 1) != 0;
+  Frame& told = told_[slice.player];
+  SliceReader reader(slice);
+  InputEntry entry;
+  for (Frame frame = slice.first; reader.next(entry); ++frame) {
+    if (frame >= most || (!entry.absent && !rules_.valid(entry.bytes))) return false;
+    // Others know better than we where the host went on without us.
+    const bool is_next = is_own && own_.is_open() && frame == own_.accepted(slice.player);
+    if (is_next && (!owns_inputs() || entry.absent)) own_.take(slice.player, entry);
+    if (is_own && own_.is_open()) continue;
+    if (frame == stream.end()) {
+      stream.append(entry);
+    } else if (is_its && frame >= log_.noted_end(slice.player) && stream.contains(frame)) {
+      stream.replace(frame, entry);
+      timeline_.recheck(slice.player, frame);
+    }
+    if (is_its && frame >= told) told = frame + 1;
+  }
+  return !reader.failed();
+}
+
+bool Callers::take_support(const Caller& caller, const Support& support) {
+  for (std::size_t p = 0; p < streams_.size(); ++p) {
+    if (streams_[p].end() < support.ends[p]) return false;
+  }
+  if (caller.voter >= 0) election_.supported(caller.voter, support.term);
+  return true;
+}
+
+void Callers::forget_untold() {
+  if (!owns_inputs()) return;
   for (const Caller& caller : all_) {
     if (!caller.is_connected || !election_.has_won_with(caller.voter)) continue;
-    players |= roster_.machines[caller.machine].players;
+    for (std::size_t p = 0; p < streams_.size(); ++p) {
+      const bool is_its = (roster_.machines[caller.machine].players >> p & 1) != 0;
+      if (!is_its || streams_[p].end() <= told_[p]) continue;
+      streams_[p].truncate(told_[p]);
+      timeline_.recheck(static_cast<int>(p), told_[p]);
+    }
   }
-  return players;
 }
 
 }  // namespace isostep

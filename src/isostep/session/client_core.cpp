@@ -132,7 +132,7 @@ void ClientCore::tend_seats(Time now) {
   is_too_far_ = own_.first() >= 0 && (was_too_far ? is_still_beyond(trip) : is_beyond(trip));
   if (is_too_far_ && !was_too_far) tell_of(SessionEvent::Kind::too_far, own_.first());
   const bool is_near = distance_.behind(now, present()) <= kCaughtUp + config_.most_delay;
-  if (is_near) vouching_.is_near(now);
+  if (is_near) own_.is_near(now);
   if (config_.mode == SessionMode::spectator) {
     if (is_near) phase_ = SessionPhase::watching;
     return;
@@ -142,9 +142,9 @@ void ClientCore::tend_seats(Time now) {
   for (std::size_t m = 0; m < kMachines; ++m) {
     const std::uint64_t one = std::uint64_t{1} << m;
     if (views_[m].differs()) differing |= one;
-    else if (views_[m].agreed >= vouching_.base()) agreeing |= one;
+    else if (views_[m].agreed >= own_.base()) agreeing |= one;
   }
-  if (!vouching_.suffices(agreeing, differing, hosted(), now)) return;
+  if (!own_.are_vouched_for(agreeing, differing, hosted(), now)) return;
   own_.ask();
   due_.add(MessageKind::ready);
 }
@@ -200,7 +200,7 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
     to = host_.peer;
   }
   if (!to && host_.is_connected && supporter_.write_next(config_.address, current(), message_)) to = host_.peer;
-  if (!to) to = callers_.write_next(log_, message_);
+  if (!to) to = callers_.write_next(message_);
   if (!to && host_.is_connected && write_to_host(now)) to = host_.peer;
   if (to) {
     stats_.bytes_out += message_.size();

@@ -56,8 +56,7 @@ void ClientCore::seek_on(Time now) {
       return;
     case Election::Step::calls:
       leave_host();
-      candidacy_.begin();
-      callers_.ask_all();
+      callers_.call();
       return;
     case Election::Step::gives_up:
       leave_host();
@@ -88,7 +87,7 @@ bool ClientCore::go_on(Time now) {
 
 std::unique_ptr<SessionCore> ClientCore::succeed(Time now) {
   if (!search_.is_elected()) return nullptr;
-  candidacy_.forget_untold(callers_.players_of_supporters());
+  callers_.forget_untold();
   Succession succession = search_.hand_over(callers_.hand_over());
   return std::make_unique<HostCore>(std::move(*this), std::move(succession), now);
 }
@@ -135,21 +134,15 @@ bool ClientCore::take_support(Caller& caller, MessageKind kind, Bytes bytes, Tim
     // without us for as long as we waited.
     const Frame waited = static_cast<Frame>(config_.migration / clock_.period());
     const Frame most = present() + waited + 2 * config_.most_delay + config_.window;
-    const std::uint32_t its_players = search_.roster().machines[caller.machine].players;
     bool is_good = true;
     for (std::uint8_t i = 0; i < packet.value().slice_count; ++i) {
-      is_good = candidacy_.take(packet.value().slices[i], its_players, most) && is_good;
+      is_good = callers_.take_known(caller, packet.value().slices[i], most) && is_good;
     }
     return is_good;
   }
   if (kind == MessageKind::support) {
     const Result<Support> support = read_support(bytes);
-    if (!support) return false;
-    for (int p = 0; p < players(); ++p) {
-      if (streams_[static_cast<std::size_t>(p)].end() < support.value().ends[p]) return false;
-    }
-    if (caller.voter >= 0) search_.election().supported(caller.voter, support.value().term);
-    return true;
+    return support && callers_.take_support(caller, support.value());
   }
   if (kind == MessageKind::redirect) {
     const Result<Address> address = read_redirect(bytes);

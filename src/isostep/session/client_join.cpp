@@ -211,7 +211,7 @@ void ClientCore::begin() {
   } else {
     go_back(frame);
   }
-  vouching_.begin_at(frame);
+  own_.begin_at(frame);
   log_.begin_at(frame);
   for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
   distance_.restart();

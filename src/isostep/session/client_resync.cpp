@@ -45,7 +45,7 @@ bool ClientCore::take_statements(const Statements& statements) {
   // Who quotes us wrong may quote anybody wrong.
   if (is_quoted && hashes_.has_chain(statements.frame) && quoted.chain != hashes_.chain(statements.frame)) return false;
   const Verdict verdict = tell_verdict(statements);
-  const bool is_ours = is_quoted && (verdict.minority >> own & 1) != 0 && statements.frame > vouching_.base();
+  const bool is_ours = is_quoted && (verdict.minority >> own & 1) != 0 && statements.frame > own_.base();
   // A host whose own states are wrong has none for us.
   const bool is_hosts = (verdict.minority >> kHostMachine & 1) != 0;
   if (config_.repair && is_ours && !is_hosts) static_cast<void>(resync());
@@ -81,7 +81,7 @@ void ClientCore::finish_repair(std::uint64_t hash) {
   const HashReport& start = repair_.offer().start;
   hashes_.restart(start, hash);
   confirmed_state_ = start.frame;
-  vouching_.was_repaired_at(start.frame);
+  own_.is_repaired_at(start.frame);
   for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, views_[machine].after);
   tell({.kind = SessionEvent::Kind::repaired,
         .player = static_cast<std::uint8_t>(own_.first()),
