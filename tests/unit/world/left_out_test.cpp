@@ -25,7 +25,9 @@ TEST(LeftOutMethods, are_the_books_and_all_of_them_or_none) {
   for (const BroadPhaseName name : kBuiltBroadPhases) EXPECT_EQ(left_out(name), nullptr);
   EXPECT_EQ(left_out(static_cast<SolverName>(kSolvers)), nullptr) << "no method at all";
   EXPECT_EQ(left_out(static_cast<BroadPhaseName>(kBroadPhases)), nullptr);
-  if (!kHasBook) EXPECT_EQ(kWhy, kSentence);
+  if (!kHasBook) {
+    EXPECT_EQ(kWhy, kSentence);
+  }
 }
 
 TYPED_TEST(LeftOut, a_solver_of_the_settings_is_a_fault) {
@@ -82,7 +84,9 @@ TEST(LeftOutMethods, make_a_recording_incompatible_and_the_self_check_skip_it_an
     EXPECT_EQ(checked.result.outcome, kHasBook ? VerifyOutcome::verified : VerifyOutcome::incompatible);
     EXPECT_EQ(checked.left_out, kWhy);
     ++skipped;
-    if (!kHasBook) EXPECT_EQ(describe(checked.result), "INCOMPATIBLE: " + kSentence + " (solver)");
+    if (!kHasBook) {
+      EXPECT_EQ(describe(checked.result), "INCOMPATIBLE: " + kSentence + " (solver)");
+    }
   }
   EXPECT_GE(skipped, 1u);
   const SelfcheckResult result = selfcheck();
