@@ -1,9 +1,10 @@
-// The World<float> of own_world.hpp takes steps: its systems are compiled here too. Kernels and queries, which know
-// nothing of records and commands, are those of the library.
+// The World<float> of own_world.hpp takes steps: its systems are compiled here too, its kernels are those of the
+// library, which know nothing of records and commands.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "isostep/instantiate/acting_records.inl"
+#include "isostep/query/queries.inl"
 #include "isostep/world/engine_fields.inl"
 #include "own_world.hpp"
 

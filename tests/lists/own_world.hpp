@@ -1,5 +1,5 @@
-// A program of the tests that includes this compiles World<float> from its copy of the headers. What a step needs beside
-// that it says itself: own_step.hpp or no_step.hpp.
+// A program of the tests that includes this compiles World<float> from its copy of the headers. What a step needs
+// beside that it says itself: own_step.hpp or no_step.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 

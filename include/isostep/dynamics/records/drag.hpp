@@ -46,7 +46,7 @@ template <class S> struct RecordRules<BodyDrag<S>> : RecordDefaults<S> {
     const std::uint32_t row = forces.bodies.row_of(d.body);
     if (!forces.bodies.moves(row)) return;
     const auto& mass = forces.bodies.mass(row);
-    const auto h = forces.bodies.clock().h;
+    const auto h = forces.bodies.when().h;
     const S part = resistance.mass_part(row), half = highest<S>() * S(0.5);
     Bounder<S> bounder;
     // v' = v - h (linear + quadratic |v'|) v' / part: first |v'|, the root of 1 + a and b, then the rest.

@@ -147,7 +147,7 @@ template <class S> struct RecordRules<Explosion<S>> : RecordDefaults<S> {
         .report();
   }
   template <class Forces> static void act(const Explosion<S>& e, Forces& forces) {
-    const auto& clock = forces.bodies.clock();
+    const auto& clock = forces.bodies.when();
     const S t = seconds_since<S>(e.begin, clock.tick, clock.hz, clock.substep, clock.rate);
     if (t < S(0) || e.duration() <= t) return;
     const Vec3<Unit<S>> up = -heading_of(forces.bodies.gravity()).direction;

@@ -30,8 +30,8 @@
 
 /// ISO_FOR_EACH_RECORD_WITH(R, X, S) expands R(X, name, Record, Id, S) for each kind, at most 31 of them. Those that
 /// act in a sub-step (Acts) act in this order; what resists motion - drag, surfaces, the drag of water - after all
-/// others, for it asks what they are about to do. Every kind has three commands, add_name, set_name and remove_name, and
-/// a registry in RecordStore, whose name is the same with an s. The order is that of hashes, portable forms and
+/// others, for it asks what they are about to do. Every kind has three commands, add_name, set_name and remove_name,
+/// and a registry in RecordStore, whose name is the same with an s. The order is that of hashes, portable forms and
 /// commands. To add one: README.md.
 #define ISO_FOR_EACH_RECORD_WITH(R, X, S)                          \
   R(X, force_zone, ForceZone<S>, ForceZoneId, S)                   \

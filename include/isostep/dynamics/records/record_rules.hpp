@@ -43,8 +43,9 @@ enum class Wakes {
 };
 
 /// What a kind does to bodies in a sub-step. Its rules have the functions that its word here names and no others, else
-/// RecordStore does not compile: acts_as_it_says(). Forces is RecordForces<S> (systems/forces/record_forces.hpp) as a
-/// parameter, for that is above a kind's file: they are `template <class Forces> static void`.
+/// RecordStore does not compile: acts_as_it_says(). They are `template <class Forces> static void`, and Forces is
+/// RecordForces<S> (systems/forces/record_forces.hpp), a parameter, for that is above a kind's file. What slows has a
+/// priority: the highest record is asked first.
 enum class Acts {
   not_here,            // it only tells, or other systems read it
   pushes,              // act(record, Forces&): whatever else acts
@@ -133,10 +134,11 @@ struct NoForces;
 /// Whether the rules of a kind have those functions of Acts that its kActs names, and no others.
 template <class Record> constexpr bool acts_as_it_says() {
   using Rules = RecordRules<Record>;
+  constexpr bool kPushes = requires(const Record& r, NoForces& f) { Rules::act(r, f); };
+  constexpr bool kResists = requires(const Record& r, NoForces& f) { Rules::resist(r, f); };
+  constexpr bool kSlows = requires(const Record& r, NoForces& f) { Rules::slow(r, f); };
   constexpr Acts kActs = Rules::kActs;
-  return pushes(kActs) == requires(const Record& r, NoForces& f) { Rules::act(r, f); }
-  &&resists(kActs) == requires(const Record& r, NoForces& f) { Rules::resist(r, f); }
-  &&(kActs == Acts::slows) == requires(const Record& r, NoForces& f) { Rules::slow(r, f); };
+  return kPushes == pushes(kActs) && kResists == resists(kActs) && kSlows == (kActs == Acts::slows);
 }
 
 template <class S> struct RecordDefaults {

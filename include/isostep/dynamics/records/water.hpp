@@ -147,7 +147,7 @@ template <class S> struct RecordRules<Water<S>> : RecordDefaults<S> {
       const BodyState<S>& state = bodies.state(row);
       const Aabb<S> box = w.replaces ? Aabb<S>{state.centre, state.centre} : state.fat;
       if (!in_region(w, box) || forces.zones.is_dry(w.priority, bodies.category(row), state.centre)) continue;
-      const WaterSurface<S> surface = surface_at(w, state.centre, bodies.gravity(), bodies.clock());
+      const WaterSurface<S> surface = surface_at(w, state.centre, bodies.gravity(), bodies.when());
       // The box is where the step began, with its margin: what of it is dry stays so for a sub-step's motion.
       const Vec3<S> reach = max(abs(state.fat.high - state.centre), abs(state.fat.low - state.centre));
       if (surface.depth <= -dot(abs(surface.normal), reach)) continue;

@@ -19,9 +19,9 @@ namespace isostep {
 /// Output:  an acceleration for each awake body; the report's clamped_force. Explosions that ended are removed, and the
 ///          records of wheels written.
 /// Keeps:   nothing from step to step but memory.
-/// Order:   what commands asked for; the records that push, kind by kind (record_list.hpp), each kind ascending by slot,
-///          but zones and waters by (priority, slot); what zones put in place of gravity; the records that resist, in
-///          the same order; what fades; wheels; couplings. What a kind does stands in its file: Acts.
+/// Order:   what commands asked for; the records that push, kind by kind (record_list.hpp), each kind ascending by
+///          slot, but zones and waters by (priority, slot); what zones put in place of gravity; the records that
+///          resist, in the same order; what fades; wheels; couplings. What a kind does stands in its file: Acts.
 template <class S> class BodyForces {
  public:
   ISO_INLINE BodyForces(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)

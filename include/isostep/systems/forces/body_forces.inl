@@ -28,7 +28,7 @@ template <class S> SubstepForces<S> BodyForces<S>::substeps() {
 
 template <class S> void BodyForces<S>::renew(const SolverBodies<S>& bodies, std::int32_t rate) {
   bodies_.begin_substep(bodies, rate);
-  if (bodies_.clock().substep == 0) zones_.rank();
+  if (bodies_.when().substep == 0) zones_.rank();
   sums_.begin_substep();
   resistance_.begin_substep();
   wet_.begin_substep();

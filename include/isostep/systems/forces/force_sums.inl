@@ -31,13 +31,13 @@ template <class S> void ForceSums<S>::begin_step(bool any_acts) {
 }
 template <class S> void ForceSums<S>::begin_substep() {
   accelerations_ = asked_;
-  pulls_.assign(bodies_.clock().is_last() ? accelerations_.size() : 0, {Vec3<S>::zero(), Vec3<S>::zero()});
+  pulls_.assign(bodies_.when().is_last() ? accelerations_.size() : 0, {Vec3<S>::zero(), Vec3<S>::zero()});
 }
 template <class S> void ForceSums<S>::end_substep() {
   for (std::size_t i = 0; i < pulls_.size(); ++i) pulls_[i] = detail::difference(accelerations_[i], pulls_[i]);
 }
 template <class S> template <class Act> void ForceSums<S>::bear(const Act& act) {
-  if (!bodies_.clock().is_last()) return act();
+  if (!bodies_.when().is_last()) return act();
   before_ = accelerations_;
   act();
   for (std::size_t i = 0; i < pulls_.size(); ++i) {
@@ -47,10 +47,10 @@ template <class S> template <class Act> void ForceSums<S>::bear(const Act& act) 
 }
 
 template <class S> S ForceSums<S>::most() const {
-  return detail::most_acceleration(bodies_.clock().rate, Limits<S>::speed());
+  return detail::most_acceleration(bodies_.when().rate, Limits<S>::speed());
 }
 template <class S> S ForceSums<S>::most_turning(std::uint32_t row) const {
-  return detail::most_acceleration(bodies_.clock().rate, detail::most_angular_speed(bodies_.state(row).fat));
+  return detail::most_acceleration(bodies_.when().rate, detail::most_angular_speed(bodies_.state(row).fat));
 }
 template <class S> void ForceSums<S>::note_cut(std::uint32_t row, bool cut) {
   if (!cut || cut_.test(row - 1)) return;
@@ -81,7 +81,7 @@ template <class S> void ForceSums<S>::push(std::uint32_t row, Vec3<S> force, Vec
   note_cut(row, bounder.cut);
 }
 template <class S> void ForceSums<S>::push(const VelocityChange<S>& change) {
-  const S limit = most(), limit_of_turning = most_turning(change.row), rate = S(bodies_.clock().rate);
+  const S limit = most(), limit_of_turning = most_turning(change.row), rate = S(bodies_.when().rate);
   detail::Bounder<S> bounder;
   const auto rate_of = [&](Vec3<Velocity<S>> v, S bound) {
     const auto part = [&](Velocity<S> x) { return bounder.held(saturate_to<S>(product(rate, x)), bound); };
@@ -98,7 +98,7 @@ template <class S> void ForceSums<S>::slow(std::uint32_t row, Vec3<S> motion, S 
 }
 template <class S> void ForceSums<S>::slow_turning(std::uint32_t row, Vec3<S> turning, S rate) {
   Acceleration<S>& sum = accelerations_[row - 1];
-  const S limit = detail::most_acceleration(bodies_.clock().rate, Limits<S>::angular_speed());
+  const S limit = detail::most_acceleration(bodies_.when().rate, Limits<S>::angular_speed());
   detail::Bounder<S> bounder;
   const auto against = [&](S x) { return bounder.rounded(product(x, -rate), limit); };
   const Vec3<S> change = {against(turning.x), against(turning.y), against(turning.z)};

@@ -11,10 +11,10 @@
 
 namespace isostep {
 
-/// The Forces of act(), slow() and resist() of RecordRules, a parameter there: kinds know nothing of what is above them.
-/// Each part's header says what it offers:
-///   bodies      which rows there are and which of them move; a body's row, pose, mass, velocity, a point of it; gravity,
-///               the clock
+/// The Forces of act(), slow() and resist() of RecordRules, a parameter there: kinds know nothing of what is above
+/// them. Each part's header says what it offers:
+///   bodies      which rows there are and which of them move; a body's row, pose, mass, velocity, a point of it;
+///               gravity, the clock
 ///   sums        push(), accelerate(): what acts goes here, and nowhere else
 ///   zones       the wind at a point; whether zones or waters of higher priority hide something there
 ///   resistance  of resist(): the velocity to resist, on which part of the mass. Of slow(): the rates of what fades

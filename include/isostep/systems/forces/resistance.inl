@@ -42,10 +42,10 @@ template <class S> S Resistance<S>::mass_part(std::uint32_t row) const {
 template <class S> Vec3<S> Resistance<S>::next_velocity(std::uint32_t row) const {
   const S scale = bodies_.properties(row).gravity_scale;
   const Vec3<S> gravity = bodies_.gravity(), pull = scale == S(1) ? gravity : gravity * scale;
-  return convert<S>(bodies_.velocity(row).linear) + (steady_[row - 1].linear + pull) * bodies_.clock().h;
+  return convert<S>(bodies_.velocity(row).linear) + (steady_[row - 1].linear + pull) * bodies_.when().h;
 }
 template <class S> Vec3<S> Resistance<S>::next_angular_velocity(std::uint32_t row) const {
-  return convert<S>(bodies_.velocity(row).angular) + steady_[row - 1].angular * bodies_.clock().h;
+  return convert<S>(bodies_.velocity(row).angular) + steady_[row - 1].angular * bodies_.when().h;
 }
 template <class S> Vec3<S> Resistance<S>::next_velocity(const BodyEnd<S>& end) const {
   return next_velocity(end.row) + cross(next_angular_velocity(end.row), end.arm);
@@ -54,7 +54,7 @@ template <class S> Vec3<S> Resistance<S>::next_velocity(const BodyEnd<S>& end) c
 /// [1/s] At which a motion that fades at a rate is slowed, on its part of the body's mass.
 template <class S> S Resistance<S>::slowed(std::uint32_t row, S rate) const {
   const S parts = S(static_cast<int>(min(max(parts_[row - 1], 1u), kMostParts)));
-  return rate / (S(1) + saturate_to<S>(product(rate * bodies_.clock().h, parts)));
+  return rate / (S(1) + saturate_to<S>(product(rate * bodies_.when().h, parts)));
 }
 template <class S> void Resistance<S>::slow_turning(std::uint32_t row, Vec3<S> turning, S rate) {
   sums_.slow_turning(row, turning, slowed(row, rate));
@@ -77,7 +77,7 @@ Vec3<S> Resistance<S>::settled(const BodyEnd<S>& end, const Mat3<U>& axes, const
   const S mass = mass_part(end.row), most = highest<S>() * S(0.25);
   detail::Bounder<S> bounder;
   Mat3<S> slowing, system;  // h tensor / m; 1 - give times that
-  for (int i = 0; i < 3; ++i) slowing.rows[i] = bounder.quotient(tensor.rows[i] * bodies_.clock().h, mass, most);
+  for (int i = 0; i < 3; ++i) slowing.rows[i] = bounder.quotient(tensor.rows[i] * bodies_.when().h, mass, most);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       const S part = bounder.rounded(dot_sum(give.rows[i], slowing.column(j)), most);

@@ -41,7 +41,7 @@ template <class S> class SubstepBodies {
   void begin_substep(const SolverBodies<S>& bodies, std::int32_t rate);
   ISO_INLINE void end_substep() { ++substep_; }
 
-  ISO_INLINE const SubstepClock<S>& clock() const { return clock_; }
+  ISO_INLINE const SubstepClock<S>& when() const { return clock_; }
   ISO_INLINE Vec3<S> gravity() const { return state_.settings.gravity; }
 
   // By row, of a body unless it says otherwise.

@@ -42,7 +42,7 @@ template <class S> bool WetBodies<S>::is_under_water(std::uint32_t row, Vec3<S> 
   zones_.for_each(state_.records->waters, [&](const Water<S>& water) {
     if ((category & water.mask) == 0) return;
     if (!in_region(water, Aabb<S>{point, point}) || zones_.is_dry(water.priority, category, point)) return;
-    const detail::WaterSurface<S> surface = detail::surface_at(water, point, bodies_.gravity(), bodies_.clock());
+    const detail::WaterSurface<S> surface = detail::surface_at(water, point, bodies_.gravity(), bodies_.when());
     if (!(S(0) < surface.depth)) return;
     under = true;
     velocity = saturating_add(velocity, surface.velocity);
