@@ -14,6 +14,7 @@
 #include "isostep/core/scalars.hpp"
 #include "isostep/core/simd_choice.hpp"
 #include "isostep/particles/settings.hpp"
+#include "isostep/replay/replay_check.hpp"
 #include "isostep/replay/world_kinds.hpp"
 #include "isostep/state/replay_format.hpp"
 
@@ -147,7 +148,7 @@ TEST(Selfcheck, CarriesEveryMethodFromTheEmptyWorldOnInAThirdOfAMegabyte) {
     for (const SelfcheckRecording& recording : builtin()) {
       if (std::string(recording.scalar) == ScalarTraits<S>::kName) methods.look_at(recording);
     }
-    EXPECT_EQ(methods.solvers.size(), std::size(kBuiltSolvers));
+    EXPECT_EQ(methods.solvers.size(), std::size(test::kBuiltSolvers));
     EXPECT_EQ(methods.particle_solvers.size(), kParticleSolvers);
     EXPECT_EQ(methods.steppings.size(), kSteppings);
     EXPECT_EQ(methods.integrators.count(Integrator::implicit_euler), 1u);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "built.hpp"
 #include "random/dice.hpp"
 
 namespace isostep::test {

@@ -300,7 +300,8 @@ TEST_F(CommandLine, ChecksItself) {
   EXPECT_EQ(answer.out.rfind("sound: isostep ", 0), 0u) << answer.out;
   EXPECT_EQ(answer.out.find('\n'), answer.out.size() - 1) << answer.out;
   const Answer table = run({"selfcheck", "--verbose"});
-  const std::string set = std::to_string(5 + std::size(kBuiltSolvers));  // one for each solver of rigid bodies
+  const std::string set =
+      std::to_string(5 + std::size(isostep::test::kBuiltSolvers));  // one for each solver of rigid bodies
   const std::regex row("\nq32\\.32 +scalar +" + set + " of " + set + " recordings, ");
   EXPECT_TRUE(std::regex_search(table.out, row)) << table.out;
   EXPECT_NE(table.out.find("\nsound: isostep "), std::string::npos) << table.out;

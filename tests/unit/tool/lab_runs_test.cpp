@@ -227,7 +227,7 @@ TEST(LabRuns, ATrialIsJudgedWhenItIsOver) {
 TEST(LabGrid, HasEveryCombinationAndTheScenesOwn) {
   const std::vector<LabPoint> points = grid("S1x5", {{"float", "double"}, {"direct"}, {}, {1, 2}, {60, 120}});
   EXPECT_EQ(points.size(), 2u * 1 * 2 * 2 + 2) << "the scene's own solver in either scalar";
-  EXPECT_EQ(grid("S1x5", {}).size(), 4u * std::size(kBuiltSolvers) * 6);
+  EXPECT_EQ(grid("S1x5", {}).size(), 4u * std::size(isostep::test::kBuiltSolvers) * 6);
   EXPECT_EQ(default_point("S1x5", "float").solver, "soft_step");
 }
 
