@@ -6,10 +6,12 @@
 #include "isostep/session/frame_clock.hpp"
 #include "isostep/session/hash_log.hpp"
 #include "isostep/session/input_delay.hpp"
+#include "isostep/session/peer_inputs.hpp"
 #include "isostep/session/peer_link.hpp"
+#include "isostep/session/peer_tempo.hpp"
+#include "isostep/session/peer_views.hpp"
 #include "isostep/session/rollback_thrift.hpp"
 #include "isostep/session/step_pace.hpp"
-#include "isostep/session/verdict.hpp"
 
 namespace isostep {
 
@@ -89,14 +91,11 @@ class PeerCore : public SessionCore {
   /// Nobody counts it any more.
   void end_ballot();
   Ballot ballot_;
-  /// A client: what the host's datagram says; later ones and those of a host that is new to us count.
-  void hear_tempo(const Tempo& tempo);
-  void forget_announced() { knows_tempo_ = false; }
   /// The host: from the first frame on that nobody can have stepped when it hears of it.
   void announce(Tempo tempo);
-  const Tempo& announced() const { return announced_; }
-  const Tempo& tempo() const { return tempo_; }
-  bool is_paused() const { return tempo_.is_paused; }
+  const Tempo& announced() const { return tempos_.announced(); }
+  const Tempo& tempo() const { return tempos_.in_force(); }
+  bool is_paused() const { return tempo().is_paused; }
   void goes_on();
   /// As last told; 0: nobody.
   std::uint32_t waits_for() const { return stands_ ? waits_for_ : 0; }
@@ -110,20 +109,12 @@ class PeerCore : public SessionCore {
   /// The frame that would be next, but for frames that are stepped again on the way there.
   virtual Frame present() const { return current(); }
 
-  /// What one machine says of its states.
-  struct View {
-    HashReport pending;
-    Frame agreed = kNoFrame;
-    HashReport difference;   // the first that was not ours; kNoFrame: none
-    Frame after = kNoFrame;  // what it says of states up to this one was of before its repair
-    bool differs() const { return difference.frame != kNoFrame; }
-  };
-  void take_hash(std::size_t reporter, const HashReport& report);
+  using View = MachineViews::View;
+  void take_hash(std::size_t reporter, const HashReport& report) { views_.hear(reporter, report); }
   /// Its states are others from now on.
-  void was_repaired(std::size_t machine, Frame after);
+  void was_repaired(std::size_t machine, Frame after) { views_.was_repaired(machine, after); }
   /// Tells the caller whom a majority finds wrong, each once.
   Verdict tell_verdict(const Statements& statements);
-  bool is_outvoted(std::size_t machine) const { return (outvoted_ >> machine & 1) != 0; }
 
   std::vector<InputStream> streams_;
   HashLog hashes_;
@@ -132,7 +123,8 @@ class PeerCore : public SessionCore {
   InputDelay delay_;
   RollbackThrift thrift_;
   RecentLeast slack_[kMaxPlayers];
-  View views_[kMachines];
+  MachineViews views_;
+  TempoTrack tempos_;
   std::vector<std::uint8_t> message_;
   bool is_present_[kMaxPlayers] = {};  // in the newest final frame
   bool has_start_ = false;             // the first state's hash is known
@@ -143,19 +135,12 @@ class PeerCore : public SessionCore {
   void roll_back(Frame to);
   void follow_tempo(Time now);
   void take_up(const Tempo& tempo, Time now);
-  void sample_local_inputs();
   bool may_step() const;
   void settle();
   /// Players who come and go do so in a frame, the same one on all peers.
   void tell_who_plays(Frame frame);
-  void compare(std::size_t reporter);
 
-  struct Pending {
-    bool is_set = false;
-    std::uint16_t size = 0;
-    std::uint8_t bytes[kInputCap];
-  };
-  Pending pending_[kMaxPlayers];
+  LocalInputs inputs_;
   Frame limit_ = 0;            // of what may be settled, as of the last plan
   Frame stepped_again_ = 0;    // frames of the last turn
   std::uint64_t fresh_ = 0;    // frames that were stepped for the first time
@@ -163,13 +148,10 @@ class PeerCore : public SessionCore {
   Time last_turn_ = 0;         // [us] of plan
   Time forgiven_until_ = 0;    // [us] no other pause of ours is forgiven before
   bool has_turned_ = false;
-  int slowest_ = 0xff;       // as last told
-  Tempo announced_, tempo_;  // the latter is in force
-  bool knows_tempo_ = false;
+  int slowest_ = 0xff;  // as last told
   bool stands_ = false;
   std::uint32_t waits_for_ = 0;
   bool is_start_told_ = false;
-  std::uint64_t outvoted_ = 0;  // machines, a bit each, as last told
   bool asked_start_ = false;
   bool is_misused_ = false;  // states are missing: from the newest final one once more
   std::uint8_t buffer_[kDatagramCap];

@@ -43,7 +43,7 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   }
   own_.hear_acks();
   log_.hear_final(header.final_end);
-  hear_tempo(header.tempo);
+  tempos_.hear(header.tempo);
   if (standing_ == Standing::runs) {
     go_at_pace_of(host_.slowest, host_.stretch);
     if (host_.waits_for != 0) stands_for(host_.waits_for);
@@ -138,13 +138,7 @@ void ClientCore::tend_seats(Time now) {
     return;
   }
   if (!own_.is_closed() || is_too_far_ || !is_near || pace_.stretch() > kMostStretch) return;
-  std::uint64_t agreeing = 0, differing = 0;
-  for (std::size_t m = 0; m < kMachines; ++m) {
-    const std::uint64_t one = std::uint64_t{1} << m;
-    if (views_[m].differs()) differing |= one;
-    else if (views_[m].agreed >= own_.base()) agreeing |= one;
-  }
-  if (!own_.are_vouched_for(agreeing, differing, hosted(), now)) return;
+  if (!own_.are_vouched_for(views_.agreeing_since(own_.base()), views_.differing(), hosted(), now)) return;
   own_.ask();
   due_.add(MessageKind::ready);
 }

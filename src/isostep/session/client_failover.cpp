@@ -25,7 +25,7 @@ ClientCore::ClientCore(PeerCore&& host, Retreat&& retreat, Time now)
 
 bool ClientCore::may_stand() const {
   const bool has_state = has_start_ && !entry_.is_under_way() && !entry_.is_spoiled();
-  return own_.first() >= 0 && has_state && !is_outvoted(static_cast<std::size_t>(own_.first()));
+  return own_.first() >= 0 && has_state && !views_.is_outvoted(static_cast<std::size_t>(own_.first()));
 }
 
 void ClientCore::seek(Time now, bool knocks) {

@@ -23,7 +23,7 @@ void ClientCore::connected(PeerId host, Time now) {
   due_.drop(MessageKind::ready);
   wishes_ = Wishes{};
   end_ballot();
-  forget_announced();
+  tempos_.forget();
   // The greeting names the state that we go on from.
   standing_ = Standing::unknown;
   own_.stop_asking();

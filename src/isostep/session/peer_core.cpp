@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/session/peer_core.hpp"
 
-#include <cstring>
-
 namespace isostep {
 namespace {
 
@@ -49,15 +47,12 @@ PeerCore::PeerCore(const SessionConfig& config, const InputRules& rules)
 bool PeerCore::add_local_input(int player, Bytes input) {
   if (player < 0 || player >= players() || !is_local(player)) return false;
   if (input.size() > rules_.cap || !rules_.valid(input)) return false;
-  Pending& pending = pending_[player];
-  pending.is_set = true;
-  pending.size = static_cast<std::uint16_t>(input.size());
-  if (!input.empty()) std::memcpy(pending.bytes, input.data(), input.size());
+  inputs_.set(player, input);
   return true;
 }
 
 bool PeerCore::wants_input(int player) const {
-  return player >= 0 && player < players() && is_local(player) && !pending_[player].is_set;
+  return player >= 0 && player < players() && is_local(player) && !inputs_.has(player);
 }
 
 Time PeerCore::wait(Time now) const {
@@ -128,7 +123,11 @@ void PeerCore::plan(Time now) {
   for (; steps < most && (clock_.is_due(now) || hurries(now) || (steps == 1 && pace_.probes())); ++steps) {
     follow_tempo(now);
     if (is_paused() || (steps >= kDueSteps && !hurries(now))) break;
-    sample_local_inputs();
+    for (int p = 0; p < players(); ++p) {
+      if (!is_local(p)) continue;
+      inputs_.fill(p, streams_[static_cast<std::size_t>(p)], present() + delay_.frames() + 1,
+                   [&](const InputStream& stream, auto& buffer) { return guess_next(stream, buffer); });
+    }
     before_frame(now);
     if (!may_step()) {
       if (!is_blocked_) ++stats_.waits;
@@ -151,8 +150,9 @@ void PeerCore::plan(Time now) {
   after_steps();
   limit_ = final_limit();
   settle();
-  for (int p = 0; p < players(); ++p) compare(static_cast<std::size_t>(p));
-  compare(kHostMachine);
+  for (std::size_t m = 0; m < kMachines; ++m) {
+    if (const std::optional<SessionEvent> event = views_.compare(m, hashes_)) tell(*event);
+  }
   stats_.delay = delay_.frames();
 }
 
@@ -187,22 +187,6 @@ Bytes PeerCore::guess_next(const InputStream& stream, std::uint8_t (&buffer)[kIn
   return {buffer, rules_.predict(before, 1, buffer)};
 }
 
-void PeerCore::sample_local_inputs() {
-  for (int p = 0; p < players(); ++p) {
-    InputStream& stream = streams_[static_cast<std::size_t>(p)];
-    const Frame wanted = present() + delay_.frames() + 1;
-    if (!is_local(p) || stream.end() >= wanted) continue;
-    Pending& pending = pending_[p];
-    while (stream.end() < wanted) {
-      std::uint8_t buffer[kInputCap];
-      const Bytes guess = guess_next(stream, buffer);
-      const bool is_newest = stream.end() == wanted - 1;
-      stream.append({false, is_newest && pending.is_set ? Bytes(pending.bytes, pending.size) : guess});
-    }
-    pending.is_set = false;
-  }
-}
-
 void PeerCore::hash_known(Frame state, std::uint64_t hash) {
   if (!has_start_) {
     has_start_ = true;
@@ -235,6 +219,22 @@ void PeerCore::tell_who_plays(Frame frame) {
     event.frame = frame;
     tell(event);
   }
+}
+
+Verdict PeerCore::tell_verdict(const Statements& statements) {
+  const Verdict verdict = judge(statements);
+  SessionEvent event{.kind = SessionEvent::Kind::undecided, .frame = statements.frame};
+  if (!verdict.is_decided) tell(event);
+  event.kind = SessionEvent::Kind::outvoted;
+  event.theirs = verdict.chain;
+  const std::uint64_t news = views_.take(verdict);
+  for (std::size_t m = 0; m < kMachines; ++m) {
+    if ((news >> m & 1) == 0) continue;
+    event.player = m == kHostMachine ? 0xff : static_cast<std::uint8_t>(m);
+    event.ours = statements.of[m].chain;
+    tell(event);
+  }
+  return verdict;
 }
 
 void PeerCore::tell_ballot() {

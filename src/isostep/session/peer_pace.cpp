@@ -18,7 +18,6 @@ bool PeerCore::is_after_pause(Time now) const {
   const Time again = static_cast<Time>(stepped_again_) * clock_.period();       // and so does a rollback
   return has_turned_ && now - last_turn_ > steps * (periods > kPause ? periods : kPause) + again;
 }
-
 void PeerCore::forgive_own_pause(Time now) {
   if (now < forgiven_until_) return;
   forgiven_until_ = now + kForgiven;
