@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// Proposals, votes and time come in; what they do to the ballot goes out. Whoever gets `changed` tells its game, and does
-/// what has passed.
+/// Proposals, votes and time come in; what they do to the ballot goes out. Whoever gets `changed` tells its game, and
+/// does what has passed.
 class BallotBox {
  public:
   enum class Effect : std::uint8_t { refused, same, changed };

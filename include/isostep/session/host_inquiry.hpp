@@ -8,8 +8,8 @@
 
 namespace isostep {
 
-/// Who differs and what each says comes in; the statements of all go out. It asks when the machines that differ from it,
-/// or those that could judge them, are not those of the last time. Machines are a bit each.
+/// Who differs and what each says comes in; the statements of all go out. It asks when the machines that differ from
+/// it, or those that could judge them, are not those of the last time. Machines are a bit each.
 class Inquiry {
  public:
   explicit Inquiry(const Seats& seats) : seats_(seats) {}

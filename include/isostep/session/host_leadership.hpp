@@ -11,8 +11,8 @@
 
 namespace isostep {
 
-/// Guests and seats come in as they are in a turn; rosters go out to the guests, and whether we go on as the host. Groups
-/// of machines are a bit for each place in the roster. See AGREEMENT.md.
+/// Guests and seats come in as they are in a turn; rosters go out to the guests, and whether we go on as the host.
+/// Groups of machines are a bit for each place in the roster. See AGREEMENT.md.
 class Leadership {
  public:
   /// `scratch` is written over; stats.machines is kept.
