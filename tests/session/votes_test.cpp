@@ -150,6 +150,18 @@ TEST(Votes, AreOnlyWhereTheHostHasThem) {
   EXPECT_FALSE(match.machine(1).session.vote(1, true));
 }
 
+TEST(Votes, OfPlayersWhoAreNobodyAreFalse) {
+  VotingMatch match;
+  ASSERT_TRUE(match.host().session.propose(0, {Wish::pause, 0}));
+  match.pass(kSecond);
+  for (const int nobody : {-1, 5, 31, 32, 1 << 30}) {
+    for (const std::size_t i : {0, 1}) {
+      EXPECT_FALSE(match.machine(i).session.vote(nobody, true)) << nobody;
+      EXPECT_FALSE(match.machine(i).session.propose(nobody, {Wish::pause, 0})) << nobody;
+    }
+  }
+}
+
 TEST(Votes, EndWithTheHostThatCounted) {
   VotingMatch match(true, kSecond);
   EXPECT_TRUE(match.machine(3).session.propose(4, {Wish::pause, 0}));

@@ -22,7 +22,9 @@ class OwnSeats {
     stage_ = Stage::closed;
   }
   std::uint32_t players() const { return players_; }
-  bool has(int player) const { return (players_ >> player & 1) != 0; }
+  bool has(int player) const {
+    return player >= 0 && player < static_cast<int>(kMaxPlayers) && (players_ >> player & 1) != 0;
+  }
   /// -1: a spectator.
   int first() const { return first_of(players_); }
   bool is_open() const { return stage_ == Stage::open; }

@@ -26,7 +26,7 @@ class Seats {
   Seat& operator[](int player) { return seats_[player]; }
   const Seat& operator[](int player) const { return seats_[player]; }
   std::uint32_t hosted() const { return hosted_; }
-  bool is_local(int player) const { return (hosted_ >> player & 1) != 0; }
+  bool is_local(int player) const { return player >= 0 && player < config_.players && (hosted_ >> player & 1) != 0; }
   /// A seat that clients may have.
   bool is_guests(int player) const { return player >= 0 && player < config_.players && !is_local(player); }
   /// Its players are in their seats, and their inputs are awaited.

@@ -78,7 +78,7 @@ bool ClientCore::go_on(Time now) {
   const bool is_member = config_.migration > 0 && search_.own_machine() >= 0 && may_stand();
   if (!is_member || (host_.is_connected && is_greeted())) return false;
   if (!search_.is_under_way()) {
-    search_.election().begin(now, false);
+    search_.begin(now, false);
     log_.take_back_former();
   }
   search_.election().force();
