@@ -2732,11 +2732,11 @@ ISO_API iso_status iso_replay_get_frame(const iso_replay* replay, uint64_t frame
   ISO_API iso_status iso_##P##_contact_hits(iso_world* world, const iso_##P##_contact_hit** out, size_t* count);       \
   /* Of bodies with a contact_report. */                                                                               \
   ISO_API iso_status iso_##P##_contact_points(iso_world* world, const iso_##P##_contact_point** out, size_t* count);   \
-  /* A wheel turns so fast from now on [rad/s]: of a car that is put on the road at speed. */                          \
-  ISO_API iso_status iso_##P##_wheel_set_spin(iso_world* world, iso_record wheel, N spin);                             \
   /* Of those the ones of one body. */                                                                                 \
   ISO_API iso_status iso_##P##_body_get_contacts(const iso_world* world, iso_body body, iso_##P##_contact_point* out,  \
-                                                 size_t room, size_t* count);
+                                                 size_t room, size_t* count);                                          \
+  /* A wheel turns so fast from now on [rad/s]: of a car that is put on the road at speed. */                          \
+  ISO_API iso_status iso_##P##_wheel_set_spin(iso_world* world, iso_record wheel, N spin);
 
 #define ISO_C_INIT(P, name) \
   ISO_API iso_status iso_##P##_##name##_init_sized(iso_##P##_##name* out, size_t size);

@@ -281,6 +281,10 @@ namespace Isostep
         public static extern Status iso_f32_body_get_contacts(IntPtr world, ulong body, F32.ContactPoint* @out,
             UIntPtr room, UIntPtr* count);
 
+        /// <summary>A wheel turns so fast from now on [rad/s]: of a car that is put on the road at speed.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f32_wheel_set_spin(IntPtr world, ulong wheel, float spin);
+
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f32_settings_init_sized(F32.Settings* @out, UIntPtr size);
 

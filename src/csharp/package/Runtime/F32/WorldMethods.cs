@@ -378,6 +378,12 @@ namespace Isostep.F32
             return (int)count;
         }
 
+        /// <summary>A wheel turns so fast from now on [rad/s]: of a car that is put on the road at speed.</summary>
+        public void WheelSetSpin(RecordId wheel, float spin)
+        {
+            Check(Native.iso_f32_wheel_set_spin(Pointer, wheel.Value, spin));
+        }
+
         public ShapeId AddSphere(Sphere shape)
         {
             ShapeId filled;

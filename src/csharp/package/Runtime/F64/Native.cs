@@ -281,6 +281,10 @@ namespace Isostep
         public static extern Status iso_f64_body_get_contacts(IntPtr world, ulong body, F64.ContactPoint* @out,
             UIntPtr room, UIntPtr* count);
 
+        /// <summary>A wheel turns so fast from now on [rad/s]: of a car that is put on the road at speed.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_f64_wheel_set_spin(IntPtr world, ulong wheel, double spin);
+
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_f64_settings_init_sized(F64.Settings* @out, UIntPtr size);
 

@@ -377,6 +377,12 @@ namespace Isostep.Fixed16
             return (int)count;
         }
 
+        /// <summary>A wheel turns so fast from now on [rad/s]: of a car that is put on the road at speed.</summary>
+        public void WheelSetSpin(RecordId wheel, Q16 spin)
+        {
+            Check(Native.iso_q16_wheel_set_spin(Pointer, wheel.Value, spin.Raw));
+        }
+
         public ShapeId AddSphere(Sphere shape)
         {
             ShapeId filled;

@@ -285,6 +285,10 @@ namespace Isostep
         public static extern Status iso_q32_body_get_contacts(IntPtr world, ulong body, Fixed32.ContactPoint* @out,
             UIntPtr room, UIntPtr* count);
 
+        /// <summary>A wheel turns so fast from now on [rad/s]: of a car that is put on the road at speed.</summary>
+        [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Status iso_q32_wheel_set_spin(IntPtr world, ulong wheel, long spin);
+
         [DllImport(Library.Name, CallingConvention = CallingConvention.Cdecl)]
         public static extern Status iso_q32_settings_init_sized(Fixed32.Settings* @out, UIntPtr size);
 
