@@ -261,5 +261,25 @@ ISO_TEST(q16, Q16_16)
 ISO_TEST(q32, Q32_32)
 #undef ISO_TEST
 
+#define ISO_TEST(P, S, N)                                                                                          \
+  TEST(CRecords, WheelsAreSpunIn_##P) {                                                                            \
+    Twins<S> twins;                                                                                                \
+    ASSERT_NO_FATAL_FAILURE(twins.create_c(iso_##P##_settings_init, iso_##P##_world_create));                      \
+    const WheelSettings<S> wheel = twins.named.naming<WheelSettings<S>>();                                         \
+    iso_##P##_wheel wheel_c;                                                                                       \
+    iso_##P##_wheel_init(&wheel_c);                                                                                \
+    ASSERT_EQ(put_sized("", &wheel_c, wheel), kOk);                                                                \
+    iso_record made = 0;                                                                                           \
+    ASSERT_EQ(iso_##P##_add_wheel(twins.c, &wheel_c, &made), ISO_OK) << iso_last_error();                          \
+    const WheelId id = twins.cpp.add(wheel);                                                                       \
+    ASSERT_EQ(iso_##P##_wheel_set_spin(twins.c, made, static_cast<N>(to_bits(S(3)))), ISO_OK) << iso_last_error(); \
+    EXPECT_TRUE(twins.cpp.set_spin(id, S(3)));                                                                     \
+    EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash());                                                          \
+    EXPECT_NE(iso_##P##_wheel_set_spin(twins.c, 0, N{}), ISO_OK) << "no wheel";                                    \
+  }
+ISO_TEST(q16, Q16_16, std::int32_t)
+ISO_TEST(q32, Q32_32, std::int64_t)
+#undef ISO_TEST
+
 }  // namespace
 }  // namespace isostep::test
