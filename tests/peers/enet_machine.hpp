@@ -21,7 +21,7 @@ inline Time steady_now() {
 
 class EnetMachine {
  public:
-  /// Patient, for a test waits for what happens and never for a time; but a host is missed soon. The address is filled in.
+  /// Patient, for a test waits for what happens and never for a time; but a host is missed soon. The address is ours.
   static SessionConfig config_of(int number, int players) {
     SessionConfig config;
     config.players = players;

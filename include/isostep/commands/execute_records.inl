@@ -141,7 +141,8 @@ template <class S> bool CommandExecutor<S>::execute(const SetWheelSpin<S>& comma
   const S rim = saturate_to<S>(product(command.spin, wheel.radius));
   if (!faults_.accept(detail::Checklist()
                           .finite(command.spin, "spin")
-                          .in_range(detail::within(rim, Limits<S>::speed()), "spin", "a rim no faster than Limits::speed()")
+                          .in_range(detail::within(rim, Limits<S>::speed()), "spin",
+                                    "a rim no faster than Limits::speed()")
                           .report()))
     return false;
   wake_for_record(wheel);

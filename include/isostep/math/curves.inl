@@ -44,8 +44,8 @@ template <class S> S lerp(S a, S b, Unit<S> t) {
   return detail::pinned([&]() -> S { return detail::number_between(a, b, t); });
 }
 template <class S> Vec3<S> lerp(Vec3<S> a, Vec3<S> b, Unit<S> t) {
-  using detail::number_between;
   return detail::pinned([&]() -> Vec3<S> {
+    using detail::number_between;
     return {number_between(a.x, b.x, t), number_between(a.y, b.y, t), number_between(a.z, b.z, t)};
   });
 }

@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// In: what the host says of our seats and inputs, and who has the states that we have. Out: our streams, as they count,
+/// In: what the host says of our seats and inputs, who has the states that we have. Out: our streams, as they count,
 /// and whether our players may play. Keeps: which seats are ours, whether they are open, the first input of each that
 /// the host lacks, and since when we have caught up.
 class OwnSeats {

@@ -1,4 +1,4 @@
-// Bodies of world_base.hpp, over an engine that has state_, desk_, commands_, fits, load, hash, view and a portable form.
+// Bodies of world_base.hpp, over an engine with state_, desk_, commands_, fits, load, hash, view and a portable form.
 // SPDX-License-Identifier: MIT
 #pragma once
 

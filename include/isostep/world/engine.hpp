@@ -63,7 +63,7 @@ namespace isostep {
 ///   Destruction     -> BodyMap, Proxies, IslandWake
 ///   MoveTargets     -> BodyMap
 ///   SensorMounts    -> BodyMap, Proxies
-///   CommandExecutor -> BodyMap, Proxies, IslandWake, IslandSleep, Destruction, RenderPoses; faults, the journal, the assets
+///   CommandExecutor -> BodyMap, Proxies, IslandWake, IslandSleep, Destruction, RenderPoses; faults, journal, assets
 ///   Queries         -> BodyMap, Proxies; faults
 ///   Characters      -> BodyMap, Proxies, IslandWake, Queries, CommandExecutor
 ///   StateLoader     -> BodyMap, Proxies

@@ -171,8 +171,8 @@ template <class Work> ISO_INLINE auto pinned(const Work& work) -> decltype(work(
   run_alone(work, result);
   return result;
 }
-/// The number that a call returns, taken through memory. For functions that call several: on i386 a number comes back in
-/// an x87 register, and a compiler may keep it there, 80 bits wide, over the calls that follow.
+/// The number that a call returns, taken through memory. For functions that call several: on i386 a number comes back
+/// in an x87 register, and a compiler may keep it there, 80 bits wide, over the calls that follow.
 template <class Call> ISO_INLINE auto stored(const Call& call) -> decltype(call()) {
   decltype(call()) result = {};
   run_alone(call, result);
