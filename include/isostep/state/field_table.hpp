@@ -23,9 +23,9 @@ struct FieldRow {
 /// A number, an array of `count` elements, or a struct of `count` members.
 struct FieldType {
   std::uint32_t size = 0;              // [bytes] of the canonical form
-  FieldFormat format = {};             // of a number
+  FieldFormat format = {};             // of a number; else its size is 0
   const FieldType* element = nullptr;  // of an array; else null
-  const FieldRow* rows = nullptr;      // of a struct; else null
+  const FieldRow* rows = nullptr;      // of a struct
   std::uint32_t count = 0;
 };
 

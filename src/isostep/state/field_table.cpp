@@ -6,13 +6,13 @@ namespace isostep {
 namespace {
 
 void walk(const PathPart& path, const FieldType& type, std::uint32_t offset, const NumberSink& sink) {
-  if (type.rows != nullptr) {
+  if (type.format.size != 0) {
+    sink.number(sink.user, path, type.format, offset);
+  } else if (type.element == nullptr) {
     for (std::uint32_t i = 0; i < type.count; ++i) {
       const FieldRow& row = type.rows[i];
       walk(PathPart{&path, row.name, 0}, *row.type, offset + row.offset, sink);
     }
-  } else if (type.element == nullptr) {
-    sink.number(sink.user, path, type.format, offset);
   } else if (type.count == 1) {
     walk(path, *type.element, offset, sink);
   } else {

@@ -217,8 +217,8 @@ TYPED_TEST(CommandData, commands_given_as_data_do_what_the_calls_do) {
   wheel.radius = high;
   each(wheel, WheelId{0, 1});
   EXPECT_FALSE(both(SetWheelSpin<S>{{0, 1}, high}, [&](auto& w) { return w.set_spin({0, 1}, high); })) << "gone";
-  EXPECT_TRUE(both(AddRecord<WheelSettings<S>>{wheel}, [&](auto& w) { return w.add(wheel); }));
-  const WheelId spun = {0, 3};
+  const WheelId spun = called.add(wheel);
+  ASSERT_EQ(told.apply(AddRecord<WheelSettings<S>>{wheel}), spun);
   EXPECT_TRUE(both(SetWheelSpin<S>{spun, high}, [&](auto& w) { return w.set_spin(spun, high); }));
   EXPECT_EQ(called.state(spun)->spin, high);
   const S most = Limits<S>::speed();
