@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "isostep/scalar/platform.hpp"
+
 namespace isostep {
 
 /// The most urgent first. What they say is written when they are sent: as it is then.

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "isostep/scalar/platform.hpp"
+
 namespace isostep {
 
 /// for (const int player : EachPlayer(players)) ...
