@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// In: which state, and pieces in order. Out: the bytes, and how many of them the host is to be told of. Keeps: whose
-/// they are, also without a connection: the pieces may go on where they end.
+/// In: which state, and pieces in order. Out: the bytes, and the progress that the host hears. Keeps: whose they are,
+/// also without a connection: the pieces may go on where they end.
 class SnapshotArrival {
  public:
   explicit SnapshotArrival(std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}

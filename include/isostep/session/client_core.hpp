@@ -8,6 +8,7 @@
 #include "isostep/session/client_search.hpp"
 #include "isostep/session/client_supporter.hpp"
 #include "isostep/session/client_wishes.hpp"
+#include "isostep/session/outbox.hpp"
 #include "isostep/session/peer_core.hpp"
 
 namespace isostep {
@@ -125,7 +126,7 @@ class ClientCore : public PeerCore {
 
   PeerLink host_;
   Standing standing_ = Standing::unknown;
-  DueMessages due_;  // to the host, of those that no part writes
+  Outbox<MessageKind> due_;  // to the host, of those that no part writes
   Wishes wishes_;
   Partings partings_;
   SnapshotArrival arrival_{portable_};

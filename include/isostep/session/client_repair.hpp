@@ -3,9 +3,10 @@
 #pragma once
 
 #include "isostep/session/client_arrival.hpp"
-#include "isostep/session/client_due.hpp"
 #include "isostep/session/frame_clock.hpp"
 #include "isostep/session/hash_log.hpp"
+#include "isostep/session/message.hpp"
+#include "isostep/session/outbox.hpp"
 #include "isostep/session/repair.hpp"
 #include "isostep/session/verdict.hpp"
 
@@ -99,7 +100,7 @@ class Repair {
   Stage stage_ = Stage::none;
   RepairOffer offer_;
   Frame after_ = kNoFrame, present_ = 0, inquired_ = kNoFrame;
-  DueMessages due_;  // repaired
+  Outbox<MessageKind> due_;  // repaired
 };
 
 }  // namespace isostep

@@ -1,9 +1,10 @@
-// Supporter: a client that has lost its host answers the candidate to which it is connected.
+// Supporter: a client without a host votes for the candidate to which it is connected.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/session/client_due.hpp"
 #include "isostep/session/client_log.hpp"
+#include "isostep/session/message.hpp"
+#include "isostep/session/outbox.hpp"
 
 namespace isostep {
 
@@ -27,7 +28,7 @@ class Supporter {
     const bool supports = !is_older && is_member && can_complete() && election_.give_support(candidate);
     due_.set(MessageKind::support, supports);
   }
-  void answer_nothing() { due_ = DueMessages{}; }
+  void answer_nothing() { due_ = Outbox<MessageKind>{}; }
   bool write_next(const Address& own, Frame current, std::vector<std::uint8_t>& message) {
     if (due_.is_empty()) return false;
     if (due_.take(MessageKind::roster)) {
@@ -79,7 +80,7 @@ class Supporter {
   const std::vector<InputStream>& streams_;
   const FollowerLog& log_;
   Candidate candidate_;
-  DueMessages due_;
+  Outbox<MessageKind> due_;
 };
 
 }  // namespace isostep

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "isostep/session/ballot.hpp"
-#include "isostep/session/client_due.hpp"
+#include "isostep/session/message.hpp"
+#include "isostep/session/outbox.hpp"
 
 namespace isostep {
 
@@ -43,7 +44,7 @@ class Wishes {
   }
 
  private:
-  DueMessages due_;
+  Outbox<MessageKind> due_;
   Ask ask_;
   PlayersProposal proposal_;
   Votes votes_;

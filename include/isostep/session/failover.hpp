@@ -4,8 +4,9 @@
 
 #include <vector>
 
-#include "isostep/session/client_due.hpp"
 #include "isostep/session/election.hpp"
+#include "isostep/session/message.hpp"
+#include "isostep/session/outbox.hpp"
 #include "isostep/session/peer_link.hpp"
 
 namespace isostep {
@@ -17,7 +18,7 @@ struct Caller {
   std::vector<std::uint8_t> hello;  // empty: not yet
   int machine = -1;                 // its place in our roster; -1: none, a spectator
   int voter = -1;                   // likewise, if its process remembers the match
-  DueMessages due;
+  Outbox<MessageKind> due;
   Allowance messages;
 };
 

@@ -20,7 +20,7 @@ class BallotBox {
   Effect count(const Votes& votes, std::uint32_t players, Time now);
   /// Who is gone does not count, and no vote takes for ever.
   Effect tend(Time now);
-  /// All are to hear how it stands: said once.
+  /// True once: all hear now how it stands.
   bool must_tell(Time now);
 
  private:

@@ -32,7 +32,7 @@ class Deadline {
   bool is_over(int player, Frame due, Frame window) const;
   /// With what is guessed: that is final.
   void replace(int player, Bytes guess, Frame due, Time now);
-  /// The game is told of this player's replaced inputs: said once.
+  /// True once: the game hears now which inputs of this player were replaced.
   bool must_tell(int player, Time now);
 
   /// Inputs before `end` came after they were replaced: false, when that is known.

@@ -5,12 +5,25 @@
 #include <optional>
 #include <vector>
 
-#include "isostep/session/host_outbox.hpp"
 #include "isostep/session/message.hpp"
+#include "isostep/session/outbox.hpp"
 #include "isostep/session/peer_link.hpp"
 #include "isostep/session/snapshot_transfer.hpp"
 
 namespace isostep {
+
+/// The most urgent first. What they say is written when they are sent: as it is then.
+enum class Due : std::uint8_t {
+  close,       // its connection ends
+  welcome,     // it is in the match, or gets a snapshot
+  roster,      // another
+  ballot,      // how the vote stands
+  inquiry,     // which chain has it?
+  statements,  // who said what
+  repaired,    // who is: see RepairService::tells
+  offer,       // of a repair, or none
+  open         // from when on its players play
+};
 
 /// A client's repair, see Repair.
 struct RepairService {
@@ -53,8 +66,8 @@ struct Guest : PeerLink {
   /// It needs a snapshot: inputs that it lacks are gone.
   void fall_behind() {
     stage = Stage::needs_snapshot;
-    due.set(Due::welcome);
-    for (const Due no_more : {Due::repaired, Due::offer, Due::open}) due.set(no_more, false);
+    due.add(Due::welcome);
+    for (const Due no_more : {Due::repaired, Due::offer, Due::open}) due.drop(no_more);
     is_ready = false;
     repair = RepairService{.next = repair.next};
     opens = kNoFrame;
@@ -77,7 +90,7 @@ struct Guest : PeerLink {
 
   enum class Stage : std::uint8_t { connected, applies, needs_snapshot, receives_snapshot, live, refused };
   Stage stage = Stage::connected;
-  Outbox due;
+  Outbox<Due> due;
   Application wish;
   std::uint64_t applicant = 0;  // its number, while the game decides
   bool is_shown = false;        // to the game

@@ -109,7 +109,6 @@ class PeerCore : public SessionCore {
   /// The frame that would be next, but for frames that are stepped again on the way there.
   virtual Frame present() const { return current(); }
 
-  using View = MachineViews::View;
   void take_hash(std::size_t reporter, const HashReport& report) { views_.hear(reporter, report); }
   /// Its states are others from now on.
   void was_repaired(std::size_t machine, Frame after) { views_.was_repaired(machine, after); }

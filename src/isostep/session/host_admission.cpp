@@ -125,7 +125,7 @@ bool HostCore::let_in(Guest& guest) {
     refuse(guest, why);
     return false;
   }
-  guest.due.set(Due::welcome);
+  guest.due.add(Due::welcome);
   if (!started_ && guest.player >= 0) guest.opens = current();
   const HashReport& has = guest.wish.have;
   const Frame have = has.frame;
@@ -183,7 +183,7 @@ void HostCore::open_seats(Guest& guest, Time now) {
     streams_[static_cast<std::size_t>(p)].append_absent_until(guest.opens);
     seats_[p].is_open = true;
   }
-  guest.due.set(Due::open);
+  guest.due.add(Due::open);
 }
 
 // --- who goes ---

@@ -101,7 +101,7 @@ bool HostCore::take_message(Guest& guest, Bytes bytes, Time now) {
   switch (kind) {
     case MessageKind::hello:
       if (!has_start_) {
-        guest.due.set(Due::close);  // nothing was driven here yet: let it come again
+        guest.due.add(Due::close);  // nothing was driven here yet: let it come again
         return true;
       }
       if (guest.stage != Guest::Stage::connected) return false;
@@ -165,7 +165,7 @@ bool HostCore::take_repaired(Guest& guest, Bytes bytes) {
   for (Guest& other : guests_) {
     if (&other == &guest || !other.is_live()) continue;
     other.repair.tells |= std::uint32_t{1} << player;
-    other.due.set(Due::repaired);
+    other.due.add(Due::repaired);
   }
   tell({.kind = SessionEvent::Kind::repaired, .player = player, .frame = repaired.value().after});
   return true;
@@ -286,16 +286,16 @@ void HostCore::tend(Time now) {
 
 void HostCore::tend(Guest& guest, Time now) {
   if (guest.stage == Guest::Stage::connected && !guest.due.has(Due::close) && now - guest.heard > kGreeting) {
-    guest.due.set(Due::close);  // and not refused: a machine that stood still comes again
+    guest.due.add(Due::close);  // and not refused: a machine that stood still comes again
     ++stats_.refused;
   }
   if (now - guest.heard > config_.silence) {
-    guest.due.set(Due::close);
+    guest.due.add(Due::close);
     seats_.close(guest);
   }
   if (guest.is_live() && !flow_.tend(guest, now)) {
     ++stats_.put_out;
-    guest.due.set(Due::close);
+    guest.due.add(Due::close);
     seats_.close(guest);
   }
   guest.most_burst = seats_.play(guest) ? PeerLink::kPlayersBurst : PeerLink::kBurst;
@@ -305,7 +305,7 @@ void HostCore::tend(Guest& guest, Time now) {
     const Frame lacks = receives ? guest.start : guest.acked[p];
     lags = lags || lacks < streams_[static_cast<std::size_t>(p)].begin();
   }
-  if (receives && lags) guest.due.set(Due::close);  // others may wait for a newer one
+  if (receives && lags) guest.due.add(Due::close);  // others may wait for a newer one
   if (guest.is_live() && lags) {
     seats_.close(guest);
     guest.fall_behind();

@@ -61,7 +61,7 @@ void Inquiry::close(Guests& guests) {
     if (said[p].has_spoken && said[p].chain != said[kHostMachine].chain) differing_ |= std::uint64_t{1} << p;
   }
   for (Guest& guest : guests) {
-    guest.due.set(Due::inquiry, false);
+    guest.due.drop(Due::inquiry);
     guest.due.set(Due::statements, guest.is_live());
   }
 }

@@ -150,7 +150,7 @@ bool Leadership::go_on(Time now) {
   for (Guest& guest : guests_) {
     const int machine = voter_of(guest);
     if (machine < 0 || (stay >> machine & 1) != 0) continue;
-    guest.due.set(Due::close);  // it may come again, as one that was away
+    guest.due.add(Due::close);  // it may come again, as one that was away
     seats_.close(guest);
   }
   reform(stay);

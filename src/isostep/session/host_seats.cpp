@@ -124,7 +124,7 @@ std::uint32_t Seats::find_any(const Application& wish, std::uint32_t own, Refusa
 
 Seats::Claim Seats::claim(const Application& wish, std::uint32_t wanted, SecretNumbers& numbers) const {
   Claim claim{wanted, players_of(wish.token)};
-  // A host that follows another knows the tokens that the roster told of: where there may be one they stay the same.
+  // A host that follows another knows the tokens of the roster alone: where there may be one they stay the same.
   claim.keeps_token = claim.own != 0 && config_.migration > 0;
   claim.token = claim.keeps_token ? wish.token : numbers.next_token();
   // A process that the former host numbered after its last roster is as good as a new one: both are voters later.

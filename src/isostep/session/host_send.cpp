@@ -31,7 +31,7 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
   if (guest.stage == Guest::Stage::receives_snapshot && portable_.empty())
     refuse(guest, {"snapshot", "needed", "none"});
   if (guest.stage == Guest::Stage::refused) {
-    guest.due.set(Due::close);
+    guest.due.add(Due::close);
     write_refusal(guest.refusal, message_);
     return message();
   }
@@ -45,7 +45,7 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
     if (snapshots_.next_piece(guest, now, message_)) return message();
   }
   if (!due) return std::nullopt;
-  guest.due.set(*due, false);
+  guest.due.drop(*due);
   switch (*due) {
     case Due::close: break;  // see above
     case Due::welcome: write_welcome(welcome_for(guest), message_); break;

@@ -21,7 +21,7 @@ bool SnapshotDesk::serve(Guests& guests, Frame current) {
   for (Guest& guest : guests) {
     if (guest.repair.stage == RepairService::Stage::needs) {
       guest.repair.stage = RepairService::Stage::receives;
-      guest.due.set(Due::offer);
+      guest.due.add(Due::offer);
       guest.transfer = SnapshotTransfer{};
     }
     if (guest.stage != Guest::Stage::needs_snapshot) continue;
@@ -57,10 +57,10 @@ bool SnapshotDesk::may_share(Guests& guests, Frame current) {
     const SnapshotProgress has = guest.transfer.progress();
     const bool is_slow = std::uint64_t{has.arrived} * static_cast<std::uint64_t>(config_.history) <
                          std::uint64_t{has.size} * static_cast<std::uint64_t>(age);
-    if (guest.stage == Guest::Stage::receives_snapshot && is_slow) guest.due.set(Due::close);
+    if (guest.stage == Guest::Stage::receives_snapshot && is_slow) guest.due.add(Due::close);
     if (guest.repair.stage != RepairService::Stage::receives || !is_slow) continue;
     guest.repair.stage = RepairService::Stage::none;
-    guest.due.set(Due::offer);
+    guest.due.add(Due::offer);
   }
   return false;
 }
