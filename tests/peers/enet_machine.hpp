@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -22,7 +23,7 @@ inline Time steady_now() {
 class EnetMachine {
  public:
   /// Patient, for a test waits for what happens and never for a time; but a host is missed soon. The address is ours.
-  static SessionConfig config_of(int number, int players) {
+  static SessionConfig patient_config(int number, int players) {
     SessionConfig config;
     config.players = players;
     config.host = number == 0;
@@ -34,11 +35,14 @@ class EnetMachine {
   }
 
   explicit EnetMachine(const SessionConfig& config) : port(listen()), session(with_address(config, port)) {}
+  EnetMachine(transport::EnetTransport its_port, const SessionConfig& config)
+      : port(std::move(its_port)), session(config) {}
 
   bool connect_to(const EnetMachine& other) { return port.connect_to(other.session.config().address.view()).ok(); }
   void confirmed(Frame frame, std::uint64_t hash) {
     if (was_confirmed) was_confirmed(frame, hash);
   }
+  int count(SessionEvent::Kind kind) { return events[static_cast<int>(kind)]; }
   void turn(Time now) {
     port.poll();
     transport::deliver(port, session, now);
@@ -47,17 +51,14 @@ class EnetMachine {
     drive(session, game, now, *this);
     transport::dispatch(port, session, now);
     port.flush();
-    while (const std::optional<SessionEvent> event = session.poll_event()) {
-      has_new_host = has_new_host || event->kind == SessionEvent::Kind::new_host;
-      is_desynced = is_desynced || event->kind == SessionEvent::Kind::desync;
-    }
+    while (const std::optional<SessionEvent> event = session.poll_event()) ++events[static_cast<int>(event->kind)];
   }
 
   transport::EnetTransport port;
   Session<Toy> session;
   Toy game;
   std::function<void(Frame, std::uint64_t hash)> was_confirmed;
-  bool has_new_host = false, is_desynced = false;
+  std::map<int, int> events;  // how many of each kind
 
  private:
   static transport::EnetTransport listen() {
@@ -68,6 +69,16 @@ class EnetMachine {
     config.address = Address("127.0.0.1:" + std::to_string(port.port()));
     return config;
   }
+};
+
+/// It keeps what it was told as final.
+struct RememberingMachine : EnetMachine {
+  template <class... Arguments>
+  explicit RememberingMachine(Arguments&&... arguments) : EnetMachine(std::forward<Arguments>(arguments)...) {
+    was_confirmed = [this](Frame frame, std::uint64_t hash) { hashes[frame] = hash; };
+  }
+  Frame end() const { return hashes.empty() ? 0 : hashes.rbegin()->first + 1; }
+  std::map<Frame, std::uint64_t> hashes;
 };
 
 }  // namespace isostep::test

@@ -3,13 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 
+#include "enet_machine.hpp"
 #include "isostep/core/random.hpp"
-#include "isostep/session/session.hpp"
-#include "session/toy_game.hpp"
-#include "transport/enet_transport.hpp"
-#include "transport/pump.hpp"
 #include "unit/transport/middle.hpp"
 
 namespace isostep::test {
@@ -31,32 +27,12 @@ SessionConfig config_of(bool host) {
   return config;
 }
 
-struct Machine {
-  Machine(EnetTransport its_port, bool host) : port(std::move(its_port)), session(config_of(host)) {}
-  void confirmed(Frame frame, std::uint64_t hash) { hashes[frame] = hash; }
-  void turn(Time now) {
-    port.poll();
-    transport::deliver(port, session, now);
-    const int player = session.local_player();
-    if (player >= 0) session.add_local_input(player, toy_input(1, player, session.current()));
-    drive(session, game, now, *this);
-    transport::dispatch(port, session, now);
-    port.flush();
-    while (const std::optional<SessionEvent> event = session.poll_event()) {
-      const auto kind = event->kind;
-      bad_events += kind == SessionEvent::Kind::left || kind == SessionEvent::Kind::lost_host ||
-                            kind == SessionEvent::Kind::desync
-                        ? 1
-                        : 0;
-    }
+struct Machine : RememberingMachine {
+  Machine(EnetTransport its_port, bool host) : RememberingMachine(std::move(its_port), config_of(host)) {}
+  int bad_events() {
+    using Kind = SessionEvent::Kind;
+    return count(Kind::left) + count(Kind::lost_host) + count(Kind::desync);
   }
-  Frame end() const { return hashes.empty() ? 0 : hashes.rbegin()->first + 1; }
-
-  EnetTransport port;
-  Session<Toy> session;
-  Toy game;
-  std::map<Frame, std::uint64_t> hashes;
-  int bad_events = 0;
 };
 
 TEST(ForgedOverEnet, AHundredThousandAlteredDatagramsLeaveAMatchRunning) {
@@ -100,7 +76,7 @@ TEST(ForgedOverEnet, AHundredThousandAlteredDatagramsLeaveAMatchRunning) {
   for (Frame frame = 0; frame < reached + 120; ++frame) {
     ASSERT_EQ(host.hashes.at(frame), client.hashes.at(frame)) << frame;
   }
-  EXPECT_EQ(host.bad_events + client.bad_events, 0);
+  EXPECT_EQ(host.bad_events() + client.bad_events(), 0);
   EXPECT_EQ(host.session.stats().refused + client.session.stats().refused, 0u);
   const std::uint64_t refused = host.port.statistics().implausible + client.port.statistics().implausible - before;
   EXPECT_LE(refused, said);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <map>
 #include <memory>
 
 #include "enet_machine.hpp"
@@ -10,12 +9,10 @@
 namespace isostep::test {
 namespace {
 
-struct Machine : EnetMachine {
-  explicit Machine(int number) : EnetMachine(config_of(number, 3)) {
-    was_confirmed = [this](Frame frame, std::uint64_t hash) { hashes[frame] = hash; };
-  }
-  Frame end() const { return hashes.empty() ? 0 : hashes.rbegin()->first + 1; }
-  std::map<Frame, std::uint64_t> hashes;
+using Kind = SessionEvent::Kind;
+
+struct Machine : RememberingMachine {
+  explicit Machine(int number) : RememberingMachine(patient_config(number, 3)) {}
 };
 
 TEST(MigrationOverEnet, TheMatchGoesOnWhenItsHostTakesNoTurnsAnyMore) {
@@ -32,14 +29,14 @@ TEST(MigrationOverEnet, TheMatchGoesOnWhenItsHostTakesNoTurnsAnyMore) {
   };
   ASSERT_TRUE(
       run(0, [&] { return machines[1]->session.stats().machines + machines[2]->session.stats().machines == 6; }));
-  ASSERT_TRUE(run(1, [&] { return machines[1]->has_new_host && machines[2]->has_new_host; }));
+  ASSERT_TRUE(run(1, [&] { return machines[1]->count(Kind::new_host) > 0 && machines[2]->count(Kind::new_host) > 0; }));
   const Frame until = std::max(machines[1]->end(), machines[2]->end()) + 60;
   ASSERT_TRUE(run(1, [&] { return machines[1]->end() > until && machines[2]->end() > until; }));
   int hosts = 0;
   for (const int client : {1, 2}) {
     hosts += machines[client]->session.config().host ? 1 : 0;
     EXPECT_EQ(machines[client]->session.phase(), SessionPhase::playing);
-    EXPECT_FALSE(machines[client]->is_desynced);
+    EXPECT_EQ(machines[client]->count(Kind::desync), 0);
   }
   EXPECT_EQ(hosts, 1);
   for (Frame frame = 0; frame <= until; ++frame) {
@@ -51,7 +48,7 @@ TEST(MigrationOverEnet, TheMatchGoesOnWhenItsHostTakesNoTurnsAnyMore) {
     return !machines[0]->session.config().host && machines[0]->session.phase() == SessionPhase::playing &&
            machines[0]->end() > until;
   }));
-  EXPECT_FALSE(machines[0]->is_desynced);
+  EXPECT_EQ(machines[0]->count(Kind::desync), 0);
 }
 
 }  // namespace

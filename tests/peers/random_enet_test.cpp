@@ -16,7 +16,7 @@ namespace {
 class RandomEnetMatch {
  public:
   explicit RandomEnetMatch(std::uint64_t seed) : random_(Pcg32::seeded(seed)), players_(2 + draw(3)) {
-    for (int number = 0; number < players_; ++number) begin(EnetMachine::config_of(number, players_));
+    for (int number = 0; number < players_; ++number) begin(EnetMachine::patient_config(number, players_));
     for (std::size_t i = 1; i < machines_.size(); ++i) EXPECT_TRUE(machines_[i]->connect_to(*machines_[0]));
   }
 
@@ -103,7 +103,7 @@ class RandomEnetMatch {
       return;
     }
     story_ += " returns " + std::to_string(i);
-    SessionConfig config = EnetMachine::config_of(static_cast<int>(i), players_);
+    SessionConfig config = EnetMachine::patient_config(static_cast<int>(i), players_);
     config.host = false;
     config.local_players = 0;
     config.token = machines_[i]->session.token();

@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <chrono>
-
-#include "isostep/session/session.hpp"
+#include "enet_machine.hpp"
 #include "session/bulky_game.hpp"
-#include "transport/enet_transport.hpp"
 #include "transport/udp_relay.hpp"
 
 namespace isostep::test {
@@ -16,11 +13,6 @@ using transport::EnetTransport;
 using transport::UdpRelay;
 
 constexpr std::uint64_t kSize = 1000000;  // [bytes] of the snapshot, more than kSnapshotFlight by far
-
-Time steady_now() {
-  const auto since = std::chrono::steady_clock::now().time_since_epoch();
-  return static_cast<Time>(std::chrono::duration_cast<std::chrono::microseconds>(since).count());
-}
 
 template <class T> T whole(Result<T> result) { return std::move(result.value()); }
 
