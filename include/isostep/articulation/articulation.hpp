@@ -77,7 +77,7 @@ template <class S> class Articulation {
   bool apply_force(std::uint32_t link, Vec3<S> force, Vec3<S> point);
   /// For the next step [N m], world.
   bool apply_torque(std::uint32_t link, Vec3<S> torque);
-  /// As World has them.
+  /// These are World's.
   const FaultReport& fault() const;
   const FaultReport& first_fault() const;
   void forget_faults();

@@ -1,4 +1,4 @@
-// What the worst-first resolver leaves behind from stage to stage, by name: visit_scratch of rigid_solver.hpp.
+// The scratch of worst_first from stage to stage, by name: visit_scratch of rigid_solver.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 

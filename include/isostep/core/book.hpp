@@ -1,4 +1,4 @@
-// Whether this build has the book's own methods, which the default does not use: ISOSTEP_BOOK in CMake.
+// ISO_IF_BOOK: code that a build has with the book's own methods, which the default does not use (CMake: ISOSTEP_BOOK).
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -31,12 +31,6 @@ template <class S> ParticleEngine<S>::ParticleEngine(const ParticleSettings<S>& 
   state_.materials.add(ParticleMaterial<S>{});
 }
 
-template <class S> bool ParticleEngine<S>::fits(const ParticleSettings<S>& settings) const {
-  ParticleSettings<S> same = settings;
-  same.gravity = state_.settings.gravity;
-  return same == state_.settings;
-}
-
 template <class S> std::uint64_t ParticleEngine<S>::hash() const {
   detail::StateHasher hasher;
   ParticleState<S>::members(hasher, state_);

@@ -35,7 +35,6 @@ template <class S> struct WorldTraits<ParticleWorld<S>> {
   static constexpr std::span<const char* const> kStages = kParticleStageNames;
 };
 
-template <class W> using StateOf = std::remove_cvref_t<decltype(std::declval<const W&>().state())>;
 
 /// The whole of a portable form, nothing after it.
 template <class W> ISO_INLINE Result<void> read_whole(W& world, Bytes bytes) {

@@ -1,4 +1,4 @@
-// Bodies of world_base.hpp, over an engine with state_, desk_, commands_, fits, load, hash, view and a portable form.
+// Bodies of world_base.hpp, over an engine with state_, desk_, commands_, load, hash, view and a portable form.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -84,9 +84,13 @@ template <class World> void WorldBase<World>::save(Snapshot& to) const {
 template <class World> bool WorldBase<World>::load(const Snapshot& from) {
   const ExclusiveCall call = engine_->desk_.enter("load");
   if (!call.allowed()) return false;
-  const char* expected = from.state_ == nullptr ? "one that was saved to" : "one of a world with the same settings";
-  const bool fits = from.state_ != nullptr && engine_->fits(from.state_->settings);
-  if (!fits) return engine_->desk_.faults.refuse_call("load", {Fault::bad_snapshot, "", "from", expected});
+  const auto refuse = [&](const char* expected) {
+    return engine_->desk_.faults.refuse_call("load", {Fault::bad_snapshot, "", "from", expected});
+  };
+  if (from.state_ == nullptr) return refuse("one that was saved to");
+  typename Parts::Settings its = from.state_->settings;
+  its.gravity = settings().gravity;
+  if (!(its == settings())) return refuse("one of a world with the same settings");
   engine_->load(*from.state_);
   return true;
 }

@@ -40,7 +40,7 @@ struct WorldDesk {
     journal.note_load();
     faults.clear();
   }
-  /// Of a world that is moved: who records or traces it refers to the object that it was.
+  /// The world is moved: who records or traces it refers to the object that it was.
   ISO_INLINE void detach() {
     journal.record_to(nullptr);
     trace = nullptr;

@@ -85,8 +85,6 @@ template <class S> class WorldEngine {
   template <class Visit> void visit_fields(FieldGroup group, std::uint32_t stage, const Visit& visit);
 
   // engine_state.inl
-  /// May a state with these be loaded? Gravity may differ.
-  bool fits(const Settings<S>& settings) const;
   void load(const WorldState<S>& from);
   std::uint64_t hash() const;
   void write_portable(Writer& writer) const;

@@ -51,12 +51,6 @@ template <class S> WorldEngine<S>::WorldEngine(const Settings<S>& settings) {
   desk_.faults.accept_call("World", report);
 }
 
-template <class S> bool WorldEngine<S>::fits(const Settings<S>& settings) const {
-  Settings<S> same = settings;
-  same.gravity = state_.settings.gravity;
-  return same == state_.settings;
-}
-
 template <class S> std::uint64_t WorldEngine<S>::hash() const {
   detail::StateHasher hasher;
   WorldState<S>::members(hasher, state_);

@@ -65,7 +65,7 @@ template <class W> class PlayedFrame {
   std::uint64_t hash() const { return hash_; }
   Trace trace() const { return trace_; }
   /// At the frame's end for a place after both.
-  StateOf<W> state_at(const StagePlace& place) {
+  typename W::State state_at(const StagePlace& place) {
     Watch watch{world_, place.index, {}};
     world_.load(before_);
     static_cast<void>(world_.step_recorded(commands_, {&Watch::step, &watch}));
@@ -77,7 +77,7 @@ template <class W> class PlayedFrame {
   struct Watch {
     W& world;
     std::size_t left;
-    std::optional<StateOf<W>> state;
+    std::optional<typename W::State> state;
 
     void look() {
       if (left-- == 0) state = world.state();

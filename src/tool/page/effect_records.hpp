@@ -110,11 +110,11 @@ template <class S, class To> class EffectTeller {
     to_.push(weather_.force_of(surface), to_double(surface.control));
   }
 
-  // A DebugDraw is told of these.
+  // DebugDraw draws these.
   void tell(CharacterId, const CharacterSettings<S>&) {}
   void tell(WheelId, const WheelSettings<S>&) {}
 
-  // Of these there is nothing to see but what bodies do.
+  // These show only in what bodies do.
   void tell(AttractorId, const Attractor<S>&) {}
   void tell(BuoyancyId, const BuoyancyPoint<S>&) {}
   void tell(DragId, const BodyDrag<S>&) {}

@@ -40,7 +40,7 @@ template <class S> bool is_finite_matrix(const Mat3<S>& m) {
   return is_finite(m.rows[0]) && is_finite(m.rows[1]) && is_finite(m.rows[2]);
 }
 
-/// As the control has it, for a speed [m/s] through the air.
+/// [N s/m] The tensor at this control and, of a quadratic surface, at this speed [m/s] through the air.
 template <class S> Mat3<S> tensor_of(const AeroSurface<S>& surface, S speed) {
   const Mat3<S>& end = surface.control < S(0) ? surface.low : surface.high;
   const S part = abs(surface.control), rest = S(1) - part;

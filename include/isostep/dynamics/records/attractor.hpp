@@ -47,7 +47,7 @@ template <class S> struct RecordRules<Attractor<S>> : RecordDefaults<S> {
   static NamedBodies<S> bodies(const Attractor<S>& a) {
     return {{{a.body, "body", true, MustBe::any, Vec3<S>::zero(), "point"}, {}}, 1};
   }
-  /// Of every awake body.
+  /// It pulls every awake body.
   template <class Forces> static void act(const Attractor<S>& a, Forces& forces) {
     const auto& bodies = forces.bodies;
     if (a.body && !bodies.is_enabled(a.body)) return;

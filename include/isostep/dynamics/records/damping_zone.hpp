@@ -32,7 +32,7 @@ template <class S> struct DampingZone {
 
 namespace isostep::detail {
 
-/// Whether the zone hides those below it at a point, from bodies of that category.
+/// The zone hides those below it at this point, from bodies of that category.
 template <class S> ISO_INLINE bool replaces(const DampingZone<S>& zone, std::uint32_t category, Vec3<S> point) {
   return zone.replaces && (category & zone.mask) != 0 && is_inside(zone, point);
 }

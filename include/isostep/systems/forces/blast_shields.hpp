@@ -21,7 +21,7 @@ template <class S> class BlastShields {
 
   /// [m] From a body's centre of mass to the point of its surface that is nearest to `from`; zero where it is inside.
   Vec3<S> exposed_point(std::uint32_t row, Vec3<S> from) const;
-  /// Whether a static body stands between two points.
+  /// A static body stands between these points.
   bool is_shielded(Vec3<S> from, Vec3<S> to) const;
 
  private:

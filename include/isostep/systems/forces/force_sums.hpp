@@ -39,12 +39,12 @@ template <class S> class ForceSums {
   /// A force [N] that acts at an arm from the centre of mass. What does not move is left alone.
   void push(std::uint32_t row, Vec3<S> force, Vec3<S> arm);
   ISO_INLINE void push(const BodyEnd<S>& end, Vec3<S> force) { push(end.row, force, end.arm); }
-  /// Of wheels and couplings, which know what they do to a body's velocity.
+  /// Wheels and couplings know what they do to a body's velocity.
   void push(const VelocityChange<S>& change);
   /// A motion [m/s], or a turning [rad/s], that fades at a rate [1/s].
   void slow(std::uint32_t row, Vec3<S> motion, S rate);
   void slow_turning(std::uint32_t row, Vec3<S> turning, S rate);
-  /// Of an act that bounds what it computes, as Bounder says, before it pushes.
+  /// An act that bounds what it computes before it pushes tells here what its Bounder cut.
   void note_cut(std::uint32_t row, bool cut);
   /// [m/s^2] That a body is accelerated by at most.
   S most() const;

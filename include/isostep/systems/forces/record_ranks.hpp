@@ -23,7 +23,7 @@ template <class Record> class RecordRanks {
   template <class Visit> void for_each_down(const std::vector<Record>& all, const Visit& visit) const {
     for (std::size_t i = ranks_.size(); i-- > 0;) visit(at(all, ranks_[i]));
   }
-  /// Whether there is one of a higher priority for which hides(record).
+  /// A record of a higher priority hides(record).
   template <class Hides>
   bool is_hidden(const std::vector<Record>& all, std::int32_t priority, const Hides& hides) const {
     for (std::size_t i = ranks_.size(); i-- > 0;) {

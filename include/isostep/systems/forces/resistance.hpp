@@ -30,12 +30,12 @@ template <class S> class Resistance {
   void count(std::uint32_t row);
   /// Rates [1/s] at which a body's motion and its turning fade: they add up, and resist together as one force.
   void fade(std::uint32_t row, S linear, S angular);
-  /// What resists asks of the sums as they are now.
+  /// The sums as they are now are the steady forces.
   void take_steady();
   void solve_fading();
 
-  /// As the sub-step would leave it with the steady forces, before contacts and joints: what resists motion resists
-  /// that, so that it balances steady forces exactly. [m/s], [rad/s]
+  /// [m/s], [rad/s] The velocity that the sub-step would leave with the steady forces, before contacts and joints: what
+  /// resists motion resists that, so that it balances steady forces exactly.
   Vec3<S> next_velocity(std::uint32_t row) const;
   Vec3<S> next_angular_velocity(std::uint32_t row) const;
   /// [m/s] Of a point.

@@ -49,7 +49,7 @@ template <class S> class SubstepBodies {
   ISO_INLINE std::uint32_t rows() const { return static_cast<std::uint32_t>(bodies_->mass.size()); }
   /// Any row.
   ISO_INLINE bool moves(std::uint32_t row) const { return bodies_->moves(row); }
-  /// Whether the body is dynamic and of one of those categories.
+  /// The body is dynamic and of one of those categories.
   ISO_INLINE bool is_pushed(std::uint32_t row, std::uint32_t mask) const {
     return moves(row) && (category(row) & mask) != 0;
   }

@@ -31,7 +31,7 @@ template <class S> class WetBodies {
       : state_(state), map_(map), zones_(zones), bodies_(bodies) {}
 
   void begin_substep();
-  /// Of a body at a sub-step's pose, all its parts together; overlaps count twice, as in its mass.
+  /// All parts of a body together, at the sub-step's pose; overlaps count twice, as in its mass.
   Wet<S> displaced(std::uint32_t row, S density, const detail::WaterSurface<S>& surface) const;
   ISO_INLINE void keep(const Wet<S>& wet) { wet_.push_back(wet); }
   /// visit(wet) of what that water kept.
@@ -40,7 +40,7 @@ template <class S> class WetBodies {
       if (wet.water == &water) visit(wet);
     }
   }
-  /// Whether a point of a body is under water, and how that flows.
+  /// The point of a body is under water, which flows so [m/s].
   bool is_under_water(std::uint32_t row, Vec3<S> point, Vec3<S>& velocity) const;
 
  private:

@@ -30,7 +30,7 @@ template <class S> class Zones {
   template <class Record, class IdType, class Visit>
   void for_each_down(const Registry<Record, IdType>& registry, const Visit& visit) const;
 
-  /// Whether at a point, for bodies of that category, a zone of higher priority replaces that effect of a ForceZone.
+  /// A zone of higher priority replaces this effect of a ForceZone at this point, for bodies of that category.
   bool is_hidden(std::uint32_t effect, std::int32_t priority, std::uint32_t category, Vec3<S> point) const;
   /// ... a DampingZone of higher priority replaces those of that one.
   bool is_undamped(std::int32_t priority, std::uint32_t category, Vec3<S> point) const;
