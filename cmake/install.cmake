@@ -60,7 +60,7 @@ if(TARGET isostep_c)
   if(TARGET isostep_c_udp)
     install(FILES src/c/include/isostep_udp.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   endif()
-  install(DIRECTORY src/csharp/package/Runtime/ DESTINATION ${CMAKE_INSTALL_DATADIR}/isostep/csharp OPTIONAL
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/csharp/com.isostep.physics/Runtime/ DESTINATION ${CMAKE_INSTALL_DATADIR}/isostep/csharp OPTIONAL
     FILES_MATCHING PATTERN "*.cs")
   isostep_install_pc(src/c/isostep.pc.in)
   install(EXPORT isostep-c NAMESPACE isostep:: FILE isostep-c.cmake DESTINATION ${isostep_package})
@@ -83,7 +83,7 @@ endif()
 
 # All that is installed, and the programs that packages are tried with: what `./isostep package` needs of this build.
 add_custom_target(isostep_packaged)
-foreach(target isostep isostep_scalar isostep_c isostep_c_udp isostep_python isostep_transport isostep_sealed isostep_threads
+foreach(target isostep isostep_scalar isostep_c isostep_c_udp isostep_csharp_package isostep_python isostep_transport isostep_sealed isostep_threads
     isostep_tool example_four_scalars example_four_scalars_c js_hello_hashes js_enet_host match_host match_client_q32)
   if(TARGET ${target})
     add_dependencies(isostep_packaged ${target})

@@ -4,7 +4,7 @@
 #
 # SCALAR: f32 f64 q16 q32, all unless told. Modules are in BUILD/SCALAR and go on from there. Needs Debian's clang-19
 # lld-19 wasi-libc libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 libeigen3-dev libxxhash-dev,
-# cmake and npm. JOBS: compilers at a time. Exits 64 on other words, 69 when something is missing, 70 when a build
+# cmake, node and npm. JOBS: compilers at a time. Exits 64 on other words, 69 when something is missing, 70 when a build
 # fails. On stdout: each module's size and its size compressed [bytes], and the packed file's name.
 set -u
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd -P) || exit 70
@@ -63,6 +63,7 @@ for scalar; do
 done
 cp -R "$here/package.json" "$here/README.md" "$here/lib" "$here/types" "$here/example" "$root/LICENSE" "$package.new" ||
   exit 70
+node "$here/generate.mjs" "$package.new" || exit 70
 rm -rf "$package"
 mv "$package.new" "$package" || exit 70
 cd "$build" && rm -f isostep-*.tgz && npm pack --silent "$package" || fail 70 "npm pack"

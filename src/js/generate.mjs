@@ -1,5 +1,5 @@
-// Writes lib/generated/interface.js and types/generated.d.ts from src/c/interface.json: node generate.mjs [FOLDER to
-// write to, else here]. What is committed is what this writes; a test compares.
+// Writes lib/generated/interface.js and types/generated.d.ts from src/c/interface.json into a copy of this folder:
+// node generate.mjs FOLDER. build.sh makes them for the package.
 // SPDX-License-Identifier: MIT
 
 import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
@@ -7,7 +7,7 @@ import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const to = process.argv[2] ?? here;
+const to = process.argv[2];
 const described = JSON.parse(readFileSync(join(here, '../c/interface.json'), 'utf8'));
 
 const camel = name => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());

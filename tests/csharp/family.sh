@@ -12,17 +12,17 @@ each_family() {
   family_words Fixed16 Q16 q16 'Q16.FromDouble' 'hit.Point.Y.ToDouble()' Fixed32 q32 <"$1" >"$dir/$2Fixed16.cs"
   family_words Fixed32 Q32 q32 'Q32.FromDouble' 'hit.Point.Y.ToDouble()' F32 f32 <"$1" >"$dir/$2Fixed32.cs"
 }
-# assembly REPOSITORY LIBRARY: $dir/Isostep.dll, with the native library beside it.
+# assembly PACKAGE LIBRARY: $dir/Isostep.dll, with the native library beside it.
 assembly() {
   # shellcheck disable=SC2046
   mcs -warnaserror -unsafe -optimize+ -target:library -out:"$dir/Isostep.dll" \
-    $(find "$1/src/csharp/package/Runtime" -name '*.cs') >"$dir/out" 2>&1 || fail "the assembly does not compile"
+    $(find "$1/Runtime" -name '*.cs') >"$dir/out" 2>&1 || fail "the assembly does not compile"
   cp "$2" "$dir/libisostep.so" || fail "no $2"
   export LD_LIBRARY_PATH="$dir"
 }
-# puck_client REPOSITORY LIBRARY: $dir/client.exe, a client of tests/match.
+# puck_client REPOSITORY PACKAGE LIBRARY: $dir/client.exe, a client of tests/match.
 puck_client() {
-  assembly "$1" "$2"
+  assembly "$2" "$3"
   each_family "$1/tests/csharp/Pucks.cs.in" Pucks
   mcs -warnaserror -unsafe -optimize+ -r:"$dir/Isostep.dll" -out:"$dir/client.exe" "$1/tests/csharp/PuckClient.cs" \
     "$dir"/Pucks*.cs >"$dir/out" 2>&1 || fail "the game does not compile"

@@ -1,10 +1,10 @@
 #!/bin/sh
 # The C# numbers have the library's bits: compiled as they are, and with checked arithmetic, which must not throw.
-# usage: numbers_test.sh REPOSITORY NUMBER_VECTORS
+# usage: numbers_test.sh REPOSITORY PACKAGE NUMBER_VECTORS
 set -u
 . "$1/tests/scratch.sh"
 here=$1/tests/csharp
-"$2" "$dir/vectors" || fail "the vectors cannot be written"
+"$3" "$dir/vectors" || fail "the vectors cannot be written"
 number() { sed "s/@NAME@/$1/g; s/@RAW@/$2/g" "$here/NumberOperations.cs.in" >"$dir/$1Operations.cs"; }
 family() {
   sed "s/@NS@/$1/g; s/@S@/$2/g; s/@U@/$2Unit/g; s/@RAW@/$3/g" "$here/FamilyOperations.cs.in" >"$dir/$1Operations.cs"
@@ -16,7 +16,7 @@ number Q32Unit long
 family Fixed16 Q16 int
 family Fixed32 Q32 long
 # The numbers alone: they need nothing else of the package.
-runtime=$1/src/csharp/package/Runtime
+runtime=$2/Runtime
 sources=$(echo "$runtime"/Numbers/*.cs)
 for part in Vec3 UnitVec3 Vec3Mixed Quat; do
   sources="$sources $runtime/Fixed16/$part.cs $runtime/Fixed32/$part.cs"

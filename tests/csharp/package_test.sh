@@ -1,18 +1,18 @@
 #!/bin/sh
 # The Unity package: every file has a meta of its own, its tests and its sample run, and its page tells the truth.
-# usage: package_test.sh REPOSITORY LIBISOSTEP ISOSTEP_CSHARP
+# usage: package_test.sh REPOSITORY PACKAGE LIBISOSTEP ISOSTEP_CSHARP
 set -u
 . "$1/tests/scratch.sh"
 . "$1/tests/csharp/family.sh"
-assembly "$1" "$2"
-package=$1/src/csharp/package
+assembly "$2" "$3"
+package=$2
 run() { mono "$dir/$1" >"$dir/out" 2>"$dir/err" || fail "$1 fails"; }
 
 # A copy with a library in it, as the target isostep_unity_package makes.
-mkdir -p "$dir/copy" && cp -R "$package" "$dir/copy/" || fail "no copy"
+mkdir -p "$dir/copy" && cp -R "$package" "$dir/copy/package" || fail "no copy"
 copy=$dir/copy/package
-mkdir -p "$copy/Runtime/Plugins/linux-x86_64" && cp "$2" "$copy/Runtime/Plugins/linux-x86_64/libisostep.so"
-"$3" metas "$copy" >"$dir/out" 2>"$dir/err" || fail "the metas cannot be written"
+mkdir -p "$copy/Runtime/Plugins/linux-x86_64" && cp "$3" "$copy/Runtime/Plugins/linux-x86_64/libisostep.so"
+"$4" metas "$copy" >"$dir/out" 2>"$dir/err" || fail "the metas cannot be written"
 grep -q 'Standalone: Linux64' "$copy/Runtime/Plugins/linux-x86_64/libisostep.so.meta" || fail "the library has no platform"
 bare=$(find "$copy" -mindepth 1 ! -name '*.meta' ! -path '*/Documentation~*' ! -name 'Samples~' |
   while read -r asset; do [ -f "$asset.meta" ] || echo "$asset"; done)
@@ -50,7 +50,7 @@ cmp "$dir/out" "$dir/expected" || fail "the page's blocks print something else"
 # Its commands, in a folder of their own.
 commands=$(awk '/^```$/ {inside = 0} inside; /^```sh$/ {inside = 1}' "$page")
 [ -n "$commands" ] || fail "the page has no commands"
-mkdir "$dir/game" && cp "$dir/Page.cs" "$dir/game/Game.cs" && ln -s "$1" "$dir/game/isostep" &&
+mkdir "$dir/game" && cp "$dir/Page.cs" "$dir/game/Game.cs" && ln -s "$package" "$dir/game/package" &&
   ln -s "$dir" "$dir/game/lib" || fail "no folder for the page's commands"
 (cd "$dir/game" && sh -ec "$commands") >"$dir/out" 2>"$dir/err" || fail "the page's commands fail"
 cmp "$dir/out" "$dir/expected" || fail "the page's commands print something else"

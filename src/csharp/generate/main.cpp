@@ -1,8 +1,9 @@
 // isostep_csharp: makes those files of the C# package that follow from the library, and Unity's .meta files.
 // SPDX-License-Identifier: MIT
 //
-// isostep_csharp files SOURCE [--check]: in SOURCE, the repository. With --check it only says what differs.
-// isostep_csharp metas PACKAGE: of a copy of the package, to which libraries were added.
+// isostep_csharp package SOURCE OUT: into OUT, anew, the package of SOURCE, the repository, with all that is made.
+// isostep_csharp layouts SOURCE OUT: into OUT what tests compare layouts by: LayoutTable.cs for C#, layout.c for C.
+// isostep_csharp metas PACKAGE: the .meta files of a package to which libraries were added.
 #include <cstdio>
 #include <string>
 
@@ -27,45 +28,28 @@ Files made_files(const std::filesystem::path& source) {
   return files;
 }
 
-/// Writes or checks `files` and their metas, and what they leave behind.
-int finish(const std::filesystem::path& package, Files files, bool check) {
-  int differ = 0;
-  for (const std::filesystem::path& orphan : orphans_of(package, files)) {
-    if (orphan.extension() == ".meta") continue;
-    std::fprintf(stderr, "%s: is no longer made\n", orphan.string().c_str());
-    ++differ;
-    if (!check) std::filesystem::remove(orphan);
-  }
-  add_metas(package, files);
-  differ += write_or_check(package, files, check);
-  for (const std::filesystem::path& orphan : orphans_of(package, files)) {
-    if (orphan.extension() != ".meta") continue;
-    std::fprintf(stderr, "%s: belongs to nothing\n", orphan.string().c_str());
-    ++differ;
-    if (!check) std::filesystem::remove(orphan);
-  }
-  std::printf("%d of %zu files %s\n", differ, files.size(), check ? "differ" : "written");
-  return check && differ > 0 ? 1 : 0;
+void write_package(const std::filesystem::path& source, const std::filesystem::path& out) {
+  std::filesystem::remove_all(out);
+  std::filesystem::create_directories(out.parent_path());
+  std::filesystem::copy(source / "src/csharp/package", out, std::filesystem::copy_options::recursive);
+  write_files(out, made_files(source));
+  write_metas(out);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string mode = argc > 1 ? argv[1] : "";
-  const bool check = argc == 4 && std::string(argv[3]) == "--check";
-  if (mode == "files" && (argc == 3 || check)) {
-    const std::filesystem::path source = argv[2];
-    const Schema schema = read_schema(source);
-    const Files tests = {{"LayoutTable.cs", layout_table(schema)}, {"layout.c", layout_assertions(schema)}};
-    const int differ = write_or_check(source / "tests/csharp", tests, check);
-    return finish(source / "src/csharp/package", made_files(source), check) + (check ? differ : 0);
+  if (mode == "package" && argc == 4) {
+    write_package(argv[2], argv[3]);
+  } else if (mode == "layouts" && argc == 4) {
+    const Schema schema = read_schema(argv[2]);
+    write_files(argv[3], {{"LayoutTable.cs", layout_table(schema)}, {"layout.c", layout_assertions(schema)}});
+  } else if (mode == "metas" && argc == 3) {
+    write_metas(argv[2]);
+  } else {
+    std::fprintf(stderr, "usage: isostep_csharp package SOURCE OUT | layouts SOURCE OUT | metas PACKAGE\n");
+    return 64;
   }
-  if (mode == "metas" && argc == 3) {
-    Files metas;
-    add_metas(argv[2], metas);
-    write_or_check(argv[2], metas, false);
-    return 0;
-  }
-  std::fprintf(stderr, "usage: isostep_csharp files SOURCE [--check] | metas PACKAGE\n");
-  return 64;
+  return 0;
 }

@@ -38,16 +38,9 @@ std::string read_file(const std::filesystem::path& path) {
   return text.str();
 }
 
-int write_or_check(const std::filesystem::path& package, const Files& files, bool check) {
-  int differ = 0;
+void write_files(const std::filesystem::path& folder, const Files& files) {
   for (const auto& [name, text] : files) {
-    const std::filesystem::path path = package / name;
-    if (std::filesystem::exists(path) && read_file(path) == text) continue;
-    ++differ;
-    if (check) {
-      std::fprintf(stderr, "%s: is not what the generator makes; run isostep_csharp\n", path.string().c_str());
-      continue;
-    }
+    const std::filesystem::path path = folder / name;
     std::filesystem::create_directories(path.parent_path());
     std::ofstream file(path, std::ios::binary);
     file << text;
@@ -56,7 +49,6 @@ int write_or_check(const std::filesystem::path& package, const Files& files, boo
       std::exit(1);
     }
   }
-  return differ;
 }
 
 }  // namespace isostep::csharp

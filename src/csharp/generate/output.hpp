@@ -1,4 +1,4 @@
-// The files that the generator makes: kept in memory, then written, or compared with what is there.
+// The files that the generator makes: kept in memory, then written.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -19,8 +19,7 @@ std::string read_file(const std::filesystem::path& path);
 /// Text by path, relative to the package.
 using Files = std::map<std::string, std::string>;
 
-/// Writes what differs. With `check` it writes nothing and says what differs, or is there and should not be.
-/// Returns how many files differ.
-int write_or_check(const std::filesystem::path& package, const Files& files, bool check);
+/// Writes `files` below `folder`; one that cannot be written ends the program.
+void write_files(const std::filesystem::path& folder, const Files& files);
 
 }  // namespace isostep::csharp
