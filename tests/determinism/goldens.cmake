@@ -10,8 +10,8 @@ execute_process(COMMAND ${TOOL} verify --jobs 2 ${REPLAYS} RESULT_VARIABLE resul
 string(REGEX MATCHALL "INCOMPATIBLE: this build leaves out" left_out "${output}")
 list(LENGTH left_out skipped)
 if(NOT result EQUAL 0 AND NOT (skipped GREATER 0 AND result EQUAL 2))
-  message(FATAL_ERROR "verify ends with ${result}: a change of results needs `./isostep regenerate` and a RESULT line in "
-    "CHANGELOG.md; recordings of another behaviour need the same\n${output}")
+  message(FATAL_ERROR "verify ends with ${result}: a change of results needs `./isostep regenerate` and a commit of its "
+    "own (CONTRIBUTING.md); recordings of another behaviour need the same\n${output}")
 endif()
 string(REGEX MATCHALL "VERIFIED" verified "${output}")
 list(LENGTH goldens expected)

@@ -7,7 +7,7 @@ repository=$1
 tool=$2
 cd "$repository" || exit 1  # commands name files from here
 # Pages that packages bring are theirs: `isostep package` follows them.
-pages=$(find README.md CHANGELOG.md bench cmake include replays scalar src tests -name '*.md' ! -name '*-part.md' \
+pages=$(find README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md STABILITY.md bench cmake include replays scalar src tests -name '*.md' ! -name '*-part.md' \
   ! -path 'src/packages/*/*' | sort)
 failures=0
 complain() {
@@ -50,6 +50,17 @@ $commands
 LIST
 for pid in $background; do
   wait "$pid" || complain "a command in the background exits $?"
+done
+
+# What pages name by the way: words of ./isostep, presets of CMake.
+usage=$(./isostep 2>&1)
+# shellcheck disable=SC2086
+for word in $(grep -oh '\./isostep [a-z][a-z]*' $pages | cut -d ' ' -f 2 | sort -u); do
+  case $usage in *" $word "*) ;; *) complain "'./isostep $word' does not exist" ;; esac
+done
+# shellcheck disable=SC2086
+for preset in $(grep -oh -e '--preset [a-z][a-z]*' $pages | cut -d ' ' -f 2 | sort -u); do
+  grep -Fq "\"name\": \"$preset\"" CMakePresets.json || complain "CMakePresets.json has no '$preset'"
 done
 
 # A C++, C, TypeScript or JavaScript block after the line <!-- from FILE --> is quoted: all blocks of a page from one

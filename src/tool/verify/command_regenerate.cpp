@@ -98,7 +98,7 @@ int command_regenerate(const RegenerateOptions& options) {
   Directory directory(options.directory.empty() ? ISOSTEP_REPLAYS_DIR : options.directory);
   directory.put("goldens.txt", regenerate_all(directory.content_of("goldens.txt")));  // all or nothing
   if (directory.is_changed())
-    std::printf("Commit them with their recordings and nothing else, and with a RESULT line in CHANGELOG.\n");
+    std::printf("Commit them with their recordings and nothing else: CONTRIBUTING.md says how.\n");
   return exit_status::kOk;
 }
 
