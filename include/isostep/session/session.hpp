@@ -27,8 +27,9 @@ template <class Input> struct Request {
 /// configuration with a problem gives a session that is refused, by the event that names the field.
 std::unique_ptr<SessionCore> make_session_core(const SessionConfig& config, const InputRules& rules, Bytes recording);
 
-/// A session of `Game`, which models Simulation. It has no sockets, no clock and no threads, and allocates nothing once
-/// its states have been saved the first time (a late join apart). A turn of the game's loop:
+/// A session of `Game`, which models Simulation. It has no sockets, no clock and no threads. In a running match it
+/// allocates only what the game's own save does; joins, returns, repairs, a new host and saved matches take memory. A
+/// turn of the game's loop:
 ///
 ///     transport's events  -> connected, disconnected, receive
 ///     session.add_local_input(player, input);

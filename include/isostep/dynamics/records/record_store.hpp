@@ -45,7 +45,8 @@ template <class IdType, class S> ISO_INLINE void renew_parts(RecordParts<S>& par
 }
 }  // namespace detail
 
-/// The store has a registry of each kind. Only commands change them: copies share them until one does.
+/// The store has a registry of each kind. Copies share them until one changes: by a command, or by a step in which an
+/// explosion ends, a ghost begins or ends, or a joint breaks.
 template <class S> struct RecordStore {
 #define ISO_REGISTRY(name, Record, Id, S) Registry<Record, Id> name##s;
   ISO_FOR_EACH_RECORD(ISO_REGISTRY, S)
