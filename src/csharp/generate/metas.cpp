@@ -98,7 +98,8 @@ void write_metas(const fs::path& package) {
     const fs::path path = fs::relative(entry.path(), package);
     const std::string name = path.generic_string();
     if (!has_meta(path)) continue;
-    metas[name + ".meta"] = "fileFormatVersion: 2\nguid: " + guid_of(name) + "\n" + importer_of(name, entry.is_directory());
+    metas[name + ".meta"] =
+        "fileFormatVersion: 2\nguid: " + guid_of(name) + "\n" + importer_of(name, entry.is_directory());
   }
   write_files(package, metas);
 }
