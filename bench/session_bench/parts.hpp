@@ -1,4 +1,4 @@
-// The parts of the session benchmark; each prints a table for bench/README.md.
+// The parts of the session benchmark; each prints a table for bench/pages/sessions.md.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -85,14 +85,29 @@ done
 [ "$(grep -c '^```cpp$' README.md)" -eq "$(grep -c '^<!-- from ' README.md)" ] ||
   complain "README.md has C++ that no example has"
 
-# Links of every page lead to files that are there; README leads to every page, once.
-links_of() { grep -o ']([^)]*)' "$1" | sed 's/^](//; s/)$//; s/#.*//' | grep -v '^http'; }
+# Links of every page lead to files and headings that are there. README leads to every page once; to those of a folder
+# pages/ the README beside that folder does.
+# shellcheck disable=SC2086
+places=$(grep -o ']([^)]*)' $pages /dev/null | sed 's/](//; s/)$//' | grep -v ':http')  # lines of page:place
+links=$(printf '%s\n' "$places" | sed 's/#.*//')
+anchors_of() { sed -n 's/^##* //p' "$1" | tr 'A-Z ' 'a-z-' | LC_ALL=C sed 's/[^a-z0-9_-]//g'; }
+while IFS=: read -r page place; do
+  case $page in */*) folder=${page%/*} ;; *) folder=. ;; esac
+  case $place in \#*) file=$page ;; *) file=$folder/${place%%#*} ;; esac
+  [ -e "$file" ] || complain "$page links to $place, which does not exist"
+  case $file,$place in
+    *.md,*#*) anchors_of "$file" | grep -Fqx -e "${place#*#}" || complain "$page links to $place: no such heading" ;;
+  esac
+done <<LIST
+$places
+LIST
 for page in $pages; do
-  for link in $(links_of "$page"); do
-    [ -e "$(dirname "$page")/$link" ] || complain "$page links to $link, which does not exist"
-  done
-  [ "$page" = README.md ] || [ "$(links_of README.md | grep -Fxc -e "$page")" -eq 1 ] ||
-    complain "README.md does not link to $page once"
+  case $page in
+    */pages/*) list=${page%/pages/*}/README.md link=pages/${page##*/pages/} ;;
+    *) list=README.md link=$page ;;
+  esac
+  [ "$page" = README.md ] || [ "$(printf '%s\n' "$links" | grep -Fxc -e "$list:$link")" -eq 1 ] ||
+    complain "$list does not link to $page once"
 done
 
 [ "$failures" -eq 0 ] && echo "readme: all true"

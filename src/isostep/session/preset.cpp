@@ -38,7 +38,7 @@ SessionConfig preset(Genre genre, int players) {
       config.deadline = 12;
       break;
     case Genre::sandbox:
-      // Four frames of S4's thousand bodies fit a frame in float and in double; see bench/README.md, Rollback.
+      // Four frames of S4's thousand bodies fit a frame in float and in double; see bench/pages/sessions.md, Rollback.
       config.window = 4;
       config.delay = 3;
       config.least_delay = 2;

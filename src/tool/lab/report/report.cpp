@@ -149,7 +149,7 @@ class ReportWriter {
     return draw_chart(options_.out, name) ? text_of(in(name + ".svg")) : "";
   }
 
-  /// The pictures of bench/README.md, and the table that people read in the repository.
+  /// The pictures of bench/pages/laboratory.md, and the table that people read in the repository.
   void renew_repository() {
     const fs::path bench = fs::path(ISOSTEP_CHART_DIR).parent_path();
     if (!fs::is_directory(bench / "charts") || !fs::is_directory(bench / "results")) return;
