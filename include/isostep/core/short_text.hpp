@@ -10,7 +10,8 @@
 
 namespace isostep {
 
-/// Copied as plain bytes. What does not fit is cut off: it is text for people, or its length was checked before.
+/// It is copied as plain bytes. Text beyond the capacity is cut off: it is text for people, or its length was checked
+/// before.
 template <std::size_t Capacity> class ShortText {
  public:
   static constexpr std::size_t kCapacity = Capacity;

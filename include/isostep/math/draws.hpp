@@ -15,10 +15,10 @@ namespace isostep {
 template <class S, class R> S random_normal(R& random);
 /// Each direction as likely as another. Two draws. Source: Archimedes: heights on a sphere are uniform.
 template <class S, class R> Vec3<Unit<S>> random_direction(R& random);
-/// In a ball about the origin, each volume as likely as another. Five draws: of three uniform numbers the largest is
-/// distributed as the cube root of one.
+/// A point in a ball about the origin, each volume as likely as another. Five draws: of three uniform numbers the
+/// largest is distributed as the cube root of one.
 template <class S, class R> Vec3<S> random_in_ball(R& random, S radius);
-/// In the disc across y about the origin. Three draws.
+/// A point in the disc across y about the origin. Three draws.
 template <class S, class R> Vec3<S> random_in_disc(R& random, S radius);
 /// Components between those of low and high. Three draws.
 template <class S, class R> Vec3<S> random_in_box(R& random, Vec3<S> low, Vec3<S> high);

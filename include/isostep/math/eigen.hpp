@@ -40,7 +40,8 @@ template <class T> ISO_INLINE EigenMat3<T> to_eigen(const Mat3<T>& m) {
   }
   return result;
 }
-/// Over the unit format, in which 2 does not fit: Eigen's toRotationMatrix needs a cast to a wider format first.
+/// The quaternion keeps the unit format, in which 2 does not fit: Eigen's toRotationMatrix needs a cast to a wider
+/// format first.
 template <class U> ISO_INLINE EigenQuat<U> to_eigen(Quat<U> q) { return {q.w, q.x, q.y, q.z}; }
 
 template <class D> ISO_INLINE auto vec3_from(const Eigen::MatrixBase<D>& v) -> Vec3<NativeScalar<typename D::Scalar>> {

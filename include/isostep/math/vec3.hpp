@@ -120,7 +120,7 @@ template <class U> struct Tangents { Vec3<U> t, u; };
 /// Differs: x and z trade places, so that the seam lies at n.z = 0 rather than along a floor's normal.
 template <class U> ISO_INLINE constexpr Tangents<U> tangents_of(Vec3<U> n) {
   const bool negative = n.z < U(0);
-  // Halved above and below: 1 + n.z may be 2, which U cannot hold.
+  // Both sides are halved: 1 + n.z may be 2, which U cannot hold.
   const U half_z = n.z * U(0.5);
   const U divisor = negative ? U(-0.5) + half_z : U(0.5) + half_z;
   const U a = -divide_to<U>(U(0.5), divisor);

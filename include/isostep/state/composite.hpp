@@ -65,7 +65,7 @@ template <class T> ISO_INLINE Result<void> read_part(T& part, Reader& reader) {
 }
 }  // namespace detail
 
-/// What a composite of these parts is saved into.
+/// The snapshots of a composite's parts.
 template <class World, class User> struct CompositeSnapshot {
   typename detail::SnapshotOf<World>::Type world;
   typename detail::SnapshotOf<User>::Type user;
@@ -113,7 +113,7 @@ struct Composite {
   }
 };
 
-/// Of parts that live elsewhere, and no shorter.
+/// Refers to parts that live elsewhere and outlive it.
 template <class World, class User> ISO_INLINE Composite<World&, User&> composite(World& world, User& user) {
   return {world, user};
 }

@@ -1,4 +1,4 @@
-// What a replay was made with, field by field, so that a refusal can say which one differs.
+// The header of a replay: what it was made with, field by field, so that a refusal can say which one differs.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -49,9 +49,9 @@ class ReplayHeader {
   ReplayField fields_[kReplayFieldCap];
 };
 
-/// In a header: the kind of world. Files of rigid bodies, which came first, are without it.
+/// The header's key for the kind of world. Files of rigid bodies, which came first, are without it.
 inline constexpr std::string_view kWorldKey = "world";
-/// In a header, where it is not 0: the number that the game or session gives to the file's frame 0.
+/// The header's key, where it is not 0, for the number that the game or session gives to the file's frame 0.
 inline constexpr std::string_view kFirstFrameKey = "first_frame";
 
 /// The fields that every replay of a world has, typed. Texts are views: into the caller's strings, or into the header.
