@@ -100,7 +100,7 @@ template <class S> class Shattering {
     pieces_.push_back(made);
     return true;
   }
-  /// By the masses that the pieces have.
+  /// Finds the centre of mass of all pieces by the masses that they have.
   ISO_INLINE void find_centre() {
     const Vec3<S> first = pieces_[0].centre;
     const SumOf<S, U> zero = product(S(0), U(0));

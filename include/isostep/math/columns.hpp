@@ -38,7 +38,7 @@ template <class T, int kMost> struct Columns {
   }
 };
 
-/// Vectors that live elsewhere, in blocks of 16. What lanes read beyond the last repeats it.
+/// Vectors that live elsewhere, in blocks of 16. Lanes that read beyond the last get the last again.
 template <class T> struct ColumnsView {
   using Block = Columns<T, 16>;
 

@@ -1,4 +1,4 @@
-// What solvers see: contacts and links as rows on the relative velocity of two particles.
+// Constraints for solvers: contacts and links as rows on the relative velocity of two particles.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -16,7 +16,7 @@ namespace replay_chunk {
 inline constexpr std::uint32_t kPeer = replay_chunk_type('p', 'E', 'E', 'R');
 }  // namespace replay_chunk
 
-/// What a replay has no place for.
+/// The facts that a replay has no place for.
 struct BundleFacts {
   std::uint32_t player = 0;                // whose bundle it is; 0xff: the host's machine
   Frame agreed = kNoFrame;                 // the last state that all had alike; kNoFrame: not known

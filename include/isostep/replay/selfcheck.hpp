@@ -14,7 +14,7 @@
 
 namespace isostep {
 
-/// What was replayed in one scalar with one set of lanes.
+/// The recordings of one scalar, replayed with one set of lanes.
 struct SelfcheckPart {
   const char* scalar;        // ScalarTraits::kName
   const char* lanes;         // World::simd_name()
