@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// For tests of what finds faults: an index or a count that is turned may lead the engine beyond its arrays.
+/// It tests what finds faults: an index or a count that is turned may lead the engine beyond its arrays.
 class FaultInjection {
  public:
   FaultInjection(std::string_view path, std::uint32_t bit);

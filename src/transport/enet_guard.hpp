@@ -1,4 +1,4 @@
-// What peers of ours put on the wire, so that ENet never sees the rest and a hostile peer cannot fill its memory.
+// Guards of ENet: it reads only what our peers put on the wire, so that a hostile peer cannot fill its memory.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,9 +10,9 @@
 
 namespace isostep::transport {
 
-/// [bytes] of UDP payload: the largest that every IPv6 path carries whole (1280 - 40 - 8).
+/// [bytes] The largest UDP payload that every IPv6 path carries whole (1280 - 40 - 8).
 inline constexpr std::size_t kPacketCap = 1232;
-/// [bytes] of it that are ENet's: beside a tag. Holds a datagram of ours with ENet's 12 bytes around it.
+/// [bytes] The part of it that is ENet's, beside a tag. It holds a datagram of ours with ENet's 12 bytes around it.
 inline constexpr std::uint32_t kEnetMtu = kPacketCap - LineTags::kSize;
 /// [bytes] Reliable messages that are larger go in fragments: beside a header, its checksum and a fragment's command.
 inline constexpr std::size_t kEnetPiece = kEnetMtu - 4 - 4 - 24;

@@ -24,7 +24,7 @@ bool is_direction(GridVector d) {
 }
 bool is_zero(GridVector d) { return d.x == 0 && d.y == 0 && d.z == 0; }
 
-/// How many pieces a pattern may make, or what is wrong with it.
+/// The greatest number of pieces of a pattern, or the error in it.
 Result<std::uint32_t> most_pieces_of(const FracturePattern& pattern, const FractureImpact& impact) {
   if (const auto* grain = std::get_if<GrainPlanes>(&pattern)) {
     if (!is_direction(grain->grain) || is_zero(grain->grain))

@@ -25,7 +25,7 @@ class Quickhull {
 
   /// Empty: the points are one, lie on a line or in a plane.
   std::vector<HullTriangle> run();
-  /// The same with at most so many vertices, at least four: those that reach furthest beyond the ones before.
+  /// Stops at so many vertices, at least four: those that reach furthest beyond the ones before.
   std::vector<HullTriangle> run(std::uint32_t vertices);
 
  private:
