@@ -1,4 +1,4 @@
-// What decides whether bodies may be spheres or particles.
+// Checks that decide whether bodies may be spheres or particles.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -12,7 +12,7 @@ namespace isostep::tool::lab {
 
 inline constexpr const char* kResultsFile = "results.jsonl";
 
-/// What a run has to be for an earlier one to stand for it.
+/// The conditions under which an earlier run stands for this one.
 struct Wanted {
   std::string version;
   int frames = 0;    // at the point's rate

@@ -12,7 +12,7 @@ namespace isostep::tool::lab {
 enum class Quantity { penetration, joint, deviation, energy, unrest, figure };
 inline constexpr const char* kQuantityNames[] = {"penetration", "joint", "deviation", "energy", "unrest", "figure"};
 
-/// Of a quantity as LabResult has it: [m], [J/kg], or the trial's unit.
+/// A bound of a quantity as LabResult has it: [m], [J/kg], or the trial's unit.
 struct Bound {
   Quantity quantity;
   double most;
