@@ -9,7 +9,7 @@
 
 namespace isostep::scenes {
 
-/// What a scene is, for a scalar: world commands and nothing remembered, so that a world that was loaded goes on alike.
+/// A scene for a scalar: world commands and nothing remembered, so that a world that was loaded goes on alike.
 template <class S> struct ParticleScript {
   ParticleSettings<S> settings;
   void (*build)(ParticleWorld<S>&) = nullptr;        // into a world that is empty

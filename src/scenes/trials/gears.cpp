@@ -12,7 +12,7 @@ void couple(Scene& scene, double a, double ratio_a, double b, double ratio_b) {
   scene.records.push_back(
       {"coupling", {{"joint_a", {a}}, {"joint_b", {b}}, {"ratio_a", {ratio_a}}, {"ratio_b", {ratio_b}}}});
 }
-/// As large as their teeth, meshed; the first is driven at `speed` [rad/s].
+/// Wheels as large as their teeth, meshed; the first is driven at `speed` [rad/s].
 Scene wheels(double speed) {
   Scene scene = awake(3600);
   double x = 0;
