@@ -18,7 +18,7 @@ template <class S> struct Ways {
   std::vector<Aabb<S>> boxes;
   std::vector<Sweep<S>> rays;
 };
-/// From where boxes are, so that fields of every size are asked where there is something.
+/// Questions start where boxes are, so that fields of every size are asked where there is something.
 template <class S> Ways<S> ways_in(const std::vector<Aabb<S>>& boxes) {
   Ways<S> ways;
   Pcg32 random = Pcg32::seeded(5);
@@ -58,7 +58,7 @@ template <class S, class Structure> class Measured {
                                rounds_, [] {}, [&] { ask_rays(ways); });
     return row_;
   }
-  /// What keeps the compiler from leaving questions out.
+  /// The count keeps the compiler from leaving questions out.
   std::uint64_t found() const { return found_; }
 
  private:

@@ -226,7 +226,7 @@ Scene arm_of_motors() {
     scene.joints.push_back(driven(joint_of(JointType::hinge, i - 1, i, {double(i), 0, 0}), 0, 20'000));
   });
 }
-/// [%] The sag, of the arm's length: the way of the load from the third second on, or how far it still swings.
+/// [%] The way of the load from the third second on, or how far it still swings, over the arm's length.
 class ArmSag : public FromStart {
  public:
   double figure() const override { return 100 * worse(sag_, highest_ - lowest_) / kLinks; }
