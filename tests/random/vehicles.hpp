@@ -15,7 +15,7 @@ template <class S> class RandomVehicles {
 
   RandomVehicles(World<S>& world, Dice& dice) : world_(world), dice_(dice) {}
 
-  /// Where `placed` is a body for one, that becomes a vehicle; else one is driven, or loses a wheel, or all.
+  /// Makes `placed` a vehicle where it is a body for one; else one is driven, or loses a wheel, or all.
   void change(BodyId placed) {
     if (placed) return build(placed);
     const auto vehicles = world_.state().records->vehicles.slot_map().template ids<VehicleId>();
