@@ -38,7 +38,7 @@ class SessionGame {
     std::uint32_t slot = kNoSlot;  // of the game's own
   };
 
-  /// Both were looked at: problem_of_game().
+  /// Both must be without a problem: read_game(), read_config().
   SessionGame(const iso_game& game, const iso_session_config& config);
   SessionGame(const SessionGame&) = delete;
   SessionGame& operator=(const SessionGame&) = delete;
