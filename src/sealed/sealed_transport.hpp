@@ -53,7 +53,7 @@ template <transport::Endpoint Inner> class SealedTransport {
   /// Sets the key of the connections that we ask for from now on: where each two machines have a key, before
   /// connecting.
   void set_own_key(std::uint64_t id) { settings_.own_key = id; }
-  /// Once a turn, before receive(): ends handshakes that take too long. transport::deliver does it.
+  /// Ends handshakes that take too long; called once a turn, before receive(). transport::deliver does it.
   void tend(Time now);
 
   /// The key that the peer has shown. Where each player has a key of its own, it says who that is.

@@ -18,10 +18,10 @@ inline constexpr std::uint32_t kEnetMtu = kPacketCap - LineTags::kSize;
 inline constexpr std::size_t kEnetPiece = kEnetMtu - 4 - 4 - 24;
 inline constexpr std::size_t kEnetChannels = 2;
 
-/// False for what ENet 1.3.17 would accept and no peer of ours sends: packets above the MTU or of more commands than
-/// ENet writes, compressed ones, unreliable sequenced messages (those that are skipped stay counted as waiting until
-/// the peer is stuck), messages above their channel's cap, fragments that announce more pieces than there can be (a bit
-/// each, 128 KiB a command), connections with another MTU or number of channels; and for what is not whole.
+/// Refuses what ENet 1.3.17 would accept and no peer of ours sends: packets above the MTU or of more commands than ENet
+/// writes, compressed ones, unreliable sequenced messages (those that are skipped stay counted as waiting until the
+/// peer is stuck), messages above their channel's cap, fragments that announce more pieces than there can be (a bit
+/// each, 128 KiB a command), connections with another MTU or number of channels; and what is not whole.
 bool is_plausible_enet_packet(Bytes packet);
 
 }  // namespace isostep::transport

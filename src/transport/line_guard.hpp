@@ -35,7 +35,7 @@ class LineTags {
   LineTags(const PacketKey& key, std::uint64_t nonce, bool connects);
   /// Writes the first kSize bytes of what will be sent.
   void seal(std::span<std::uint8_t> packet);
-  /// False: not the other side's, or it came before. Overwrites the first kSize bytes.
+  /// Opens a packet. Returns false where it is not the other side's, or came before. Overwrites the first kSize bytes.
   bool open(std::span<std::uint8_t> packet);
 
  private:

@@ -19,7 +19,7 @@ class ReplayWindow {
     if (number >= end_) return true;
     return end_ - number <= kSize && (block_of(number) >> number % kBits & 1) == 0;
   }
-  /// Once it is known to be the sender's; it was fresh.
+  /// Marks a fresh number, once it is known to be the sender's.
   void mark(std::uint64_t number) {
     if (number >= end_) {
       const std::uint64_t newest = number / kBits;

@@ -100,7 +100,7 @@ template <class S> class Articulation {
 
   /// The definition is shared, not copied.
   void save(Snapshot& to) const;
-  /// False, no change and a fault where `from` was never saved to or was moved from.
+  /// Loads a saved state. Returns false, with no change and a fault, where `from` was never saved to or was moved from.
   bool load(const Snapshot& from);
   std::uint64_t hash() const;
   /// Writes the definition as well: whoever reads it needs nothing else.

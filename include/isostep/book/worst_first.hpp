@@ -17,7 +17,7 @@
 
 namespace isostep {
 
-/// Each sub-step: what meets fast bounces (impacts.hpp), velocities are integrated and resolved, then positions.
+/// Every sub-step: what meets fast bounces (impacts.hpp), velocities are integrated and resolved, then positions.
 /// Source:  Millington 2007, ch. 14-15: impulses (306-321), nonlinear projection, relaxation, rotation limit (322-330),
 ///          worst first (338-346), micro-collisions (351-358), friction (359-361).
 /// Symbols: v = speed of b against a along the normal, C = separation.

@@ -37,7 +37,7 @@ template <class Record, class IdType> class Registry {
     slots_.give_back(slot);
   }
   ISO_INLINE bool holds(IdType id) const { return slots_.holds(id); }
-  /// Null for a stale id.
+  /// Returns null for a stale id.
   ISO_INLINE const Record* find(IdType id) const { return slots_.holds(id) ? &(*records_)[id.slot] : nullptr; }
   /// The id of the first record, by slot, that matches; null where none does.
   template <class Match> ISO_INLINE IdType id_where(const Match& match) const {

@@ -15,7 +15,7 @@ template <class S> class RagdollBuilder {
   RagdollBuilder(World<S>& world, std::span<const RagdollBone<S>> bones, const RagdollSettings<S>& settings)
       : world_(world), bones_(bones), settings_(settings) {}
 
-  /// False: a setting or a bone was refused.
+  /// Returns false where a setting or a bone was refused.
   bool build() {
     const FaultReport fault = fault_of_plan();
     if (fault != Fault::none) return world_.refuse("add_ragdoll", fault);

@@ -35,7 +35,7 @@ template <class S> class Shattering {
   ISO_INLINE Shattering(const Shattering&) = default;
   ISO_INLINE ~Shattering() = default;
 
-  /// False: error() tells.
+  /// Returns false for pieces that are refused: error() tells.
   ISO_INLINE bool take(const Fracture& fracture) {
     S before = S(0);
     std::int64_t volume = 0;

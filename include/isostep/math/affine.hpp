@@ -17,7 +17,7 @@ template <class S> struct Affine {
   ISO_INLINE constexpr Vec3<S> point(Vec3<S> p) const { return position + linear * p; }
   ISO_INLINE constexpr Vec3<S> direction(Vec3<S> v) const { return linear * v; }
 };
-/// First `inner`, then `outer`.
+/// The map of `inner`, followed by that of `outer`.
 template <class S> ISO_INLINE constexpr Affine<S> compose(const Affine<S>& outer, const Affine<S>& inner) {
   return {outer.linear * inner.linear, outer.point(inner.position)};
 }

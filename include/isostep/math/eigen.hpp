@@ -27,7 +27,8 @@ template <class T> ISO_INLINE constexpr T native(Exact<T> x) { return x.value();
 template <class T> using EigenScalar = typename detail::EigenOf<T>::Type;
 template <class E> using NativeScalar = typename detail::NativeOf<E>::Type;
 
-// Never aligned more than their numbers: Eigen's own choice depends on the compiler's flags, and so would layouts.
+// Eigen's types are never aligned more than their numbers: its own choice depends on the compiler's flags, and so would
+// layouts.
 template <class T> using EigenVec3 = Eigen::Matrix<EigenScalar<T>, 3, 1, Eigen::DontAlign>;
 template <class T> using EigenMat3 = Eigen::Matrix<EigenScalar<T>, 3, 3, Eigen::DontAlign | Eigen::RowMajor>;
 template <class T> using EigenQuat = Eigen::Quaternion<EigenScalar<T>, Eigen::DontAlign>;

@@ -52,7 +52,7 @@ template <class N> class SparseCholesky {
   void add_pair(std::uint32_t pair, const SymmetricBlock<N>& block);
   /// Adds to block (first, second) of a pair, and its transpose to (second, first).
   void add_pair(std::uint32_t pair, const GeneralBlock<N>& block);
-  /// False: A is not positive definite.
+  /// Factorises A. Returns false where A is not positive definite.
   bool factorise();
   /// Factorises A with some unknowns held at zero: their rows and columns become the identity's, until A is factorised
   /// again. Bit c of held[i]: component c of vector i. Where one is held, b has to be zero.

@@ -9,7 +9,7 @@ namespace isostep {
 
 /// v, or where that is longer than `most` what points the same way and is as long (the book's trim).
 template <class S> Vec3<S> clamp_length(Vec3<S> v, S most);
-/// Each component within those of low and high.
+/// Clamps each component to those of low and high.
 template <class T> ISO_INLINE constexpr Vec3<T> clamp(Vec3<T> v, Vec3<T> low, Vec3<T> high) {
   return min(max(v, low), high);
 }

@@ -54,7 +54,7 @@ template <class S, int W, class Isa> struct SpringKernel {
     sum[2] = saturating_add(sum[2], *z);
   }
 
-  /// Nothing, whatever the force, where it is pinned.
+  /// The acceleration by a force; 0 where the particle is pinned.
   static ISO_INLINE L accelerated(L force, M inverse_mass) {
     return select(less(M::zero(), inverse_mass), round_saturated<L>(product(force, inverse_mass)), L::zero());
   }

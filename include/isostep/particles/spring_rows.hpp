@@ -24,7 +24,7 @@ template <class S> struct SpringRows {
   std::uint32_t count = 0;
   bool damped = false;
 
-  /// Empty, with room for `most`.
+  /// Empties the rows, with room for `most`.
   ISO_INLINE void begin(std::size_t most) {
     count = 0;
     damped = false;

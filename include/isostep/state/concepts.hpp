@@ -34,7 +34,7 @@ enum class InputStatus : std::uint8_t {
 /// The inputs of all players for one frame, in player order.
 template <class Input> struct InputView {
   std::span<const Input> values;
-  std::span<const InputStatus> statuses;  // as many
+  std::span<const InputStatus> statuses;  // one for each input
 
   ISO_INLINE std::size_t size() const { return values.size(); }
   ISO_INLINE const Input& operator[](std::size_t player) const { return values[player]; }

@@ -18,7 +18,7 @@ struct NamedField {
   std::uint64_t bits;
 };
 std::string field_line(const NamedField& field);
-/// False for anything else.
+/// Reads a field's line. Returns false for anything else.
 bool read_field_line(std::string_view line, NamedField& field);
 
 /// Is called for every field in turn.

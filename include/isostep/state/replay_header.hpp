@@ -34,7 +34,7 @@ class ReplayHeader {
   /// Adds or replaces. False, and nothing happens, when the key or value is too long or empty, is not printable ASCII,
   /// or the header is full.
   bool set(std::string_view key, std::string_view value, bool required);
-  /// Null when there is none.
+  /// Returns null when there is none.
   const ReplayField* find(std::string_view key) const;
   /// The value of a decimal field, or an error that names the key.
   Result<std::uint64_t> number(std::string_view key) const;

@@ -77,8 +77,9 @@ template <class World> class WorldBase {
     std::unique_ptr<State> state_;
   };
   void save(Snapshot& to) const;
-  /// False, no change and a fault where `from` was never saved to, was moved from, or is of a world that was made with
-  /// other settings; gravity may differ. The portable form brings its settings along.
+  /// Loads a saved state. Returns false, with no change and a fault, where `from` was never saved to, was moved from,
+  /// or is of a world that was made with other settings; gravity may differ. The portable form brings its settings
+  /// along.
   bool load(const Snapshot& from);
   std::uint64_t hash() const;
   void write_portable(Writer& writer) const;

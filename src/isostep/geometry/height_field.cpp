@@ -88,7 +88,7 @@ BakedTriangle BakedHeightField::triangle(std::uint32_t id) const {
   return baked;
 }
 
-/// False: no triangle touches the box.
+/// Returns false where no triangle touches the box.
 bool BakedHeightField::range_of(const MeshBox& box, CellRange& range) const {
   const MeshBox own = bounds();
   if (!own.touches(box)) return false;

@@ -65,7 +65,7 @@ void check_as(const ReplayReader& replay, const ReplayIdentity& claimed, const R
   world.write_portable(writer);
 }
 
-/// Null, or why this build cannot play a recording of such a world: core/book.hpp.
+/// Returns null, or why this build cannot play a recording of such a world: core/book.hpp.
 const char* left_out_for(const ReplayIdentity& claimed) {
   const bool rigid = claimed.world == WorldTraits<World<float>>::kName;
   const std::optional<SolverName> solver = rigid ? solver_named(claimed.solver) : std::nullopt;

@@ -21,7 +21,7 @@ template <class S> class ParticleForces {
 
   /// Reports what the game asked for beyond the limits.
   void begin_step();
-  /// Once a step: which particles may come within each other's reach in it.
+  /// Finds, once a step, which particles may come within each other's reach in it.
   void find_cohering(PairSearch<S>& search);
   /// There are forces besides those of materials.
   bool any() const;

@@ -24,7 +24,7 @@ template <class S> class StiffSprings {
 
   StiffSprings(ParticleState<S>& state, ParticleStep<S>& step);
 
-  /// Once a step: how each moves, by whether constraints or other stiff springs hold its ends too.
+  /// Chooses, once a step, how each moves, by whether constraints or other stiff springs hold its ends too.
   void prepare(std::span<const ParticleConstraint<S>> rows);
   /// Changes velocities and displacements of all ends after the integration of a sub-step.
   void swing();
