@@ -66,7 +66,7 @@ template <class S, class Structure> class Measured {
     for (std::uint32_t i = 0; i < boxes_.size(); ++i) structure_.insert(i, boxes_[i]);
     structure_.optimise();
   }
-  /// There and back again, each in its own direction.
+  /// Moves all boxes there and back again, each in its own direction.
   void move_all() {
     way_ = -way_;
     for (std::uint32_t i = 0; i < boxes_.size(); ++i) {

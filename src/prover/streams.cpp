@@ -35,7 +35,7 @@ bool make_room(std::vector<std::uint8_t>& bytes, std::size_t more) {
   return true;
 }
 
-/// Empty, or why not.
+/// Returns an empty text, or why it could not read.
 std::string read_all(std::FILE* file, std::vector<std::uint8_t>& bytes) {
   std::uint8_t block[4096];
   for (std::size_t n = 1; n != 0;) {

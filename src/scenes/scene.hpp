@@ -158,7 +158,7 @@ struct Scene {
   std::vector<SceneRecord> records;
 };
 
-/// Null, or why this build cannot play the scene: core/book.hpp.
+/// Returns null, or why this build cannot play the scene: core/book.hpp.
 inline const char* left_out(const Scene& scene) {
   const char* const solver = isostep::left_out(scene.solver);
   return solver != nullptr ? solver : isostep::left_out(scene.broad_phase);

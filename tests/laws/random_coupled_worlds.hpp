@@ -50,7 +50,7 @@ template <class S> class RandomCoupledWorld {
           << " springs, " << start_ << " J";
   }
 
-  /// False where a limit was met, or a touch refused.
+  /// Steps. Returns false where a limit was met, or a touch refused.
   bool step() {
     EXPECT_TRUE(coupling_.before_step(bodies_, particles_));
     const ParticleReport moved = particles_.step();

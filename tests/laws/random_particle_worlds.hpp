@@ -37,7 +37,7 @@ template <class S> class RandomParticleWorld {
           << to_double(ball.restitution) << ", radius " << radius_ << ", " << start_ << " J";
   }
 
-  /// False where a limit was met.
+  /// Steps. Returns false where a limit was met.
   bool step() { return keeps_limits(world_.step()); }
   int steps(double seconds) const { return static_cast<int>(seconds * world_.settings().hz); }
   double energy() const { return system_.energy(world_) + energy_of_cohesion(); }

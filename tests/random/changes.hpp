@@ -42,8 +42,8 @@ template <class S> class RandomChanges {
   }
 
  private:
-  /// Now and then the height field, if there is one, is lower somewhere, or has a hole: never higher, which would lift
-  /// what lies on it. Dice of its own: what is drawn after it is as it was before there was this.
+  /// Lowers the height field somewhere now and then, if there is one, or cuts a hole: it is never higher, which would
+  /// lift what lies on it. It has dice of its own: what is drawn after it is as it was before there was this.
   static void dig(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
     Dice dice(seed * 104729 + frame * 7907 + 3);
     if (!dice.one_in(12)) return;

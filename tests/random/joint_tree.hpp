@@ -56,7 +56,7 @@ template <class S> class RandomJointTree {
     s.allow_sleep = false;
     return s;
   }
-  /// Off a body before it, or off the origin, where the world holds the first.
+  /// Adds a body off one before it, or off the origin, where the world holds the first.
   void add_body(double speed) {
     const std::uint32_t count = static_cast<std::uint32_t>(bodies.size());
     parents_.push_back(count == 0 ? 0 : dice.below(count));

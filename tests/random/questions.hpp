@@ -94,7 +94,7 @@ template <class S> class QuestionsOf {
     const D3 to = real(world_.view(body()).pose.position);
     return vec<S>((to - real(from)) * dice_.in(0.5, 1.5));
   }
-  /// Down on a corner or an edge of the terrain, where several triangles are met at once.
+  /// A ray down on a corner or an edge of the terrain, where several triangles are met at once.
   RayCast<S> draw_plumb() {
     const double x = dice_.below(9), z = dice_.below(9), aside = dice_.one_in(2) ? 0 : dice_.in(0, 1);
     const double height = dice_.in(0.5, 4), depth = dice_.in(0.5, 8);

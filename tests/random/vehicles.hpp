@@ -7,8 +7,8 @@
 
 namespace isostep::test {
 
-/// Up to two vehicles of two to six wheels, whose engines end at some metres a second. Some have tracks, at the left
-/// and the right or of any wheels, and some a clutch.
+/// Makes up to two vehicles of two to six wheels, whose engines end at some metres a second. Some have tracks, at the
+/// left and the right or of any wheels, and some a clutch.
 template <class S> class RandomVehicles {
  public:
   static constexpr double kFastest = 4;  // [m/s] of a rim

@@ -46,7 +46,7 @@ struct ParticleScene {
 };
 
 std::span<const ParticleScene> particle_scenes();
-/// Null for a name that no scene has.
+/// Returns null for a name that no scene has.
 const ParticleScene* find_particle_scene(std::string_view name);
 template <class S> ParticleScript<S> script_of(ParticleSceneId id);
 

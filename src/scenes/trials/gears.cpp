@@ -40,7 +40,7 @@ Scene gear_train() {
   couple(scene, 2, 1, 3, -1 / winch);
   return scene;
 }
-/// [teeth] out of mesh, of either pair.
+/// [teeth] The error of mesh, of either pair.
 class MeshError : public Off {
  public:
   MeshError() : Off(1) {}

@@ -169,8 +169,8 @@ Scene parallelogram() {
                   joint_of(JointType::hinge, -1, 2, {kSide, 0, 0})};
   return scene;
 }
-/// [mm] Out of the plane, of any rod; a rocker that is not parallel to the crank any more counts as a metre. No number,
-/// where the crank has not passed as many.
+/// [mm] The way out of the plane, of any rod; a rocker that is not parallel to the crank any more counts as a metre. No
+/// number, where the crank has not passed as many.
 class Flip : public Judge {
  public:
   void see(const Sight& now) override {

@@ -24,7 +24,7 @@ struct Input {
 /// Ends with the exit status of `verify` for such a file.
 [[noreturn]] void refuse(const std::string& path, VerifyOutcome outcome, const Error& error);
 
-/// Once the file is known to be whole blocks with a start; others are refused. A cut one gets a line on stderr.
+/// The world of a file that is whole blocks with a start; others are refused. A cut one gets a line on stderr.
 RecordedWorld world_of(const Input& input);
 
 }  // namespace isostep::tool

@@ -15,7 +15,7 @@
 
 namespace isostep::tool {
 
-/// Null when there is none: the file is the recording of a whole match.
+/// Returns null when there is none: the file is the recording of a whole match.
 inline const ReplayAncillary* facts_chunk(const ReplayReader& replay) {
   for (const ReplayAncillary& chunk : replay.ancillaries()) {
     if (chunk.type == replay_chunk::kPeer) return &chunk;

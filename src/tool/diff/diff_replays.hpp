@@ -11,7 +11,7 @@ namespace isostep::tool {
 
 inline constexpr char kCommandsDiffer[] = "  the commands or steps of this frame differ\n";
 
-/// False after a line on stdout that says what differs.
+/// Returns false after a line on stdout that says what differs.
 bool are_comparable(const RecordedWorld& a, const RecordedWorld& b);
 
 /// Reports recorded hashes that differ though both play alike here: at least one was recorded by something that behaves

@@ -75,7 +75,7 @@ class Pipe {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     return c != EOF || !line.empty();
   }
-  /// Empty, or how the command failed. `also_well`: an exit status beside 0 that is no failure.
+  /// Returns an empty text, or how the command failed. `also_well`: an exit status beside 0 that is no failure.
   std::string close(int also_well) {
     const int status = pclose(std::exchange(file_, nullptr));
     if (!WIFEXITED(status)) return "did not come to its end";

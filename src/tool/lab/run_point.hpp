@@ -23,7 +23,7 @@ struct Reference {
 
 /// [m] root mean square over bodies that move; below 0 where there are not the same bodies.
 double deviation_of(const scenes::Sight& a, const scenes::Sight& b);
-/// Nothing has gone in the end that hardly moves in the reference.
+/// All that hardly moves in the reference is still there in the end.
 bool stands(const Subject& subject, const Reference& reference, const scenes::Sight& end);
 
 struct RunLimits {

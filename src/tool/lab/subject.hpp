@@ -22,7 +22,7 @@ inline constexpr const char* kModels[] = {"rigid", "spheres", "particles"};
 
 /// Throws ToolError 64 or 66.
 Subject subject_of(const std::string& name_or_file);
-/// Empty: the model is offered.
+/// Returns the reason of a refusal; empty: the model is offered.
 const std::string& refusal_of(const Subject& subject, const std::string& model);
 
 /// The frames at a rate that take as long as so many steps at the scene's own rate (-1: as many as the scene has).

@@ -23,7 +23,7 @@ struct SceneView {
 };
 /// S1 to S9, in their order.
 std::span<const SceneView> scene_views();
-/// Null for what is none of them.
+/// Returns null for what is none of them.
 const SceneView* find_view(const std::string& scene);
 
 /// The value of a measure in a run of the laboratory; nothing of those that it does not take.
