@@ -88,7 +88,7 @@ void run(detail::FractureShards& shards, const FracturePattern& pattern, const F
   shatter_boxes(shards, impact);
 }
 
-/// Eight corners, all on both ends of each axis.
+/// The hull is its box: eight corners, each at an end of every axis.
 bool is_box(const ConvexHull& hull, const detail::HullBox& box) {
   if (hull.vertices.size() != 8) return false;
   const auto at_end = [](std::int32_t v, std::int32_t low, std::int32_t high) { return v == low || v == high; };
