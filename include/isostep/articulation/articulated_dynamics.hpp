@@ -52,34 +52,34 @@ template <class S> struct LinkWork {
 /// Order:   links in their order outwards, against it inwards.
 template <class S> class ArticulatedDynamics {
  public:
-  /// Scratch for a tree: this allocates, nothing else does.
+  /// Makes scratch for a tree: this allocates, nothing else does.
   void reset(const ArticulatedTree<S>& tree);
 
   const LinkWork<S>& of(std::size_t link) const { return work_[link + 1]; }
   LinkWork<S>& of(std::size_t link) { return work_[link + 1]; }
 
-  /// Poses, from coordinates.
+  /// Finds poses from coordinates.
   void place(const ArticulatedTree<S>& tree, const ArticulationState<S>& state);
-  /// Spins, from speeds; these are scaled down where a link would be faster than it may, and the answer is false.
+  /// Finds spins from speeds; these are scaled down where a link would be faster than it may, and false is returned.
   bool spin(const ArticulatedTree<S>& tree, std::vector<S>& speeds);
   /// [rad/s] The largest of those spins along an axis of the world.
   S fastest() const { return fastest_; }
-  /// Speeds of anchors, after spins.
+  /// Finds speeds of anchors, after `spin`.
   void follow(const ArticulatedTree<S>& tree, const std::vector<S>& speeds);
 
   /// Prepares a step: drives and loads.
   void prepare(const ArticulatedTree<S>& tree, const ArticulationState<S>& state);
   /// Begins a sub-step, after `place`: joints are measured, and no stop holds.
   void begin(const ArticulatedTree<S>& tree, const ArticulationState<S>& state);
-  /// Inertias, under the laws and stops of joints.
+  /// Finds inertias under the laws and stops of joints.
   void factor(const ArticulatedTree<S>& tree);
-  /// Accelerations, after `spin`.
+  /// Finds accelerations, after `spin`.
   void accelerate(const ArticulatedTree<S>& tree, const std::vector<S>& speeds);
   /// Stops or drives changed: then `factor` has to come again.
   bool choose(const ArticulatedTree<S>& tree, bool may_release);
   /// Computes to = from + share h acceleration. False: a joint would be faster than any may, and was held.
   bool quicken(const ArticulatedTree<S>& tree, const std::vector<S>& from, S share, std::vector<S>& to) const;
-  /// Speeds that limits do not allow are brought to what they do.
+  /// Brings speeds of hinges and sliders that limits do not allow to what they do.
   void hold_limits(const ArticulatedTree<S>& tree, std::vector<S>& speeds) const;
 
  private:

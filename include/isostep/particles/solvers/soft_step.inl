@@ -153,7 +153,7 @@ template <class S> ISO_INLINE void ParticleSoftStep<S>::note_work(Row& row, V be
   const auto most = product(fastest, fastest);
   row.work = clamp(row.work + (product(after, after) - product(before, before)), -most, most);
 }
-/// The speed that is wanted, or the one that the row has taken from the motion pays for: between several, or past a
+/// The wanted speed, or the greatest for which what the row has taken from the motion pays: between several, or past a
 /// corner, one speed may come back along more than one normal. It is within 2^-12, from below; rounding alone costs
 /// nothing.
 template <class S> ISO_INLINE Velocity<S> ParticleSoftStep<S>::most_bounce(const Row& row, V speed, V wanted) const {
