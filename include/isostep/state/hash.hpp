@@ -70,7 +70,7 @@ template <class T> ISO_INLINE std::uint64_t hash_records_by_fields(const T* firs
   return stream.value();
 }
 
-/// Hashes records as hash_bytes does, at the speed of memory where their bytes in memory are the canonical ones.
+/// Hashes records as hash_records_by_fields does, at the speed of memory where their bytes there are canonical.
 template <class T> ISO_INLINE std::uint64_t hash_records(const T* first, std::size_t n) {
   static_assert(kHasNoPadding<T>, "padding has no value, so it can have no hash");
   if constexpr (std::endian::native == std::endian::little) {

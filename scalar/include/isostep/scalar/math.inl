@@ -81,7 +81,7 @@ template <class Out> ISO_INLINE constexpr Out sine_fixed(QuarterTurns turns, uns
   return Out::from_raw(below ? static_cast<typename Out::Raw>(-raw) : raw);
 }
 
-/// x is below 2^-27, where sin(x) = x and cos(x) = 1 to within a tenth of an ulp of double.
+/// |x| is below 2^-27, where sin(x) = x and cos(x) = 1 to within a tenth of an ulp of double.
 template <class S> ISO_INLINE constexpr bool is_tiny(S x) {
   constexpr int field = FloatFormat<S>::kBias - 27;
   return (to_bits(x) << 1 >> 1) < (static_cast<RawBits<S>>(field) << FloatFormat<S>::kMantissa);

@@ -120,7 +120,7 @@ template <class S> ISO_INLINE constexpr S min(S a, S b) { return detail::decided
 template <class S> ISO_INLINE constexpr S max(S a, S b) { return detail::decided<S>(a < b) ? b : a; }
 template <class S> ISO_INLINE constexpr S clamp(S x, S low, S high) { return min(max(x, low), high); }
 template <class S> ISO_INLINE constexpr S abs(S a) { return a < S(0) ? -a : a; }
-/// The magnitude as a maximum, bit for bit (-0.0 and NaN keep their signs), which compilers turn into no branch.
+/// Gives the bits of the generic one (-0.0 and NaN keep their signs) as a maximum, which compilers turn into no branch.
 template <std::floating_point S> ISO_INLINE constexpr S abs(S a) { return a < -a ? -a : a; }
 
 /// a in the format of Out: exact when Out is finer and has room, else rounded to nearest.
