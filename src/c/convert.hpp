@@ -1,4 +1,4 @@
-// Between C structs and their C++ twins, member by member, at the offsets of layout.hpp.
+// Conversions between C structs and their C++ twins, member by member, at the offsets of layout.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -49,7 +49,7 @@ struct Put {
   }
 };
 
-/// Into bytes that are 0.
+/// Writes a value into bytes that are 0.
 template <class T> void put_at(std::uint8_t* at, const T& value) {
   if constexpr (std::is_bounded_array_v<T>) {
     constexpr std::size_t kStride = extent_of<std::remove_extent_t<T>>().size;
@@ -140,12 +140,12 @@ template <class T> Flaw take_at(const std::uint8_t* at, T& value) {
   return {};
 }
 
-/// Of this library's release, an earlier one or a later one.
+/// The size is one of this library's release, an earlier one or a later one.
 template <class T> bool is_struct_size(std::size_t size) {
   return size >= kHeadSize && size <= sized_size<T>() + kMostUnknown;
 }
 
-/// What a caller's size says: that it is one, and that what this library does not know is 0.
+/// Checks a caller's struct by its size: that it is one, and that what this library does not know is 0.
 iso_status check_size(const void* from, std::size_t known, const char* call, std::size_t& size);
 
 /// A struct that begins with its size. `value` keeps what the caller's version of the struct lacks.
@@ -169,7 +169,7 @@ template <class T> void put_plain(void* to, const T& value) {
   std::memset(to, 0, extent_of<T>().size);
   put_at(static_cast<std::uint8_t*>(to), value);
 }
-/// Into a struct whose size the caller has set: what is larger than this library knows ends in zeros.
+/// Fills a struct whose size the caller has set: what is larger than this library knows ends in zeros.
 template <class T> iso_status put_sized(const char* call, void* to, const T& value) {
   if (to == nullptr) return refuse(ISO_NULL, call, "out");
   std::uint32_t size = 0;
@@ -181,7 +181,7 @@ template <class T> iso_status put_sized(const char* call, void* to, const T& val
   CFields<T>::fields(put, value);
   return kOk;
 }
-/// What _init does: the defaults, into a struct of the caller's that has so many bytes.
+/// Writes, for _init, the defaults into a struct of the caller's that has so many bytes.
 template <class T> iso_status init_sized(const char* call, void* to, std::size_t size) {
   if (to == nullptr) return refuse(ISO_NULL, call, "out");
   if (!is_struct_size<T>(size)) return refuse(ISO_WRONG_SIZE, call, "size", "sizeof of the struct");

@@ -14,8 +14,8 @@ namespace isostep::c {
 inline constexpr std::uint32_t kLeastSize = 8, kMostGrowth = 1024;
 template <class T> bool is_size(std::size_t size) { return size >= kLeastSize && size <= sizeof(T) + kMostGrowth; }
 
-/// What a caller's struct holds of `to`, which keeps its defaults beyond: an older caller's is shorter; of a newer
-/// one the part that this library does not know is zero.
+/// Takes what a caller's struct holds of `to`, which keeps its defaults beyond: an older caller's is shorter; of a
+/// newer one the part that this library does not know must be zero.
 template <class T> iso_status take(const T* from, T& to) {
   if (from == nullptr) return ISO_NULL;
   const std::uint32_t size = from->size;
@@ -34,7 +34,7 @@ template <class T> iso_status can_give(const T* to) {
   if (to == nullptr) return ISO_NULL;
   return is_size<T>(to->size) ? ISO_OK : ISO_WRONG_SIZE;
 }
-/// After can_give: as much as the caller's struct holds, and zeros where it knows more than this library.
+/// Gives, after can_give, as much as the caller's struct holds, and zeros where it knows more than this library.
 template <class T> void give(const T& from, T* to) {
   const std::uint32_t size = to->size;
   std::memset(to, 0, size);
@@ -42,7 +42,7 @@ template <class T> void give(const T& from, T* to) {
   to->size = size;
 }
 
-/// What _init does: `defaults`, into a struct of the caller's that has so many bytes.
+/// Writes, for _init, `defaults` into a struct of the caller's that has so many bytes.
 template <class T> iso_status start(const T& defaults, T* to, std::size_t size) {
   if (to == nullptr) return ISO_NULL;
   if (!is_size<T>(size)) return ISO_WRONG_SIZE;

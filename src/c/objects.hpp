@@ -18,9 +18,9 @@ namespace isostep::c {
 
 struct TapeObject;
 
-/// Of any scalar. Destroyed as the WorldOf that it is.
+/// A world of any scalar. It is destroyed as the WorldOf that it is.
 struct WorldObject {
-  /// In `inside`: the world steps, or so many batches of queries run, and the game's threads may call back.
+  /// Values of `inside`: the world steps, or so many batches of queries run, and the game's threads may call back.
   static constexpr std::uint32_t kSteps = 1, kBatch = 2;
 
   explicit WorldObject(ScalarName of) : scalar(of) {}
@@ -49,7 +49,7 @@ template <class S> struct WorldOf : WorldObject {
   World<S> world;
 };
 
-/// By a holder; the last one takes the world along.
+/// Gives up one holder; the last one takes the world along.
 inline void let_go_of(WorldObject* object) {
   if (object->holders.fetch_sub(1) == 1) delete object;
 }
@@ -75,7 +75,7 @@ struct ReplayObject {
   ReplayReader reader;
 };
 
-/// What writes a recording, of a world of any scalar.
+/// The writer of a recording, of a world of any scalar.
 class TapeWriter {
  public:
   virtual ~TapeWriter();
@@ -113,7 +113,7 @@ ISO_C_HANDLE(iso_replay, ReplayObject, replay)
 
 // ---- Calls
 
-/// What a call does to the world.
+/// The access of a call to the world.
 enum class Access : std::uint32_t { reads, changes };
 
 /// The world of a handle, if it may be called now.
@@ -141,7 +141,7 @@ iso_status in_world(const iso_world* handle, const char* call, Access access, co
   return refuse(ISO_WRONG_SCALAR, call);
 }
 
-/// The same for a world of whatever scalar it is.
+/// Runs in a world of whatever scalar it is, as in_world does.
 template <class Work>
 iso_status in_any_world(const iso_world* handle, const char* call, Access access, const Work& work) {
   WorldObject* object = nullptr;
@@ -154,7 +154,7 @@ iso_status in_any_world(const iso_world* handle, const char* call, Access access
   return refuse(ISO_NOT_ALIVE, call);
 }
 
-/// While the game's threads may call back.
+/// Marks, while it lives, that the game's threads may call back.
 class Inside {
  public:
   Inside(WorldObject& object, std::uint32_t what) : object_(object), what_(what) { object_.inside += what_; }
@@ -167,10 +167,10 @@ class Inside {
   std::uint32_t what_;
 };
 
-/// What a call may not do now; no fault of the world's.
+/// The status of a call that may not be made now; no fault of the world's.
 inline constexpr iso_status kMisused = ISO_FAULT_BAD_ARGUMENT;
 
-/// As many of `all` as there is room for; their number.
+/// Puts as many of `all` as there is room for, and their number.
 template <class T>
 iso_status put_list(const char* call, const std::vector<T>& all, void* out, std::size_t room, std::size_t* count) {
   ISO_C_REQUIRE(call, count);

@@ -1,4 +1,4 @@
-// From iso_session_config to SessionConfig, and what is wrong with one or with a game.
+// The way from iso_session_config to SessionConfig, and what is wrong with one or with a game.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -20,7 +20,7 @@ inline iso_status refuse(const Problem& problem, const char* call, const char* w
 Problem read_config(const iso_session_config* from, iso_session_config& to);
 Problem read_game(const iso_game* from, iso_game& to);
 
-/// Of a configuration without a problem. The identity is still to be set.
+/// Converts a configuration without a problem. The identity is still to be set.
 SessionConfig to_session_config(const iso_session_config& config);
 /// `world`: null where the game has none.
 Result<ReplayHeader> identity_of_game(const iso_game& game, const SessionWorld* world, const char* name);

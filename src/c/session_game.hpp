@@ -38,7 +38,7 @@ class SessionGame {
     std::uint32_t slot = kNoSlot;  // of the game's own
   };
 
-  /// Both were looked at: problem_of_game().
+  /// Both must be without a problem: read_game(), read_config().
   SessionGame(const iso_game& game, const iso_session_config& config);
   SessionGame(const SessionGame&) = delete;
   SessionGame& operator=(const SessionGame&) = delete;
@@ -46,7 +46,7 @@ class SessionGame {
   void save(Snapshot& to);
   bool load(const Snapshot& from);
   std::uint64_t hash() const;
-  /// Nothing of a game without a portable form.
+  /// Writes nothing of a game without a portable form.
   void write_portable(Writer& writer) const;
   /// All of it or nothing.
   Result<void> read_portable(Reader& reader);
@@ -54,7 +54,7 @@ class SessionGame {
 
   InputRules rules() const;
   const iso_game& callbacks() const { return game_; }
-  /// Null: the game has none.
+  /// Returns null where the game has no world.
   SessionWorld* world() const { return world_.get(); }
   bool is_alive() const { return world_ == nullptr || world_->is_alive(); }
 

@@ -1,4 +1,4 @@
-// What is behind an iso_session: a Session of a SessionGame, the turn that is under way, and what observes it.
+// The object behind an iso_session: a Session of a SessionGame, the turn that is under way, and what observes it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -108,7 +108,7 @@ template <class Work> iso_status in_session(iso_session* handle, const char* cal
   if (status == ISO_NO_MEMORY) object->is_broken = true;
   return status;
 }
-/// The same of what returns whether it was done.
+/// Runs `work`, which returns whether it was done.
 template <class Work>
 iso_status ask_session(iso_session* handle, const char* call, const char* expected, const Work& work) {
   return in_session(handle, call, [&](SessionObject& object) {
@@ -120,7 +120,7 @@ template <class T> iso_status check_struct(const T* out, const char* call) {
   const iso_status status = can_give(out);
   return status == ISO_OK ? status : refuse(status, call, "out");
 }
-/// What _init does.
+/// Writes, for _init, `defaults` into a struct of the caller's.
 template <class T>
 iso_status start_struct(const char* call, const std::type_identity_t<T>& defaults, T* out, std::size_t size) {
   const iso_status status = start(defaults, out, size);

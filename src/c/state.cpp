@@ -81,7 +81,7 @@ iso_status iso_world_read(iso_world* world, const void* bytes, size_t size) {
   return in_any_world(world, kCall, Access::changes, [&](auto& of) {
     if (size != 0) ISO_C_REQUIRE(kCall, bytes);
     Reader reader(Bytes(static_cast<const std::uint8_t*>(bytes), size));
-    // What follows the state is an error too, and the world is to be as it was: so it is read aside first.
+    // Bytes behind the state are an error too, and the world is to be as it was: so it is read aside first.
     std::remove_reference_t<decltype(of.world)> aside(of.world.settings());
     of.use_assets_of(aside);
     Result<void> read = aside.read_portable(reader);

@@ -43,7 +43,7 @@ void add_heap(Scene& scene) {
   scene.bodies.push_back(slider);
 }
 
-/// Where nothing disturbs them, so that they fall asleep.
+/// Adds a stack where nothing disturbs it, so that it falls asleep.
 void add_stack(Scene& scene) {
   for (int n = 0; n < 3; ++n) scene.bodies.push_back(body_of(box_part({0.4, 0.3, 0.4}), {8, 0.3 + 0.6 * n, 0}));
 }

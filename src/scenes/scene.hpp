@@ -40,7 +40,7 @@ using Rotation = std::array<Number, 4>;  // x y z w
 inline Vector zero_vector() { return {0, 0, 0}; }
 inline Rotation no_rotation() { return {0, 0, 0, 1}; }
 
-/// What a number among a part's materials stands for.
+/// The surface behind a number among a part's materials.
 struct SceneSurface {
   Number friction = 0.5;   // [1]
   Number restitution = 0;  // [1]
@@ -124,7 +124,7 @@ struct SceneRecord {
   std::vector<SceneField> fields;  // of record and input, those that differ from the engine's
 };
 
-/// What happens between frames: closed, so that a scene file can name it. Peers know none of it.
+/// The script that acts between frames: closed, so that a scene file can name it. Peers know none of it.
 enum class Script : std::uint32_t {
   none,
   mixer,
@@ -158,7 +158,7 @@ struct Scene {
   std::vector<SceneRecord> records;
 };
 
-/// Null, or why this build cannot play the scene: core/book.hpp.
+/// Returns null, or why this build cannot play the scene: core/book.hpp.
 inline const char* left_out(const Scene& scene) {
   const char* const solver = isostep::left_out(scene.solver);
   return solver != nullptr ? solver : isostep::left_out(scene.broad_phase);

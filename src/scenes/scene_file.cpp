@@ -38,7 +38,7 @@ void read_sizes(ObjectReader& reader, ScenePart& part) {
     else reader.number(key, size);
   });
 }
-/// In place of the sizes of a part.
+/// Reads a baked file in place of the sizes of a part.
 void read_baked(ObjectReader& reader, ScenePart& part, BlobFiles& files) {
   visit_sizes(part, [&](const char* key, auto& size, SizeRule rule) {
     if constexpr (std::is_same_v<decltype(size), Number&>) {

@@ -1,4 +1,4 @@
-// Reading, writing and building records, driven by the fields that they visit.
+// Records of scenes, read, written and built by the fields that they visit.
 // SPDX-License-Identifier: MIT
 #include "scene_records.hpp"
 

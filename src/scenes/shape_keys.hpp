@@ -6,7 +6,7 @@
 
 namespace isostep::scenes {
 
-/// What a scene file must say of a size. A thickness is left out where it is 0, and stands beside a baked file too.
+/// The rule of a scene file for a size. A thickness is left out where it is 0, and stands beside a baked file too.
 enum class SizeRule { positive, required, optional, thickness };
 
 // visit_sizes: visit(key, size, rule) for every size of a part of that type; `part` may be const.

@@ -61,7 +61,7 @@ struct Q32Game {
   static std::int64_t whole(int n) { return iso_q32_from_double(n); }
 };
 
-/// What a call of the form (bytes, &size) writes.
+/// The bytes that a call of the form (bytes, &size) writes.
 template <class Write> std::vector<std::uint8_t> bytes_of(const Write& write) {
   std::size_t size = 0;
   EXPECT_EQ(write(nullptr, &size), ISO_SMALL_BUFFER);

@@ -107,7 +107,7 @@ void check_arrow(const File& file, std::size_t line, const std::string& target) 
     report(file, line, "a header includes bodies: users would compile them with their own flags");
 }
 
-/// What may include what is an order also inside a folder.
+/// Checks that includes have an order inside a folder also.
 void check_cycles(const Graph& includes) {
   std::map<std::string, int> state;  // 1 open, 2 done
   std::vector<std::pair<std::string, std::size_t>> stack;

@@ -18,7 +18,7 @@ struct Push {
   friend bool operator==(Push, Push) = default;
   ISO_FIELDS(way)
 };
-/// What a player does who is asked when `current` is the session's frame.
+/// The input of a player who is asked when `current` is the session's frame.
 inline Push push_of(Frame current, int player) {
   return {static_cast<std::int8_t>(current / (11 + 6 * player) % 3 - 1)};
 }

@@ -41,7 +41,7 @@ template <class S> class RandomBodies {
     }
     return false;
   }
-  /// Not the ground, through which others would fall.
+  /// The body is not the ground, through which others would fall, and has no joints.
   bool is_loose(BodyId id) const {
     const D3 size = real(world_.view(id).state->fat.high - world_.view(id).state->fat.low);
     return size.x < 8 && size.z < 8 && !has_joints(id);

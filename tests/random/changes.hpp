@@ -1,5 +1,5 @@
-// What becomes of a random world beside its bodies' motion: its ground, forces, vehicles, characters, couplings and
-// rules, each drawn by dice of its own, so that one kind more leaves the others as they were.
+// Changes of a random world beside its bodies' motion: its ground, forces, vehicles, characters, couplings and rules,
+// each drawn by dice of its own, so that one kind more leaves the others as they were.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -42,8 +42,8 @@ template <class S> class RandomChanges {
   }
 
  private:
-  /// Now and then the height field, if there is one, is lower somewhere, or has a hole: never higher, which would lift
-  /// what lies on it. Dice of its own: what is drawn after it is as it was before there was this.
+  /// Lowers the height field somewhere now and then, if there is one, or cuts a hole: it is never higher, which would
+  /// lift what lies on it. It has dice of its own: what is drawn after it is as it was before there was this.
   static void dig(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
     Dice dice(seed * 104729 + frame * 7907 + 3);
     if (!dice.one_in(12)) return;
@@ -70,7 +70,7 @@ template <class S> class RandomChanges {
     if (dice.one_in(4)) patch.materials = holes;
     w.set_heights(shape, 0, patch);
   }
-  /// In worlds whose energy no law bounds. Dice of its own.
+  /// Changes forces in worlds whose energy no law bounds. It has dice of its own.
   static void change_forces(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
     if (drive_of(seed) != Drive::movers) return;
     Dice dice(seed * 15485863 + frame * 32452843 + 29);
@@ -171,13 +171,13 @@ template <class S> class RandomChanges {
     Dice dice(seed * 236887691 + frame * 256203161 + 19);
     if (dice.one_in(8)) RandomRules<S>(w, dice, kMoverSpeed).change();
   }
-  /// What bodies are, where movers are. Dice of its own.
+  /// Changes what bodies are, where movers are. It has dice of its own.
   static void change_bodies(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
     if (drive_of(seed) != Drive::movers) return;
     Dice dice(seed * 314606869 + frame * 334214467 + 41);
     if (dice.one_in(6)) RandomBodies<S>(w, dice, kMoverSpeed).change();
   }
-  /// How contacts push, what slows, waters by rank, where movers are. Dice of its own.
+  /// Changes how contacts push, what slows, waters by rank, where movers are. It has dice of its own.
   static void change_responses(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
     if (drive_of(seed) != Drive::movers) return;
     Dice dice(seed * 353868019 + frame * 373587883 + 43);

@@ -8,7 +8,7 @@
 
 namespace isostep::test {
 
-/// Of bounded power: no faster than some weights for some seconds make a body.
+/// Forces of bounded power: they make no body faster than some weights do in some seconds.
 template <class S> class RandomForces {
  public:
   RandomForces(World<S>& world, Dice& dice) : world_(world), dice_(dice) {}
@@ -50,7 +50,7 @@ template <class S> class RandomForces {
   }
   double mass(BodyId id) const { return to_double(world_.mass(id)); }
 
-  // What the records say from now on. False: there is no body for it.
+  // Draws what the records say from now on. False: there is no body for it.
   bool draw(ForceZone<S>& zone) {
     draw_zone(dice_, zone);
     return true;

@@ -1,4 +1,4 @@
-// What queries of a world find, by a search of every part of every body: no tree, and nothing is left out early.
+// The results of a world's queries by a search of every part of every body: no tree, and nothing is left out early.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -68,7 +68,7 @@ template <class S> class FullSearch {
     return listed(all, f.per);
   }
 
-  /// Of a shape of one part that lies in its frame as it is.
+  /// Casts a shape of one part that lies in its frame as it is.
   std::vector<ShapeCastHit<S>> cast_shape(const ShapeCast<S>& asked) const {
     std::vector<ShapeCastHit<S>> all;
     visit_shape(view_of(asked.shape), [&](const auto& solid) {
@@ -170,7 +170,8 @@ template <class S> class FullSearch {
     });
     return listed(all, f.per);
   }
-  /// In canonical order, by comparison of all that it says; then the first of each body, child or triangle.
+  /// Sorts hits in canonical order, by comparison of all that they say; then takes the first of each body, child or
+  /// triangle.
   template <class Hit> static std::vector<Hit> listed(std::vector<Hit> all, HitPer per) {
     const auto key = [](const Hit& h) { return std::tuple(to_double(h.fraction), h.body.slot, h.child, h.triangle); };
     std::sort(all.begin(), all.end(), [&](const Hit& a, const Hit& b) { return key(a) < key(b); });

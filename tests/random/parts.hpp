@@ -1,7 +1,7 @@
-// What random worlds are made of: every kind of shape, body and joint, with the bounds within which it is drawn.
-// What is new joins here, once, and is in every random world: a shape in draw_primitive, a joint in draw_joint, a
-// property of bodies in draw_body. A command joins random/changes.hpp, energy that is held or given
-// random/energy_book.hpp, a query random/questions.hpp.
+// The parts of random worlds: every kind of shape, body and joint, with the bounds within which it is drawn. A new kind
+// joins here, once, and is in every random world: a shape in draw_primitive, a joint in draw_joint, a property of
+// bodies in draw_body. A command joins random/changes.hpp, energy that is held or given random/energy_book.hpp, a query
+// random/questions.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -96,7 +96,7 @@ template <class S> BodyDefinition<S> draw_body(Dice& dice, ShapeId shape) {
   return d;
 }
 
-/// What may put energy into a world, so what bounds it: a world has it and those before it.
+/// The drives that may put energy into a world, so what bounds it: a world has its own and those before it.
 enum class Drive {
   commands,
   springs,  // that held some at the start
@@ -154,8 +154,8 @@ template <class S> void draw_joint(const World<S>& w, Dice& dice, Drive drive, J
   }
 }
 
-/// Of the axes that a six-axis joint leaves: limits about where they are, brakes, springs and servos at rest. None of
-/// them gives energy.
+/// Draws drives of the axes that a six-axis joint leaves: limits about where they are, brakes, springs and servos at
+/// rest. None of them gives energy.
 template <class S> void draw_axis_drives(World<S>& w, Dice& dice, Drive drive, JointId joint) {
   for (std::uint32_t i = 0; i < kJointAxes; ++i) {
     const JointAxis axis = static_cast<JointAxis>(i);

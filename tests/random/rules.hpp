@@ -48,7 +48,7 @@ template <class S> class RandomRules {
       world_.set(id, record);
     }
   }
-  /// Of its body or bodies there is none, or none for its part.
+  /// The record's body or bodies have none yet, or none for its part.
   template <class Record, class IdType>
   static bool is_new(const Registry<Record, IdType>& registry, const Record& record) {
     const BodyId a = detail::first_body_of(record), b = detail::second_body_of(record);

@@ -7,15 +7,15 @@
 
 namespace isostep::test {
 
-/// Up to two vehicles of two to six wheels, whose engines end at some metres a second. Some have tracks, at the left
-/// and the right or of any wheels, and some a clutch.
+/// Makes up to two vehicles of two to six wheels, whose engines end at some metres a second. Some have tracks, at the
+/// left and the right or of any wheels, and some a clutch.
 template <class S> class RandomVehicles {
  public:
   static constexpr double kFastest = 4;  // [m/s] of a rim
 
   RandomVehicles(World<S>& world, Dice& dice) : world_(world), dice_(dice) {}
 
-  /// Where `placed` is a body for one, that becomes a vehicle; else one is driven, or loses a wheel, or all.
+  /// Makes `placed` a vehicle where it is a body for one; else one is driven, or loses a wheel, or all.
   void change(BodyId placed) {
     if (placed) return build(placed);
     const auto vehicles = world_.state().records->vehicles.slot_map().template ids<VehicleId>();

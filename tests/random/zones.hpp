@@ -8,7 +8,7 @@
 
 namespace isostep::test {
 
-/// Of bounded power, near the middle of a world.
+/// Draws a zone of bounded power, near the middle of a world.
 template <class S> void draw_zone(Dice& dice, ForceZone<S>& zone) {
   zone.shape = static_cast<ZoneShape>(dice.below(3));
   zone.pose.position = vec<S>(dice.point(3));

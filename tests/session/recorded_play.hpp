@@ -1,4 +1,4 @@
-// What replays of matches are tested with: a recorder on a machine of a VirtualMatch, and a session that plays a file.
+// Replays of matches, tested: a recorder on a machine of a VirtualMatch, and a session that plays a file.
 // SPDX-License-Identifier: MIT
 #pragma once
 

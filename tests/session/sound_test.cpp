@@ -14,7 +14,7 @@ namespace {
 using Game = scenes::Match<Q16_16>;
 using scenes::MatchEvent;
 
-/// What one machine's user heard.
+/// The events that one machine's user heard.
 struct Heard {
   EventLog<MatchEvent> log;
   std::vector<std::pair<Frame, MatchEvent>> confirmed;

@@ -13,7 +13,7 @@
 
 namespace isostep::test {
 
-/// What a player does in a frame; a pure function.
+/// The input of a player in a frame; a pure function.
 template <class Game> using Bot = std::function<typename Game::Input(int player, Frame frame)>;
 template <class Game> using Maker = std::function<std::unique_ptr<Game>()>;
 
@@ -102,7 +102,7 @@ template <class Game> struct Machine {
     while (const std::optional<SessionEvent> event = session.poll_event()) events.push_back(*event);
     if (after_turn) after_turn();
   }
-  /// Of one player, or of any.
+  /// Counts the events of one player, or of any.
   int count(SessionEvent::Kind kind, int player = -1) const {
     int count = 0;
     for (const SessionEvent& event : events)
@@ -136,7 +136,7 @@ template <class Game> struct Machine {
   std::unique_ptr<Game> game;
   std::function<void(Game&, Frame)> tamper;                                   // before a step: a fault to be found
   std::function<void(Channel, std::vector<std::uint8_t>&)> middle, outgoing;  // alter what arrives, and what is sent
-  // What the observer sees, and the end of every turn.
+  // The callbacks of what the observer sees, and of the end of every turn.
   std::function<void(Frame)> will_step;
   std::function<void(const Game&, Frame)> stepped;
   std::function<void(Frame)> went_back;
@@ -234,7 +234,7 @@ template <class Game> class VirtualMatch {
     }
     return false;
   }
-  /// Until every machine has confirmed so many frames.
+  /// Runs until every machine has confirmed so many frames.
   bool run_to(Frame frames, Time limit) {
     return run(limit, [&] {
       for (const auto& machine : machines_) {
@@ -244,7 +244,7 @@ template <class Game> class VirtualMatch {
     });
   }
 
-  /// The same inputs, played straight through by one process: the hashes that all peers must have.
+  /// Plays the same inputs straight through by one process: the hashes that all peers must have.
   std::vector<std::uint64_t> straight(Frame frames, std::size_t of = 0) {
     std::unique_ptr<Game> game = maker_();
     std::vector<std::uint64_t> hashes;

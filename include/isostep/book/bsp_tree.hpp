@@ -79,7 +79,7 @@ template <class S> class BspTree {
   std::vector<Range> ranges_;
 };
 
-/// Behind a plane are boxes with high < plane; one of them overlaps only what begins before the plane.
+/// Boxes with high < plane are behind a plane; one of them overlaps only what begins before the plane.
 template <class S> template <class Visit> ISO_INLINE void BspTree<S>::query(const Aabb<S>& box, Visit&& visit) const {
   if (size() == 0) return;
   std::uint32_t stack[kMaxDepth + 1u];

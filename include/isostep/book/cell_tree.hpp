@@ -163,8 +163,8 @@ ISO_INLINE void CellTree<S, kAxes>::sweep(const Sweep<S>& sweep, Visit&& visit) 
   }
 }
 
-/// Each box with what stands behind it: in its cell's list, in cells below, in later siblings of its cell and of those
-/// above it.
+/// Visits each box with what stands behind it: in its cell's list, in cells below, in later siblings of its cell and of
+/// those above it.
 template <class S, int kAxes>
 template <class Visit>
 ISO_INLINE bool CellTree<S, kAxes>::overlapping_pairs(Matches&, std::uint64_t most, Visit&& visit) const {

@@ -20,7 +20,8 @@ struct PolyhedronFeature {
     return a.kind == b.kind && a.index == b.index;
   }
 };
-/// What the walk starts from and ends at: kept from one call to the next, it makes the next one short.
+/// The features from which the walk starts and at which it ends: kept from one call to the next, they make the next one
+/// short.
 struct FeaturePair {
   PolyhedronFeature a, b;
 };

@@ -13,7 +13,7 @@ namespace isostep {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// By shifts, so that every machine runs the same code; compilers make one store of it.
+/// Stores and loads work by shifts, so that every machine runs the same code; compilers make one instruction of them.
 template <std::unsigned_integral U> ISO_INLINE constexpr void store_le(std::uint8_t* at, U value) {
   for (std::size_t i = 0; i < sizeof(U); ++i) at[i] = static_cast<std::uint8_t>(std::uint64_t{value} >> (8 * i));
 }

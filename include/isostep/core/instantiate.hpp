@@ -30,7 +30,7 @@
 
 namespace isostep {
 
-/// Whether the library holds the engine of S, or the program says that it brings engines of its own.
+/// The library holds the engine of S, or the program says that it brings engines of its own.
 #if defined(ISOSTEP_OWN_SCALARS)
 template <class S> inline constexpr bool kHasEngine = true;
 #else
@@ -42,7 +42,7 @@ ISO_FOR_EACH_SCALAR(ISO_HAS_ENGINE)
 
 }  // namespace isostep
 
-/// In every class of worlds: one line here instead of dozens from the linker.
+/// Every class of worlds states this: one error here instead of dozens from the linker.
 #define ISO_REQUIRE_ENGINE(S)                                                                              \
   static_assert(::isostep::kHasEngine<S>,                                                                  \
                 "isostep: this build of the library has no engine for this scalar: name a shipped one in " \

@@ -66,7 +66,7 @@ struct DrawnMass {
   float inertia[3];  // [kg m^2] about those axes; 0: does not turn
 };
 
-/// What the broad phase keeps of a body: its bounds and a margin.
+/// The broad phase's box of a body: its bounds and a margin.
 struct DrawnBox {
   BodyId body;
   float low[3], high[3];  // [m]
@@ -141,7 +141,7 @@ struct DrawnParticle {
   float velocity[3];  // [m/s]
   float radius;       // [m] for contacts, may be 0
 };
-/// Between two particles, or a particle and a fixed point.
+/// A spring between two particles, or a particle and a fixed point.
 struct DrawnSpring {
   SpringId spring;
   SpringType type;
@@ -164,7 +164,7 @@ struct DrawnCollider {
   float end[3], radius;  // [m] of a line
 };
 
-/// What is wanted: each calls the function of its name, bodies and particles first.
+/// The kinds that are drawn: each calls the function of its name, bodies and particles first.
 struct DrawOptions {
   bool bodies = true;  // and their parts
   bool lines = false;  // of the parts: for who draws no solids
@@ -202,7 +202,7 @@ class DebugDraw {
   virtual void link(const DrawnLink& link);
   virtual void collider(const DrawnCollider& collider);
 
-  /// Called after `part`, of each part with content: whether calls of `triangle` follow with its surface. A surface
+  /// Asked after `part`, for each part with content: true has calls of `triangle` follow with its surface. A surface
   /// depends on the content alone, so a game says yes once for each content. False unless overridden.
   virtual bool wants_triangles(const DrawnPart& part);
   virtual void triangle(const DrawnTriangle& triangle);

@@ -14,12 +14,12 @@ namespace isostep {
 
 template <class S> struct CouplingSettings {
   Filter filter = {};  // of all particles, as if they were bodies
-  /// [1] of a body's weight: what rests bears pushes up to this share as if it were fixed, and may sleep under them.
-  /// Such pushes are lost to momentum. 0: every push counts, and what particles press on stays awake.
+  /// [1] The share of a body's weight up to which a resting body bears pushes as if it were fixed; it may sleep under
+  /// them. Such pushes are lost to momentum. 0: every push counts, and what particles press on stays awake.
   S unfelt = S(0);
 };
 
-/// What the last frame was.
+/// The counts of the last frame.
 struct CouplingReport {
   std::uint32_t touches = 0;  // handed to the particles
   std::uint32_t bodies = 0;   // near particles, whether these touch them or not
@@ -142,12 +142,12 @@ template <class S> class ParticleCoupling {
     S impulse, blow;              // [m/s] over the body's mass, foreseen: all, and that without its gravity
     std::uint32_t next;           // touch of the same body
   };
-  /// Of a body, foreseen.
+  /// The foreseen motion of a body.
   struct Motion {
     Vec3<S> velocity;          // [m/s]
     Vec3<S> angular_velocity;  // [rad/s] in principal axes
   };
-  /// Where a flier meets a part.
+  /// The place where a flier meets a part.
   struct Meeting {
     Vec3<S> point;    // [m] on the part
     Vec3<U> outward;  // [1]

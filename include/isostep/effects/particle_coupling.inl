@@ -14,9 +14,9 @@
 namespace isostep {
 
 namespace detail {
-/// [m/s] what forces may do to a particle within a step, more or less; what it meets sooner is found before.
+/// [m/s] The speed that forces may give a particle within a step, more or less; what it meets sooner is found before.
 template <class S> inline constexpr S kStraySpeed = S(2);
-/// [1] of that way: nearer than this is as good as touching.
+/// [1] The share of that way within which a particle is as good as touching.
 template <class S> inline constexpr S kTouchShare = S(0.125);
 /// Steps of tracing a way to a surface; each ends at the nearest point's distance.
 inline constexpr int kTraceSteps = 16;
@@ -79,7 +79,7 @@ template <class S> void ParticleCoupling<S>::find_touches(const World<S>& bodies
   report_.bodies = static_cast<std::uint32_t>(met_.size());
 }
 
-/// By how much the boxes of the awake are too small for the coming step: their own way and that of their corners.
+/// The way by which the boxes of the awake are too small for the coming step: their own and that of their corners.
 template <class S> S ParticleCoupling<S>::farthest_way(const World<S>& bodies) const {
   S most = S(0);
   for (const BodyState<S>& body : bodies.state().awake.states) {
@@ -159,14 +159,14 @@ bool ParticleCoupling<S>::find_meeting(const Met& met, const Part& part, const F
       gap = nearest.distance - radius;
       if (gone == along.length && gap <= margin_) break;
     }
-    // Where the way has passed the nearest place, the plane there has the start behind it; yet it overlaps nothing.
+    // The plane at the nearest place has the start behind it where the way has passed it; yet it overlaps nothing.
     gap = max(dot(nearest.normal, flier.position - nearest.point) - radius, S(0));
   }
   meeting = {nearest.point, nearest.normal, gap};
   return true;
 }
 
-/// [m/s] of the body's matter.
+/// [m/s] The velocity of the body's matter.
 template <class S> ISO_INLINE Vec3<S> ParticleCoupling<S>::velocity_at(const Met& met, Vec3<S> arm) const {
   return saturating_add(met.velocity, detail::saturating_moment(met.angular_velocity, arm));
 }
@@ -220,7 +220,8 @@ template <class S> void ParticleCoupling<S>::push_bodies(World<S>& bodies, const
       ++report_.unfelt;
       continue;
     }
-    // What bears its weight acts over the step, as weight does, and rest is rest at every instant; the rest is a blow.
+    // The impulse that bears its weight acts over the step, as weight does, and rest is rest at every instant; the
+    // remainder is a blow.
     const U share = bearing_share(met);
     const Vec3<S> borne = met.impulse * share, borne_moment = met.moment * share;
     const Vec3<S> blow = met.impulse - borne, blow_moment = met.moment - borne_moment;
@@ -235,7 +236,7 @@ template <class S> void ParticleCoupling<S>::push_bodies(World<S>& bodies, const
   }
 }
 
-/// [1] of what a body got: as much as its weight is within a step, where that is upwards.
+/// [1] The share of a body's impulse that is its weight within a step, where the impulse is upwards.
 template <class S> Unit<S> ParticleCoupling<S>::bearing_share(const Met& met) const {
   if (!(dot(met.impulse, met.gravity) < S(0))) return U(0);
   const S weight = saturate_to<S>(product(max_abs(met.gravity) * step_, met.mass));
@@ -243,7 +244,8 @@ template <class S> Unit<S> ParticleCoupling<S>::bearing_share(const Met& met) co
   return got <= weight ? U(1) : divide_to<U>(weight, got);
 }
 
-/// By what a body's weight is within a step: a body that particles bear gets all of that.
+/// The body rests and its impulse is below the share of its weight within a step: a body that particles bear gets all
+/// of that.
 template <class S> bool ParticleCoupling<S>::is_unfelt(const World<S>& bodies, const Met& met) const {
   if (!met.rests || !(S(0) < settings_.unfelt)) return false;
   const S gained = max_abs(bodies.settings().gravity) * step_;  // [m/s]

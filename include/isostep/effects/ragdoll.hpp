@@ -21,7 +21,7 @@ template <class S> struct RagdollBone {
   S lower = S(0), upper = S(0);         // [rad] of the twist, or of the hinge's angle
 };
 
-/// What is alike for all of its joints.
+/// The settings that all joints of a ragdoll share.
 template <class S> struct RagdollSettings {
   S friction = S(0);         // [N m] each axis resists; 0 where servos hold the pose
   JointServo<S> pose = {};   // holds the rest pose where its `force` [N m] is above 0; its target is 0

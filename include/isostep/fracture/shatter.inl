@@ -35,7 +35,7 @@ template <class S> class Shattering {
   ISO_INLINE Shattering(const Shattering&) = default;
   ISO_INLINE ~Shattering() = default;
 
-  /// False: error() tells.
+  /// Returns false for pieces that are refused: error() tells.
   ISO_INLINE bool take(const Fracture& fracture) {
     S before = S(0);
     std::int64_t volume = 0;
@@ -100,7 +100,7 @@ template <class S> class Shattering {
     pieces_.push_back(made);
     return true;
   }
-  /// By the masses that the pieces have.
+  /// Finds the centre of mass of all pieces by the masses that they have.
   ISO_INLINE void find_centre() {
     const Vec3<S> first = pieces_[0].centre;
     const SumOf<S, U> zero = product(S(0), U(0));

@@ -46,7 +46,7 @@ template <class S> class ImplicitSprings {
   struct Edge {
     std::uint32_t spring, a, b;
   };
-  /// What a spring is just now.
+  /// A spring's direction and coefficients in this sub-step.
   struct Tension {
     Vec3<Number> n;      // [1] towards a
     Number across;       // [1] s

@@ -31,7 +31,7 @@ template <class S> class ParticleRemoval {
 
   void remove_leaving();
   template <class Id, class Registry, class Names> void remove_naming(const Registry& registry, const Names& names);
-  /// What the state remembers of a record beside it.
+  /// Forgets what the state remembers of a record beside it.
   template <class Id> ISO_INLINE void forget(Id) {}
   void forget(LinkId link);
   void forget(ColliderId collider);

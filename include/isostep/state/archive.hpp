@@ -96,7 +96,7 @@ class Reader {
 
   ISO_INLINE bool ok() const { return ok_; }
   ISO_INLINE std::size_t remaining() const { return ok_ ? bytes_.size() - offset_ : 0; }
-  /// Of the next byte, or of the one where reading failed.
+  /// The offset of the next byte, or of the one where reading failed.
   ISO_INLINE std::size_t offset() const { return offset_; }
 
   template <class T> ISO_INLINE bool read(T& value) {
@@ -149,7 +149,7 @@ class Reader {
   /// `size` bytes with no count before them.
   Bytes read_view(std::size_t size);
 
-  /// For rules of the caller's own: an index past the end, a number that is not finite. `reason` is a literal.
+  /// Fails by a rule of the caller's own: an index past the end, a number that is not finite. `reason` is a literal.
   void fail(ErrorCode code, const char* reason);
   /// Bytes left over are an error too.
   void expect_end();

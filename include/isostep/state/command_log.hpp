@@ -63,7 +63,7 @@ template <class Variant> struct Numbers;
 template <class... Commands>
 struct Numbers<std::variant<Commands...>> : NumbersOf<std::index_sequence_for<Commands...>, Commands...> {};
 template <class C, std::size_t I> constexpr std::uint8_t number_in(const Numbered<I, C>*) { return I; }
-/// Of a command in a list.
+/// The number of a command in a list.
 template <class C, class Variant>
 inline constexpr std::uint8_t kNumberOf = number_in<C>(static_cast<const Numbers<Variant>*>(nullptr));
 }  // namespace detail

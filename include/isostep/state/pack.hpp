@@ -68,7 +68,7 @@ template <class T> ISO_INLINE constexpr std::uint8_t* pack(std::uint8_t* at, con
   return at;
 }
 
-/// On a little-endian machine: are the value's bytes in memory its canonical bytes? kHasNoPadding cannot see `fields`
+/// The value's bytes in memory, on a little-endian machine, are its canonical bytes. kHasNoPadding cannot see `fields`
 /// that name members out of order or one twice; a test checks this for every stored struct, with all members different.
 template <class T> ISO_INLINE bool memory_is_canonical(const T& value) {
   std::uint8_t bytes[kPackedSize<T> + 1];

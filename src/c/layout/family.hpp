@@ -17,7 +17,7 @@ template <class S> inline constexpr ScalarName kScalarName = ScalarName::f32;
 ISO_C_FAMILIES(ISO_NAME)
 #undef ISO_NAME
 
-/// Whether this build of the library has the engine of S.
+/// This build of the library has the engine of S.
 template <class S> inline constexpr bool kIsBuilt = false;
 #define ISO_BUILT(S) template <> inline constexpr bool kIsBuilt<S> = true;
 ISO_FOR_EACH_SCALAR(ISO_BUILT)

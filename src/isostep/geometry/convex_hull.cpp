@@ -1,4 +1,4 @@
-// From the triangles of quickhull to the faces of a convex hull.
+// The faces of a convex hull from the triangles of quickhull.
 // SPDX-License-Identifier: MIT
 #include "isostep/geometry/baked/convex_hull.hpp"
 
@@ -37,7 +37,7 @@ Error too_many(std::size_t count, const char* what, std::uint32_t limit) {
 Error out_of_grid() { return error(ErrorCode::invalid, "a coordinate has more than 19 bits"); }
 Error no_volume() { return error(ErrorCode::invalid, "the points span no volume"); }
 
-/// Ascending. False: a coordinate is out of the grid.
+/// Collects the distinct points in ascending order. False: a coordinate is out of the grid.
 bool take_distinct(std::span<const GridPoint> points, std::vector<GridPoint>& distinct) {
   constexpr std::int32_t kLimit = GridPoint::kLimit;
   distinct.assign(points.begin(), points.end());
@@ -95,7 +95,7 @@ class FaceLoops {
       ++planes_;
     }
   }
-  /// Of neighbours.
+  /// Two neighbours lie in one plane.
   bool coplanar(const HullTriangle& a, const HullTriangle& b) const {
     const GridPoint at = points_[a.vertices[0]];
     const GridVector normal = cross(points_[a.vertices[1]] - at, points_[a.vertices[2]] - at);
@@ -104,7 +104,7 @@ class FaceLoops {
     }
     return true;
   }
-  /// Where three planes or more meet. Two meet in the middle of an edge, one in the middle of a face.
+  /// Finds the points where three planes or more meet. Two meet in the middle of an edge, one in the middle of a face.
   void find_corners() {
     std::vector<std::uint32_t> seen[2];
     for (std::vector<std::uint32_t>& plane : seen) plane.assign(points_.size(), kNone);
@@ -199,7 +199,7 @@ void link(ConvexHull& hull, std::span<const std::vector<std::uint32_t>> loops, s
   }
 }
 
-/// [steps] Of the box around them.
+/// [steps] The longest side of the box around the points.
 std::int64_t width_of(std::span<const GridPoint> points) {
   GridPoint low = points[0], high = points[0];
   for (const GridPoint p : points) {
@@ -210,7 +210,7 @@ std::int64_t width_of(std::span<const GridPoint> points) {
   return std::max(size.x, std::max(size.y, size.z));
 }
 
-/// From each face to the vertex furthest below it.
+/// Every face is thick enough: the vertex furthest below it is `least` [steps] deep or more.
 bool is_thick(const ConvexHull& hull) {
   const std::int64_t least = std::max(ConvexHull::kLeastThickness, width_of(hull.vertices) / ConvexHull::kMostSlender);
   for (std::uint32_t f = 0; f < hull.faces.size(); ++f) {

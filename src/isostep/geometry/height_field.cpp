@@ -38,7 +38,7 @@ Result<void> check_count(const char* list, std::uint64_t count, std::uint64_t ex
 
 constexpr char kNothingThere[] = "every cell is a hole or a ghost";
 
-/// From the corner of half 0, in columns and rows; of half 1 from the opposite corner, with the sign turned.
+/// An offset from the corner of half 0, in columns and rows; of half 1 from the opposite corner, with the sign turned.
 struct Offset {
   std::int32_t i, k;
 };
@@ -88,7 +88,7 @@ BakedTriangle BakedHeightField::triangle(std::uint32_t id) const {
   return baked;
 }
 
-/// False: no triangle touches the box.
+/// Returns false where no triangle touches the box.
 bool BakedHeightField::range_of(const MeshBox& box, CellRange& range) const {
   const MeshBox own = bounds();
   if (!own.touches(box)) return false;
@@ -176,7 +176,7 @@ Result<BakedHeightField> height_field(const HeightGrid& grid, std::span<const st
   return field;
 }
 
-/// As CellRange: the heights say nothing.
+/// The cells in a CellRange whose heights say nothing.
 BakedHeightField::CellRange BakedHeightField::cells_about(const HeightPatch& patch) const {
   const auto before = [](std::uint32_t v) { return v == 0 ? 0 : v - 1; };
   return {

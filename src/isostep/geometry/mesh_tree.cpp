@@ -1,4 +1,4 @@
-// How a MeshTree is built.
+// The build of a MeshTree.
 // SPDX-License-Identifier: MIT
 #include "isostep/geometry/baked/mesh_tree.hpp"
 
@@ -179,7 +179,7 @@ class MeshTreeBuilder {
     }
     return count;
   }
-  /// What the halves of a range are a multiple of, but for its last: of few triangles, a full leaf or node.
+  /// The number of which the halves of a range are a multiple, but for its last: of few triangles, a full leaf or node.
   static std::uint32_t grain_of(std::uint32_t count) {
     const bool is_few = MeshTree::capacity(1) < count && count <= kFew;
     return is_few ? static_cast<std::uint32_t>(MeshTree::capacity(1)) : MeshTree::kLeafTriangles;

@@ -124,7 +124,8 @@ std::int64_t Quickhull::height(const Facet& facet, std::uint32_t point) const {
   return dot(facet.normal, points_[point] - points_[facet.triangle.vertices[0]]);
 }
 
-/// To the first facet from that one on that has the point above it; a point above none of them is inside the hull.
+/// Gives the point to the first facet from that one on that has it above; a point above none of them is inside the
+/// hull.
 void Quickhull::give(std::uint32_t point, std::uint32_t first_facet) {
   for (std::uint32_t f = first_facet; f < facets_.size(); ++f) {
     if (height(facets_[f], point) <= 0) continue;
@@ -146,7 +147,7 @@ std::uint32_t Quickhull::furthest_above(const Facet& facet) const {
   return furthest;
 }
 
-/// What a point sees is a disc of facets; the horizon is its rim.
+/// The facets that a point sees are a disc; the horizon is its rim.
 void Quickhull::find_horizon(std::uint32_t seen_from, std::uint32_t facet) {
   horizon_.clear();
   visible_.assign(1, facet);

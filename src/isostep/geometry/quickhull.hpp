@@ -23,9 +23,9 @@ class Quickhull {
   ISO_INLINE explicit Quickhull(std::span<const GridPoint> points) : points_(points) {}
   ISO_INLINE ~Quickhull() = default;
 
-  /// Empty: the points are one, lie on a line or in a plane.
+  /// Returns the triangles of the hull; none where the points are one, lie on a line or in a plane.
   std::vector<HullTriangle> run();
-  /// The same with at most so many vertices, at least four: those that reach furthest beyond the ones before.
+  /// Stops at so many vertices, at least four: those that reach furthest beyond the ones before.
   std::vector<HullTriangle> run(std::uint32_t vertices);
 
  private:

@@ -1,4 +1,4 @@
-// Drawing for every shipped scalar, and a DebugDraw that draws nothing.
+// The drawing of worlds for every shipped scalar, and a DebugDraw that draws nothing.
 // SPDX-License-Identifier: MIT
 #include "isostep/draw/debug_draw.inl"
 

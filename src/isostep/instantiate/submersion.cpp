@@ -1,4 +1,4 @@
-// What lies below a plane, compiled once for every shipped scalar.
+// The part of a shape below a plane, compiled once for every shipped scalar.
 // SPDX-License-Identifier: MIT
 #include "isostep/geometry/submersion.inl"
 

@@ -17,7 +17,7 @@
 
 namespace isostep::tool {
 
-/// Whose a row is, alike in every state: two slots, and the parts of their bodies. Rows ascend by it.
+/// The owner of a row, alike in every state: two slots, and the parts of their bodies. Rows ascend by it.
 struct RowKey {
   std::uint32_t slots[2] = {kNoSlot, kNoSlot}, parts[2] = {};
   static constexpr std::uint32_t kNoSlot = 0xffffffffu;
@@ -53,7 +53,7 @@ struct Islands {
   void (*gather)(const void* object, StateRows& rows);
 };
 
-/// What a state or an island consists of, in the order of its hash: rows, and behind each its islands, if it has some.
+/// The parts of a state or an island, in the order of its hash: rows, and behind each its islands, if it has some.
 struct StateRows {
   struct Member {
     Rows rows;

@@ -105,7 +105,7 @@ template <class Record> void expect_all_fields_set(const Record& record, const c
       },
       record);
 }
-/// Of the one record that a world has, and of its input.
+/// Expects all fields set of the one record that a world has, and of its input.
 template <class S> void expect_all_fields_set(const World<S>& world, const char* text) {
   int records = 0;
   RecordStore<S>::members(

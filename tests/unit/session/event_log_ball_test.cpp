@@ -34,7 +34,7 @@ struct Court {
     for (const ContactBegin<float>& touch : world.events().contact_begin) emit({touch.a, touch.b, touch.impulse});
   }
 };
-/// Kicked up, left alone, pushed down, in turns that no frame rate divides.
+/// The ball is kicked up, left alone, pushed down, in turns that no frame rate divides.
 int kick_at(Frame frame) { return frame % 7 == 0 ? (frame / 7 * 5 + frame / 49) % 9 - 4 : 0; }
 
 TEST(EventLog, ABallThatIsRolledBackHitsTheFloorAsOftenAsInAStraightRun) {

@@ -8,7 +8,7 @@ namespace isostep {
 namespace {
 
 constexpr Time kPeriod = 10000;  // [us]
-/// Ascending for negative numbers too.
+/// The key of a number, ascending for negative ones too.
 constexpr auto kItself = [](int value) {
   return static_cast<std::uint64_t>(std::int64_t{value} + (std::int64_t{1} << 32));
 };

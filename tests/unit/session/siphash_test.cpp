@@ -9,7 +9,7 @@
 namespace isostep {
 namespace {
 
-/// Of the paper: the bytes 0, 1, ... 15.
+/// The key of the paper: the bytes 0, 1, ... 15.
 constexpr SipKey kKey = {0x0706050403020100u, 0x0f0e0d0c0b0a0908u};
 constexpr std::uint64_t of_first_bytes(std::size_t size) {
   std::uint8_t message[64] = {};

@@ -11,7 +11,7 @@ namespace {
 
 using Buffer = std::vector<std::uint8_t>;
 
-/// How many entries come before the end or the damage.
+/// The number of entries before the end or the damage.
 int entries(const Buffer& tokens, Frame count, bool& failed) {
   SliceReader reader({0, 0, count, tokens});
   InputEntry entry;

@@ -30,7 +30,7 @@ struct Loop {
     if (took > longest) longest = took;
     now += took;
   }
-  /// How long until it calls itself slow, or `limit`.
+  /// The time until it calls itself slow, or `limit`.
   Time until_slow(Time limit) {
     const Time began = now;
     while (pace.stretch() == 0 && now - began < limit) turn();

@@ -15,7 +15,7 @@ namespace {
 using namespace isostep;
 using namespace toy;
 
-/// What playing a command log was told, and how far it came.
+/// The commands that playing a log was told, and how far it came.
 struct Heard {
   std::vector<ToyCommand> commands;
   std::vector<std::size_t> steps;  // after so many commands

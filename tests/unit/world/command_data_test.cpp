@@ -71,7 +71,7 @@ template <class S> VehicleInput<S> broken(VehicleInput<S> input) {
   input.brake = S(2);
   return input;
 }
-/// Of what acts on one body: on none.
+/// The record with no body, where it should act on one.
 template <class Record> Record broken(Record record) {
   record.body = {};
   return record;

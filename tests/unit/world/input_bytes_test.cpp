@@ -1,4 +1,4 @@
-// What a frame's input of a character and of a car costs in a command log.
+// The size of a frame's input of a character and of a car in a command log.
 // SPDX-License-Identifier: MIT
 
 #include "unit/world/worlds.hpp"

@@ -1,4 +1,4 @@
-// What the tests of worlds share: numbers in and out of a scalar, short definitions, tolerances by scalar.
+// The common part of the tests of worlds: numbers in and out of a scalar, short definitions, tolerances by scalar.
 // SPDX-License-Identifier: MIT
 #pragma once
 

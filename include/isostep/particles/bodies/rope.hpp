@@ -8,7 +8,7 @@ namespace isostep {
 
 /// Links are hard constraints, so that a rope is stable at any mass and rate.
 template <class S> struct RopeDefinition {
-  Vec3<S> start = {S(0), S(0), S(0)}, end = {S(4), S(0), S(0)};  // [m] where the first and last particle are
+  Vec3<S> start = {S(0), S(0), S(0)}, end = {S(4), S(0), S(0)};  // [m] places of the first and the last particle
   std::uint32_t particles = 17;                                  // at least 2
   S length = S(0);                  // [m] along the rope; 0: taut, the distance of its ends
   S mass = S(1);                    // [kg] of the whole

@@ -25,7 +25,7 @@ template <class S> class ParticleSoftStep {
   void begin_step();
   /// Integration, and the rows held.
   void solve_substep();
-  /// What came fast goes back as its restitution says, once, after the step.
+  /// Gives back, once after the step, the speed at which contacts and cables met, by their restitution.
   void apply_restitution();
 
   template <class Visit> void visit_scratch(const Visit& visit);

@@ -63,7 +63,7 @@ template <class S> class WorstFirstStep {
   std::uint64_t looks_left_ = 0;  // of the step's
   Axes<V> start_;                 // [m] displacement where the sub-step began
   Axes<V> before_;                // [m/s] velocity before constraints
-  Axes<V> gained_;                // [m/s] what forces added in the sub-step
+  Axes<V> gained_;                // [m/s] speed that forces added in the sub-step
   Axes<V> way_;                   // [m] of the sub-step, if nothing is met
 };
 

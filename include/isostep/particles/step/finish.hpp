@@ -13,8 +13,8 @@ template <class S> class ParticleFinish {
  public:
   ParticleFinish(ParticleState<S>& state, ParticleStep<S>& step, FreeFlight<S>& flight);
 
-  /// Nothing leaves the scalar's range and no NaN enters the state: what would is cut, put back or stopped, and
-  /// reported.
+  /// Finishes a step. Nothing leaves the scalar's range and no NaN enters the state: what would is cut, put back or
+  /// stopped, and reported.
   void finalise();
 
  private:

@@ -14,7 +14,7 @@ template <class S> class ParticleSprings {
  public:
   ParticleSprings(ParticleState<S>& state, ParticleStep<S>& step);
 
-  /// Once a step: what pulls in it.
+  /// Lists, once a step, what pulls in it.
   void prepare();
   /// Adds what springs give their ends, where these are now.
   void pull(const FlightKernels<S>& kernels);
