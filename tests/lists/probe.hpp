@@ -13,6 +13,7 @@ namespace isostep {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Paths are relative to the project.
 class ListProbe : public OwnFolder {
@@ -27,6 +28,13 @@ class ListProbe : public OwnFolder {
     std::filesystem::copy(source(folder), folder_ / folder, std::filesystem::copy_options::recursive);
   }
   void copy(const std::string& from, const std::string& to) { std::filesystem::copy(source(from), folder_ / to); }
+  /// Copies the first piece of C++ on a page.
+  void copy_code(const std::string& page, const std::string& to) {
+    const std::string text = read(source(page)), begin = "```cpp\n";
+    const std::size_t at = text.find(begin), end = text.find("```", at + begin.size());
+    ASSERT_TRUE(at != std::string::npos && end != std::string::npos) << "no code in " << page;
+    std::ofstream(folder_ / to) << text.substr(at + begin.size(), end - at - begin.size());
+  }
   /// `before` has to be there, once.
   void edit(const std::string& file, const std::string& before, const std::string& after) {
     std::string text = read(folder_ / file);

@@ -11,6 +11,8 @@
 
 namespace isostep::test {
 
+inline constexpr std::uint32_t kMaterialKinds = 3;  // that random worlds draw
+
 /// Splitmix64. Two draws never stand among the arguments of one call, nor on both sides of an operator of a class:
 /// compilers draw them in different orders.
 class Dice {

@@ -1,7 +1,7 @@
-// The parts of random worlds: every kind of shape, body and joint, with the bounds within which it is drawn. A new kind
-// joins here, once, and is in every random world: a shape in draw_primitive, a joint in draw_joint, a property of
-// bodies in draw_body. A command joins random/changes.hpp, energy that is held or given random/energy_book.hpp, a query
-// random/questions.hpp.
+// What random worlds are made of: every kind of shape, body and joint, with the bounds within which it is drawn.
+// What is new joins here, once, and is in every random world: a shape in draw_primitive, a joint in draw_joint, a
+// property of bodies in draw_body. A command joins random/changes.hpp, energy that is held or given
+// random/energy_book.hpp, a query random/questions.hpp. Records follow from their kind's file: random/records.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,7 +14,6 @@
 
 namespace isostep::test {
 
-inline constexpr std::uint32_t kMaterialKinds = 3;
 inline constexpr double kLeast = 0.1, kMost = 0.4;  // [m] sizes: inside every scalar's range with the arms below
 
 /// A shape and the radius of a ball about the body's origin that it is in.

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "random/dice.hpp"
-#include "unit/world/worlds.hpp"
+#include "random/record_draw.hpp"
 
 namespace isostep::test {
 
@@ -86,12 +85,8 @@ template <class S> class RandomVehicles {
   }
   VehicleInput<S> drawn_input() {
     VehicleInput<S> input;
-    input.throttle = num<S>(dice_.in(-1, 1));
-    input.brake = num<S>(dice_.one_in(3) ? dice_.in(0, 1) : 0);
-    input.handbrake = num<S>(dice_.one_in(6) ? dice_.in(0, 1) : 0);
-    input.steer = num<S>(dice_.in(-1, 1));
-    input.gear = dice_.below(3);
-    input.clutch = num<S>(dice_.one_in(2) ? dice_.in(0, 1) : 1);
+    RecordDraw<S> random(world_, dice_);
+    detail::RecordRules<VehicleSettings<S>>::draw(input, random);
     return input;
   }
 

@@ -311,7 +311,7 @@ TEST(ForgedReplay, OtherFormatVersionsAndFlagsAreIncompatible) {
     std::size_t at;
     std::uint8_t value;
     VerifyOutcome outcome;
-  } rows[] = {{8, 2, VerifyOutcome::incompatible},
+  } rows[] = {{8, 1, VerifyOutcome::incompatible},
               {9, 1, VerifyOutcome::incompatible},
               {12, 64, VerifyOutcome::incompatible},
               {16, 1, VerifyOutcome::incompatible},

@@ -72,7 +72,7 @@ template <class S> void Destruction<S>::tell_ends() {
   detail::sort_ends(state_.untold.sensor_end, sensor_end_scratch_);
 }
 
-/// What names a marked body.
+/// Erases contacts and overlaps that name a marked body.
 template <class S> void Destruction<S>::erase_what_names_them() {
   std::erase_if(state_.contacts,
                 [&](const Contact<S>& c) { return is_marked(c.key.body_a) || is_marked(c.key.body_b); });
@@ -122,7 +122,7 @@ template <class S> auto Destruction<S>::turn_of_joint(JointId joint) const -> Tu
   return joint && joint.slot < turns_.size() ? turns_[joint.slot] : kStays;
 }
 
-/// Those of the marked bodies. They are awake: what sleeps and names such a body has been woken.
+/// Erases the joints of marked bodies. They are awake: what sleeps and names such a body has been woken.
 template <class S> void Destruction<S>::erase_joints() {
   joints_.clear();
   turns_.resize(state_.joint_slots.entries().size(), kStays);

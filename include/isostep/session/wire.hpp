@@ -25,8 +25,8 @@ class WireWriter {
     for (std::size_t i = 0; i < sizeof(U); ++i) byte(static_cast<std::uint8_t>(std::uint64_t{value} >> (8 * i)));
   }
   void number(std::uint32_t value) {
-    for (; value >= 128; value >>= 7) byte(static_cast<std::uint8_t>(value | 128u));
-    byte(static_cast<std::uint8_t>(value));
+    std::uint8_t bytes[kLongestLeb128];
+    raw({bytes, store_leb128(bytes, value)});
   }
   void difference(std::int32_t value) {
     number(static_cast<std::uint32_t>(value) << 1 ^ (value < 0 ? 0xffffffffu : 0u));
@@ -61,17 +61,11 @@ class WireReader {
   }
   /// At most 32 bits, in as few bytes as they need: so a number has one form.
   std::uint32_t number() {
-    std::uint64_t value = 0;
-    for (unsigned shift = 0; shift < 35; shift += 7) {
-      const std::uint8_t b = byte();
-      value |= std::uint64_t{b & 127u} << shift;
-      if (b < 128) {
-        if (value > 0xffffffffu || (b == 0 && shift > 0)) failed_ = true;
-        return failed_ ? 0 : static_cast<std::uint32_t>(value);
-      }
-    }
-    failed_ = true;
-    return 0;
+    const Leb128 read = load_leb128(bytes_.subspan(at_), 0xffffffffu);
+    failed_ = failed_ || read.flaw != Leb128Flaw::none;
+    if (failed_) return 0;
+    at_ += read.size;
+    return static_cast<std::uint32_t>(read.value);
   }
   std::int32_t difference() {
     const std::uint32_t value = number();

@@ -14,7 +14,7 @@
 
 namespace isostep {
 
-inline constexpr std::uint16_t kReplayMajor = 1;
+inline constexpr std::uint16_t kReplayMajor = 2;
 inline constexpr std::uint16_t kReplayMinor = 0;
 inline constexpr std::size_t kReplayPreambleSize = 32;  // [bytes]
 /// The high bit and both line ends, so that a transfer as text shows at once.

@@ -14,7 +14,7 @@ namespace isostep {
 namespace detail {
 /// [m] contacts are found this far ahead of touching, so that the solver sees them before they overlap.
 template <class S> inline constexpr S kSpeculativeDistance = S(0.02);
-/// Those of a child, as contacts count them.
+/// Leaves of a child, as contacts count them.
 template <class S> LeafRange leaves_of_part(const BodyFrame<S>& frame, std::uint32_t index);
 }  // namespace detail
 
@@ -27,8 +27,8 @@ template <class S, class Visit>
 ISO_INLINE bool visit_parts(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks,
                             Visit&& visit);
 
-/// The same of leaves, where one of the bodies has surfaces or many parts: of a convex part and a triangle those whose
-/// boxes meet. In an order that follows from the shapes.
+/// visit_parts() of leaves, where one of the bodies has surfaces or many parts: of a convex part and a triangle those
+/// whose boxes meet. The order follows from the shapes.
 template <class S, class Visit>
 ISO_INLINE bool visit_leaves(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks,
                              Visit&& visit);
@@ -38,8 +38,8 @@ template <class S>
 void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b,
                    std::uint32_t j, S margin, Manifold<S>& out);
 
-/// Of leaf i: the body's own, but where the leaf is a triangle whose number stands in its surface's table. That has one
-/// coefficient of friction and is of no kind.
+/// The material of leaf i: the body's own, but where the leaf is a triangle whose number stands in its surface's table.
+/// That has one coefficient of friction and is of no kind.
 template <class S> Material<S> material_of_leaf(const BodyFrame<S>& body, std::uint32_t i, const Material<S>& own);
 
 /// Whether two bodies have a contact, or are no further from each other than that [m].

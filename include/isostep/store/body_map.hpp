@@ -25,7 +25,7 @@ struct Location {
   ISO_FIELDS(set, index)
 };
 
-/// From a slot to the record, in O(1). A cache: all of it follows from the state.
+/// BodyMap leads from a slot to the record, in O(1). A cache: all of it follows from the state.
 /// Input:   the state, and calls from whatever moves records between its arrays.
 /// Output:  locations, and the records that lie there.
 /// Keeps:   a location for each slot; how often sleeping islands name a body; the content of blobs.
@@ -50,7 +50,7 @@ template <class S> class BodyMap {
     if (slot == kNoBody || locations_[slot].set != Location::kStatic) return true;
     return isostep::is_enabled(state_.static_bodies.properties(locations_[slot].index));
   }
-  /// Of a joint, whether both of its bodies take part: if not, it holds nothing.
+  /// Whether both bodies of a joint take part: if not, it holds nothing.
   ISO_INLINE bool is_enabled(const JointProperties<S>& joint) const {
     return is_enabled(joint.body_a) && is_enabled(joint.body_b);
   }
@@ -69,7 +69,7 @@ template <class S> class BodyMap {
   const BodyState<S>* state_of(BodyId body) const;
   const BodyProperties<S>* properties_of(BodyId body) const;
   const JointProperties<S>* properties_of(JointId joint) const;
-  /// Of a body that does not sleep, to be changed.
+  /// The records of a body that does not sleep, to be changed.
   BodyState<S>& change_state(std::uint32_t slot);
   BodyProperties<S>& change_properties(std::uint32_t slot);
   ISO_INLINE std::span<const Child<S>> children_of(std::uint32_t shape_slot) const {
@@ -81,15 +81,15 @@ template <class S> class BodyMap {
   ISO_INLINE const ChildTree<S>* tree_of(std::uint32_t shape_slot) const {
     return state_.shapes[shape_slot]->tree.get();
   }
-  /// [m] Of all its children the least thickness().
+  /// [m] The least thickness() of all its children.
   ISO_INLINE S thinnest_of(std::uint32_t shape_slot) const { return state_.shapes[shape_slot]->thinnest; }
-  /// [m] Of all shapes.
+  /// [m] The least of all shapes.
   S least_thickness() const;
   /// Whether a body has the shape.
   ISO_INLINE bool is_used(std::uint32_t shape_slot) const {
     return shape_slot < uses_.size() && uses_[shape_slot] != 0;
   }
-  /// Of the blobs that children name.
+  /// Contents of the blobs that children name.
   ISO_INLINE Contents<S> contents() const { return {contents_.data()}; }
   static Pose<S> origin_pose(const BodyState<S>& state, const BodyProperties<S>& body);
   /// The inverse: where the centre of mass is, axes as the body's, of a body with its origin there.
@@ -106,9 +106,9 @@ template <class S> class BodyMap {
   /// Puts a body among the static or the awake ones, and a joint among the awake ones.
   void insert(const BodyState<S>& state, const BodyProperties<S>& body);
   void insert(const JointState<S>& state, const JointProperties<S>& joint);
-  /// Of a body that does not sleep.
+  /// Erases a body that does not sleep.
   void erase(std::uint32_t slot);
-  /// Of an awake joint.
+  /// Erases an awake joint.
   void erase_joint(std::uint32_t slot);
   /// The records of an array from index `from` on were moved.
   void relabel(const BodySet<S>& bodies, std::uint32_t set, std::size_t from);
@@ -125,15 +125,15 @@ template <class S> class BodyMap {
     if (uses_.size() <= shape_slot) uses_.resize(shape_slot + 1);
     uses_[shape_slot] += by;
   }
-  /// For every slot that the state has handed out.
+  /// Makes room for every slot that the state has handed out.
   void make_room();
-  /// After the state's blobs have changed.
+  /// Renews all contents, after the state's blobs have changed.
   void renew_contents();
-  /// After the one at a place has.
+  /// Renews the one at a place.
   void renew_content(std::uint32_t place);
-  /// Of children as a world stores them, or of none, with all that follows from them; contents come first.
+  /// A shape of children as a world stores them, or of none, with all that follows from them; contents come first.
   static std::shared_ptr<const StoredShape<S>> stored(std::vector<Child<S>> children, Contents<S> contents);
-  /// In place of the shape that the slot has; its number is among those handed out.
+  /// Puts a shape in place of that which the slot has; its number is among those handed out.
   void put_shape(std::uint32_t slot, std::vector<Child<S>> children);
   /// The shapes of the state are others.
   ISO_INLINE void forget_thickness() { knows_thickness_ = false; }

@@ -1,4 +1,4 @@
-// What a user says to make a body.
+// Definitions: what a user says to make a body.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// What a dynamic body weighs.
+/// Mass of a dynamic body, with its principal moments of inertia.
 template <class S> struct BodyMass {
   S density = S(1);                      // [kg/m^3] where mass is 0; water has 1000
   S mass = S(0);                         // [kg] 0: from density

@@ -1,5 +1,5 @@
-// What a step reports to the game: output of one step, in canonical order, never state. What commands end and wake is
-// reported by the next step; until then it is state (UntoldEvents).
+// Events: what a step reports to the game, output of one step, in canonical order, never state. What commands end and
+// wake the next step reports; until then it is state (UntoldEvents).
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -99,7 +99,7 @@ template <class S> struct Events {
   }
 };
 
-/// What commands ended and woke since the last step, for the next one to tell. A game that counts its events must count
+/// Ends and wakings by commands since the last step, for the next one to tell. A game that counts its events must count
 /// the same after a load, so this is state. By id: the bodies may be gone, and their slots taken, before the step.
 struct UntoldEvents {
   std::vector<ContactEnd> contact_end;  // ascending by slots
@@ -108,7 +108,7 @@ struct UntoldEvents {
   std::vector<BodyId> sensors;          // as commands changed them: sensors that lie still, for who sleeps in them
 };
 
-/// What a step had to mend. Identical on every peer.
+/// The report tells what a step had to mend. Identical on every peer.
 struct StepReport {
   std::uint32_t clamped_speed = 0;     // bodies whose speed was cut to Limits<S>, or whose turn to a radian a sub-step
   std::uint32_t clamped_force = 0;     // bodies whose forces or impulses were cut: they would leave its range at once

@@ -32,7 +32,7 @@ template <class S> class Proxies {
   /// Bodies that the budget keeps from some of their pairs.
   std::uint32_t bodies_left_out() const { return left_out_; }
   const ChosenBroadPhase<S>& boxes() const { return boxes_; }
-  /// From now on another structure holds the boxes.
+  /// Has another structure hold the boxes from now on.
   void use(BroadPhaseName name);
 
   /// The pairs alone: structures differ between worlds that agree.

@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// What a body is to others, as an index of bits; those who collide with nothing are of no kind.
+/// The kind is what a body is to others, an index of bits; those who collide with nothing are of no kind.
 namespace proxy_kind {
 inline constexpr std::uint32_t kAwake = 1, kDynamic = 2, kSensor = 4;
 inline constexpr std::uint32_t kCount = 8;
@@ -33,7 +33,7 @@ inline constexpr std::uint32_t kAllAwake = 0xaau;
 inline constexpr std::uint32_t kFree = 1u << (kAwake | kDynamic) | 1u << (kAwake | kDynamic | kSensor);
 }  // namespace proxy_kind
 
-/// All but its box that decides with whom a body pairs. Of a subtree of bodies: no less than any of them would allow.
+/// Traits decide with whom a body pairs, but for its box. Of a subtree of bodies: no less than any of them would allow.
 struct ProxyTraits {
   std::uint32_t kinds = 0;     // a bit of proxy_kind
   std::uint32_t partners = 0;  // bits: the kinds it pairs with

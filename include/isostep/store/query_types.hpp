@@ -1,4 +1,4 @@
-// What queries of worlds are given and return.
+// Types that queries of worlds are given and return.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace isostep {
 
-/// What a ray or cast says of what it is inside of from the start. A mesh or height field has no inside: a ray starts
-/// outside of it, a cast inside of triangles that it overlaps.
+/// StartInside is what a ray or cast says of what it starts inside of. A mesh or height field has no inside: a ray
+/// starts outside of it, a cast inside of triangles that it overlaps.
 enum class StartInside : std::uint8_t {
   report,  // a hit at fraction 0
   ignore   // nothing, wherever it goes
 };
-/// What `all` lists one hit of, the first.
+/// `all` lists one hit of each of these, the first.
 enum class HitPer : std::uint8_t {
   body,
   child,    // of a body's shape
@@ -50,12 +50,12 @@ template <class S, class Fraction> struct QueryHit {
   std::uint8_t material;   // of the triangle; 0 where there is none
   bool inside;             // from the start: the normal is the way back of a ray, the shortest way out of a shape
 };
-/// What a ray met.
+/// A point that a ray met.
 template <class S> using RayCastHit = QueryHit<S, S>;
-/// What a shape that was cast met, rounded down: at the fraction the two do not overlap.
+/// A part that a shape met when it was cast. The fraction is rounded down: there the two do not overlap.
 template <class S> using ShapeCastHit = QueryHit<S, Unit<S>>;
 
-/// What a shape overlaps. In order of the slot, child, triangle.
+/// A part or triangle that a shape overlaps. In order of the slot, child, triangle.
 struct OverlapHit {
   BodyId body;
   std::uint32_t child;     // of the body's shape
@@ -67,7 +67,7 @@ struct OverlapHit {
   }
 };
 
-/// What is nearest to a point.
+/// The body that is nearest to a point.
 template <class S> struct ClosestBody {
   BodyId body;
   Vec3<S> point;         // [m] on its surface
@@ -85,13 +85,13 @@ template <class S> struct QueryShape {
   ISO_INLINE QueryShape(const Primitive<S>& shape) : of_world(false), primitive(shape) {}
 };
 
-/// One of many rays.
+/// A ray of many.
 template <class S> struct RayCast {
   Vec3<S> origin;       // [m] world
   Vec3<S> translation;  // [m]
   QueryFilter filter = {};
 };
-/// One of many casts.
+/// A cast of many.
 template <class S> struct ShapeCast {
   QueryShape<S> shape;
   Pose<S> pose;         // [m] of the shape's frame at the start, world

@@ -27,7 +27,7 @@ namespace isostep {
 template <class S> struct StoredShape {
   std::vector<Child<S>> children;
   std::uint64_t hash = 0;  // of them
-  // No state of its own: follows from the children and the content that they name.
+  // It is no state of its own: it follows from the children and the content that they name.
   std::shared_ptr<const ChildTree<S>> tree;  // null: the shape has few children
   S thinnest = S(0);                         // [m] of the thickness() of each child
 
@@ -37,7 +37,7 @@ template <class S> struct StoredShape {
     visit("children", self.children);
   }
 };
-/// By slot, shared a page at a time.
+/// Shapes by slot, shared a page at a time.
 template <class S> using StoredShapes = PagedArray<std::shared_ptr<const StoredShape<S>>, 64>;
 /// Joints side by side, ascending by slot.
 template <class S> struct JointSet {
@@ -106,7 +106,7 @@ template <class S> struct WorldState {
   Settings<S> settings;
   std::uint64_t tick = 0;  // steps taken
   SlotMap body_slots, shape_slots, joint_slots;
-  // What only commands change: copies have it in common until one of them does.
+  // Only commands change these: copies have them in common until one of them does.
   StoredShapes<S> shapes;
   Shared<GeometryStore> geometry;  // what their children name
   StaticBodies<S> static_bodies;
@@ -121,7 +121,7 @@ template <class S> struct WorldState {
   UntoldEvents untold;
   SleepingIslands<S> sleeping;
 
-  /// In the order of the hash and of the portable form: see state/members.hpp.
+  /// Visits all in the order of the hash and of the portable form: state/members.hpp.
   template <class Visitor, class Self> static ISO_INLINE void members(Visitor&& visit, Self&& self) {
     visit("settings", self.settings);
     visit("tick", self.tick);

@@ -101,7 +101,7 @@ template <class S> class StateValidator {
   }
   std::span<const Child<S>> parts_of(std::uint32_t shape) const { return state_.shapes[shape]->children; }
 
-  /// Of valid ones.
+  /// Counts the leaves of valid parts.
   std::uint32_t leaves_of_parts(std::span<const Child<S>> parts) const {
     std::uint32_t leaves = 0;
     for (const Child<S>& part : parts) {
@@ -281,7 +281,7 @@ template <class S> class StateValidator {
     }
     return nullptr;
   }
-  /// Of a slot that was given: the body may be gone.
+  /// Whether the slot was given to a body, which may be gone.
   bool was_body(BodyId body) const {
     return body && body.slot < seen_.set_of_body.size() && SlotMap::space_of(body) == state_.settings.id_space;
   }
