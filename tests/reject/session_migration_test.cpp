@@ -1,7 +1,7 @@
 // A member of the match that lies when the host is gone: about rosters, support, and inputs that nobody else knows.
 // SPDX-License-Identifier: MIT
 #include "hostile_scene.hpp"
-#include "isostep/session/roster.hpp"
+#include "isostep/session/agreement/roster.hpp"
 
 namespace isostep::hostile {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "hostile_scene.hpp"
-#include "isostep/session/repair.hpp"
-#include "isostep/session/verdict.hpp"
+#include "isostep/session/agreement/repair.hpp"
+#include "isostep/session/agreement/verdict.hpp"
 
 namespace isostep::hostile {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "isostep/core/index.hpp"
-#include "isostep/session/core.hpp"
-#include "isostep/session/input_codec.hpp"
+#include "isostep/session/peer/session_core.hpp"
+#include "isostep/session/timeline/input_codec.hpp"
 #include "isostep/state/concepts.hpp"
 
 namespace isostep {
