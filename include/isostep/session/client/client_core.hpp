@@ -8,6 +8,7 @@
 #include "isostep/session/client/repair.hpp"
 #include "isostep/session/client/supporter.hpp"
 #include "isostep/session/client/wishes.hpp"
+#include "isostep/session/peer/datagrams.hpp"
 #include "isostep/session/peer/peer_core.hpp"
 #include "isostep/session/protocol/outbox.hpp"
 
@@ -47,23 +48,17 @@ class ClientCore : public PeerCore {
 
  protected:
   bool is_local(int player) const override { return own_.is_open() && own_.has(player); }
-  Frame sends_until(int player, const PeerLink&) const override {
-    return is_local(player) ? streams_[static_cast<std::size_t>(player)].end() : 0;
-  }
   bool running() const override { return standing_ == Standing::runs && !repair_.restores(); }
-  Frame present() const override { return repair_.present(current()); }
   Frame window() const override { return own_.is_open() ? PeerCore::window() : 0; }
   Frame final_limit() const override;
   bool hurries(Time now) const override;
   void before_steps(Time now) override;
   void observe_delay() override;
   Frame early(int player) const override;
-  void paused(Time now) override { forgive_own_pause(now); }
   void blocked(Time now) override;
   void hash_known(Frame state, std::uint64_t hash) override;
 
   bool is_host(PeerId peer) const { return host_.is_connected && host_.peer == peer; }
-  bool is_host_link(const PeerLink& link) const { return &link == &host_; }
   /// We have the host's states, and go on from there.
   bool is_settled_in() const {
     return is_greeted() && has_start_ && !entry_.is_under_way() && !entry_.is_spoiled() && !repair_.is_under_way();
@@ -73,6 +68,9 @@ class ClientCore : public PeerCore {
   std::uint64_t match() const { return entry_.welcome().match; }
   std::uint32_t hosted() const { return entry_.welcome().hosted; }
   Frame told_final() const { return log_.told_final(); }
+
+ protected:
+  Datagrams datagrams_{config_, streams_, hashes_, clock_, stats_};
 
  private:
   /// What we are to the host to which we connected last.
@@ -99,6 +97,8 @@ class ClientCore : public PeerCore {
   bool ask(const Ask& ask);
   bool write_to_host(Time now);
   PacketHeader header() const;
+  /// To the host, of our players.
+  SendEnds ends() const;
   /// Our seats: whether they may be open, and whether we say so.
   void tend_seats(Time now);
 
@@ -134,7 +134,7 @@ class ClientCore : public PeerCore {
   OwnSeats own_{streams_, timeline_, host_};
   FollowerLog log_{streams_, timeline_, own_, entry_};
   Distance distance_{config_, host_, clock_};
-  Repair repair_{arrival_, hashes_};
+  Repair repair_{arrival_, hashes_, catches_up_to_};
   HostSearch search_;
   Callers callers_{search_.roster(), search_.election(), partings_, streams_, timeline_, rules_, own_, log_};
   Supporter supporter_{search_.roster(), search_.election(), streams_, log_};

@@ -22,7 +22,6 @@ class RelayCore : public ClientCore {
   SnapshotProgress snapshot_progress(PeerId peer) const override;
 
  protected:
-  Frame sends_until(int player, const PeerLink& link) const override;
   Frame window() const override { return -config_.broadcast_delay; }
   void before_steps(Time now) override;
   void after_steps() override { serve_snapshots(); }
@@ -65,6 +64,8 @@ class RelayCore : public ClientCore {
   bool may_share_snapshot() const;
   /// What `capture` wrote, which is not for us.
   void collect_snapshot();
+  /// To any leaf.
+  SendEnds shown_ends() const;
   bool lacks_inputs(const Leaf& leaf) const;
   bool acknowledges(const Leaf& leaf, Time now) const;
   Frame most_frames(const Leaf& leaf, Time now) const;

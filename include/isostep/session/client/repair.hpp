@@ -18,7 +18,9 @@ namespace isostep {
 /// while its player's inputs go on at the pace of the match: nobody else notices.
 class Repair {
  public:
-  Repair(SnapshotArrival& arrival, const HashLog& hashes) : arrival_(arrival), hashes_(hashes) {}
+  /// `present`: the frame that would be next by now; above the current one frames are stepped again.
+  Repair(SnapshotArrival& arrival, const HashLog& hashes, Frame& present)
+      : arrival_(arrival), hashes_(hashes), present_(present) {}
 
   bool is_under_way() const { return stage_ != Stage::none; }
   bool receives() const { return stage_ == Stage::receives; }
@@ -27,8 +29,6 @@ class Repair {
   const RepairOffer& offer() const { return offer_; }
   /// The newest state that was final before.
   Frame after() const { return after_; }
-  /// The frame that would be next by now; above the current one frames are stepped again.
-  Frame present(Frame current) const { return present_ > current ? present_ : current; }
 
   void ask() { stage_ = Stage::asks; }
   void take(const RepairOffer& offer) {
@@ -99,7 +99,8 @@ class Repair {
   const HashLog& hashes_;
   Stage stage_ = Stage::none;
   RepairOffer offer_;
-  Frame after_ = kNoFrame, present_ = 0, inquired_ = kNoFrame;
+  Frame& present_;
+  Frame after_ = kNoFrame, inquired_ = kNoFrame;
   Outbox<MessageKind> due_;  // repaired
 };
 

@@ -15,6 +15,7 @@
 #include "isostep/session/host/seats.hpp"
 #include "isostep/session/host/snapshot_desk.hpp"
 #include "isostep/session/host/tempo_desk.hpp"
+#include "isostep/session/peer/datagrams.hpp"
 #include "isostep/session/peer/peer_core.hpp"
 
 namespace isostep {
@@ -54,9 +55,6 @@ class HostCore : public PeerCore {
 
  protected:
   bool is_local(int player) const override { return seats_.is_local(player); }
-  Frame sends_until(int player, const PeerLink& link) const override {
-    return flow_.until(player, static_cast<const Guest&>(link));
-  }
   bool running() const override { return started_; }
   void ask_start() override;
   void hash_known(Frame state, std::uint64_t hash) override;
@@ -120,6 +118,7 @@ class HostCore : public PeerCore {
   SecretNumbers numbers_;
   Seats seats_;
   Guests guests_;
+  Datagrams datagrams_{config_, streams_, hashes_, clock_, stats_};
   Leadership leadership_{config_, seats_, guests_, streams_, stats_, message_};
   InputFlow flow_{config_, seats_, streams_};
   Deadline deadline_{config_, seats_, guests_, streams_, slack_, clock_, stats_};
@@ -128,7 +127,7 @@ class HostCore : public PeerCore {
   Figures figures_{seats_, guests_, flow_, stats_};
   Inquiry inquiry_{seats_};
   BallotBox ballot_box_{config_, seats_, ballot_};
-  TempoDesk tempo_desk_{config_, announced()};
+  TempoDesk tempo_desk_{config_, tempos_.announced()};
   SnapshotDesk snapshots_{config_, hashes_, portable_};
   std::uint64_t match_;
   bool started_ = false, must_start_ = false;

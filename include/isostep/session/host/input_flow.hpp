@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/session/host/seats.hpp"
+#include "isostep/session/peer/datagrams.hpp"
 #include "isostep/session/timeline/input_stream.hpp"
 
 namespace isostep {
@@ -14,6 +15,11 @@ class InputFlow {
       : config_(config), seats_(seats), streams_(streams) {}
   /// Inputs of this player travel to it before this frame; 0: none.
   Frame until(int player, const Guest& guest) const;
+  SendEnds ends(const Guest& guest) const {
+    SendEnds ends;
+    for (int p = 0; p < config_.players; ++p) ends.of[p] = until(p, guest);
+    return ends;
+  }
   /// How many frames of each player the next datagram may bring; 0: none is due.
   Frame most_frames(const Guest& guest, Time now) const;
   void was_sent(Guest& guest, std::size_t bytes, Time now) const;

@@ -9,6 +9,13 @@
 
 namespace isostep {
 
+/// What is taken for the input after the stream's newest; valid until `buffer` is written to.
+inline Bytes guess_next(const InputRules& rules, const InputStream& stream, std::uint8_t (&buffer)[kInputCap]) {
+  const InputEntry last = stream.last();
+  const Bytes before = last.absent ? Bytes(rules.neutral, rules.neutral_size) : last.bytes;
+  return {buffer, rules.predict(before, 1, buffer)};
+}
+
 /// In: an input of a player, at any time. Out: their streams, as far as the delay asks. Keeps: of each player the last,
 /// until a frame has taken it.
 class LocalInputs {
@@ -21,12 +28,12 @@ class LocalInputs {
     if (!input.empty()) std::memcpy(pending.bytes, input.data(), input.size());
   }
   /// Up to frame `end`: the newest frame takes what was given, those before it are guesses.
-  template <class Guess> void fill(int player, InputStream& stream, Frame end, const Guess& guess) {
+  void fill(int player, InputStream& stream, Frame end, const InputRules& rules) {
     if (stream.end() >= end) return;
     Pending& pending = pending_[player];
     while (stream.end() < end) {
       std::uint8_t buffer[kInputCap];
-      const Bytes guessed = guess(stream, buffer);
+      const Bytes guessed = guess_next(rules, stream, buffer);
       const bool is_newest = stream.end() == end - 1;
       stream.append({false, is_newest && pending.is_set ? Bytes(pending.bytes, pending.size) : guessed});
     }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/session/agreement/verdict.hpp"
-#include "isostep/session/peer/session_core.hpp"
+#include "isostep/session/peer/events.hpp"
 #include "isostep/session/timeline/hash_log.hpp"
 
 namespace isostep {
@@ -39,12 +39,8 @@ class MachineViews {
   std::uint64_t agreeing_since(Frame base) const;
   /// Whom a majority finds wrong, as last heard.
   bool is_outvoted(std::size_t machine) const { return (outvoted_ >> machine & 1) != 0; }
-  /// Who is outvoted anew, a bit each.
-  std::uint64_t take(const Verdict& verdict) {
-    const std::uint64_t news = verdict.minority & ~outvoted_;
-    if (verdict.is_decided) outvoted_ = verdict.minority;
-    return news;
-  }
+  /// Judges what all say; tells whom a majority finds wrong, each once.
+  Verdict judge(const Statements& statements, EventQueue& events);
 
  private:
   View views_[kMachines];

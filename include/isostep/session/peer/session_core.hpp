@@ -13,6 +13,7 @@
 #include "isostep/session/agreement/ballot.hpp"
 #include "isostep/session/config.hpp"
 #include "isostep/session/peer/applicant.hpp"
+#include "isostep/session/peer/events.hpp"
 #include "isostep/session/peer/snapshot_transfer.hpp"
 #include "isostep/session/protocol/message.hpp"
 #include "isostep/session/protocol/player_stats.hpp"
@@ -46,50 +47,6 @@ enum class SessionPhase : std::uint8_t {
   lost,      // the host is gone: connect again
   refused,   // the host will not have us: the event says why
   over       // a replay has ended
-};
-
-struct SessionEvent {
-  enum class Kind : std::uint8_t {
-    started,        // frame: the first
-    joined,         // player plays from frame on: reported when that is final, alike on all peers
-    left,           // player is gone from frame on: as well
-    waiting_for,    // players (a bit each) hold the match up, their inputs are missing; none: the host is silent
-    resumed,        // it goes on
-    replaced,       // guesses count in place of player's inputs, too late for the deadline: once a second at most
-    too_far,        // no delay covers player's line under the deadline: it watches
-    paused,         // from frame on, by player; 0xff: by the host's game
-    unpaused,       // likewise
-    speed_changed,  // likewise: `speed`
-    asks_pause,     // host: player asks for it, and players_set_tempo is false: pause() or not
-    asks_unpause,   // likewise
-    asks_speed,     // likewise: `speed`
-    vote,           // ballot: as it stands now, when it is opened, and when somebody has voted
-    vote_passed,    // ballot
-    vote_failed,    // ballot: also when the host that counted is gone
-    slowed_by,      // all step as slowly as player's machine can: told when that begins, and when it is another's
-    full_speed,     // no longer
-    refused,        // field: what differs, or why not; the host reports whom it refused, and not whom it kicked
-    lost_host,      // nothing was heard of it for too long, or the connection ended
-    seeks_host,     // likewise, but the match goes on at another
-    new_host,       // frame: where it goes on; player: the first of the host's, 0xff when it has none
-    deposed,        // host: the others went on without us, or have gone: we seek their host
-    desync,         // player's states differ from ours after state `agreed` and at the latest in state `frame`
-    outvoted,       // player's states are wrong, as of state `frame`: more than half of all machines have others
-    undecided,      // machines differ in state `frame`, and no majority says who is wrong
-    repaired,       // player has a state of the host's again; its states are compared from the one after `frame` on
-    bad_snapshot,   // the state that arrived has not the host's hash, or was refused, or the host has none: error
-    misuse,         // requests of the last advance were not carried out
-    unhashed        // sync test: the game takes another byte `ours` of the portable state `frame`, and its hash stays
-  };
-  Kind kind;
-  std::uint8_t player = 0xff;  // 0xff: none, or the host's machine
-  Frame frame = kNoFrame;
-  Frame agreed = kNoFrame;
-  std::uint32_t players = 0;
-  Ballot ballot{};
-  std::uint8_t speed = 0;              // [1/8 of the match's rate]
-  std::uint64_t ours = 0, theirs = 0;  // hash chains; outvoted: player's and the majority's
-  Refusal field{};
 };
 
 struct Outgoing {
@@ -224,7 +181,10 @@ class SessionCore {
   }
   /// The `capture` of this turn was not carried out yet: whoever waits for the snapshot goes on waiting.
   bool awaits_capture() const { return is_capturing_ && portable_.empty(); }
-  void tell(const SessionEvent& event);
+  void tell(const SessionEvent& event) { events_.tell(event); }
+  void tell(const std::optional<SessionEvent>& event) {
+    if (event) tell(*event);
+  }
   /// Frame `state - 1` is final, and `state` has this hash.
   void confirm(Frame state, std::uint64_t hash);
   int players() const { return config_.players; }
@@ -233,6 +193,7 @@ class SessionCore {
   InputRules rules_;
   Timeline timeline_;
   SessionStats stats_;
+  EventQueue events_;
   SessionPhase phase_ = SessionPhase::waiting;
   Frame confirmed_state_ = kNoFrame;
   std::vector<std::uint8_t> portable_;
@@ -242,7 +203,6 @@ class SessionCore {
   Frame told_state_ = kNoFrame;  // the newest that poll_confirmed was given
   int unsaved_ = 0;              // saves asked for and not reported
   bool is_capturing_ = false;    // a capture was asked for in this turn
-  BoundedQueue<SessionEvent> events_;
   BoundedQueue<Confirmed> confirmed_;
 };
 

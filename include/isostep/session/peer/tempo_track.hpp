@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "isostep/session/pace/tempo.hpp"
+#include "isostep/session/timeline/input_stream.hpp"
 
 namespace isostep {
 
@@ -20,8 +21,14 @@ class TempoTrack {
     announced_ = tempo;
   }
   void forget() { is_known_ = false; }
-  /// The host: from this frame on.
-  void announce(Tempo tempo, Frame from) {
+  /// The host: from the first frame on that nobody can have stepped when it hears of it.
+  void announce(Tempo tempo, Frame current, const std::vector<InputStream>& streams, Frame window) {
+    Frame from = current;
+    // Whoever has not heard of it lacks the inputs that are not here yet, and steps no more than the window beyond them.
+    if (!in_force_.is_paused) {
+      for (const InputStream& stream : streams) from = from < stream.end() ? stream.end() : from;
+      from += window;
+    }
     tempo.number = announced_.number + 1;
     tempo.from = from;
     is_known_ = true;

@@ -4,6 +4,8 @@
 
 #include <bit>
 
+#include "isostep/session/peer/reach.hpp"
+
 namespace isostep {
 namespace {
 
@@ -26,7 +28,7 @@ int needed_stretch(const StepPace& pace, const FrameClock& clock) {
 
 void ClientCore::take_packet(const Packet& packet, Time now) {
   const PacketHeader& header = packet.header;
-  take_header(host_, header, now);
+  datagrams_.take_header(host_, header, ends(), is_after_pause(now), now);
   stats_.round_trip = host_.round_trip;
   stats_.jitter = host_.meter.jitter(now);
   stats_.loss = host_.meter.loss(now);
@@ -46,18 +48,18 @@ void ClientCore::take_packet(const Packet& packet, Time now) {
   tempos_.hear(header.tempo);
   if (standing_ == Standing::runs) {
     go_at_pace_of(host_.slowest, host_.stretch);
-    if (host_.waits_for != 0) stands_for(host_.waits_for);
-    else goes_on();
+    if (host_.waits_for != 0) tell(news_.stands_for(host_.waits_for, current()));
+    else tell(news_.goes_on(current()));
     if (!is_paused()) distance_.lean(now, present());
   }
-  take_hash(kHostMachine, header.report);
-  if (header.reporter < players() && !own_.has(header.reporter)) take_hash(header.reporter, header.passed_on);
+  views_.hear(kHostMachine, header.report);
+  if (header.reporter < players() && !own_.has(header.reporter)) views_.hear(header.reporter, header.passed_on);
   for (std::uint8_t i = 0; i < packet.slice_count; ++i) take_inputs(packet.slices[i], now);
   if (header.started && standing_ != Standing::runs) {
     standing_ = Standing::runs;
     clock_.start(now);
     if (current() == 0) figured_ = ~0u;  // none is replaced yet
-    tell_started();
+    tell(news_.started(current()));
   }
   if (standing_ == Standing::runs) {
     // To the host, and on to the others where there are any; with a deadline, what others do comes all the way back.
@@ -128,8 +130,7 @@ void ClientCore::tend_seats(Time now) {
     phase_ = SessionPhase::watching;
   }
   const bool was_too_far = is_too_far_;
-  const Time trip = host_.round_trip;
-  is_too_far_ = own_.first() >= 0 && (was_too_far ? is_still_beyond(trip) : is_beyond(trip));
+  is_too_far_ = own_.first() >= 0 && is_out_of_reach(config_, clock_.period(), host_.round_trip, was_too_far);
   if (is_too_far_ && !was_too_far) tell_of(SessionEvent::Kind::too_far, own_.first());
   const bool is_near = distance_.behind(now, present()) <= kCaughtUp + config_.most_delay;
   if (is_near) own_.is_near(now);
@@ -163,7 +164,7 @@ bool ClientCore::ask(const Ask& ask) {
 
 void ClientCore::blocked(Time now) {
   // Whose inputs are missing the host knows; that nothing comes of the host itself we see.
-  if (now - host_.heard >= kTellBlocked) stands_for(hosted());
+  if (now - host_.heard >= kTellBlocked) tell(news_.stands_for(hosted(), current()));
 }
 
 void ClientCore::observe_delay() {
@@ -202,7 +203,8 @@ std::optional<Outgoing> ClientCore::poll_send(Time now) {
   }
   if (!host_.is_connected || !is_greeted() || entry_.is_due()) return std::nullopt;
   if (!host_.may_send(present(), clock_.period(), now)) return std::nullopt;
-  return Outgoing{host_.peer, Channel::datagram, compose(host_, header(), now)};
+  return Outgoing{host_.peer, Channel::datagram,
+                  datagrams_.compose(host_, header(), ends(), present(), kSliceFrames, now)};
 }
 
 bool ClientCore::write_to_host(Time now) {
@@ -216,6 +218,12 @@ bool ClientCore::write_to_host(Time now) {
   if (!due_.take(MessageKind::ready)) return false;
   write_ready(message_);
   return true;
+}
+
+SendEnds ClientCore::ends() const {
+  SendEnds ends;
+  for (int p = 0; p < players(); ++p) ends.of[p] = is_local(p) ? streams_[static_cast<std::size_t>(p)].end() : 0;
+  return ends;
 }
 
 PacketHeader ClientCore::header() const {

@@ -22,7 +22,7 @@ void ClientCore::connected(PeerId host, Time now) {
   due_.add(MessageKind::hello);
   due_.drop(MessageKind::ready);
   wishes_ = Wishes{};
-  end_ballot();
+  end_ballot(ballot_, current(), events_);
   tempos_.forget();
   // The greeting names the state that we go on from.
   standing_ = Standing::unknown;
@@ -70,7 +70,7 @@ void ClientCore::receive(PeerId host, Channel channel, Bytes bytes, Time now) {
   }
   if (channel == Channel::datagram) {
     Packet packet;
-    if (!accept_datagram(host_, bytes, now, packet)) return;
+    if (!datagrams_.accept(host_, bytes, now, packet)) return;
     if (!is_greeted() || packet.header.match != match()) {
       ++stats_.refused;
       return;
@@ -84,7 +84,7 @@ void ClientCore::receive(PeerId host, Channel channel, Bytes bytes, Time now) {
   const Result<MessageKind> kind = message_kind(bytes);
   if (kind && kind.value() == MessageKind::piece) {
     stats_.bytes_in += bytes.size();
-  } else if (!accept_message(host_, bytes, now)) {
+  } else if (!datagrams_.accept_message(host_, bytes, now)) {
     return;
   }
   if (take_message(kind.value(), bytes, now)) host_.heard = now;
@@ -126,7 +126,7 @@ bool ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
     const Result<Ballot> ballot = read_ballot(bytes);
     if (!ballot) return false;
     ballot_ = ballot.value();
-    tell_ballot();
+    tell(event_of(ballot_, current()));
     return true;
   }
   return take_failover(kind, bytes, now) || take_repair(kind, bytes);
@@ -213,7 +213,7 @@ void ClientCore::begin() {
   }
   own_.begin_at(frame);
   log_.begin_at(frame);
-  for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
+  for (std::size_t machine = 0; machine < kMachines; ++machine) views_.was_repaired(machine, kNoFrame);
   distance_.restart();
   if (entry_.opened() != kNoFrame && !own_.open(entry_.opened(), config_.history / 2)) ++stats_.refused;
   // What was ours before is told to us, and compared: see OwnSeats::take.

@@ -32,7 +32,7 @@ bool ClientCore::take_repair(MessageKind kind, Bytes bytes) {
   const Result<Repaired> repaired = read_repaired(bytes);
   if (!repaired || repaired.value().player >= players() || repaired.value().player == own_.first()) return false;
   if (repaired.value().after > farthest) return false;
-  was_repaired(repaired.value().player, repaired.value().after);
+  views_.was_repaired(repaired.value().player, repaired.value().after);
   tell({.kind = SessionEvent::Kind::repaired, .player = repaired.value().player, .frame = repaired.value().after});
   return true;
 }
@@ -44,7 +44,7 @@ bool ClientCore::take_statements(const Statements& statements) {
   const bool is_quoted = plays && quoted.is_asked && quoted.has_spoken;
   // Who quotes us wrong may quote anybody wrong.
   if (is_quoted && hashes_.has_chain(statements.frame) && quoted.chain != hashes_.chain(statements.frame)) return false;
-  const Verdict verdict = tell_verdict(statements);
+  const Verdict verdict = views_.judge(statements, events_);
   const bool is_ours = is_quoted && (verdict.minority >> own & 1) != 0 && statements.frame > own_.base();
   // A host whose own states are wrong has none for us.
   const bool is_hosts = (verdict.minority >> kHostMachine & 1) != 0;
@@ -82,7 +82,7 @@ void ClientCore::finish_repair(std::uint64_t hash) {
   hashes_.restart(start, hash);
   confirmed_state_ = start.frame;
   own_.is_repaired_at(start.frame);
-  for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, views_[machine].after);
+  for (std::size_t machine = 0; machine < kMachines; ++machine) views_.was_repaired(machine, views_[machine].after);
   tell({.kind = SessionEvent::Kind::repaired,
         .player = static_cast<std::uint8_t>(own_.first()),
         .frame = repair_.after()});

@@ -49,12 +49,14 @@ SnapshotProgress RelayCore::snapshot_progress(PeerId peer) const {
   return receives ? leaves_[peer].transfer.progress() : ClientCore::snapshot_progress(peer);
 }
 
-Frame RelayCore::sends_until(int player, const PeerLink& link) const {
-  if (is_host_link(link)) return ClientCore::sends_until(player, link);
-  const Frame end = streams_[static_cast<std::size_t>(player)].end();
-  if (config_.broadcast_delay == 0) return end;
-  const Frame shown = known_end() - config_.broadcast_delay;
-  return shown < end ? shown : end;
+SendEnds RelayCore::shown_ends() const {
+  SendEnds ends;
+  const Frame shown = config_.broadcast_delay == 0 ? kLastFrame : known_end() - config_.broadcast_delay;
+  for (int p = 0; p < players(); ++p) {
+    const Frame end = streams_[static_cast<std::size_t>(p)].end();
+    ends.of[p] = shown < end ? shown : end;
+  }
+  return ends;
 }
 
 void RelayCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
@@ -65,11 +67,11 @@ void RelayCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
     return;
   }
   if (channel != Channel::datagram) {
-    if (accept_message(*leaf, bytes, now)) take_message(*leaf, bytes, now);
+    if (datagrams_.accept_message(*leaf, bytes, now)) take_message(*leaf, bytes, now);
     return;
   }
   Packet packet;
-  if (!accept_datagram(*leaf, bytes, now, packet)) return;
+  if (!datagrams_.accept(*leaf, bytes, now, packet)) return;
   const bool is_in = leaf->stage == Leaf::Stage::live || leaf->stage == Leaf::Stage::receives_snapshot;
   if (!is_in || packet.header.match != leaf->match) {
     ++stats_.refused;
@@ -87,7 +89,7 @@ void RelayCore::take_packet(Leaf& leaf, const Packet& packet, Time now) {
   }
   leaf.heard = now;
   leaf.has_spoken = true;
-  take_header(leaf, packet.header, now);
+  datagrams_.take_header(leaf, packet.header, shown_ends(), is_after_pause(now), now);
   if (packet.slice_count > 0) ++stats_.refused;  // it has no player
 }
 
@@ -168,9 +170,9 @@ void RelayCore::ask_for_state(Leaf& leaf) {
   leaf.stage = Leaf::Stage::needs_snapshot;
   leaf.must_welcome = true;
   leaf.wants_state = false;
+  const SendEnds sent = shown_ends();
   for (int p = 0; p < players(); ++p) {
-    const Frame sent = sends_until(p, leaf);
-    if (sent > leaf.state_from) leaf.state_from = sent;
+    if (sent.of[p] > leaf.state_from) leaf.state_from = sent.of[p];
   }
 }
 

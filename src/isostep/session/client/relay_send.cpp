@@ -63,8 +63,9 @@ void RelayCore::serve_snapshots() {
 }
 
 bool RelayCore::lacks_inputs(const Leaf& leaf) const {
+  const SendEnds ends = shown_ends();
   for (int p = 0; p < players(); ++p) {
-    if (leaf.acked[p] < sends_until(p, leaf)) return true;
+    if (leaf.acked[p] < ends.of[p]) return true;
   }
   return false;
 }
@@ -160,16 +161,16 @@ std::optional<Outgoing> RelayCore::next_datagram(Leaf& leaf, Time now) {
   header.match = leaf.match;
   header.started = has_begun();
   header.stretch = static_cast<std::uint8_t>(stats_.stretch);
-  header.slowest = static_cast<std::uint8_t>(slowest());
-  header.waits_for = waits_for();
-  header.tempo = announced();
+  header.slowest = static_cast<std::uint8_t>(news_.slowest());
+  header.waits_for = news_.waits_for();
+  header.tempo = tempos_.announced();
   if (told_final() <= kLastFrame) header.final_end = told_final();
   if (leaf.figures_left > 0 && !receives) {
     header.figured = static_cast<std::uint8_t>(--leaf.figures_left);
     header.figures = stats_.players[header.figured];
   }
   leaf.more_at = now + (leaf.acked_at == 0 ? kProbeEvery : kStalledEvery);
-  return Outgoing{leaf.peer, Channel::datagram, compose(leaf, header, now, most)};
+  return Outgoing{leaf.peer, Channel::datagram, datagrams_.compose(leaf, header, shown_ends(), present(), most, now)};
 }
 
 }  // namespace isostep

@@ -206,7 +206,7 @@ void HostCore::send_away(Guest& guest, const Refusal& refusal) {
 
 void HostCore::unseat(Guest& guest) {
   for (const int p : EachPlayer(guest.players)) {
-    was_repaired(static_cast<std::size_t>(p), kNoFrame);
+    views_.was_repaired(static_cast<std::size_t>(p), kNoFrame);
     inquiry_.forget(p);
   }
   seats_.leave(guest);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "isostep/session/host/host_core.hpp"
 
+#include "isostep/session/peer/reach.hpp"
+
 namespace isostep {
 namespace {
 
@@ -54,19 +56,19 @@ void HostCore::begin(Time now) {
   phase_ = seats_.hosted() != 0 ? SessionPhase::playing : SessionPhase::watching;
   seats_.begin();
   tempo_desk_.begin();
-  tell_started();
+  tell(news_.started(current()));
 }
 
 void HostCore::receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
   Guest* const guest = guests_.find(peer);
   if (guest == nullptr) ++stats_.refused;
   else if (channel == Channel::datagram) take_datagram(*guest, bytes, now);
-  else if (accept_message(*guest, bytes, now) && !take_message(*guest, bytes, now)) ++stats_.refused;
+  else if (datagrams_.accept_message(*guest, bytes, now) && !take_message(*guest, bytes, now)) ++stats_.refused;
 }
 
 void HostCore::take_datagram(Guest& guest, Bytes bytes, Time now) {
   Packet packet;
-  if (!accept_datagram(guest, bytes, now, packet)) return;
+  if (!datagrams_.accept(guest, bytes, now, packet)) return;
   const bool is_ours = packet.header.match == match_;
   if (is_ours && guest.stage == Guest::Stage::receives_snapshot) {
     guest.set_clock(packet.header, now);
@@ -82,14 +84,14 @@ void HostCore::take_datagram(Guest& guest, Bytes bytes, Time now) {
   guest.has_spoken = true;
   guest.renew_lease(packet.header, now);
   seats_.keep(guest);
-  take_header(guest, packet.header, now);
+  datagrams_.take_header(guest, packet.header, flow_.ends(guest), is_after_pause(now), now);
   if (guest.repair.stage == RepairService::Stage::receives) guest.measure(packet.header, now);
   // Nobody has final states that we have not: all inputs pass through us.
   const HashReport& report = packet.header.report;
   if (report.frame <= known_end()) {
     const Frame after = guest.player < 0 ? kNoFrame : views_[guest.player].after;
     if (report.frame > guest.report.frame && report.frame > after) guest.report = report;
-    if (guest.player >= 0) take_hash(static_cast<std::size_t>(guest.player), report);
+    if (guest.player >= 0) views_.hear(static_cast<std::size_t>(guest.player), report);
   } else {
     ++stats_.refused;
   }
@@ -159,7 +161,7 @@ bool HostCore::take_repaired(Guest& guest, Bytes bytes) {
   guest.repair.stage = RepairService::Stage::none;
   if (guest.player < 0) return true;
   const auto player = static_cast<std::uint8_t>(guest.player);
-  was_repaired(player, repaired.value().after);
+  views_.was_repaired(player, repaired.value().after);
   inquiry_.forget(player);
   guest.report = HashReport{};
   for (Guest& other : guests_) {
@@ -227,7 +229,9 @@ void HostCore::before_steps(Time now) {
     if (guest.is_connected && guest.is_ready) open_seats(guest, now);
   }
   lines_.begin_turn(now);
-  if (const Tempo* const next = tempo_desk_.next(tempo())) announce(*next);
+  if (const Tempo* const next = tempo_desk_.next(tempos_.in_force())) {
+    tempos_.announce(*next, current(), streams_, window());
+  }
   // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
   if (started_) before_frame(now);
 }
@@ -243,7 +247,7 @@ void HostCore::before_frame(Time now) {
     if (is_local(p)) continue;
     std::uint8_t buffer[kInputCap];
     while (deadline_.is_over(p, due, window()))
-      deadline_.replace(p, guess_next(streams_[static_cast<std::size_t>(p)], buffer), due, now);
+      deadline_.replace(p, guess_next(rules_, streams_[static_cast<std::size_t>(p)], buffer), due, now);
     if (deadline_.must_tell(p, now)) tell_of(SessionEvent::Kind::replaced, p);
   }
 }
@@ -270,12 +274,12 @@ void HostCore::tend(Time now) {
   tend_inquiry(now);
   lines_.judge();
   for (Guest& guest : guests_) {
-    const bool is_covered = guest.is_too_far ? !is_still_beyond(guest.round_trip) : !is_beyond(guest.round_trip);
+    const bool is_covered = !is_out_of_reach(config_, clock_.period(), guest.round_trip, guest.is_too_far);
     if (!LineJudge::loses(guest, is_covered, now)) continue;
     seats_.close(guest);
     tell_of(SessionEvent::Kind::too_far, guest.player);
   }
-  const MatchPace::Choice pace = match_pace_.choose({slowest(), stats_.stretch}, now);
+  const MatchPace::Choice pace = match_pace_.choose({news_.slowest(), stats_.stretch}, now);
   go_at_pace_of(pace.player, pace.stretch);
   if (match_pace_.is_too_slow(now)) {
     const bool may_go = leadership_.tenure().is_backed();
@@ -328,7 +332,6 @@ void HostCore::observe_delay() {
 void HostCore::paused(Time now) {
   lines_.excuse(now);
   deadline_.excuse(now);
-  forgive_own_pause(now);
 }
 
 void HostCore::blocked(Time now) {
@@ -336,13 +339,13 @@ void HostCore::blocked(Time now) {
   for (int p = 0; p < players(); ++p) {
     if (streams_[static_cast<std::size_t>(p)].end() == known_end()) missing |= 1u << p;
   }
-  if (deadline_.stands(now, kTellBlocked)) stands_for(missing);
+  if (deadline_.stands(now, kTellBlocked)) tell(news_.stands_for(missing, current()));
   deadline_.charge(current(), leadership_.tenure().is_backed(), now);
 }
 
 void HostCore::unblocked(Time) {
   deadline_.goes_on();
-  goes_on();
+  tell(news_.goes_on(current()));
 }
 
 SnapshotProgress HostCore::snapshot_progress(PeerId peer) const {

@@ -69,7 +69,7 @@ std::optional<SavedMatch> HostCore::save_match() const {
   saved.start = hashes_.settled();
   saved.hash = hashes_.hash(saved.start.frame);
   saved.hosted = seats_.hosted();
-  saved.speed = announced().speed;
+  saved.speed = tempos_.announced().speed;
   saved.tokens = numbers_.tokens();
   saved.sequels = sequels_;
   saved.term = leadership_.tenure().term();

@@ -108,9 +108,9 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
   header.started = started_;
   header.is_far = guest.is_far;
   header.stretch = static_cast<std::uint8_t>(stats_.stretch);
-  header.slowest = static_cast<std::uint8_t>(slowest());
-  header.waits_for = waits_for();
-  header.tempo = announced();
+  header.slowest = static_cast<std::uint8_t>(news_.slowest());
+  header.waits_for = news_.waits_for();
+  header.tempo = tempos_.announced();
   if (config_.migration > 0) header.final_end = leadership_.tenure().final_end();
   // A closed seat acknowledges nothing: its frames are not the player's, who would take its own for accepted.
   for (const int p : EachPlayer(guest.players)) {
@@ -136,7 +136,7 @@ std::optional<Outgoing> HostCore::next_datagram(Guest& guest, Time now) {
     header.figures = stats_.players[header.figured];
   }
   flow_.note_held_back(guest, current());
-  const Bytes bytes = compose(guest, header, now, most);
+  const Bytes bytes = datagrams_.compose(guest, header, flow_.ends(guest), present(), most, now);
   if (!sending) flow_.was_sent(guest, bytes.size(), now);
   return Outgoing{guest.peer, Channel::datagram, bytes};
 }

@@ -14,7 +14,7 @@ void HostCore::tend_inquiry(Time now) {
   std::uint64_t differing = 0;
   for (std::size_t p = 0; p < kMaxPlayers; ++p) differing |= (views_[p].differs() ? std::uint64_t{1} : 0) << p;
   if (!inquiry_.tend(guests_, differing, hashes_.settled(), now)) return;
-  const Verdict verdict = tell_verdict(inquiry_.statements());
+  const Verdict verdict = views_.judge(inquiry_.statements(), events_);
   const bool is_ours = (verdict.minority >> kHostMachine & 1) != 0;
   if (is_ours && config_.repair && leadership_.could_others(verdict.minority)) steps_down_at_ = now + kFarewell;
 }
@@ -45,15 +45,16 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
   for (RecentLeast& slack : slack_) slack = RecentLeast{};
   delay_.keep_to_most();  // no deadline replaces ours
   for (int p = 0; p < players(); ++p) seats_[p].replaced_told = stats_.players[p].replaced;
-  for (std::size_t machine = 0; machine < kMachines; ++machine) was_repaired(machine, kNoFrame);
-  end_ballot();
+  for (std::size_t machine = 0; machine < kMachines; ++machine) views_.was_repaired(machine, kNoFrame);
+  end_ballot(ballot_, current(), events_);
   started_ = true;
+  catches_up_to_ = 0;
   turn_at_ = now;
   deadline_.begin(now);
   clock_.forget_lean();
   clock_.start(now);
   go_at_pace_of(0xff, 0);
-  goes_on();
+  tell(news_.goes_on(current()));
   phase_ = SessionPhase::playing;
   for (std::size_t i = 0; i < succession.callers.size(); ++i) {
     const Caller& caller = succession.callers[i];

@@ -60,7 +60,7 @@ bool HostCore::take_vote(const Guest& guest, MessageKind kind, Bytes message) {
 
 bool HostCore::voted(BallotBox::Effect effect) {
   if (effect != BallotBox::Effect::changed) return effect == BallotBox::Effect::same;
-  tell_ballot();
+  tell(event_of(ballot_, current()));
   if (ballot_.outcome != Ballot::Outcome::passed) return true;
   const auto subject = static_cast<int>(ballot_.proposal.subject);
   bool is_done = true;

@@ -24,6 +24,23 @@ std::optional<SessionEvent> MachineViews::compare(std::size_t machine, const Has
   return event;
 }
 
+Verdict MachineViews::judge(const Statements& statements, EventQueue& events) {
+  const Verdict verdict = isostep::judge(statements);
+  SessionEvent event{.kind = SessionEvent::Kind::undecided, .frame = statements.frame};
+  if (!verdict.is_decided) events.tell(event);
+  event.kind = SessionEvent::Kind::outvoted;
+  event.theirs = verdict.chain;
+  const std::uint64_t news = verdict.minority & ~outvoted_;
+  if (verdict.is_decided) outvoted_ = verdict.minority;
+  for (std::size_t m = 0; m < kMachines; ++m) {
+    if ((news >> m & 1) == 0) continue;
+    event.player = m == kHostMachine ? 0xff : static_cast<std::uint8_t>(m);
+    event.ours = statements.of[m].chain;
+    events.tell(event);
+  }
+  return verdict;
+}
+
 std::uint64_t MachineViews::differing() const {
   std::uint64_t machines = 0;
   for (std::size_t m = 0; m < kMachines; ++m) machines |= std::uint64_t{views_[m].differs()} << m;

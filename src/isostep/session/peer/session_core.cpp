@@ -3,16 +3,10 @@
 #include "isostep/session/peer/session_core.hpp"
 
 namespace isostep {
-namespace {
-// Between two polls: a refusal of every connection that the defaults allow for, and as many of the match.
-constexpr std::size_t kEvents = 128;
-}  // namespace
-
 SessionCore::SessionCore(const SessionConfig& config, const InputRules& rules)
     : config_(config),
       rules_(rules),
       timeline_(config.players, config.kept, rules),
-      events_(kEvents),
       confirmed_(static_cast<std::size_t>(config.kept)) {
   actions_.reserve(static_cast<std::size_t>(config.kept) * 4 + 16);
 }
@@ -28,6 +22,7 @@ std::span<const SessionAction> SessionCore::advance(Time now) {
     SessionEvent event{.kind = SessionEvent::Kind::misuse};
     tell(event);
   }
+  stats_.events_lost = events_.lost();
   actions_.clear();
   plan(now);
   return actions_;
@@ -38,14 +33,9 @@ void SessionCore::saved(Frame state, std::uint64_t hash) {
   hash_known(state, hash);
 }
 
-void SessionCore::tell(const SessionEvent& event) {
-  events_.push(event);
-  stats_.events_lost = events_.lost();
-}
-
 std::optional<SessionEvent> SessionCore::poll_event() {
-  if (events_.empty()) return std::nullopt;
-  return events_.pop();
+  stats_.events_lost = events_.lost();
+  return events_.poll();
 }
 
 void SessionCore::confirm(Frame state, std::uint64_t hash) {
