@@ -35,12 +35,7 @@ class ClientCore : public PeerCore {
   void restored(bool ok) override;
   bool resync() override;
   std::uint32_t local_players() const override { return own_.players(); }
-  bool pause(bool on) override { return ask({on, 0}); }
-  bool set_speed(int speed) override {
-    return Tempo::is_speed(speed) && ask({false, static_cast<std::uint8_t>(speed)});
-  }
-  bool propose(int player, const Proposal& proposal) override;
-  bool vote(int player, bool yes) override;
+  MatchControl* control() override { return &wishes_; }
   std::uint64_t token() const override { return search_.token(); }
   SnapshotProgress snapshot_progress(PeerId) const override {
     return entry_.is_restoring() || repair_.receives() ? arrival_.progress() : SnapshotProgress{};
@@ -94,7 +89,6 @@ class ClientCore : public PeerCore {
   // --- in the match, in client_core.cpp ---
   void take_packet(const Packet& packet, Time now);
   void take_inputs(const InputSlice& slice, Time now);
-  bool ask(const Ask& ask);
   bool write_to_host(Time now);
   PacketHeader header() const;
   /// To the host, of our players.
@@ -127,11 +121,11 @@ class ClientCore : public PeerCore {
   PeerLink host_;
   Standing standing_ = Standing::unknown;
   Outbox<MessageKind> due_;  // to the host, of those that no part writes
-  Wishes wishes_;
   Partings partings_;
   SnapshotArrival arrival_{portable_};
   Entry entry_{arrival_, false};
   OwnSeats own_{streams_, timeline_, host_};
+  Wishes wishes_{own_, host_, ballot_};
   FollowerLog log_{streams_, timeline_, own_, entry_};
   Distance distance_{config_, host_, clock_};
   Repair repair_{arrival_, hashes_, catches_up_to_};

@@ -2,32 +2,41 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/session/agreement/ballot.hpp"
+#include "isostep/session/client/own_seats.hpp"
+#include "isostep/session/peer/match_control.hpp"
 #include "isostep/session/protocol/message.hpp"
 #include "isostep/session/protocol/outbox.hpp"
 
 namespace isostep {
 
 /// In: wishes. Out: messages to the host. Keeps: of each kind the last that it has not been told.
-class Wishes {
+class Wishes : public MatchControl {
  public:
-  void ask(const Ask& ask) {
-    ask_ = ask;
-    due_.add(MessageKind::ask);
+  Wishes(const OwnSeats& own, const PeerLink& host, const Ballot& ballot) : own_(own), host_(host), ballot_(ballot) {}
+
+  bool pause(bool on) override { return ask({on, 0}); }
+  bool set_speed(int speed) override {
+    return Tempo::is_speed(speed) && ask({false, static_cast<std::uint8_t>(speed)});
   }
-  void propose(const PlayersProposal& proposal) {
-    proposal_ = proposal;
+  bool propose(int player, const Proposal& proposal) override {
+    if (!may_speak(player) || !proposal.is_sound() || ballot_.is_open()) return false;
+    proposal_ = {static_cast<std::uint8_t>(player), proposal};
     due_.add(MessageKind::propose);
+    return true;
   }
-  /// False: the player has no vote.
-  bool vote(const Ballot& ballot, int player, bool yes) {
-    const std::uint32_t own = 1u << player;
-    if (!ballot.is_open() || (ballot.voters & own) == 0) return false;
-    if (votes_.number != ballot.number) votes_ = {ballot.number, 0, 0};
-    votes_.yes = yes ? votes_.yes | own : votes_.yes & ~own;
-    votes_.no = yes ? votes_.no & ~own : votes_.no | own;
+  bool vote(int player, bool yes) override {
+    const std::uint32_t bit = may_speak(player) ? 1u << player : 0;
+    if (!ballot_.is_open() || (ballot_.voters & bit) == 0) return false;
+    if (votes_.number != ballot_.number) votes_ = {ballot_.number, 0, 0};
+    votes_.yes = yes ? votes_.yes | bit : votes_.yes & ~bit;
+    votes_.no = yes ? votes_.no & ~bit : votes_.no | bit;
     due_.add(MessageKind::vote);
     return true;
+  }
+  /// The host is another, or the connection to it: nobody waits for what was asked.
+  void forget() {
+    due_ = Outbox<MessageKind>{};
+    votes_ = Votes{};
   }
   bool write_next(std::vector<std::uint8_t>& message) {
     if (due_.take(MessageKind::propose)) {
@@ -44,6 +53,17 @@ class Wishes {
   }
 
  private:
+  bool may_speak(int player) const { return own_.is_open() && own_.has(player) && host_.is_connected; }
+  bool ask(const Ask& ask) {
+    if (!own_.is_open() || !host_.is_connected) return false;
+    ask_ = ask;
+    due_.add(MessageKind::ask);
+    return true;
+  }
+
+  const OwnSeats& own_;
+  const PeerLink& host_;
+  const Ballot& ballot_;
   Outbox<MessageKind> due_;
   Ask ask_;
   PlayersProposal proposal_;

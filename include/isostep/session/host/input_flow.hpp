@@ -32,6 +32,8 @@ class InputFlow {
   static bool was_held_back(const Guest& guest, int player, Frame current) {
     return current < guest.held_back_until[player];
   }
+  /// Inputs of absent players are final up to here.
+  Frame horizon(Frame current) const { return seats_.hosted() == 0 ? current + 1 : end(first_of(seats_.hosted())); }
   /// [frames] What lies ahead of us takes the place of what others may still lack: of a short log little.
   Frame bounded(Frame ahead) const { return ahead < config_.history / 4 ? ahead : config_.history / 4; }
 

@@ -40,8 +40,6 @@ class PeerCore : public SessionCore, protected PeerRole {
 
   /// An event of now; 0xff: of no player.
   void tell_of(SessionEvent::Kind kind, int player = 0xff);
-  /// First frame of which some input is missing.
-  Frame known_end() const;
   /// The frame that would be next, but for frames that are stepped again on the way there.
   Frame present() const { return catches_up_to_ > current() ? catches_up_to_ : current(); }
   bool is_paused() const { return tempos_.in_force().is_paused; }
@@ -81,7 +79,6 @@ class PeerCore : public SessionCore, protected PeerRole {
   void take_up(const Tempo& tempo, Time now);
   /// Once a frame of time: how early inputs come, and whether rollbacks are too dear.
   void observe(Time now);
-  void fill_inputs();
   void step_due(Time now);
   void settle();
   /// Players who come and go do so in a frame, the same one on all peers.

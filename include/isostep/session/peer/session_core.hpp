@@ -7,13 +7,12 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
-#include "isostep/session/agreement/ballot.hpp"
 #include "isostep/session/config.hpp"
-#include "isostep/session/peer/applicant.hpp"
+#include "isostep/session/peer/admission_control.hpp"
 #include "isostep/session/peer/events.hpp"
+#include "isostep/session/peer/match_control.hpp"
 #include "isostep/session/peer/snapshot_transfer.hpp"
 #include "isostep/session/protocol/message.hpp"
 #include "isostep/session/protocol/player_stats.hpp"
@@ -120,19 +119,10 @@ class SessionCore {
 
   /// Host of a match that has begun: all of it but the state `start.frame`.
   virtual std::optional<SavedMatch> save_match() const { return std::nullopt; }
-  /// See Session.
-  virtual bool pause(bool) { return false; }
-  virtual bool set_speed(int) { return false; }
-  virtual bool propose(int, const Proposal&) { return false; }
-  virtual bool vote(int, bool) { return false; }
-
-  // Host: see Session.
-  virtual std::optional<Applicant> poll_applicant() { return std::nullopt; }
-  virtual bool admit(std::uint64_t) { return false; }
-  virtual bool refuse(std::uint64_t, std::string_view) { return false; }
-  virtual bool kick(int, std::string_view) { return false; }
-  virtual bool kick_peer(PeerId, std::string_view) { return false; }
-  virtual std::optional<PeerId> peer_of(int) const { return std::nullopt; }
+  /// Null: there is none.
+  virtual MatchControl* control() { return nullptr; }
+  /// Null: it is no host.
+  virtual AdmissionControl* admission() { return nullptr; }
 
   /// The next frame takes the input that is added now: a game of orders keeps them until then.
   virtual bool wants_input(int player) const = 0;

@@ -60,4 +60,11 @@ class InputStream {
   std::vector<std::uint8_t> bytes_, repeats_;
 };
 
+/// First frame of which some player's input is missing.
+inline Frame known_end(const std::vector<InputStream>& streams) {
+  Frame end = streams[0].end();
+  for (const InputStream& stream : streams) end = stream.end() < end ? stream.end() : end;
+  return end;
+}
+
 }  // namespace isostep

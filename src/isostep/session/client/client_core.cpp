@@ -144,24 +144,6 @@ void ClientCore::tend_seats(Time now) {
   due_.add(MessageKind::ready);
 }
 
-bool ClientCore::propose(int player, const Proposal& proposal) {
-  if (player < 0 || player >= players() || !is_local(player) || !host_.is_connected) return false;
-  if (!proposal.is_sound() || ballot_.is_open()) return false;
-  wishes_.propose({static_cast<std::uint8_t>(player), proposal});
-  return true;
-}
-
-bool ClientCore::vote(int player, bool yes) {
-  if (player < 0 || player >= players() || !is_local(player) || !host_.is_connected) return false;
-  return wishes_.vote(ballot_, player, yes);
-}
-
-bool ClientCore::ask(const Ask& ask) {
-  if (!own_.is_open() || !host_.is_connected) return false;
-  wishes_.ask(ask);
-  return true;
-}
-
 void ClientCore::blocked(Time now) {
   // Whose inputs are missing the host knows; that nothing comes of the host itself we see.
   if (now - host_.heard >= kTellBlocked) tell(news_.stands_for(hosted(), current()));

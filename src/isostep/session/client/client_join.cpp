@@ -21,7 +21,7 @@ void ClientCore::connected(PeerId host, Time now) {
   host_.connect(now);
   due_.add(MessageKind::hello);
   due_.drop(MessageKind::ready);
-  wishes_ = Wishes{};
+  wishes_.forget();
   end_ballot(ballot_, current(), events_);
   tempos_.forget();
   // The greeting names the state that we go on from.

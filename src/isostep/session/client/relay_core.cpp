@@ -51,7 +51,7 @@ SnapshotProgress RelayCore::snapshot_progress(PeerId peer) const {
 
 SendEnds RelayCore::shown_ends() const {
   SendEnds ends;
-  const Frame shown = config_.broadcast_delay == 0 ? kLastFrame : known_end() - config_.broadcast_delay;
+  const Frame shown = config_.broadcast_delay == 0 ? kLastFrame : known_end(streams_) - config_.broadcast_delay;
   for (int p = 0; p < players(); ++p) {
     const Frame end = streams_[static_cast<std::size_t>(p)].end();
     ends.of[p] = shown < end ? shown : end;
@@ -140,13 +140,13 @@ void RelayCore::greet(Leaf& leaf, Bytes message) {
 }
 
 bool RelayCore::may_show() const {
-  return is_settled_in() && hashes_.settled().frame <= known_end() - config_.broadcast_delay;
+  return is_settled_in() && hashes_.settled().frame <= known_end(streams_) - config_.broadcast_delay;
 }
 
 void RelayCore::let_in(Leaf& leaf) {
   const Frame have = leaf.have.frame;
   // A leaf may be ahead of us, of another relay: it is compared once we are there.
-  const bool is_ahead = have > hashes_.settled().frame && have <= known_end();
+  const bool is_ahead = have > hashes_.settled().frame && have <= known_end(streams_);
   bool has_inputs = is_ahead || (hashes_.has_chain(have) && hashes_.chain(have) == leaf.have.chain);
   has_inputs = has_inputs && current() - have <= config_.most_replayed;
   for (const InputStream& stream : streams_) has_inputs = has_inputs && stream.begin() <= have;

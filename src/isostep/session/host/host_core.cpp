@@ -11,8 +11,7 @@ namespace {
 constexpr Time kGreeting = 2 * kSecond;
 /// [us] that count of one turn: nobody can come back while our own process stands still.
 constexpr Time kLongestTurn = kSecond;
-constexpr Frame kMostAhead = 128;               // [frames] beyond ours that a client's input may lie
-constexpr Time kBetweenRepairs = 10 * kSecond;  // [us] of one client, whose machine may go wrong again and again
+constexpr Frame kMostAhead = 128;  // [frames] beyond ours that a client's input may lie
 
 }  // namespace
 
@@ -55,7 +54,7 @@ void HostCore::begin(Time now) {
   clock_.start(now);
   phase_ = seats_.hosted() != 0 ? SessionPhase::playing : SessionPhase::watching;
   seats_.begin();
-  tempo_desk_.begin();
+  control_.tempo_desk().begin();
   tell(news_.started(current()));
 }
 
@@ -88,7 +87,7 @@ void HostCore::take_datagram(Guest& guest, Bytes bytes, Time now) {
   if (guest.repair.stage == RepairService::Stage::receives) guest.measure(packet.header, now);
   // Nobody has final states that we have not: all inputs pass through us.
   const HashReport& report = packet.header.report;
-  if (report.frame <= known_end()) {
+  if (report.frame <= known_end(streams_)) {
     const Frame after = guest.player < 0 ? kNoFrame : views_[guest.player].after;
     if (report.frame > guest.report.frame && report.frame > after) guest.report = report;
     if (guest.player >= 0) views_.hear(static_cast<std::size_t>(guest.player), report);
@@ -108,7 +107,7 @@ bool HostCore::take_message(Guest& guest, Bytes bytes, Time now) {
       }
       if (guest.stage != Guest::Stage::connected) return false;
       guest.heard = now;
-      greet(guest, bytes);
+      admission_.greet(guest, bytes);
       return true;
     case MessageKind::farewell:
       if (bytes.size() == 1) guest.lease_from = 0;
@@ -124,53 +123,14 @@ bool HostCore::take_message(Guest& guest, Bytes bytes, Time now) {
       return version.ok();
     }
     case MessageKind::propose:
-    case MessageKind::vote: return take_vote(guest, kind, bytes);
-    case MessageKind::ask: {
-      const Result<Ask> ask = read_ask(bytes);
-      const bool is_good = ask && seats_.play(guest);
-      if (is_good) (ask.value().speed != 0 ? guest.asks_speed : guest.asks_pause) = ask.value();
-      return is_good;
-    }
+    case MessageKind::vote:
+    case MessageKind::ask: return control_.receive(guest, kind, bytes);
     case MessageKind::ready:
       guest.heard = now;
       guest.is_ready = true;
       return true;
-    case MessageKind::statement: {
-      const Result<Statement> statement = read_statement(bytes);
-      return statement && guest.player >= 0 &&
-             inquiry_.take(guest.player, statement.value(), views_[guest.player].difference);
-    }
-    case MessageKind::resync: {
-      // What it has received may have been too long on its way.
-      const bool is_free =
-          guest.repair.stage == RepairService::Stage::none || guest.repair.stage == RepairService::Stage::restores;
-      if (!is_free || !started_ || bytes.size() != 1) return false;
-      guest.repair.stage = RepairService::Stage::waits;
-      return true;
-    }
-    case MessageKind::repaired: return take_repaired(guest, bytes);
-    default: return false;
+    default: return repairs_.receive(guest, kind, bytes);
   }
-}
-
-bool HostCore::take_repaired(Guest& guest, Bytes bytes) {
-  if (guest.repair.stage != RepairService::Stage::restores) return false;
-  const Result<Repaired> repaired = read_repaired(bytes);
-  // Nobody has had final states that we have not: it would have us ignore what it says from now on.
-  if (!repaired || repaired.value().after > known_end()) return false;
-  guest.repair.stage = RepairService::Stage::none;
-  if (guest.player < 0) return true;
-  const auto player = static_cast<std::uint8_t>(guest.player);
-  views_.was_repaired(player, repaired.value().after);
-  inquiry_.forget(player);
-  guest.report = HashReport{};
-  for (Guest& other : guests_) {
-    if (&other == &guest || !other.is_live()) continue;
-    other.repair.tells |= std::uint32_t{1} << player;
-    other.due.add(Due::repaired);
-  }
-  tell({.kind = SessionEvent::Kind::repaired, .player = player, .frame = repaired.value().after});
-  return true;
 }
 
 bool HostCore::take_progress(Guest& guest, Bytes message, Time now) {
@@ -180,11 +140,10 @@ bool HostCore::take_progress(Guest& guest, Bytes message, Time now) {
   guest.heard = now;
   if (!guest.transfer.is_complete()) return true;
   if (!guest.is_live()) {
-    go_live(guest, guest.start);
+    boarding_.go_live(guest, guest.start);
     return true;
   }
-  guest.repair.stage = RepairService::Stage::restores;
-  guest.repair.next = now + kBetweenRepairs;
+  RepairDesk::has_arrived(guest, now);
   return true;
 }
 
@@ -213,10 +172,6 @@ void HostCore::take_inputs(Guest& guest, const InputSlice& slice, Time now) {
   if (reader.failed()) ++stats_.refused;
 }
 
-Frame HostCore::horizon() const {
-  return seats_.hosted() == 0 ? current() + 1 : streams_[static_cast<std::size_t>(local_player())].end();
-}
-
 void HostCore::before_steps(Time now) {
   if (started_ && !is_paused()) match_pace_.turn(now, pace_.most_steps(kDueSteps), clock_.nominal());
   if (!started_ && (all_are_here() || must_start_)) begin(now);
@@ -226,10 +181,10 @@ void HostCore::before_steps(Time now) {
     tend(now);
   }
   for (Guest& guest : guests_) {
-    if (guest.is_connected && guest.is_ready) open_seats(guest, now);
+    if (guest.is_connected && guest.is_ready) boarding_.open_seats(guest, now);
   }
   lines_.begin_turn(now);
-  if (const Tempo* const next = tempo_desk_.next(tempos_.in_force())) {
+  if (const Tempo* const next = control_.tempo_desk().next(tempos_.in_force())) {
     tempos_.announce(*next, current(), streams_, window());
   }
   // Before guesses are compared: a seat that was closed during the last frame was guessed otherwise.
@@ -239,7 +194,8 @@ void HostCore::before_steps(Time now) {
 void HostCore::before_frame(Time now) {
   if (!leadership_.tenure().is_backed()) return;
   for (int p = 0; p < players(); ++p) {
-    if (seats_.is_guests(p) && !seats_[p].is_open) streams_[static_cast<std::size_t>(p)].append_absent_until(horizon());
+    if (seats_.is_guests(p) && !seats_[p].is_open)
+      streams_[static_cast<std::size_t>(p)].append_absent_until(flow_.horizon(current()));
   }
   if (!deadline_.applies(now)) return;
   const Frame due = current() + (is_blocked_ ? clock_.overdue(now) : 0);
@@ -266,10 +222,7 @@ void HostCore::tend(Time now) {
     ++stats_.peers;
     tend(guest, now);
   }
-  if (ballot_box_.must_tell(now)) {
-    for (Guest& guest : guests_) guest.due.set(Due::ballot, guest.is_live());
-  }
-  voted(ballot_box_.tend(now));
+  control_.tend(now);
   leadership_.keep_roster();
   tend_inquiry(now);
   lines_.judge();
@@ -316,7 +269,7 @@ void HostCore::tend(Guest& guest, Time now) {
   }
   const bool waits = guest.repair.stage == RepairService::Stage::waits && now >= guest.repair.next;
   if (waits) guest.repair.stage = RepairService::Stage::needs;
-  answer_asks(guest, now);
+  control_.answer_asks(guest, now);
 }
 
 void HostCore::observe_delay() {
@@ -337,7 +290,7 @@ void HostCore::paused(Time now) {
 void HostCore::blocked(Time now) {
   std::uint32_t missing = 0;
   for (int p = 0; p < players(); ++p) {
-    if (streams_[static_cast<std::size_t>(p)].end() == known_end()) missing |= 1u << p;
+    if (streams_[static_cast<std::size_t>(p)].end() == known_end(streams_)) missing |= 1u << p;
   }
   if (deadline_.stands(now, kTellBlocked)) tell(news_.stands_for(missing, current()));
   deadline_.charge(current(), leadership_.tenure().is_backed(), now);
@@ -346,6 +299,14 @@ void HostCore::blocked(Time now) {
 void HostCore::unblocked(Time) {
   deadline_.goes_on();
   tell(news_.goes_on(current()));
+}
+
+void HostCore::drop(Guest& guest) {
+  departures_.unseat(guest);
+  if (guest.stage == Guest::Stage::receives_snapshot) {
+    snapshots_.hold_until(current() + static_cast<Frame>(config_.silence / clock_.period()));
+  }
+  guest.clear();
 }
 
 SnapshotProgress HostCore::snapshot_progress(PeerId peer) const {

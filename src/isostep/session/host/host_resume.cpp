@@ -13,7 +13,7 @@ HostCore::HostCore(const SessionConfig& config, const InputRules& rules, SavedMa
   leadership_.resume(saved.term + 1, token);
   resumed_ = saved.start;
   resumed_hash_ = saved.hash;
-  tempo_desk_.resume_with(saved.speed);
+  control_.tempo_desk().resume_with(saved.speed);
   portable_ = std::move(saved.state);
   timeline_.restart(resumed_.frame);
   for (InputStream& stream : streams_) stream.reset(resumed_.frame);

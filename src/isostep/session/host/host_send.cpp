@@ -29,7 +29,7 @@ std::optional<Outgoing> HostCore::next_message(Guest& guest, Time now) {
   if (guest.stage == Guest::Stage::receives_snapshot && awaits_capture()) return std::nullopt;
   // The game has no portable form.
   if (guest.stage == Guest::Stage::receives_snapshot && portable_.empty())
-    refuse(guest, {"snapshot", "needed", "none"});
+    admission_.refuse(guest, {"snapshot", "needed", "none"});
   if (guest.stage == Guest::Stage::refused) {
     guest.due.add(Due::close);
     write_refusal(guest.refusal, message_);
@@ -92,7 +92,7 @@ Welcome HostCore::welcome_for(Guest& guest) {
     welcome.hash = snapshots_.hash();
     welcome.snapshot_size = guest.transfer.progress().size;
     welcome.snapshot_from = guest.transfer.progress().arrived;
-    if (guest.transfer.is_complete()) go_live(guest, guest.start);
+    if (guest.transfer.is_complete()) boarding_.go_live(guest, guest.start);
   }
   welcome.opens = guest.opens;
   return welcome;

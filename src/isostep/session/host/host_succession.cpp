@@ -22,7 +22,7 @@ void HostCore::tend_inquiry(Time now) {
 std::unique_ptr<SessionCore> HostCore::succeed(Time now) {
   if (config_.migration == 0) return nullptr;
   const bool is_outvoted = steps_down_at_ != 0 && now >= steps_down_at_;
-  const bool is_host = leadership_.turn(known_end(), now);
+  const bool is_host = leadership_.turn(known_end(streams_), now);
   if (is_host && !is_outvoted && !is_too_slow_) return nullptr;
   tell_of(SessionEvent::Kind::deposed);
   return become_client(std::move(*this), leadership_.retreat(is_outvoted), now);
@@ -40,7 +40,7 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
       match_(numbers_.match(0)) {
   config_.host = true;
   copy_match_settings(succession.roster.settings, config_);
-  leadership_.take_over(succession, known_end(), hashes_.settled().frame, now);
+  leadership_.take_over(succession, known_end(streams_), hashes_.settled().frame, now);
   seats_.take_over(succession.roster);
   for (RecentLeast& slack : slack_) slack = RecentLeast{};
   delay_.keep_to_most();  // no deadline replaces ours
@@ -64,7 +64,7 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
     if (caller.hello.empty()) continue;
     const bool supports = succession.election.has_won_with(caller.voter);
     if (supports) guest->enrolled = succession.roster.version;
-    greet(*guest, caller.hello);
+    admission_.greet(*guest, caller.hello);
     if (supports) guest->lease_from = succession.election.called_at();
     if (!guest->is_live()) continue;
     // Its players go on where their inputs end, and are told those that they do not know to be final.

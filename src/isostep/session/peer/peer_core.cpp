@@ -41,16 +41,8 @@ Time PeerCore::wait(Time now) const {
   return until > 0 ? until : is_blocked_ ? kAsk : 0;
 }
 
-Frame PeerCore::known_end() const {
-  Frame end = streams_[0].end();
-  for (const InputStream& stream : streams_) {
-    if (stream.end() < end) end = stream.end();
-  }
-  return end;
-}
-
 Frame PeerCore::final_limit() const {
-  const Frame known = known_end();
+  const Frame known = known_end(streams_);
   return known < current() ? known : current();
 }
 
@@ -96,23 +88,19 @@ void PeerCore::observe(Time now) {
   }
 }
 
-void PeerCore::fill_inputs() {
-  for (int p = 0; p < players(); ++p) {
-    if (is_local(p)) inputs_.fill(p, streams_[static_cast<std::size_t>(p)], present() + delay_.frames() + 1, rules_);
-  }
-}
-
 void PeerCore::step_due(Time now) {
   const int most = pace_.most_steps(kMostSteps);
   int steps = 0;
   for (; steps < most && (clock_.is_due(now) || hurries(now) || (steps == 1 && pace_.probes())); ++steps) {
     follow_tempo(now);
     if (is_paused() || (steps >= kDueSteps && !hurries(now))) break;
-    fill_inputs();
+    for (int p = 0; p < players(); ++p) {
+      if (is_local(p)) inputs_.fill(p, streams_[static_cast<std::size_t>(p)], present() + delay_.frames() + 1, rules_);
+    }
     before_frame(now);
     const Frame frame = current();
     const bool has_room = frame < kLastFrame && frame - hashes_.settled().frame < config_.kept - 2;
-    if (!has_room || frame >= known_end() + window()) {
+    if (!has_room || frame >= known_end(streams_) + window()) {
       if (!is_blocked_) ++stats_.waits;
       is_blocked_ = true;
       blocked(now);
@@ -202,7 +190,7 @@ void PeerCore::note_arrival(int player, Frame end, Time now) {
   if (is_after_pause(now)) return;
   Frame slack = end - present();
   // Who holds us up is late by all that we wait; the others may be waiting as we are.
-  if (is_blocked_ && end == known_end()) slack -= clock_.overdue(now);
+  if (is_blocked_ && end == known_end(streams_)) slack -= clock_.overdue(now);
   slack_[player].add(slack < -127 ? -127 : slack);
 }
 

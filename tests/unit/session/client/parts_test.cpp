@@ -105,16 +105,28 @@ TEST(OwnSeats, AreCutOutWhereTheHostWentOnWithoutThem) {
 }
 
 TEST(Wishes, AreToldOnceTheLastOfEachKind) {
-  Wishes wishes;
-  Message message;
-  wishes.ask({true, 0});
-  wishes.ask({false, 4});
+  std::vector<InputStream> streams(2, InputStream(64, 1));
+  Timeline timeline(2, 16, InputRules{});
+  PeerLink host;
+  OwnSeats own(streams, timeline, host);
   Ballot ballot;
-  ballot.number = 1;
+  Wishes wishes(own, host, ballot);
+  Message message;
+  EXPECT_FALSE(wishes.pause(true)) << "nobody plays here yet";
+  own.sit(0b11);
+  own.go_on_from(0);
+  EXPECT_FALSE(wishes.pause(true)) << "there is no host";
+  host.is_connected = true;
+  EXPECT_TRUE(wishes.pause(true));
+  EXPECT_TRUE(wishes.set_speed(4));
+  EXPECT_FALSE(wishes.set_speed(Tempo::kFastest + 1));
   ballot.voters = 0b01;
-  EXPECT_FALSE(wishes.vote(ballot, 1, true)) << "it has no vote";
-  EXPECT_TRUE(wishes.vote(ballot, 0, true));
-  EXPECT_TRUE(wishes.vote(ballot, 0, false));
+  EXPECT_FALSE(wishes.vote(0, true)) << "there is no vote";
+  ballot.number = 1;
+  EXPECT_FALSE(wishes.vote(1, true)) << "it has no vote";
+  EXPECT_FALSE(wishes.vote(2, true)) << "it is not ours";
+  EXPECT_TRUE(wishes.vote(0, true));
+  EXPECT_TRUE(wishes.vote(0, false));
   ASSERT_TRUE(wishes.write_next(message));
   EXPECT_EQ(read_votes(message).value().no, 1u);
   ASSERT_TRUE(wishes.write_next(message));
