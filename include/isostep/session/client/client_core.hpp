@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/session/client/callers.hpp"
+#include "isostep/session/client/comparison.hpp"
 #include "isostep/session/client/distance.hpp"
-#include "isostep/session/client/host_search.hpp"
-#include "isostep/session/client/repair.hpp"
-#include "isostep/session/client/supporter.hpp"
+#include "isostep/session/client/failover.hpp"
 #include "isostep/session/client/wishes.hpp"
 #include "isostep/session/peer/datagrams.hpp"
 #include "isostep/session/peer/peer_core.hpp"
@@ -29,14 +27,14 @@ class ClientCore : public PeerCore {
   void disconnected(PeerId peer, Time now) override;
   void receive(PeerId host, Channel channel, Bytes bytes, Time now) override;
   std::optional<Outgoing> poll_send(Time now) override;
-  std::optional<Address> poll_connect() override { return search_.poll_connect(); }
-  bool go_on(Time now) override;
+  std::optional<Address> poll_connect() override { return failover_.search().poll_connect(); }
+  bool go_on(Time now) override { return failover_.go_on(may_stand(), now); }
   std::unique_ptr<SessionCore> succeed(Time now) override;
   void restored(bool ok) override;
-  bool resync() override;
+  bool resync() override { return comparison_.resync(); }
   std::uint32_t local_players() const override { return own_.players(); }
   MatchControl* control() override { return &wishes_; }
-  std::uint64_t token() const override { return search_.token(); }
+  std::uint64_t token() const override { return failover_.search().token(); }
   SnapshotProgress snapshot_progress(PeerId) const override {
     return entry_.is_restoring() || repair_.receives() ? arrival_.progress() : SnapshotProgress{};
   }
@@ -68,19 +66,12 @@ class ClientCore : public PeerCore {
   Datagrams datagrams_{config_, streams_, hashes_, clock_, stats_};
 
  private:
-  /// What we are to the host to which we connected last.
-  enum class Standing : std::uint8_t {
-    unknown,
-    greeted,  // it has welcomed us
-    runs      // and the match runs
-  };
   bool is_greeted() const { return standing_ != Standing::unknown; }
 
   // --- connection and beginning, in client_join.cpp ---
   /// `knocks`: it spoke until now, and may live.
   void lose(Time now, bool knocks);
   void leave_host();
-  void fail(SessionEvent::Kind kind, SessionPhase phase);
   bool take_message(MessageKind kind, Bytes bytes, Time now);
   void take_welcome(const Welcome& welcome, Time now);
   void write_own_hello();
@@ -97,23 +88,10 @@ class ClientCore : public PeerCore {
   void tend_seats(Time now);
 
   // --- without a host, in client_failover.cpp ---
-  /// For the match, or on the way to another host; false: it is none of these, or damaged.
-  bool take_failover(MessageKind kind, Bytes bytes, Time now);
-  bool take_support(Caller& caller, MessageKind kind, Bytes bytes, Time now);
-  void take_call(PeerId peer, Channel channel, Bytes bytes, Time now);
-  bool can_fail_over() const { return config_.migration > 0 && search_.can_begin(); }
   /// We could be the host: we have a state of the match, and ours are right.
   bool may_stand() const;
-  void seek(Time now, bool knocks);
-  void seek_on(Time now);
-  void stop_seeking();
-  void ask_next();
-  void go_to(const Address& address, Time now);
 
   // --- among machines that differ, in client_resync.cpp ---
-  bool take_repair(MessageKind kind, Bytes bytes);
-  bool take_statements(const Statements& statements);
-  bool take_offer(const RepairOffer& offer);
   /// Once a turn: hands over the state that has arrived, and lets the present go on while frames are stepped again.
   void tend_repair(Time now);
   void finish_repair(std::uint64_t hash);
@@ -129,9 +107,10 @@ class ClientCore : public PeerCore {
   FollowerLog log_{streams_, timeline_, own_, entry_};
   Distance distance_{config_, host_, clock_};
   Repair repair_{arrival_, hashes_, catches_up_to_};
-  HostSearch search_;
-  Callers callers_{search_.roster(), search_.election(), partings_, streams_, timeline_, rules_, own_, log_};
-  Supporter supporter_{search_.roster(), search_.election(), streams_, log_};
+  ClientParts parts_{config_, rules_, streams_, timeline_, clock_, catches_up_to_, stats_,
+                     events_, phase_, host_,    standing_, own_,   entry_,         partings_};
+  Comparison comparison_{parts_, hashes_, views_, repair_};
+  Failover failover_;
   bool is_too_far_ = false;    // no delay covers our line
   std::uint32_t figured_ = 0;  // players, a bit each, whose figures we know
 };

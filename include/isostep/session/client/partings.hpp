@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "isostep/session/peer/peer_link.hpp"
 #include "isostep/session/protocol/message.hpp"
 
 namespace isostep {
@@ -17,6 +18,13 @@ class Partings {
   void hang_up(PeerId peer) { untold_.push_back(peer); }
   /// Whose host we were, or who was ours: it is told, and then hung up on.
   void bid_farewell(PeerId peer) { told_.push_back(peer); }
+  /// A host is told that we do not leave the match: it would count on us as one of those who did. So is a candidate that
+  /// we may have made the host: `is_known`.
+  void leave(PeerLink& host, bool is_known) {
+    if (host.is_connected && is_known) bid_farewell(host.peer);
+    else if (host.is_connected) hang_up(host.peer);
+    host.is_connected = false;
+  }
   std::optional<PeerId> write_next(std::vector<std::uint8_t>& message) {
     if (told_.empty() && untold_.empty()) return std::nullopt;
     std::vector<PeerId>& from = told_.empty() ? untold_ : told_;

@@ -23,6 +23,8 @@ class Repair {
       : arrival_(arrival), hashes_(hashes), present_(present) {}
 
   bool is_under_way() const { return stage_ != Stage::none; }
+  /// Or it steps the frames since.
+  bool is_busy(Frame current) const { return is_under_way() || present_ > current; }
   bool receives() const { return stage_ == Stage::receives; }
   bool restores() const { return stage_ == Stage::restores; }
   bool awaits_offer() const { return stage_ == Stage::waits || receives(); }

@@ -109,16 +109,16 @@ bool ClientCore::hurries(Time now) const {
 
 void ClientCore::before_steps(Time now) {
   stats_.peers = host_.is_connected ? 1 : 0;
-  const Time silence = can_fail_over() && config_.migration < config_.silence ? config_.migration : config_.silence;
-  if (host_.is_connected && !search_.is_under_way() && now - host_.heard > silence) {
+  const Time silence =
+      failover_.can_begin() && config_.migration < config_.silence ? config_.migration : config_.silence;
+  if (host_.is_connected && !failover_.search().is_under_way() && now - host_.heard > silence) {
     lose(now, false);
     return;
   }
-  stats_.refused += callers_.tend(standing_ == Standing::runs && !search_.is_under_way(), now);
-  if (search_.is_under_way()) seek_on(now);
+  failover_.tend(may_stand(), now);
   if (entry_.is_due()) begin();
   if (standing_ != Standing::runs) return;
-  log_.tend(search_.election());
+  log_.tend(failover_.search().election());
   tend_repair(now);
   tend_seats(now);
 }
@@ -172,12 +172,7 @@ Frame ClientCore::early(int player) const {
 
 std::optional<Outgoing> ClientCore::poll_send(Time now) {
   std::optional<PeerId> to = partings_.write_next(message_);
-  if (!to && host_.is_connected && is_greeted() && due_.take(MessageKind::enrolled)) {
-    write_enrolled(search_.roster().version, message_);
-    to = host_.peer;
-  }
-  if (!to && host_.is_connected && supporter_.write_next(config_.address, current(), message_)) to = host_.peer;
-  if (!to) to = callers_.write_next(message_);
+  if (!to) to = failover_.write_next(message_);
   if (!to && host_.is_connected && write_to_host(now)) to = host_.peer;
   if (to) {
     stats_.bytes_out += message_.size();

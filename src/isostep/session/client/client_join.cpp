@@ -10,8 +10,9 @@ int seats_wished(const SessionConfig& config) { return config.local_players > 1 
 }  // namespace
 
 ClientCore::ClientCore(const SessionConfig& config, const InputRules& rules)
-    : PeerCore(config, rules), search_(config.token) {
-  if (config.migration > 0) callers_.make_room(static_cast<std::size_t>(config.max_peers + config.max_strangers));
+    : PeerCore(config, rules), failover_{parts_, log_, HostSearch(config.token), message_} {
+  if (config.migration > 0)
+    failover_.callers().make_room(static_cast<std::size_t>(config.max_peers + config.max_strangers));
 }
 
 void ClientCore::connected(PeerId host, Time now) {
@@ -34,38 +35,27 @@ void ClientCore::connected(PeerId host, Time now) {
 }
 
 void ClientCore::disconnected(PeerId peer, Time now) {
-  callers_.disconnected(peer);
+  failover_.callers().disconnected(peer);
   if (!is_host(peer)) return;
   host_.is_connected = false;
   lose(now, now - host_.heard <= config_.migration / 2);
 }
 
-void ClientCore::leave_host() {
-  // A host is told that we do not leave the match: it would count on us as one of those who did. So is a candidate that
-  // we may have made the host.
-  if (host_.is_connected && (is_greeted() || search_.is_under_way())) partings_.bid_farewell(host_.peer);
-  else if (host_.is_connected) partings_.hang_up(host_.peer);
-  host_.is_connected = false;
-}
+void ClientCore::leave_host() { partings_.leave(host_, is_greeted() || failover_.search().is_under_way()); }
 
 void ClientCore::lose(Time now, bool knocks) {
   leave_host();
   if (is_greeted()) standing_ = Standing::greeted;
-  const bool seeks = search_.is_under_way() && !search_.election().has_given_up();
-  if (seeks) search_.election().was_turned_away(now);
+  const bool seeks = failover_.search().is_under_way() && !failover_.search().election().has_given_up();
+  if (seeks) failover_.search().election().was_turned_away(now);
   if (phase_ == SessionPhase::refused || seeks) return;
-  if (can_fail_over()) seek(now, knocks);
-  else fail(SessionEvent::Kind::lost_host, SessionPhase::lost);
-}
-
-void ClientCore::fail(SessionEvent::Kind kind, SessionPhase phase) {
-  phase_ = phase;
-  tell_of(kind);
+  if (failover_.can_begin()) failover_.begin(now, knocks);
+  else parts_.fail(SessionEvent::Kind::lost_host, SessionPhase::lost);
 }
 
 void ClientCore::receive(PeerId host, Channel channel, Bytes bytes, Time now) {
   if (!is_host(host)) {
-    take_call(host, channel, bytes, now);
+    failover_.receive_call(host, channel, bytes, now);
     return;
   }
   if (channel == Channel::datagram) {
@@ -105,7 +95,7 @@ bool ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
     tell(event);
     phase_ = SessionPhase::refused;
     standing_ = Standing::unknown;
-    search_.election().end();
+    failover_.search().election().end();
     return true;
   }
   if (kind == MessageKind::piece && (entry_.is_restoring() || repair_.receives())) {
@@ -129,11 +119,16 @@ bool ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
     tell(event_of(ballot_, current()));
     return true;
   }
-  return take_failover(kind, bytes, now) || take_repair(kind, bytes);
+  if (kind == MessageKind::farewell && is_greeted() && bytes.size() == 1) {
+    leave_host();
+    lose(now, false);
+    return true;
+  }
+  return failover_.receive(kind, bytes, may_stand(), now) || comparison_.receive(kind, bytes);
 }
 
 void ClientCore::take_welcome(const Welcome& welcome, Time now) {
-  if (welcome.term != 0 && !search_.election().may_follow(welcome.term)) {
+  if (welcome.term != 0 && !failover_.search().election().may_follow(welcome.term)) {
     // We support another, or did: whoever is the host of an earlier term learns by our hello that it is over.
     leave_host();
     lose(now, false);
@@ -144,19 +139,19 @@ void ClientCore::take_welcome(const Welcome& welcome, Time now) {
       welcome.snapshot_size > config_.snapshot_cap || std::popcount(welcome.seated()) != seats) {
     standing_ = Standing::unknown;
     entry_.leave();
-    search_.election().end();
+    failover_.search().election().end();
     leave_host();
-    fail(SessionEvent::Kind::refused, SessionPhase::refused);
+    parts_.fail(SessionEvent::Kind::refused, SessionPhase::refused);
     return;
   }
-  log_.follow(welcome, search_.election().log_term());
+  log_.follow(welcome, failover_.search().election().log_term());
   repair_.leave();
   own_.sit(welcome.seated());
   entry_.begin(welcome);
   standing_ = Standing::greeted;
   due_.drop(MessageKind::ready);
-  search_.is_welcome(welcome);
-  stop_seeking();
+  failover_.search().is_welcome(welcome);
+  failover_.end();
   phase_ = SessionPhase::joining;
 }
 
@@ -166,8 +161,8 @@ void ClientCore::write_own_hello() {
   hello.seat = config_.seat;
   hello.seats = seats_wished(config_);
   hello.token = token();
-  hello.life = search_.life();
-  hello.term = search_.election().term();
+  hello.life = failover_.search().life();
+  hello.term = failover_.search().election().term();
   hello.migration = config_.migration;
   entry_.describe(hashes_.settled(), hello);
   hello.credential = config_.credential;
@@ -182,7 +177,7 @@ void ClientCore::restored(bool ok) {
   repair_.leave();
   leave_host();
   entry_.spoil();
-  fail(SessionEvent::Kind::bad_snapshot, SessionPhase::refused);
+  parts_.fail(SessionEvent::Kind::bad_snapshot, SessionPhase::refused);
 }
 
 void ClientCore::hash_known(Frame state, std::uint64_t hash) {
