@@ -62,7 +62,6 @@ class ClientCore : public PeerCore {
   std::uint32_t hosted() const { return entry_.welcome().hosted; }
   Frame told_final() const { return log_.told_final(); }
 
- protected:
   Datagrams datagrams_{config_, streams_, hashes_, clock_, stats_};
 
  private:
@@ -76,6 +75,8 @@ class ClientCore : public PeerCore {
   void take_welcome(const Welcome& welcome, Time now);
   void write_own_hello();
   void begin();
+  /// The game becomes the state that has arrived.
+  void restore(Frame frame);
 
   // --- in the match, in client_core.cpp ---
   void take_packet(const Packet& packet, Time now);

@@ -44,8 +44,10 @@ class Entry {
     stage_ = !restores ? Stage::goes_on : is_due ? Stage::is_whole : Stage::arrives;
   }
   void has_pieces() {
-    if (is_restoring() && arrival_.is_whole()) stage_ = Stage::is_whole;
+    if (stage_ == Stage::arrives && arrival_.is_whole()) stage_ = Stage::is_whole;
   }
+  /// The requests of the last turn were not carried out.
+  bool must_restore_again() const { return stage_ == Stage::restores; }
   /// The host says meanwhile from when on our players play; kNoFrame: it has not.
   void keep_opened(Frame first) { opened_ = first; }
   Frame opened() const { return opened_; }

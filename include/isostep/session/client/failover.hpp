@@ -9,9 +9,8 @@
 
 namespace isostep {
 
-/// In: that the host is lost, machines that connect to us, and what they, the host and candidates say of that. Out: where
-/// to connect to, and messages to all of these. Keeps: the search, the callers, and our support, each of which can be
-/// read alone.
+/// In: that the host is lost, machines that connect to us, and what they, the host and candidates say of that. Out:
+/// where to connect to, and messages to all of these. Keeps: the search, the callers, and our support.
 class Failover {
  public:
   Failover(const ClientParts& parts, FollowerLog& log, HostSearch&& search, std::vector<std::uint8_t>& scratch)
@@ -21,6 +20,8 @@ class Failover {
   const HostSearch& search() const { return search_; }
   Callers& callers() { return callers_; }
   bool can_begin() const { return client_.config.migration > 0 && search_.can_begin(); }
+  /// We are connected to another: what a candidate has not been answered is not for that one.
+  void is_connected() { supporter_.answer_nothing(); }
   /// `knocks`: the host spoke until now, and may live.
   void begin(Time now, bool knocks);
   /// Once a turn. `may_stand`: we could be the host.
@@ -38,7 +39,6 @@ class Failover {
 
  private:
   void leave_host() { client_.partings.leave(client_.host, client_.is_greeted() || search_.is_under_way()); }
-  void ask_next();
   void go_to(const Address& address, Time now);
   bool take_support(Caller& caller, MessageKind kind, Bytes bytes, Time now);
   bool take_known(const Caller& caller, const Packet& packet);

@@ -18,8 +18,8 @@ class Partings {
   void hang_up(PeerId peer) { untold_.push_back(peer); }
   /// Whose host we were, or who was ours: it is told, and then hung up on.
   void bid_farewell(PeerId peer) { told_.push_back(peer); }
-  /// A host is told that we do not leave the match: it would count on us as one of those who did. So is a candidate that
-  /// we may have made the host: `is_known`.
+  /// `is_known`: our host is told that we do not leave the match, for it would count us among those who did; and so is
+  /// a candidate that we may have made the host.
   void leave(PeerLink& host, bool is_known) {
     if (host.is_connected && is_known) bid_farewell(host.peer);
     else if (host.is_connected) hang_up(host.peer);

@@ -31,7 +31,8 @@ class SnapshotArrival {
   }
   /// Memory grows with what has come, not with what was promised. False: it is not the next piece.
   bool take(const Piece& piece) {
-    if (piece.offset != bytes_.size() || piece.bytes.size() > size_ - bytes_.size()) return false;
+    if (piece.bytes.empty() || piece.offset != bytes_.size() || piece.bytes.size() > size_ - bytes_.size())
+      return false;
     bytes_.insert(bytes_.end(), piece.bytes.begin(), piece.bytes.end());
     return true;
   }

@@ -57,6 +57,7 @@ class Departures {
   void send_away(Guest& guest, const Refusal& refusal) {
     unseat(guest);
     guest.stage = Guest::Stage::refused;
+    guest.repair = RepairService{};
     guest.refusal = refusal;
   }
 

@@ -17,8 +17,8 @@
 
 namespace isostep {
 
-/// In: time, inputs as they are known, and hashes of states. Out: the frames to be stepped, and events. Keeps: all that a
-/// host takes over from the client that it was, and the other way round.
+/// In: time, inputs as they are known, and hashes of states. Out: the frames to be stepped, and events. Keeps: all that
+/// a host takes over from the client that it was, and the other way round.
 class PeerCore : public SessionCore, protected PeerRole {
  public:
   PeerCore(const SessionConfig& config, const InputRules& rules);

@@ -24,7 +24,7 @@ class TempoTrack {
   /// The host: from the first frame on that nobody can have stepped when it hears of it.
   void announce(Tempo tempo, Frame current, const std::vector<InputStream>& streams, Frame window) {
     Frame from = current;
-    // Whoever has not heard of it lacks the inputs that are not here yet, and steps no more than the window beyond them.
+    // Who has not heard of it lacks the inputs that are not here yet, and steps no more than the window beyond them.
     if (!in_force_.is_paused) {
       for (const InputStream& stream : streams) from = from < stream.end() ? stream.end() : from;
       from += window;

@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// In: turns, and the frames that are stepped again in them. Out: was there a pause, and is it forgiven? Keeps: the last
-/// turn, and when a pause was forgiven.
+/// In: turns, and the frames that are stepped again in them. Out: was there a pause, and is it forgiven? Keeps: the
+/// last turn, and when a pause was forgiven.
 class TurnWatch {
  public:
   void begin(Time now) {

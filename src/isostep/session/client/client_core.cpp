@@ -116,6 +116,7 @@ void ClientCore::before_steps(Time now) {
     return;
   }
   failover_.tend(may_stand(), now);
+  if (entry_.must_restore_again()) restore(entry_.welcome().start.frame);
   if (entry_.is_due()) begin();
   if (standing_ != Standing::runs) return;
   log_.tend(failover_.search().election());

@@ -25,6 +25,7 @@ void ClientCore::connected(PeerId host, Time now) {
   wishes_.forget();
   end_ballot(ballot_, current(), events_);
   tempos_.forget();
+  failover_.is_connected();
   // The greeting names the state that we go on from.
   standing_ = Standing::unknown;
   own_.stop_asking();
@@ -95,6 +96,7 @@ bool ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
     tell(event);
     phase_ = SessionPhase::refused;
     standing_ = Standing::unknown;
+    entry_.leave();
     failover_.search().election().end();
     return true;
   }
@@ -195,14 +197,18 @@ void ClientCore::hash_known(Frame state, std::uint64_t hash) {
   }
 }
 
+void ClientCore::restore(Frame frame) {
+  act(RequestKind::restore, frame);
+  timeline_.restart(frame);
+  act(RequestKind::save, frame);
+}
+
 void ClientCore::begin() {
   const Welcome& welcome = entry_.welcome();
   const Frame frame = welcome.start.frame;
   entry_.was_begun();
   if (entry_.is_restoring()) {
-    act(RequestKind::restore, frame);
-    timeline_.restart(frame);
-    act(RequestKind::save, frame);
+    restore(frame);
   } else {
     go_back(frame);
   }

@@ -7,11 +7,7 @@ namespace isostep {
 void ClientCore::tend_repair(Time now) {
   // Of who is not in the match nobody is asked, so the host's word on its states counts.
   if (config_.repair && !own_.is_open() && views_[kHostMachine].differs()) static_cast<void>(comparison_.resync());
-  if (!repair_.tend(streams_, current(), clock_, now)) return;
-  const Frame start = repair_.offer().start.frame;
-  act(RequestKind::restore, start);
-  timeline_.restart(start);
-  act(RequestKind::save, start);
+  if (repair_.tend(streams_, current(), clock_, now)) restore(repair_.offer().start.frame);
 }
 
 void ClientCore::finish_repair(std::uint64_t hash) {

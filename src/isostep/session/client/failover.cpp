@@ -8,11 +8,6 @@ void Failover::begin(Time now, bool knocks) {
   search_.begin(now, knocks);
   log_.take_back_former();
   client_.fail(SessionEvent::Kind::seeks_host, SessionPhase::seeking);
-  ask_next();
-}
-
-void Failover::ask_next() {
-  supporter_.answer_nothing();
   search_.ask_next();
 }
 
@@ -30,7 +25,7 @@ void Failover::tend(bool may_stand, Time now) {
     case Election::Step::wins: return;
     case Election::Step::goes_on:
       leave_host();
-      ask_next();
+      search_.ask_next();
       return;
     case Election::Step::calls:
       leave_host();

@@ -36,7 +36,9 @@ void SnapshotDesk::lost(Guests& guests) {
   state_ = HashReport{};
   for (Guest& guest : guests) {
     if (guest.stage == Guest::Stage::receives_snapshot) guest.stage = Guest::Stage::needs_snapshot;
-    if (guest.repair.stage == RepairService::Stage::receives) guest.repair.stage = RepairService::Stage::needs;
+    if (guest.repair.stage != RepairService::Stage::receives) continue;
+    guest.repair.stage = RepairService::Stage::needs;
+    guest.due.drop(Due::offer);  // it is due with the next one
   }
 }
 

@@ -41,6 +41,7 @@ TEST(SnapshotArrival, GoesOnWhereItsPiecesEnd) {
   EXPECT_FALSE(arrival.goes_on({60, 8}, 3)) << "of another history";
   EXPECT_TRUE(arrival.take({3, Bytes(piece, 1)}));
   EXPECT_TRUE(arrival.is_whole());
+  EXPECT_FALSE(arrival.take({4, {}})) << "nothing is no piece";
   EXPECT_TRUE(arrival.write_next(kSecond, kSecond, message)) << "all of it is told at once";
 }
 
