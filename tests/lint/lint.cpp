@@ -84,7 +84,7 @@ const Exception kExceptions[] = {
     {"math/eigen.hpp", "floating_point", "Eigen knows float and double by their own names"},
     {"systems/motion/render_poses.inl", "1.0f", "the interpolation for drawing, which is in float for every scalar"},
     {"peer/session_core.hpp", "virtual", "a session is never copied, hashed or rolled back"},
-    {"_control.hpp", "virtual", "likewise"},
+    {"peer/controls.hpp", "virtual", "likewise"},
     {"peer/peer_role.hpp", "virtual", "a session is never copied, hashed or rolled back"},
     {"draw/debug_draw.hpp", "virtual", "what draws is outside of worlds: never copied, hashed or rolled back"},
     {".cpp", "<algorithm>", "min, max and all_of leave no order open; those that do are banned by name"},

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/session/client/own_seats.hpp"
-#include "isostep/session/peer/match_control.hpp"
+#include "isostep/session/peer/controls.hpp"
 #include "isostep/session/protocol/message.hpp"
 #include "isostep/session/protocol/outbox.hpp"
 

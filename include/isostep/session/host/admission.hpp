@@ -4,7 +4,7 @@
 
 #include "isostep/session/host/boarding.hpp"
 #include "isostep/session/host/leadership.hpp"
-#include "isostep/session/peer/admission_control.hpp"
+#include "isostep/session/peer/controls.hpp"
 
 namespace isostep {
 

@@ -5,7 +5,7 @@
 #include "isostep/session/host/admission.hpp"
 #include "isostep/session/host/ballot_box.hpp"
 #include "isostep/session/host/tempo_desk.hpp"
-#include "isostep/session/peer/match_control.hpp"
+#include "isostep/session/peer/controls.hpp"
 
 namespace isostep {
 

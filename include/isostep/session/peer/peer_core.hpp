@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/session/agreement/failover.hpp"
 #include "isostep/session/pace/frame_clock.hpp"
 #include "isostep/session/pace/input_delay.hpp"
 #include "isostep/session/pace/rollback_thrift.hpp"
@@ -92,5 +93,10 @@ class PeerCore : public SessionCore, protected PeerRole {
   bool asked_start_ = false;
   bool is_misused_ = false;  // states are missing: from the newest final one once more
 };
+
+/// The client was elected.
+std::unique_ptr<SessionCore> become_host(PeerCore&& client, Succession&& succession, Time now);
+/// The host has been left behind, or gives way.
+std::unique_ptr<SessionCore> become_client(PeerCore&& host, Retreat&& retreat, Time now);
 
 }  // namespace isostep

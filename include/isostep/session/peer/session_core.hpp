@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "isostep/session/config.hpp"
-#include "isostep/session/peer/admission_control.hpp"
+#include "isostep/session/peer/controls.hpp"
 #include "isostep/session/peer/events.hpp"
-#include "isostep/session/peer/match_control.hpp"
 #include "isostep/session/peer/snapshot_transfer.hpp"
 #include "isostep/session/protocol/message.hpp"
 #include "isostep/session/protocol/player_stats.hpp"

@@ -1,7 +1,7 @@
 // A client that was the host, and one that is elected.
 // SPDX-License-Identifier: MIT
 #include "isostep/session/client/client_core.hpp"
-#include "isostep/session/peer/succession.hpp"
+#include "isostep/session/peer/peer_core.hpp"
 
 namespace isostep {
 

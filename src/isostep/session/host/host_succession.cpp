@@ -1,7 +1,7 @@
 // A host that follows another, and one that another follows.
 // SPDX-License-Identifier: MIT
 #include "isostep/session/host/host_core.hpp"
-#include "isostep/session/peer/succession.hpp"
+#include "isostep/session/peer/peer_core.hpp"
 
 namespace isostep {
 namespace {

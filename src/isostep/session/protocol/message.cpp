@@ -282,4 +282,12 @@ Result<MessageKind> message_kind(Bytes message) {
   return static_cast<MessageKind>(message[0]);
 }
 
+Address read_address(Reader& reader) {
+  const std::string_view text = reader.read_text(kAddressCap);
+  for (const char c : text) {
+    if (c < ' ' || c > '~') reader.fail(ErrorCode::invalid, "an address that is not printable ASCII");
+  }
+  return Address(text);
+}
+
 }  // namespace isostep
