@@ -174,6 +174,8 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   }
   /// After a `save`: the hash of that state.
   void saved(Frame state, std::uint64_t hash) { core_->saved(state, hash); }
+  /// After a `capture`, also where the game has no portable form.
+  void captured() { core_->captured(); }
   /// After a `restore`.
   void restored(bool ok) { core_->restored(ok); }
   /// After a `probe` that found one.
@@ -307,6 +309,7 @@ void carry_out(Session<Game, Predictor>& session, Game& game, const Request<type
         detail::write_whole(game, session.portable());
         if (!is_present) game.load(session.state(session.current()));
       }
+      session.captured();
       break;
     case RequestKind::restore:
       if constexpr (PortableState<Game>) {

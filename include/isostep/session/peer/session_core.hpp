@@ -107,6 +107,8 @@ class SessionCore {
   }
   /// `capture` writes here, `restore` reads here.
   std::vector<std::uint8_t>& portable() { return portable_; }
+  /// `capture` was carried out; portable() is empty where the game has no such form.
+  void captured() { undone_ -= undone_ > 0 ? 1 : 0; }
   /// The outcome of `restore`.
   virtual void restored(bool) {}
   /// The outcome of `probe`: the hash does not see this byte of the portable state `state`.
@@ -162,7 +164,7 @@ class SessionCore {
 
   void act(RequestKind kind, Frame frame, bool as_confirmed = false) {
     actions_.push_back({kind, frame, as_confirmed});
-    if (kind == RequestKind::save) ++unsaved_;
+    if (kind == RequestKind::save || kind == RequestKind::capture) ++undone_;
     if (kind == RequestKind::step) ++stats_.steps;
     if (kind != RequestKind::capture) return;
     portable_.clear();
@@ -190,7 +192,7 @@ class SessionCore {
  private:
   std::vector<SessionAction> actions_;
   Frame told_state_ = kNoFrame;  // the newest that poll_confirmed was given
-  int unsaved_ = 0;              // saves asked for and not reported
+  int undone_ = 0;               // saves and captures asked for and not reported
   bool is_capturing_ = false;    // a capture was asked for in this turn
   BoundedQueue<Confirmed> confirmed_;
 };

@@ -13,11 +13,11 @@ SessionCore::SessionCore(const SessionConfig& config, const InputRules& rules)
 SessionCore::~SessionCore() = default;
 
 std::span<const SessionAction> SessionCore::advance(Time now) {
-  const bool is_lost = unsaved_ != 0 && awaits_capture();
+  const bool is_lost = undone_ != 0 && awaits_capture();
   is_capturing_ = false;
   if (is_lost) capture_lost();
-  if (unsaved_ != 0) {
-    unsaved_ = 0;
+  if (undone_ != 0) {
+    undone_ = 0;
     misused();
     SessionEvent event{.kind = SessionEvent::Kind::misuse};
     tell(event);
@@ -29,7 +29,7 @@ std::span<const SessionAction> SessionCore::advance(Time now) {
 }
 
 void SessionCore::saved(Frame state, std::uint64_t hash) {
-  if (unsaved_ > 0) --unsaved_;
+  undone_ -= undone_ > 0 ? 1 : 0;
   hash_known(state, hash);
 }
 
