@@ -1,6 +1,6 @@
 // Sessions in C: recordings of their frames, and matches that are put away.
 // SPDX-License-Identifier: MIT
-#include "isostep/session/match_recorder.hpp"
+#include "isostep/session/observers/match_recorder.hpp"
 #include "session_handle.hpp"
 
 namespace isostep::c {

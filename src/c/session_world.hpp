@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "include/isostep.h"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "isostep/state/archive.hpp"
 #include "isostep/state/replay_header.hpp"
 

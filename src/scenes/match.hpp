@@ -10,7 +10,7 @@
 
 #include "isostep/core/fields.hpp"
 #include "isostep/core/random.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "isostep/state/composite.hpp"
 #include "isostep/world/world.hpp"
 

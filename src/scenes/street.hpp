@@ -6,7 +6,7 @@
 #include <span>
 
 #include "isostep/core/fields.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "isostep/world/world.hpp"
 #include "scene.hpp"
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "isostep/core/bytes.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "transport/line_guard.hpp"
 #include "transport/replay_window.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "isostep/core/bytes.hpp"
 #include "isostep/core/result.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 
 namespace isostep::transport {
 

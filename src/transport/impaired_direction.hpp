@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "isostep/core/random.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "transport/network_profile.hpp"
 
 namespace isostep::transport {

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "isostep/core/bytes.hpp"
-#include "isostep/session/siphash.hpp"
+#include "isostep/session/protocol/siphash.hpp"
 #include "transport/replay_window.hpp"
 
 namespace isostep::transport {

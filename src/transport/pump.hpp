@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/session/core.hpp"
+#include "isostep/session/peer/session_core.hpp"
 #include "transport/endpoint.hpp"
 
 namespace isostep::transport {

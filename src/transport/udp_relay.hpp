@@ -9,7 +9,7 @@
 #include <string>
 
 #include "isostep/core/result.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "transport/network_profile.hpp"
 
 namespace isostep::transport {

@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "isostep/session/repair.hpp"
-#include "isostep/session/verdict.hpp"
+#include "isostep/session/agreement/repair.hpp"
+#include "isostep/session/agreement/verdict.hpp"
 #include "unit/session/hostile.hpp"
 
 namespace isostep::fuzz {

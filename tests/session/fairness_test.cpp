@@ -1,6 +1,6 @@
 // Nobody pays for another's hitch, line or lies: whose fault a late input is decides whose inputs wait longer.
 // SPDX-License-Identifier: MIT
-#include "isostep/session/input_delay.hpp"
+#include "isostep/session/pace/input_delay.hpp"
 #include "session/altered_packet.hpp"
 #include "session/pace_watch.hpp"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "isostep/replay/recorder.hpp"
-#include "isostep/session/message.hpp"
+#include "isostep/session/protocol/message.hpp"
 #include "session/match_checks.hpp"
 #include "session/toy_game.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <map>
 
-#include "isostep/session/large_order.hpp"
+#include "isostep/session/observers/large_order.hpp"
 #include "isostep/state/composite.hpp"
 #include "session/pace_watch.hpp"
 #include "session/recorded_play.hpp"

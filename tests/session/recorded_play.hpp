@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "isostep/session/match_recorder.hpp"
+#include "isostep/session/observers/match_recorder.hpp"
 #include "session/virtual_match.hpp"
 
 namespace isostep::test {

@@ -168,6 +168,23 @@ TEST_P(RepairOf, AMachineTakesLessThanASecondAndNobodyNotices) {
   expect_repaired(match, 2);
 }
 
+TEST_P(RepairOf, AMachineGoesOnWhenTheHostsCallerForgetsTheSnapshot) {
+  const auto [mode, players] = GetParam();
+  ToyMatch match(repairing(players, mode), kGoodLine);
+  damage(match.machine(2));
+  bool has_forgotten = false;
+  match.host().forgets = [&](std::span<const Request<ToyInput>> requests) {
+    const auto captures = [](const Request<ToyInput>& request) { return request.kind == RequestKind::capture; };
+    if (has_forgotten || std::none_of(requests.begin(), requests.end(), captures)) return false;
+    return has_forgotten = true;
+  };
+  EXPECT_GT(cost_of_repair(match, 2).takes, 0u);
+  EXPECT_TRUE(has_forgotten);
+  EXPECT_EQ(match.host().count(Kind::misuse), 1);
+  EXPECT_FALSE(match.machine(2).heard(Kind::bad_snapshot));
+  expect_repaired(match, 2);
+}
+
 TEST_P(RepairOf, ABulkyGameTakesLessThanASecondAsWell) {
   const auto [mode, players] = GetParam();
   if (players != 4) return;

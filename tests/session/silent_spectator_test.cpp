@@ -5,7 +5,7 @@
 #include <deque>
 #include <string>
 
-#include "isostep/session/message.hpp"
+#include "isostep/session/protocol/message.hpp"
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "isostep/session/message.hpp"
+#include "isostep/session/protocol/message.hpp"
 #include "session/bulky_game.hpp"
 #include "session/pace_watch.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "isostep/session/event_log.hpp"
+#include "isostep/session/observers/event_log.hpp"
 #include "scenes/match.hpp"
 #include "session/match_checks.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "isostep/core/random.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "isostep/state/archive.hpp"
 #include "isostep/state/concepts.hpp"
 #include "isostep/state/hash.hpp"

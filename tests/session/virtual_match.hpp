@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -86,7 +87,8 @@ template <class Game> struct Machine {
       seat = p;
       session.add_local_input(p, bot(p, session.current()));
     }
-    drive(session, *game, now, *this);
+    if (forgets) play_by_hand(now);
+    else drive(session, *game, now, *this);
     if (const std::optional<Address> address = session.poll_connect()) connects_to = address->view();
     while (const std::optional<Outgoing> out = session.poll_send(now)) {
       if (muted) continue;
@@ -101,6 +103,21 @@ template <class Game> struct Machine {
     }
     while (const std::optional<SessionEvent> event = session.poll_event()) events.push_back(*event);
     if (after_turn) after_turn();
+  }
+  /// What drive() does, but in turns that the caller forgets.
+  void play_by_hand(Time now) {
+    const auto requests = session.advance(now);
+    if (forgets(requests)) return;
+    for (const Request<typename Game::Input>& request : requests) {
+      if (request.kind != RequestKind::step) {
+        carry_out(session, *game, request, *this);
+        continue;
+      }
+      before_step(request.frame);
+      game->step(request.inputs);
+      after_step(request.frame);
+    }
+    while (const auto final_frame = session.poll_confirmed()) confirmed(final_frame->frame, final_frame->hash);
   }
   /// Counts the events of one player, or of any.
   int count(SessionEvent::Kind kind, int player = -1) const {
@@ -143,6 +160,7 @@ template <class Game> struct Machine {
   std::function<void(Frame)> restarts_at;
   std::function<void(Frame, std::uint64_t)> was_confirmed;
   std::function<void()> after_turn;
+  std::function<bool(std::span<const Request<typename Game::Input>>)> forgets;  // requests that are not carried out
   std::string connects_to;  // an address that its session asked for, and that the network has not been given yet
   bool muted = false;
   bool is_offline = false;                      // the transport's last word

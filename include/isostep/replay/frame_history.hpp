@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "isostep/replay/recorder.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "isostep/world/world.hpp"
 
 namespace isostep {

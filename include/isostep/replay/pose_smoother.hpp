@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "isostep/math/quat.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "isostep/world/world.hpp"
 
 namespace isostep {

@@ -9,7 +9,7 @@
 #include "commands.hpp"
 #include "isostep/replay/desync_bundle.hpp"
 #include "isostep/replay/session_recorder.hpp"
-#include "isostep/session/event_log.hpp"
+#include "isostep/session/observers/event_log.hpp"
 #include "isostep/session/session.hpp"
 #include "scenes/match.hpp"
 #include "tool/common/files.hpp"

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "isostep/core/result.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "tool/common/tool.hpp"
 #include "transport/network_profile.hpp"
 
