@@ -87,6 +87,7 @@ void add_pucks(Scene& scene, int players, double distance) {
     body.density = 1.25;
     body.restitution = 0.5;
     body.angular_damping = 1;
+    body.report_contacts = true;
     scene.bodies.push_back(body);
   }
 }

@@ -47,6 +47,19 @@ struct SceneSurface {
 };
 
 /// One primitive of a body; of the sizes only those of its type count.
+/// What a part has of its own, as PartTraits says: a file that names a number of the material, or of the filter, names
+/// the part's, and leaves the others as they are here.
+struct ScenePartTraits {
+  std::uint32_t flags = 0;             // part_flag
+  Number friction = 0.6;               // [1]
+  Number static_friction = 0;          // [1] below friction: the same
+  Number restitution = 0;              // [1]
+  Number rolling_resistance = 0;       // [m] lever arm of the normal force that resists rolling
+  Number spin_resistance = 1.0 / 128;  // [m] radius at which friction resists spinning about the normal
+  std::uint32_t kind = 0;              // of material, for pairs; 0: none
+  Filter filter;
+};
+
 struct ScenePart {
   ShapeType type = ShapeType::box;
   Vector half_extents = zero_vector();  // [m] box
@@ -66,6 +79,7 @@ struct ScenePart {
   BlobRef blob;                         // its content
   Vector position = zero_vector();      // [m] in the body's frame
   Rotation orientation = no_rotation();
+  ScenePartTraits own;
 };
 
 struct SceneBody {
@@ -95,6 +109,7 @@ struct SceneBody {
   bool collide = true;
   bool sensor = false;
   bool bullet = false;
+  bool report_contacts = false;
 };
 
 /// Frames as they lie at the start, world.

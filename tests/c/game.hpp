@@ -49,6 +49,7 @@ struct Q32Game {
     definition.type = type;
     definition.shape = box;
     definition.position.y = whole(y);
+    definition.report_contacts = 1;
     iso_body made = 0;
     EXPECT_EQ(iso_q32_body_create(world, &definition, &made), ISO_OK) << iso_last_error();
     return made;

@@ -43,6 +43,26 @@ template <class S> Primitive<S> draw_primitive(Dice& dice, double* reach, std::v
   *reach += radius;
   return primitive_of(Hull<S>{static_cast<std::uint32_t>(blobs.size()), num<S>(radius)});
 }
+/// Static friction, a grain, a kind. By dice of its own: what is drawn after it is as it was before there was this.
+template <class S> void draw_surface(std::uint64_t seed, Material<S>& material);
+
+/// What a part has of its own, by dice of its own. The first of a body's weighs something and rests on the ground; the
+/// others may sense, or pass whatever they meet.
+template <class S> PartTraits<S> draw_traits(Dice own, std::uint32_t part) {
+  PartTraits<S> traits;
+  if (own.one_in(3)) {
+    Material<S> material;
+    material.friction = num<S>(own.in(0, 1.25));
+    if (own.one_in(4)) material.restitution = num<S>(own.in(0, 1));
+    draw_surface(own.next(), material);
+    traits.with(material);
+  }
+  if (own.one_in(4)) traits.with(part_flag::kReportContacts);
+  const Filter passes = {1u << own.below(2), 0, own.below(3)};
+  if (part != 0 && own.one_in(4)) traits.with(passes);
+  if (part != 0 && own.one_in(4)) traits.with(part_flag::kSensor);
+  return traits;
+}
 /// A primitive, or two or three of them in one body.
 template <class S> DrawnShape draw_shape(World<S>& w, Dice& dice) {
   std::vector<Child<S>> children;
@@ -55,6 +75,7 @@ template <class S> DrawnShape draw_shape(World<S>& w, Dice& dice) {
     if (count > 1) {
       const D3 at = dice.point(0.25);
       child.pose = {vec<S>(at), dice.orientation<S>()};
+      child.traits = draw_traits<S>(dice, i);
       own += length(at);
     }
     reach = std::max(reach, own);
@@ -63,7 +84,6 @@ template <class S> DrawnShape draw_shape(World<S>& w, Dice& dice) {
   return {w.add_shape(std::span<const Child<S>>(children), blobs), reach};
 }
 
-/// Static friction, a grain, a kind. By dice of its own: what is drawn after it is as it was before there was this.
 template <class S> void draw_surface(std::uint64_t seed, Material<S>& material) {
   Dice dice(seed);
   if (dice.one_in(3)) material.static_friction = num<S>(dice.in(0, 2));
@@ -91,6 +111,7 @@ template <class S> BodyDefinition<S> draw_body(Dice& dice, ShapeId shape) {
   d.allow_sleep = !dice.one_in(8);
   d.user_data = dice.next();
   d.bullet = d.user_data % 8 == 0;
+  d.report_contacts = d.user_data % 3 != 0;
   draw_surface(d.user_data, d.material);
   return d;
 }

@@ -61,6 +61,7 @@ template <class S> class CommandExecutor {
   bool may_change(BodyId body);
   bool may_push(BodyId body);
   bool mark_for_destruction(BodyId body);
+  bool accept_traits(std::span<const Child<S>> children);
   bool find_blobs(const AddShape<S>& command, std::vector<BlobRef>& blobs);
   bool accept_patch(const Result<BakedHeightField>& changed);
   void replace_blob(std::uint32_t shape, std::uint32_t child, const BlobRef& blob);

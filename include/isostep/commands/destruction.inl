@@ -59,14 +59,16 @@ template <class S> void Destruction<S>::tell_ends() {
   const auto ends = [&](std::uint32_t a, std::uint32_t b) { return is_marked(a) || is_marked(b); };
   std::uint64_t told = ~std::uint64_t{0};  // the last pair: its contacts stand side by side
   for (const Contact<S>& contact : state_.contacts) {
+    constexpr std::uint32_t kBoth = contact_flag::kReported | contact_flag::kTouching;
     const std::uint32_t a = contact.key.body_a, b = contact.key.body_b;
-    if ((contact.flags & contact_flag::kTouching) == 0 || pair_key(a, b) == told || !ends(a, b)) continue;
+    if ((contact.flags & kBoth) != kBoth || pair_key(a, b) == told || !ends(a, b)) continue;
     told = pair_key(a, b);
-    state_.untold.contact_end.push_back({id(a), id(b)});
+    state_.untold.contact_end.push_back(map_.named(contact.key));
   }
   for (const SensorOverlap overlap : state_.overlaps) {
     if (ends(overlap.sensor, overlap.other))
-      state_.untold.sensor_end.push_back({id(overlap.sensor), id(overlap.other)});
+      state_.untold.sensor_end.push_back(
+          {id(overlap.sensor), id(overlap.other), overlap.sensor_child, overlap.other_child});
   }
   detail::sort_ends(state_.untold.contact_end, contact_end_scratch_);
   detail::sort_ends(state_.untold.sensor_end, sensor_end_scratch_);

@@ -75,7 +75,8 @@ template <class S> BodyProperties<S> CommandExecutor<S>::properties_of(const Bod
   BodyProperties<S> body = {};
   body.type = d.type;
   body.flags = d.locks | (d.sensor ? body_flag::kSensor : 0u) | (d.allow_sleep ? body_flag::kAllowSleep : 0u) |
-               (d.collide ? body_flag::kCollide : 0u) | (d.bullet ? body_flag::kBullet : 0u);
+               (d.collide ? body_flag::kCollide : 0u) | (d.bullet ? body_flag::kBullet : 0u) |
+               (d.report_contacts ? body_flag::kReportContacts : 0u);
   body.shape = d.shape.slot;
   body.filter = d.filter;
   body.user_data = d.user_data;

@@ -38,7 +38,7 @@ struct CouplingReport {
 /// commands, touches one way, forces and impulses the other, so each world's recording replays without the other.
 /// Nothing is remembered from frame to frame: composite(bodies, particles) is the state.
 ///
-/// Any particle meets any body with collisions whose filter agrees, pinned ones too; sensors meet none. A particle is
+/// Any particle meets any part of a body with collisions whose filter agrees, pinned ones too; sensors meet none. A particle is
 /// a ball of its material's radius. Friction and restitution mix as two bodies' do, so without friction of its own a
 /// particle slides. Fast particles are traced to the shape they hit.
 ///
@@ -101,7 +101,6 @@ template <class S> class ParticleCoupling {
     S mass;                              // [kg]
     Vec3<S> kappa;                       // [1/m^2]
     std::uint32_t locks;                 // body_flag
-    Material<S> material;
     std::uint32_t first_touch, last_touch;
     std::uint32_t pressing;   // touches that may press
     Press press;              // of those
@@ -110,6 +109,7 @@ template <class S> class ParticleCoupling {
   struct Part {
     Transform<S> at;  // to world
     ShapeView<S> shape;
+    Material<S> material;
   };
   /// A particle on its way.
   struct Flier {
@@ -159,7 +159,7 @@ template <class S> class ParticleCoupling {
   void find_bodies(const World<S>& bodies, const Flier& flier);
   std::uint32_t meet(const World<S>& bodies, BodyId body);
   bool find_meeting(const Met& met, const Part& part, const Flier& flier, Meeting& meeting) const;
-  void add_touch(std::uint32_t met, const Flier& flier, const Meeting& meeting);
+  void add_touch(std::uint32_t met, const Material<S>& material, const Flier& flier, const Meeting& meeting);
   Vec3<S> velocity_at(const Met& met, Vec3<S> arm) const;
   void weigh(const Met& met, Touching& touching, Vec3<S> surface, S speed);
   static S response(const Along& along, Vec3<S> push, Vec3<S> lever);

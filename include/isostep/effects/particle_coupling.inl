@@ -100,7 +100,8 @@ template <class S> void ParticleCoupling<S>::find_bodies(const World<S>& bodies,
     if (!met.collides || (!met.moves && flier.inverse_mass == InverseMass<S>(0))) continue;
     for (std::uint32_t i = 0; i < met.part_count; ++i) {
       Meeting meeting;
-      if (find_meeting(met, parts_[met.first_part + i], flier, meeting)) add_touch(place, flier, meeting);
+      const Part& part = parts_[met.first_part + i];
+      if (find_meeting(met, part, flier, meeting)) add_touch(place, part.material, flier, meeting);
     }
   }
 }
@@ -114,7 +115,6 @@ template <class S> std::uint32_t ParticleCoupling<S>::meet(const World<S>& bodie
   const bool awake = bodies.is_awake(body);
   Met met = {};
   met.body = body;
-  met.collides = (properties.flags & body_flag::kCollide) != 0 && should_collide(settings_.filter, properties.filter);
   met.moves = properties.type == BodyType::dynamic;
   met.rests = !awake || view.state->sleep_clock > 0;
   met.centre = view.state->centre;
@@ -126,13 +126,15 @@ template <class S> std::uint32_t ParticleCoupling<S>::meet(const World<S>& bodie
   met.kappa = properties.kappa;
   met.first_touch = met.last_touch = kNone;
   met.locks = properties.flags & body_flag::kAllLocks;
-  met.material = properties.material;
   met.first_part = static_cast<std::uint32_t>(parts_.size());
-  met.part_count = static_cast<std::uint32_t>(view.children.size());
   const Transform<S> placed = Transform<S>::of(view.pose);
-  for (const Child<S>& child : view.children)
+  for (const Child<S>& child : view.children) {
+    if (!parts_collide(PartTraits<S>{}, settings_.filter, child.traits, properties.filter)) continue;
     parts_.push_back({child.pose.is_identity() ? placed : compose(placed, Transform<S>::of(child.pose)),
-                      view.contents.view(child.primitive)});
+                      view.contents.view(child.primitive), child.traits.material_or(properties.material)});
+  }
+  met.part_count = static_cast<std::uint32_t>(parts_.size()) - met.first_part;
+  met.collides = (properties.flags & body_flag::kCollide) != 0 && met.part_count != 0;
   met_.push_back(met);
   met_of_slot_[body.slot] = static_cast<std::uint32_t>(met_.size());
   return met_of_slot_[body.slot] - 1;
@@ -172,17 +174,18 @@ template <class S> ISO_INLINE Vec3<S> ParticleCoupling<S>::velocity_at(const Met
 }
 
 template <class S>
-void ParticleCoupling<S>::add_touch(std::uint32_t place, const Flier& flier, const Meeting& meeting) {
+void ParticleCoupling<S>::add_touch(std::uint32_t place, const Material<S>& material, const Flier& flier,
+                                    const Meeting& meeting) {
   Met& met = met_[place];
   const Vec3<U> normal = -meeting.outward;
   const Vec3<S> arm = meeting.point - met.centre;
   // A belt runs along the surface, whatever it was told.
-  const Vec3<S> belt = met.material.surface_velocity;
+  const Vec3<S> belt = material.surface_velocity;
   const Vec3<S> surface = saturating_add(velocity_at(met, arm), belt - meeting.outward * dot(meeting.outward, belt));
   Material<S> own;
   own.friction = flier.material->friction;
   own.restitution = flier.material->restitution;
-  const MixedMaterial<S> mixed = mix(own, met.material);
+  const MixedMaterial<S> mixed = mix(own, material);
   // All fields at once: empty braces would call a constructor, a weak function that other objects have too.
   const Vec3<S> none = Vec3<S>::zero();
   const ParticleTouch<S> touch = {flier.id,       normal,

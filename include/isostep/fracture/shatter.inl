@@ -182,6 +182,7 @@ template <class S> ISO_INLINE BodyDefinition<S> likeness_of(const BodyProperties
   d.allow_sleep = (p.flags & body_flag::kAllowSleep) != 0;
   d.collide = (p.flags & body_flag::kCollide) != 0;
   d.bullet = (p.flags & body_flag::kBullet) != 0;
+  d.report_contacts = (p.flags & body_flag::kReportContacts) != 0;
   return d;
 }
 

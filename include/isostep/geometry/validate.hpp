@@ -19,7 +19,8 @@ template <class S> ShapeFault validate(std::span<const Child<S>> children, std::
 /// The same with its place.
 template <class S> ShapeFaultPlace find_fault(std::span<const Child<S>> children, std::span<const BlobRef> blobs = {});
 
-/// A valid child with its normal and orientation scaled to unit length; what already is stays bit for bit.
+/// A valid child with its normal and orientation scaled to unit length, and nothing in traits that no flag names; what
+/// already is so stays bit for bit.
 template <class S> Child<S> normalised(const Child<S>& child);
 
 #define ISO_EXTERN(S)                                                                                 \

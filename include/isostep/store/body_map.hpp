@@ -75,6 +75,33 @@ template <class S> class BodyMap {
   ISO_INLINE std::span<const Child<S>> children_of(std::uint32_t shape_slot) const {
     return state_.shapes[shape_slot]->children;
   }
+  /// Of all parts of a shape.
+  ISO_INLINE const ShapeTraits& traits_of(std::uint32_t shape_slot) const { return state_.shapes[shape_slot]->traits; }
+  /// Whether the body, or one of its parts, is a sensor; and whether nothing of it is anything else.
+  ISO_INLINE bool senses(const BodyProperties<S>& body) const {
+    return (body.flags & body_flag::kSensor) != 0 || traits_of(body.shape).has(part_flag::kSensor);
+  }
+  ISO_INLINE bool is_sensor(const BodyProperties<S>& body) const {
+    return (body.flags & body_flag::kSensor) != 0 || !traits_of(body.shape).any_solid;
+  }
+  /// Whether something of it presses on others.
+  ISO_INLINE bool has_contacts(const BodyProperties<S>& body) const {
+    constexpr std::uint32_t kFlags = body_flag::kSensor | body_flag::kCollide;
+    return (body.flags & kFlags) == body_flag::kCollide && traits_of(body.shape).any_solid;
+  }
+  /// No less than any of its parts collides with.
+  ISO_INLINE Filter filter_of(const BodyProperties<S>& body) const {
+    return traits_of(body.shape).filter_or(body.filter);
+  }
+  /// Whether events tell when the contacts of a part begin and end.
+  ISO_INLINE bool reports(const BodyProperties<S>& body, std::uint32_t child) const {
+    return (body.flags & body_flag::kReportContacts) != 0 ||
+           children_of(body.shape)[child].traits.has(part_flag::kReportContacts);
+  }
+  /// The part that a contact's key names: a leaf.
+  Leaf leaf_of(std::uint32_t body_slot, std::uint32_t leaf) const;
+  /// The bodies and parts of a contact.
+  ContactEnd named(const ContactKey& key) const;
   /// Null: the shape has no such child, or it is no height field.
   const Child<S>* height_field_of(std::uint32_t shape_slot, std::uint32_t child) const;
   /// Null: the shape has few children.

@@ -40,9 +40,11 @@ template <class S> struct BodyDefinition {
   bool allow_sleep = true;
   bool collide = true;  // false: no contacts, no events
   bool bullet = false;  // moving bodies stop it too, at any speed; two bullets may pass through each other
+  bool report_contacts = false;  // events tell when contacts begin and end; parts may report by themselves
 
   ISO_FIELDS(type, shape, position, orientation, velocity, angular_velocity, density, mass, inertia, material, filter,
-             user_data, gravity_scale, linear_damping, angular_damping, locks, sensor, allow_sleep, collide, bullet)
+             user_data, gravity_scale, linear_damping, angular_damping, locks, sensor, allow_sleep, collide, bullet,
+             report_contacts)
 };
 
 }  // namespace isostep

@@ -13,14 +13,18 @@
 #include "isostep/store/chosen_broad_phase.hpp"
 #include "isostep/store/crowd.hpp"
 #include "isostep/store/proxy.hpp"
+#include "isostep/store/state.hpp"
 
 namespace isostep {
 
-/// A cache, not state: the pairs are a function of every body's fat box, type, filter and whether it is awake, all of
+/// A cache, not state: the pairs are a function of every body's fat box, type, filters and whether it is awake, all of
 /// them state, and where they are more than the budget of the contacts too. `place` compares with what it knew, so that
 /// loading a snapshot renews only what differs.
 template <class S> class Proxies {
  public:
+  /// `shapes` of the state, as they are when a body is placed.
+  ISO_INLINE explicit Proxies(const StoredShapes<S>& shapes) : shapes_(shapes) {}
+
   /// A body that is disabled has no place.
   void place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake);
   void remove(std::uint32_t slot);
@@ -48,6 +52,7 @@ template <class S> class Proxies {
     }
   };
 
+  const StoredShapes<S>& shapes_;
   ChosenBroadPhase<S> boxes_;
   PairSet<S> pairs_;
   Crowd<S> crowd_;

@@ -26,12 +26,13 @@ enum class HitPer : std::uint8_t {
 };
 
 /// A query sees bodies whose category meets the mask, sensors only when asked, and neither the one to be ignored nor
-/// those of the group: who looks is in the way of its own ray. A stale id ignores nobody.
+/// those of the group: who looks is in the way of its own ray. A stale id ignores nobody. A part with a filter, material
+/// or sensor flag of its own is seen by those, whatever its body's are.
 struct QueryFilter {
   std::uint32_t mask = 0xffffffffu;
   bool sensors = false;
   BodyId ignore = {};
-  std::uint32_t group = 0;  // bodies of this Filter::group are not seen; 0: none
+  std::uint32_t group = 0;  // what is of this Filter::group is not seen; 0: none
   bool back_faces = false;  // rays and casts hit triangles from behind too
   StartInside start_inside = StartInside::report;
   HitPer per = HitPer::body;
@@ -70,6 +71,7 @@ struct OverlapHit {
 /// The body that is nearest to a point.
 template <class S> struct ClosestBody {
   BodyId body;
+  std::uint32_t child;   // of its shape
   Vec3<S> point;         // [m] on its surface
   Vec3<Unit<S>> normal;  // [1] outward
   S distance;            // [m] negative: inside

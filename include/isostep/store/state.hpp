@@ -29,7 +29,8 @@ template <class S> struct StoredShape {
   std::uint64_t hash = 0;  // of them
   // It is no state of its own: it follows from the children and the content that they name.
   std::shared_ptr<const ChildTree<S>> tree;  // null: the shape has few children
-  S thinnest = S(0);                         // [m] of the thickness() of each child
+  S thinnest = S(0);                         // [m] of the thickness() of each child that is no sensor
+  ShapeTraits traits;                        // of all children
 
   static constexpr std::size_t kLeastWritten = 4;  // [bytes] one count
 
@@ -66,17 +67,20 @@ template <class S> struct PendingMove {
 };
 static_assert(kHasNoPadding<PendingMove<float>> && kHasNoPadding<PendingMove<double>>);
 
-/// A body inside a sensor. Ascending by (sensor, other).
+/// A part of a body inside a part of a sensor. Ascending by (sensor, other, sensor_child, other_child).
 struct SensorOverlap {
-  std::uint32_t sensor, other;  // slots
+  std::uint32_t sensor, other;              // slots
+  std::uint32_t sensor_child, other_child;  // parts of their shapes
 
-  friend constexpr bool operator==(SensorOverlap a, SensorOverlap b) {
-    return a.sensor == b.sensor && a.other == b.other;
+  ISO_INLINE constexpr std::uint64_t bodies() const { return std::uint64_t{sensor} << 32 | other; }
+  ISO_INLINE constexpr std::uint64_t parts() const { return std::uint64_t{sensor_child} << 32 | other_child; }
+  friend ISO_INLINE constexpr bool operator==(SensorOverlap a, SensorOverlap b) {
+    return a.bodies() == b.bodies() && a.parts() == b.parts();
   }
   friend ISO_INLINE constexpr bool operator<(SensorOverlap a, SensorOverlap b) {
-    return a.sensor != b.sensor ? a.sensor < b.sensor : a.other < b.other;
+    return a.bodies() != b.bodies() ? a.bodies() < b.bodies() : a.parts() < b.parts();
   }
-  ISO_FIELDS(sensor, other)
+  ISO_FIELDS(sensor, other, sensor_child, other_child)
 };
 
 /// Bodies asleep together, with their contacts and joints. Never changed once made: worlds and snapshots share it, and

@@ -54,7 +54,7 @@ namespace isostep {
 ///   BodyFinisher    -> BodyMap, Proxies
 ///   ContinuousCollision -> BodyMap, Proxies
 ///   SensorOverlaps  -> BodyMap, Proxies
-///   ContactEvents   -> no other
+///   ContactEvents   -> BodyMap
 ///   BreakEvents     -> BodyMap
 ///   JointLoads      -> BodyMap, Destruction
 ///   HitEvents       -> BodyMap
@@ -98,7 +98,7 @@ template <class S> class WorldEngine {
   AssetSource assets_;
 
   BodyMap<S> map_{state_};
-  Proxies<S> proxies_;
+  Proxies<S> proxies_{state_.shapes};
   IslandWake<S> wake_{state_, map_, proxies_};
   IslandSleep<S> sleep_{state_, map_, proxies_};
   MoveTargets<S> targets_{state_, map_};
@@ -112,7 +112,7 @@ template <class S> class WorldEngine {
   BodyFinisher<S> finisher_{state_, map_, proxies_};
   ContinuousCollision<S> continuous_{state_, map_, proxies_};
   SensorOverlaps<S> sensors_{state_, map_, proxies_};
-  ContactEvents<S> contact_events_{state_};
+  ContactEvents<S> contact_events_{state_, map_};
   BreakEvents<S> break_events_{state_, map_};
   HitEvents<S> hit_events_{state_, map_};
   ContactPoints<S> contact_points_{state_, map_};

@@ -87,6 +87,7 @@ inline constexpr Flag kBodyFlags[] = {{"sensor", body_flag::kSensor},
                                       {"collide", body_flag::kCollide},
                                       {"bullet", body_flag::kBullet},
                                       {"disabled", body_flag::kDisabled},
+                                      {"report_contacts", body_flag::kReportContacts},
                                       {"lock_x", body_flag::kLockX},
                                       {"lock_y", body_flag::kLockX << 1},
                                       {"lock_z", body_flag::kLockX << 2},
@@ -94,6 +95,10 @@ inline constexpr Flag kBodyFlags[] = {{"sensor", body_flag::kSensor},
                                       {"lock_angular_y", body_flag::kLockAngularX << 1},
                                       {"lock_angular_z", body_flag::kLockAngularX << 2},
                                       {"all_locks", body_flag::kAllLocks}};
+inline constexpr Flag kPartFlags[] = {{"own_material", part_flag::kOwnMaterial},
+                                      {"own_filter", part_flag::kOwnFilter},
+                                      {"sensor", part_flag::kSensor},
+                                      {"report_contacts", part_flag::kReportContacts}};
 inline constexpr Flag kJointFlags[] = {{"collide_connected", joint_flag::kCollideConnected},
                                        {"limit", joint_flag::kLimit},
                                        {"motor", joint_flag::kMotor},
@@ -113,6 +118,6 @@ inline constexpr Flag kZoneEffects[] = {{"acceleration", zone_effect::kAccelerat
                                         {"gravity", zone_effect::kGravity},
                                         {"water", zone_effect::kWater}};
 inline constexpr FlagSet kFlagSets[] = {
-    {"body_flag", kBodyFlags}, {"joint_flag", kJointFlags}, {"zone_effect", kZoneEffects}};
+    {"body_flag", kBodyFlags}, {"part_flag", kPartFlags}, {"joint_flag", kJointFlags}, {"zone_effect", kZoneEffects}};
 
 }  // namespace isostep::c

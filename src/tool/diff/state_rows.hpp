@@ -30,7 +30,9 @@ template <class S> RowKey key_of(const PendingForce<S>& force) { return {{force.
 template <class S> RowKey key_of(const Contact<S>& contact) {
   return {{contact.key.body_a, contact.key.body_b}, {contact.key.child_a, contact.key.child_b}};
 }
-inline RowKey key_of(const SensorOverlap& overlap) { return {{overlap.sensor, overlap.other}}; }
+inline RowKey key_of(const SensorOverlap& overlap) {
+  return {{overlap.sensor, overlap.other}, {overlap.sensor_child, overlap.other_child}};
+}
 
 /// Rows of one type, or a value by itself. Refers to the state that it was made of.
 struct Rows {

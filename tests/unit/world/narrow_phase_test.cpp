@@ -80,7 +80,7 @@ TYPED_TEST(NarrowPhases, a_sensor_overlaps_and_has_no_contact) {
   of.update();
   EXPECT_TRUE(of.systems.state.contacts.empty());
   ASSERT_EQ(of.phase.overlaps().size(), 1u);
-  EXPECT_EQ(of.phase.overlaps()[0], (SensorOverlap{sensor.slot, body.slot}));
+  EXPECT_EQ(of.phase.overlaps()[0], (SensorOverlap{sensor.slot, body.slot, 0, 0}));
 }
 
 /// Runs the task as often as it may, on the calling thread.

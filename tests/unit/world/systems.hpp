@@ -22,7 +22,7 @@ template <class S> struct Systems {
 
   WorldState<S> state;
   BodyMap<S> map{state};
-  Proxies<S> proxies;
+  Proxies<S> proxies{state.shapes};
   StateLoader<S> loader{state, map, proxies};
   IslandWake<S> wake{state, map, proxies};
 };

@@ -54,6 +54,7 @@ template <class S> BodyDefinition<S> moving(ShapeId shape, D3 position, D3 veloc
   d.shape = shape;
   d.position = vec<S>(position);
   d.velocity = vec<S>(velocity);
+  d.report_contacts = true;
   return d;
 }
 template <class S> BodyDefinition<S> still(ShapeId shape, D3 position = {0, 0, 0}) {

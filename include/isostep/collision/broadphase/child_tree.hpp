@@ -89,6 +89,13 @@ template <class S> class ChildTree {
   bool has_surfaces_ = false;
 };
 
+/// The leaf of that index of a shape's children. `tree` is theirs, or null.
+template <class S>
+ISO_INLINE Leaf leaf_at(const ChildTree<S>* tree, std::span<const Child<S>> children, Contents<S> contents,
+                        std::uint32_t index) {
+  return tree != nullptr ? tree->leaf_at(index) : leaf_at(children, contents, index);
+}
+
 #define ISO_EXTERN(S) extern template class ChildTree<S>;
 ISO_FOR_EACH_SCALAR(ISO_EXTERN)
 #undef ISO_EXTERN

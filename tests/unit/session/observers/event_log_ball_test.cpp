@@ -26,6 +26,7 @@ struct Court {
     BodyDefinition<float> definition{.type = BodyType::dynamic, .shape = world.add_shape(Sphere{0.5})};
     definition.position = {0, 2, 0};
     definition.material.restitution = 0.6f;
+    definition.report_contacts = true;
     ball = world.create(definition);
   }
   template <class Emit> void step(int kick, Emit&& emit) {
