@@ -63,7 +63,7 @@ template <class S> struct SlidingJoint {
   static ISO_INLINE bool is_point(const JointProperties<S>&) { return false; }
   static ISO_INLINE bool is_free(const JointProperties<S>&, std::uint32_t) { return false; }
   static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) { return pull_of_rows(joint); }
-  /// Off a's z axis.
+  /// The distance off a's z axis [m].
   static ISO_INLINE S error(const JointProperties<S>&, const Pose<S>& a, const Pose<S>& b) {
     const Vec3<S> between = transposed_times(to_matrix(a.orientation), b.position - a.position);
     return direction_of(between.x, between.y, S(0)).length;

@@ -8,8 +8,8 @@
 namespace isostep {
 namespace {
 
-/// As the functions of these names in joint_drive.hpp, joint_drive_rows.hpp and joint_tree_drives.inl. The pieces of
-/// such a drive are free, lower and upper: HeldLanes.
+/// The functions of joint_drive.hpp, joint_drive_rows.hpp and joint_tree_drives.inl with these names, of lanes. The
+/// pieces of such a drive are free, lower and upper: HeldLanes.
 template <class S, int W, class Isa> struct TreeLaws : TreePusher<S, W, Isa> {
   using Base = TreePusher<S, W, Isa>;
   using Base::number;
