@@ -7,14 +7,14 @@
 
 namespace isostep {
 
-/// How far a body turns that is not slow: fast, by more than an eighth of a radian in a time step of integration.
+/// The pace of a body that is not slow: fast, by more than an eighth of a radian in a time step of integration.
 enum class Pace { brisk, fast };
 
 /// A slow solid after a free turn: its angular velocity, and that in the principal frame [rad/s].
 template <class V> struct SlowTurn { Vec3<V> angular_velocity, known; };
 
 namespace detail {
-/// What Euler's equations add to the angular velocity w, in the principal frame, over h.
+/// The change of the angular velocity w by Euler's equations, in the principal frame, over h.
 template <class S, class V, class H> ISO_INLINE Vec3<V> explicit_change(Vec3<S> euler, Vec3<V> w, H h) {
   const auto times = [](auto a, V b) ISO_INLINE_LAMBDA { return round_to<V>(product(a, b)); };
   const Vec3<V> hw = {times(h, w.x), times(h, w.y), times(h, w.z)};
@@ -22,8 +22,8 @@ template <class S, class V, class H> ISO_INLINE Vec3<V> explicit_change(Vec3<S> 
 }
 }  // namespace detail
 
-/// Torque-free turning of a slow solid over h, by a sixteenth of a radian in a step of the world or less: FreeTurn says
-/// why in this form. Of numbers or of lanes; `half` is one half in each lane.
+/// Turns a slow solid freely over h, by a sixteenth of a radian in a step of the world or less: FreeTurn says why in
+/// this form. It takes numbers or lanes; `half` is one half in each lane.
 template <class U, class S, class V, class H>
 ISO_INLINE SlowTurn<V> slow_turn(const Mat3<U>& axes, Vec3<S> euler, Vec3<V> angular_velocity, H h, S half) {
   const auto halved = [half](V x) ISO_INLINE_LAMBDA { return round_to<V>(product(half, x)); };
@@ -130,7 +130,7 @@ template <class S> struct FreeTurn {
     const auto part = [&](Vec3<S> n) { return divide_to<V>(round_to<V>(dot_sum(n, f)), convert<V>(determinant)); };
     return {part(n12), part(n20), part(n01)};
   }
-  /// Only changes go through the axes, which are not quite of unit length: all of the velocity would grow with them.
+  /// The axes are not quite of unit length, so changes alone go through them: all of the velocity would grow with them.
   ISO_INLINE Vec3<V> world(Vec3<V> change) const { return axes * change; }
 };
 
