@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// What a body displaces of a water.
+/// The water that a body displaces.
 template <class S> struct Wet {
   S mass;       // [kg] of water
   Vec3<S> arm;  // [m] its middle from the body's centre of mass
