@@ -46,8 +46,7 @@ template <class S> struct Belt {
   }
 };
 
-/// Belts ascend by the body's slot, then by the part, the whole body's last. They keep nothing from step to step but
-/// memory.
+/// Belts ascend by slot of the body, then by part, the whole body's last. Nothing but memory stays from step to step.
 template <class S> class Belts {
  public:
   /// place_of(record): a BeltPlace. `fastest` [rad/s].

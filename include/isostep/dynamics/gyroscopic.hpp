@@ -61,11 +61,11 @@ template <class S> struct FreeTurn {
     const auto ratio = [](S over, S under) { return S(0) < under ? divide_to<S>(over, under) : S(0); };
     return {ratio(i.y - i.z, i.x), ratio(i.z - i.x, i.y), ratio(i.x - i.y, i.z)};
   }
-  /// A solid has none beyond 1, rounding aside. Moments that a user gives may be those of none.
+  /// A solid's ratios are 1 at most, rounding aside. Moments that a user gives may be those of no solid.
   static ISO_INLINE bool is_solid(Vec3<S> euler) { return held_within(euler, S(2)) == euler; }
 
-  /// Turns. Pushes since the last step first lose what they did too much. What the axes round is no push: taken for one
-  /// it feeds on itself.
+  /// Turns a step. Pushes since the last step first lose what they did too much. Rounding by the axes is no push: taken
+  /// for one it feeds on itself.
   ISO_INLINE Vec3<V> turn(Vec3<V> angular_velocity, Vec3<V>& known, Pace pace) const {
     const Vec3<V> w = local(angular_velocity);
     Vec3<V> change = implicit_change(w, known);

@@ -1,5 +1,4 @@
-// The ways in which worst_first ends overlaps, by name: the closed list that settings, scene files and the tool speak
-// of.
+// The ways in which worst_first ends overlaps: the closed list that settings, scene files and the tool speak of.
 // SPDX-License-Identifier: MIT
 #pragma once
 

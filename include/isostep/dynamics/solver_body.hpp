@@ -30,9 +30,8 @@ template <class S> struct Acceleration {
   ISO_FIELDS(linear, angular)
 };
 
-/// The angular speed [rad/s] above which a body counts as spinning about an axis: the orientation in which a step finds
-/// it does not do for the whole of it. A sixteenth of a radian a step: less misdirects a torque by three hundredths on
-/// average.
+/// The angular speed [rad/s] above which a body spins about an axis: its orientation as a step begins does not do for
+/// the whole step. A sixteenth of a radian a step: less misdirects a torque by three hundredths on average.
 template <class S> ISO_INLINE Velocity<S> rapid_angular_speed(std::int32_t hz) {
   return convert<Velocity<S>>(S(hz) * S(1.0 / 16));
 }
@@ -45,10 +44,9 @@ template <class S> ISO_INLINE Velocity<S> angular_speed_to_follow(std::int32_t r
   return saturate_to<Velocity<S>>(product(S(rate), S(1.0 / 8)));
 }
 
-/// The angular speed [rad/s] above which a body has its inertia about the world's axes renewed in every sub-step, and
-/// contacts follow (contact_follow.hpp): seven eighths of a radian a step, and a quarter where one axis is sixteen
-/// times easier to turn about than another. Old inertia is wrong by the turn times that ratio; contacts take more
-/// energy from slower bodies.
+/// The angular speed [rad/s] above which a body's inertia is renewed in every sub-step, and contacts follow
+/// (contact_follow.hpp): seven eighths of a radian a step, and a quarter where one axis is sixteen times easier to turn
+/// about than another. Old inertia is wrong by the turn times that ratio; contacts take more energy from slower bodies.
 template <class S> ISO_INLINE Velocity<S> angular_speed_to_renew(std::int32_t hz, bool slender) {
   return convert<Velocity<S>>(min(Limits<S>::angular_speed(), S(hz)) * (slender ? S(0.25) : S(0.875)));
 }

@@ -38,8 +38,7 @@ ISO_INLINE std::optional<SolverName> solver_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// The expectation in the fault of a solver that the build leaves out; null for one that it holds, and for what is
-/// none: core/book.hpp.
+/// The expectation of a fault, for a solver that the build leaves out; null for any other value: core/book.hpp.
 ISO_INLINE constexpr const char* expected_instead_of(SolverName solver) {
   constexpr const char* kExpected[] = {ISO_SOLVERS(ISO_NOT_LEFT_OUT, ISO_LEFT_OUT)};
   const auto index = static_cast<std::uint32_t>(solver);

@@ -126,8 +126,7 @@ template <class S> struct TyreSlip {
   S give_along, give_across;  // [1]
 };
 
-/// The impulse on the ellipse with those radii, against the slip that it leaves; one that ends the slip is beyond the
-/// ellipse.
+/// The impulse on the ellipse with those radii, against the slip that it leaves; to end the slip takes more.
 /// Method:  scaled to a circle of radius R, the impulse is -s_i / (K_i + g), with s the slip, K what gives way and g
 ///          such that its length is R: by steps of Hebden's formula, as of trust regions (More, Sorensen 1983, SIAM J.
 ///          Sci. Stat. Comput. 4(3), eq. 3.5).

@@ -62,11 +62,10 @@ template <class S> class World final : public WorldBase<World<S>> {
   /// (ISOSTEP_BOOK): the world has soft_step then.
   explicit World(const Settings<S>& settings = {}) : Base(settings) {}
 
-  /// Sets the lanes of this world's solver. Never changes a bit; false and no change where this processor or build
-  /// lacks them.
+  /// Sets the solver's lanes. Never changes a bit; false and no change where this processor or build lacks them.
   bool use_simd(Simd simd);
   const char* simd_name() const;
-  /// Sets the structure that finds bodies near each other, and what queries meet: the tree of boxes unless told. Never
+  /// Sets the structure that finds bodies near each other, for steps and queries: the tree of boxes unless told. Never
   /// changes a bit. Grids move and insert more quickly, the tree finds pairs more quickly. One that the build leaves
   /// out (ISOSTEP_BOOK) is refused.
   bool use_broad_phase(BroadPhaseName name);
@@ -97,8 +96,7 @@ template <class S> class World final : public WorldBase<World<S>> {
   // Bodies.
   BodyId create(const BodyDefinition<S>& definition);
   bool destroy(BodyId body);
-  /// Destroys bodies as one by one, in this order, for the price of one: a pass over the awake. Returns how many there
-  /// were.
+  /// Destroys bodies as if one by one, in this order, at the price of one: a pass over the awake. Returns how many.
   std::size_t destroy(std::span<const BodyId> bodies);
   bool wake(BodyId body);
   bool set_pose(BodyId body, const Pose<S>& pose);
@@ -158,8 +156,7 @@ template <class S> class World final : public WorldBase<World<S>> {
   JointId create(const JointDefinition<S>& joint);
   bool destroy(JointId joint);
   bool set_joint(JointId joint, const JointProperties<S>& properties);
-  /// Sets a part of it, of what joint_position() counts; set_joint has the rest. Drives of six-axis joints are
-  /// AxisDrives.
+  /// Sets a part of it, along joint_position(); set_joint has the rest. Six-axis joints have AxisDrives instead.
   bool set_limits(JointId joint, S lower, S upper);        // [rad] or [m]
   bool set_motor(JointId joint, S speed, S torque);        // [rad/s], [N m] or [m/s], [N]; torque 0: no motor
   bool set_spring(JointId joint, S frequency, S damping);  // [Hz], [1] 1 is critical; frequency 0: no spring
@@ -167,9 +164,8 @@ template <class S> class World final : public WorldBase<World<S>> {
   const JointProperties<S>* joint(JointId joint) const;
   /// Distance between the joint's anchors, or for a distance joint its error [m]; 0 for a stale id.
   S joint_error(JointId joint) const;
-  /// The position that lower, upper and spring_target count: the twist of frame b against frame a about z, in (-pi, pi]
-  /// [rad]; of a slider or cylindrical joint the way along z of a, of a distance joint the length [m]. 0 for a stale
-  /// id.
+  /// The position that lower, upper and spring_target count: the twist of frame b against a about z in (-pi, pi] [rad];
+  /// of a slider or cylindrical joint the way along z of a, of a distance joint the length [m]. 0 for a stale id.
   S joint_position(JointId joint) const;
   /// The position of one axis of a six-axis joint: its way [m], or its angle in (-pi, pi] [rad].
   S joint_position(JointId joint, JointAxis axis) const;
@@ -222,8 +218,7 @@ template <class S> class World final : public WorldBase<World<S>> {
   /// The velocity [m/s] of a point [m] that moves with the body, both world.
   Vec3<S> velocity_at(BodyId body, Vec3<S> point) const;
   S mass(BodyId body) const;
-  /// The inertia [kg m^2] about an axis [1] through its centre of mass, world. 0 for a body that is not dynamic, and
-  /// about a locked axis.
+  /// The inertia [kg m^2] about an axis [1] through the centre of mass, world. 0: not dynamic, or a locked axis.
   S inertia(BodyId body, Vec3<Unit<S>> axis) const;
   std::uint64_t user_data(BodyId body) const;
   std::vector<BodyId> bodies() const;

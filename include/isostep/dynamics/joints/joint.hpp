@@ -73,9 +73,8 @@ void prepare_joint(const JointProperties<S>& properties, const JointState<S>& st
                    std::span<const JointAxisDrive<S>> axes = {});
 /// Finds the Jacobian and the errors of position at the present poses.
 template <class S> void linearise_joint(JointConstraint<S>& joint, const JointStep<S>& step);
-/// Sets how the joint's arms curve, for velocities: after linearise_joint(), from the angular velocities of
-/// `step.bodies`. Solvers that close errors of position by themselves do without: what the arms curved then stays as
-/// speed.
+/// Sets how arms curve, for velocities: after linearise_joint(), from the angular velocities of `step.bodies`. Solvers
+/// that close errors of position by themselves do without: what the arms curved then stays as speed.
 template <class S> void curve_joint(JointConstraint<S>& joint, const JointStep<S>& step);
 /// Sets the turns that the rows give bodies with the inverse inertia kappa.
 template <class S> void weigh_joint(JointConstraint<S>& joint, const Mat3<S>& kappa_a, const Mat3<S>& kappa_b);
@@ -105,8 +104,8 @@ template <class S> void factor_joint(JointConstraint<S>& joint);
 template <class S> JointRows<S> substitute_joint(const JointConstraint<S>& joint, JointRows<S> right);
 template <class S> void solve_joint(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
 
-/// One joint after another in array order. Once a sub-step the first, then the second, biased and, after positions
-/// moved, relaxed.
+/// These solve one joint after another in array order: the first once a sub-step, then the second, biased and, after
+/// positions moved, relaxed.
 template <class S> void warm_start_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step);
 template <class S> void solve_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
 

@@ -13,7 +13,7 @@ template <class S> struct JointFrames {
   Quat<Unit<S>> a, b;    // frames to world
 };
 
-/// Orientations only where a kind needs them.
+/// Finds the frames; orientations only where a kind needs them.
 template <class S> ISO_INLINE JointFrames<S> joint_frames(const JointConstraint<S>& joint, const BodyState<S>* states) {
   const auto pose = [&](std::uint32_t row, const Pose<S>& fixed) ISO_INLINE_LAMBDA {
     return row == 0 ? fixed : Pose<S>{states[row - 1].centre, states[row - 1].orientation};

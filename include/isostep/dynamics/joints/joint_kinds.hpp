@@ -45,7 +45,7 @@ ISO_FOR_EACH_JOINT(ISO_COMPLETE)
 /// A class of joints, before a scalar is chosen.
 template <template <class> class Joint> struct JointClass { template <class S> using Of = Joint<S>; };
 
-/// visit(JointClass<BallJoint>{}) for balls, and so on. No world takes a record of a type that is not in the list.
+/// Calls visit(JointClass<BallJoint>{}) for balls, and so on. No world takes a record of a type outside of the list.
 template <class Visit> ISO_INLINE constexpr decltype(auto) visit_joint_type(JointType type, Visit&& visit) {
   switch (type) {
 #define ISO_CASE(name, Joint) \
@@ -64,8 +64,7 @@ ISO_INLINE constexpr bool joins_two_points(JointType type) {
   return visit_joint_type(type,
                           [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<float>::kTwoPoints; });
 }
-/// A type bounds twist and swing if its limits are those of the twist about z and of the swing of z, where origins
-/// coincide.
+/// The limits of a type's properties are those of the twist about z and of the swing of z, where origins coincide.
 template <class S> ISO_INLINE constexpr bool bounds_twist_and_swing(JointType type) {
   return visit_joint_type(type,
                           [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<S>::kTwistAndSwing; });

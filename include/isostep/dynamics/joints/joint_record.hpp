@@ -1,5 +1,4 @@
-// The record of a joint: its properties, which commands change, and its state, which the step changes. The kinds:
-// joint_type.hpp.
+// The record of a joint: properties, which commands change, and state, which the step changes. Kinds: joint_type.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 

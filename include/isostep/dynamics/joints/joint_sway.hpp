@@ -52,7 +52,7 @@ ISO_INLINE void set_sways(const JointFrames<S>& f, Vec3<Unit<S>> unit, S length,
   sways[0].sway = sways[1].sway = divide_to<S>(S(1) * h, max(length, kShortestSway<S>));
 }
 
-/// [1] h p / l as far as a sub-step is too long for it.
+/// [1] The part of h p / l for which a sub-step is too long.
 template <class S> ISO_INLINE S excess_sway(const JointDrive<S>& drive, Velocity<S> tension) {
   return saturate_to<S>(product(drive.sway, max(tension, Velocity<S>(0)))) - drive.sway_left;
 }

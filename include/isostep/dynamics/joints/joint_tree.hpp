@@ -46,8 +46,7 @@ template <class S> class JointTrees {
   ISO_INLINE std::uint32_t batch_count() const {
     return static_cast<std::uint32_t>(batches_.size()) + (loose_.empty() ? 0u : 1u);
   }
-  /// A sub-step takes the state of the joints now, then last impulses; solves biased; and, after positions moved,
-  /// relaxed.
+  /// A sub-step takes the joints' state and applies last impulses; solves biased; and, after positions moved, relaxed.
   void warm_start(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step);
   void solve(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
   /// Stores impulses in the joints once a step, after the last sub-step.

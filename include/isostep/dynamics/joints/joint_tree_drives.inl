@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// act(drive of the shape, its number, lane, whether the lane has a tree of its own), but for joints with stops.
+/// Calls act(drive of the shape, its number, lane, whether the lane has a tree), but for joints with stops.
 template <class S>
 template <class Act>
 void JointTrees<S>::each_drive(const Batch& batch, const TreeRun<S>& run, const Act& act) const {
@@ -20,7 +20,7 @@ void JointTrees<S>::each_drive(const Batch& batch, const TreeRun<S>& run, const 
   }
 }
 
-/// Rows, errors and springs of the joints that are more than a point and have no stops. What a rod pulls with stands in
+/// Writes rows, errors and springs of the joints that are more than a point and have no stops. A rod's pull stands in
 /// the lanes.
 template <class S>
 void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
@@ -39,7 +39,7 @@ void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::s
   }
 }
 
-/// Impulses, scales and yielding of the pieces on which drives are, and which nodes idle.
+/// Sets impulses, scales and yielding of the pieces on which drives are, and which nodes idle.
 template <class S>
 void JointTrees<S>::set_pieces(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
                                const JointStep<S>& step) {

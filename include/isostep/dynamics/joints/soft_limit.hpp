@@ -9,7 +9,7 @@ namespace isostep::detail {
 template <class S> ISO_INLINE bool is_soft(const AxisDrive<S>& asked) {
   return asked.limited && S(0) < asked.limit_frequency;
 }
-/// The spring of its own.
+/// Gives the drive its own spring.
 template <class S> ISO_INLINE void set_spring(const AxisDrive<S>& asked, JointDrive<S>& drive) {
   drive.sprung = S(0) < asked.spring_frequency;
   drive.servo = drive.sprung && !drive.driven && !asked.motor && S(0) < asked.force;

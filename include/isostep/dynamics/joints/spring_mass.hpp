@@ -20,7 +20,7 @@ template <class S> ISO_INLINE JointFrames<S> frames_as_made(const JointConstrain
   return f;
 }
 
-/// Mass of b turned with it to there.
+/// The kappa of b, turned with it to there.
 template <class S> ISO_INLINE Mat3<S> kappa_as_made(const JointConstraint<S>& joint, const Mat3<S>& kappa_b) {
   const Quat<Unit<S>> made = joint.pose_a.orientation * joint.properties.frame_a.orientation;
   const Quat<Unit<S>> now = joint.pose_b.orientation * joint.properties.frame_b.orientation;

@@ -14,8 +14,7 @@ template <class S> ISO_INLINE S reciprocal(S a) { return S(1) / a; }
 template <class T> struct SymmetricFactors {
   T l10, l20, l21, i0, i1, i2;
 
-  /// The inverse, to multiply vectors with. Its error relative to the result is the format's times the largest over the
-  /// least pivot.
+  /// The inverse, for products with vectors. Its relative error is the format's times the largest over the least pivot.
   ISO_INLINE Mat3<T> inverse() const {
     // L^-1 = [1; -l10 1; l10 l21 - l20, -l21, 1]
     const T n20 = l10 * l21 - l20;

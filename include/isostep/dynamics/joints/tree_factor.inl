@@ -99,7 +99,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
   }
 
  private:
-  /// Masses of those that spin, as BodyRows left them. Returns whether any does.
+  /// Gathers masses of bodies that spin, as BodyRows left them. Returns whether any does.
   static ISO_INLINE bool follow_masses(const TreeRun<S>& run, Memory m, Velocity<S> least) {
     bool some = false;
     for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
@@ -161,7 +161,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
     if (of.a_moves) pull(arm_a, -L::load(joint.share_a), a, joint.pull_a);
     if (of.b_moves) pull(arm_b, L::load(joint.share_b), b, joint.pull_b);
   }
-  /// [m/s] world, on b.
+  /// [m/s] The pull of a node's last impulse on b, world.
   static ISO_INLINE Vec3<V> pull_of(const TreeNode& node, Memory m, const Node& block) {
     const Vec3<V> impulse = load(block.impulse);
     if (node.is_point()) return impulse;

@@ -43,14 +43,13 @@ template <class S> struct TreeKernels {
   void (*store)(const TreeRun<S>&, JointConstraint<S>* joints);
   /// Begins a sub-step: gathers the poses and velocities of bodies, and joints with stops as they are now.
   void (*place)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
-  /// JointTrees calls each of these once a sub-step. They read the constraints' rows, but those of points and of joints
-  /// with stops.
+  /// JointTrees calls each once a sub-step. They read the rows of constraints, but of points and of joints with stops.
   void (*warm_start)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
   void (*solve)(const TreeRun<S>&, const JointStep<S>& step);
   void (*relax)(const TreeRun<S>&, const JointStep<S>& step);
 
   void (*begin)(const TreeRun<S>&);
-  /// Speeds and impulses of drives; right-hand sides of equalities, without bias where relaxed.
+  /// Finds speeds and impulses of drives, and right-hand sides of equalities, without bias where relaxed.
   void (*find_right_sides)(const TreeRun<S>&, const JointStep<S>& step);
   void (*find_relaxed_right_sides)(const TreeRun<S>&, const JointStep<S>& step);
   /// Turns the drives' right-hand sides into their new speeds and impulses.
@@ -58,8 +57,7 @@ template <class S> struct TreeKernels {
   /// Returns whether a drive of joints with stops is off its piece of the law, as JointTrees::judge_drives() does.
   bool (*judge)(const TreeRun<S>&, const JointStep<S>& step, bool may_hold);
   bool (*judge_relaxed)(const TreeRun<S>&, const JointStep<S>& step, bool may_hold);
-  /// Restores all as the pass began. `resume` then factorises anew, from the drives' impulses, scales and give of their
-  /// next pieces.
+  /// `restore` puts all back as the pass began; `resume` then factorises with impulses, scales and give of new pieces.
   void (*restore)(const TreeRun<S>&);
   void (*resume)(const TreeRun<S>&);
   void (*end)(const TreeRun<S>&);

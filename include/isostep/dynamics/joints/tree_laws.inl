@@ -65,7 +65,7 @@ template <class S, int W, class Isa> struct TreeLaws : TreePusher<S, W, Isa> {
       select(Mask::from_bits(run.held[d].below), V::load(drive.low) - speed, of_above).store(drive.right);
     }
   }
-  /// Pieces to try next; whether there are others than now in lanes with a tree.
+  /// Sets the pieces to try next. Returns whether there are others than now in lanes with a tree.
   static ISO_INLINE bool judge_drives(const TreeRun<S>& run, Memory m, bool may_hold) {
     bool off = false;
     for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {

@@ -53,7 +53,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
 
   // ---- impulses
 
-  /// All impulses of a joint.
+  /// Applies all impulses of a joint.
   static ISO_INLINE void push_all(const TreeRun<S>& run, std::uint32_t j, Memory m) {
     const TreeJoint& of = run.shape.joints[j];
     const Vec3<V> none = {V::zero(), V::zero(), V::zero()};

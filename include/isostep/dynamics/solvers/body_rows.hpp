@@ -48,7 +48,7 @@ template <class S> class BodyRows {
     turns_[row - 1].known = transposed_times(axes, rows_.velocity[row].angular);
   }
 
-  /// Velocities back into context.states, after integration.
+  /// Stores velocities in context.states, after integration.
   void store(const StepContext<S>& context, std::size_t first, std::size_t end) const;
   /// The bound then holds the energy of all of them at once.
   ISO_INLINE bool has_bound() const { return bound_.any(); }

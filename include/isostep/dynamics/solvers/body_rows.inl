@@ -12,7 +12,7 @@ namespace isostep {
 
 namespace detail {
 
-/// No motion along and about locked axes, whatever pushed.
+/// Stops motion along and about locked axes, whatever pushed.
 template <class V> ISO_INLINE void hold_locks(std::uint32_t flags, MotionRow<V>& row) {
   if ((flags & body_flag::kAllLocks) == 0) return;
   for (int axis = 0; axis < 3; ++axis) {

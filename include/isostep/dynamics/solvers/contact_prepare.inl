@@ -79,7 +79,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     separation = w[6];
     return {{w[0], w[1], w[2]}, {w[3], w[4], w[5]}};
   }
-  /// A word earlier, so that eight end with the record.
+  /// Reads from a word before the material, so that eight end with the record.
   static ISO_INLINE Materials gather_material(const Geometry* const* geometry) {
     L w[8];
     gather<8>(

@@ -182,7 +182,7 @@ void DirectSolver<S>::keep_joint(JointConstraint<S>& joint, const Island& island
   }
 }
 
-/// Rods that came to pull much harder have their rows across placed anew: judge_sway(). Whether there are any.
+/// Places the rows across rods anew that came to pull much harder: judge_sway(). Returns whether there are any.
 template <class S> bool DirectSolver<S>::tighten(Island& island) {
   bool any = false;
   for (std::size_t k = 0; k < island.joints.size(); ++k) {

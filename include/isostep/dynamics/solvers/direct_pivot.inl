@@ -226,10 +226,9 @@ template <class N> void DirectSystem<N>::settle_answers() {
   gather_motions(false);
 }
 
-/// Returns whether rows that hold are off by more than twice what was asked of any. Loads grow to thousands of times
-/// what is asked where a joint presses a body against one that does not give way. Friction grows with them, and its
-/// limits never hold still: cut to the last, it no longer balances them. The way that is left to a contact asks for
-/// nothing.
+/// Returns whether rows that hold are off by more than twice what was asked of any. A joint that presses a body against
+/// an immovable one makes loads of thousands of times what is asked, and friction with them, whose limits never hold
+/// still: cut to the last, it no longer balances them. The way that is left to a contact asks for nothing.
 template <class N> bool DirectSystem<N>::is_violated() const {
   N asked = N(0), worst = N(0);
   for (const DirectBlock<N>& block : blocks_) {

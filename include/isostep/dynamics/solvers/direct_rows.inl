@@ -142,8 +142,7 @@ typename DirectSolver<S>::Value DirectSolver<S>::answer_of(const Island& island,
   return System::product(System::value(impulse), island.ends[r / 3].reduced);
 }
 
-/// [m/s] The impulse of a row, held within the speed limit: as a state it must not wrap, and it is no more than a
-/// guess.
+/// [m/s] A row's impulse within the speed limit: as a state it must not wrap, and it is no more than a guess.
 template <class S>
 typename DirectSolver<S>::V DirectSolver<S>::impulse_of(const Island& island, std::uint32_t r) const {
   const DirectRow<N>& row = island.system.row(r);

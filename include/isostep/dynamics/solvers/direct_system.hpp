@@ -80,7 +80,7 @@ template <class N> class DirectSystem {
   static constexpr int kSweeps = 16, kLeastSweeps = 4;
   static constexpr std::uint64_t kSweepWork = 4;  // of a block in a sweep: three rows at two ends
 
-  /// No blocks.
+  /// Begins without blocks.
   void begin();
   std::uint32_t add_block(std::uint32_t body_a, std::uint32_t body_b);
   ISO_INLINE std::uint32_t block_count() const { return static_cast<std::uint32_t>(blocks_.size()); }

@@ -267,7 +267,7 @@ void Impacts<S>::apply_scales(const StepContext<S>& context, SolverBodies<S>& bo
   }
 }
 
-/// Friction, within the cone of what each point bore.
+/// Applies friction, within the cone of what each point bore.
 template <class S> void Impacts<S>::rub(const StepContext<S>& context, SolverBodies<S>& bodies) {
   for (const TouchRow<S>& touch : touches_) {
     const ContactGeometry<S>& g = geometry_of(context, touch);

@@ -6,8 +6,7 @@
 
 namespace isostep {
 
-/// The obstacles in a character's way, the firmest first: those that stay where they are, those that walk, those that
-/// are pushed aside.
+/// The obstacles in a character's way, the firmest first: fixed ones, other walkers, bodies that are pushed aside.
 namespace detail::obstacle {
 inline constexpr std::uint8_t kFixed = 0, kWalks = 1, kDynamic = 2;
 }
@@ -33,8 +32,7 @@ template <class S> Vec3<Unit<S>> CharacterWalk<S>::upright(Vec3<Unit<S>> normal)
   return d.length > detail::kGrazing<S> ? detail::unit_of<S>(d) : normal;
 }
 
-/// The way along one plane, or along the edge between two; a corner of three ends it, and so does one that would lead
-/// back.
+/// The way along one plane, or along the edge between two; a corner of three ends it, and so would a way back.
 template <class S> Vec3<S> CharacterWalk<S>::clipped(Vec3<S> way, const Planes& planes) {
   const auto against = [&](Vec3<S> v) {
     for (int i = 0; i < planes.count; ++i) {

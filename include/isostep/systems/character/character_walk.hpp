@@ -15,11 +15,11 @@ inline constexpr int kMostSlides = 5;   // casts of a move
 inline constexpr int kMostPlanes = 8;   // that a move runs along
 inline constexpr int kMostWaysOut = 8;  // moves out of an overlap, of each look at what is near
 inline constexpr int kMostLooks = 3;    // at what is near, on a way out
-/// [m] a step that it leaves an overlap by, besides what its ground moved it by.
+/// [m] The way a step by which it leaves an overlap, besides that of its ground.
 template <class S> inline constexpr S kMostWayOut = S(0.125);
-/// [m] less is rounding, and no way.
+/// [m] A shorter way is rounding.
 template <class S> inline constexpr S kLeastWay = S(0x1p-16);
-/// [1] least cosine by which a skin counts along a way.
+/// [1] The least cosine by which a skin counts along a way.
 template <class S> inline constexpr S kGrazing = S(0.125);
 /// [1] The part of a skin within which contacts touch.
 template <class S> inline constexpr S kTouchingSkins = S(1.0625);
@@ -115,8 +115,8 @@ template <class S> class CharacterWalk {
   // character_slide.inl
   std::optional<Hit> cast(Vec3<S> way) { return around_.cast(at_, way); }
   S travel(const Hit& hit, const Direction<S>& along) const;
-  /// Moves along `way` as far as it goes. Who does not fall finds slopes upright that are too steep; who walks goes up
-  /// the others as fast as on the level.
+  /// Moves along `way` as far as it goes. A character that does not fall finds slopes upright that are too steep; one
+  /// that walks goes up the others as fast as on the level.
   enum class Gait { falls, rises, walks };
   Planes slide(Vec3<S> way, Gait gait, std::span<const NearContact<S>> touching);
   Vec3<S> turned_by(std::span<const NearContact<S>> touching, Vec3<S> way, Gait gait, Planes& planes);

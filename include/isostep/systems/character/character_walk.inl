@@ -152,8 +152,8 @@ template <class S> S CharacterWalk<S>::rise_of(Vec3<S> from) const {
   return character_.step_height + sunk + character_.skin;
 }
 
-/// Steps block the way if something steep was met that would be farther away from a step higher up. A wall would not,
-/// nor somebody else: the point that was met is in the way there too. Both being convex, it then is so in between.
+/// Steps block a way that met something steep which would be farther away from a step higher up: not a wall, or
+/// somebody else, of which the point that was met is in the way there too. Both being convex, it then is so in between.
 template <class S> bool CharacterWalk<S>::is_blocked_by_steps(const Planes& planes, Vec3<S> from) const {
   const Vec3<S> lift = convert<S>(up_) * rise_of(from);
   for (int i = 0; i < planes.count; ++i) {
@@ -248,9 +248,8 @@ template <class S> Vec3<S> CharacterWalk<S>::slide_of(const Planes& planes) cons
   return steepest;
 }
 
-/// Stands the character on several planes at once that are too steep one by one, if they bear it: between two slopes,
-/// in a pit, on a slope against a wall. They bear it as one plane would on which it slid as steeply. Its ground is the
-/// flattest.
+/// Stands the character on several planes that bear it and are too steep one by one: between two slopes, in a pit, on a
+/// slope against a wall. They bear it as one plane would on which it slid as steeply. Its ground is the flattest.
 template <class S> bool CharacterWalk<S>::stand_between() {
   around_.find_contacts(at_, character_.skin * S(2), memory_.contacts);
   contacts_at_ = at_;

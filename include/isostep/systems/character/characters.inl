@@ -124,7 +124,7 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
   moves_.push_back({slot, character, walk.way()});
 }
 
-/// All that it does not pass.
+/// The filter of bodies that the character meets.
 template <class S> QueryFilter Characters<S>::seen_by(const Walker<S>& character) {
   QueryFilter filter;
   filter.mask = character.mask;
@@ -132,7 +132,7 @@ template <class S> QueryFilter Characters<S>::seen_by(const Walker<S>& character
   return filter;
 }
 
-/// Its ghosts, kinds that its own passes, and the one-way bodies that it is not above of.
+/// Lists its ghosts, kinds that its own passes, and the one-way bodies that it is not above of.
 template <class S> void Characters<S>::find_passed(const Walker<S>& character, const Asking& asking) {
   passed_.clear();
   passed_kinds_.clear();

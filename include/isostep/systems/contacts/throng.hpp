@@ -22,7 +22,7 @@ namespace isostep {
 ///          a body are not looked at; bodies that touch are two inner radii apart, so a heap has no deep pairs.
 template <class S> class Throng {
  public:
-  /// Both of all awake bodies, in their order.
+  /// Begins with the frames and properties of all awake bodies, in their order.
   void begin(std::span<const BodyFrame<S>> frames, std::span<const BodyProperties<S>> bodies, std::size_t pairs);
   ISO_INLINE bool any() const { return !members_.empty(); }
   /// Counts a pair by its frames; after all pairs leaves_out() knows.

@@ -185,7 +185,7 @@ template <class S> bool ContinuousCollision<S>::find_touch(Mover& mover) const {
   return found;
 }
 
-/// A body that touches at the start goes as if it turned about that point, not about its centre of mass: with its
+/// A body that touches at the start goes as if it turned about that point, not about its centre of mass. With its
 /// middle on a straight line a rod that tips over dips that end into the ground, and stays where it is for ever. All
 /// obstacles see the same path.
 template <class S>
@@ -264,9 +264,8 @@ template <class S> void ContinuousCollision<S>::place(std::uint32_t index) {
   proxies_.place(state, body, true);
 }
 
-/// A body that lies in a surface already has contacts that push it out, except where its middle is in none: it may
-/// turn, and does not gather the speed of a fall. One that `moving` bodies stop keeps its speed: contacts share it with
-/// them.
+/// Contacts push a body out of a surface it lies in, except where its middle is in none: it may turn, and does not
+/// gather the speed of a fall. A body that `moving` ones stop keeps its speed: contacts share it with them.
 template <class S> void ContinuousCollision<S>::stop_middle(BodyState<S>& state, const Cut& cut, bool moving) const {
   using V = Velocity<S>;
   detail::put_centre(state, cut.place - rotate(state.orientation, cut.middle));

@@ -81,7 +81,7 @@ template <class S> void CouplingForces<S>::list_runs(const SolverBodies<S>& bodi
   }
 }
 
-/// Rows and the sum as the bodies lie now.
+/// Places the rows and the sum as the bodies lie now.
 template <class S> void CouplingForces<S>::place(Run& run, const JointStep<S>& step) const {
   S sum = S(0);
   for (int i = 0; i < run.count; ++i) {
@@ -116,9 +116,8 @@ template <class S> S CouplingForces<S>::coupling_of(const Term& i, const Term& j
   return sum;
 }
 
-/// Divides an impulse on the sum among the rows: each in the measure in which it moves, and all together so that the
-/// sum moves by one. The motion that a body has in two of them is counted, for a sum that is pushed too far gains
-/// energy.
+/// Divides an impulse on the sum among the rows: each in the measure in which it moves, and all so that the sum moves
+/// by one. A body's motion in two of them is counted, for a sum that is pushed too far gains energy.
 template <class S> void CouplingForces<S>::weigh(Run& run) const {
   const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
   const auto lever = [](const Term& t) {

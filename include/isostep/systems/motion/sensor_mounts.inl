@@ -26,7 +26,7 @@ template <class S> void SensorMounts<S>::end_step() {
   });
 }
 
-/// visit(state, properties, record) of the sensors that are enabled: a kinematic body never sleeps.
+/// Calls visit(state, properties, record) for the sensors that are enabled: a kinematic body never sleeps.
 template <class S> template <class Visit> void SensorMounts<S>::for_each(const Visit& visit) {
   for (const SensorMount<S>& mount : state_.records->sensor_mounts.all()) {
     if (!mount.sensor) continue;

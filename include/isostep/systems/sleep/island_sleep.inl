@@ -11,8 +11,7 @@ namespace isostep {
 
 namespace detail {
 template <class S> inline constexpr S kSleepSpeed = S(0.05);  // [m/s] and [rad/s]
-/// [s] The time of a fall that counts as rest: a body thrown up is that slow for twice as long, and the delay is
-/// longer.
+/// [s] The time of a fall that counts as rest: thrown up, a body is slow for twice as long; the delay is longer.
 template <class S> inline constexpr S kSleepFall = S(0.1875);
 /// [m/s^2] and [rad/s^2] The least pull that counts: rounding of forces in balance leaves less.
 template <class S> inline constexpr S kLeastPull = S(1.0 / 16384);
@@ -156,7 +155,7 @@ template <class S> bool IslandSleep<S>::is_dynamic(std::uint32_t slot) const {
   return at.set == Location::kAwake && state_.awake.properties[at.index].type == BodyType::dynamic;
 }
 
-/// Dynamic bodies that contacts and joints tie together.
+/// Finds islands: dynamic bodies that contacts and joints tie together.
 template <class S> void IslandSleep<S>::find_islands() {
   islands_.begin(state_.awake.states.size());
   const auto tie = [&](std::uint32_t a, std::uint32_t b) {
@@ -177,7 +176,7 @@ template <class S> void IslandSleep<S>::find_islands() {
   for (const Coupling<S>& coupling : state_.records->couplings.all()) tie_coupled(coupling);
 }
 
-/// The bodies of all joints of a coupling.
+/// Ties the bodies of all joints of a coupling.
 template <class S> void IslandSleep<S>::tie_coupled(const Coupling<S>& coupling) {
   std::uint32_t first = kNoBody;
   for (const JointId id : detail::joints_of(coupling).all) {
@@ -191,7 +190,7 @@ template <class S> void IslandSleep<S>::tie_coupled(const Coupling<S>& coupling)
   }
 }
 
-/// visit(slot of a wheel's body, slot of the ground)
+/// Calls visit(slot of a wheel's body, slot of the ground).
 template <class S> template <class Visit> void IslandSleep<S>::for_each_wheel_on_ground(const Visit& visit) const {
   detail::for_each_standing_wheel(
       state_, [&](BodyId body, const WheelState<S>& wheel) { visit(body.slot, wheel.contact_body.slot); });

@@ -44,7 +44,7 @@ template <class S> class IslandWake {
   void wake_wheels_on(std::uint32_t slot, const Aabb<S>& box);
   /// Wakes the joint's island and starts the sleep clocks of its bodies anew. Returns its index among the awake joints.
   std::uint32_t wake_joint(std::uint32_t slot);
-  /// The awake state of a body that is about to be changed. Not of a static one.
+  /// Wakes a body that is about to be changed, and returns its state. Not of a static one.
   BodyState<S>& wake_for_change(std::uint32_t slot);
   /// An awake body rests anew: what held it may be gone, and the rest it had counted was on that.
   void reset_clock(std::uint32_t slot);

@@ -85,7 +85,7 @@ template <class S> void WheelForces<S>::place(Run& run, const Mat3<U>& turn) {
   move(run, run.across, motion, run.push_across);
 }
 
-/// Spring, damper, bar and stop at a length, and the tyre's grip.
+/// Finds spring, damper, bar and stop at a length, and the tyre's grip.
 template <class S> void WheelForces<S>::compress(Run& run, S length) const {
   const WheelSettings<S>& w = wheel(run);
   const S mass = bodies_->mass[run.row].mass;
@@ -100,7 +100,7 @@ template <class S> void WheelForces<S>::compress(Run& run, S length) const {
   run.strut.bar = run.partner == kNone ? S(0) : divide_to<S>(run.anti_roll, mass);
   const S firm = times(times(times(run.up.give, run.lean), run.lean), run.strut.damping * h_);
   run.strut.firm = saturating_add(S(1), firm);
-  // No shorter after the sub-step, and where it is too short, out of that.
+  // The strut is no shorter than its travel leaves after the sub-step, and where it is shorter, it comes out of that.
   const S room = divide_to<S>(length - (w.free_length - w.travel), run.lean);
   run.strut.stop = min(saturate_to<V>(product(-room, S(rate_))), detail::kPushSpeed<S>);
 }
