@@ -19,7 +19,7 @@ int selfcheck() {
   return check.sound() ? 0 : 1;
 }
 
-/// Ten crates that fall on a floor, and a push now and then, as a player would give it.
+/// Ten crates fall on a floor, and a push comes now and then, as a player would give it.
 template <class S> void play(const char* scalar, int frames) {
   iso::World<S> world({.hz = 60, .substeps = 4, .gravity = {0, -10, 0}});
   world.create({.shape = world.add_shape(iso::Box{{50, 1, 50}}), .position = {0, -1, 0}});

@@ -124,8 +124,8 @@ class TriangleMesh {
                                 is_apart(a.z, b.z, c.z, low.z, high.z);
     return apart == 0;
   }
-  /// 1 if the triangle's box is beyond the range on this axis, else 0. It has no branches: it is as good as random which
-  /// triangles of a leaf touch.
+  /// Returns 1 if the triangle's box is beyond the range on this axis, else 0. It has no branches: it is as good as
+  /// random which triangles of a leaf touch.
   static ISO_INLINE std::uint32_t is_apart(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t low,
                                            std::int32_t high) {
     const std::int32_t least = a < b ? a : b, most = a < b ? b : a;
