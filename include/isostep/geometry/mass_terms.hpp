@@ -1,4 +1,4 @@
-// What closed forms of mass and inertia share: products that saturate, quotients that keep their digits.
+// The common terms of closed forms of mass and inertia: products that saturate, quotients that keep their digits.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -1,4 +1,4 @@
-// What shapes need to be met by a ray. Distances along it are lengths [m]; one last division makes a fraction of them.
+// A ray in a shape's frame. Distances along it are lengths [m]; one last division makes a fraction of them.
 // SPDX-License-Identifier: MIT
 #pragma once
 

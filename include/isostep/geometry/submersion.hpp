@@ -1,4 +1,4 @@
-// How much of a solid lies below a plane, and where that part's middle is: what buoyancy needs to know.
+// Submersion<S>: the part of a solid below a plane and its middle, as buoyancy needs them.
 // SPDX-License-Identifier: MIT
 #pragma once
 

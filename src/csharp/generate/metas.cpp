@@ -1,4 +1,4 @@
-// What kind of asset a file is decides which importer its .meta names.
+// The kind of asset that a file is decides which importer its .meta names.
 // SPDX-License-Identifier: MIT
 #include "metas.hpp"
 

@@ -1,4 +1,4 @@
-// What a function's arguments are together decides what C# passes and returns.
+// The arguments of a function together decide which values C# passes and returns.
 // SPDX-License-Identifier: MIT
 #include "method.hpp"
 

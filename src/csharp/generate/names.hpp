@@ -1,4 +1,4 @@
-// How C's names are written in C#.
+// The C# forms of C's names.
 // SPDX-License-Identifier: MIT
 #pragma once
 

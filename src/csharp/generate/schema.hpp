@@ -1,4 +1,4 @@
-// What the C interface has, as the C# files need it: from interface.json, and sessions from their header.
+// The C interface as the C# files need it: from interface.json, and sessions from their header.
 // SPDX-License-Identifier: MIT
 #pragma once
 

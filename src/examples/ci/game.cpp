@@ -1,4 +1,4 @@
-// What continuous integration asks of a game: whether this machine computes as it should, and the hash of every frame
+// The game that continuous integration runs: whether this machine computes as it should, and the hash of every frame
 // of a match that is always the same.
 // SPDX-License-Identifier: MIT
 #include <cstdint>

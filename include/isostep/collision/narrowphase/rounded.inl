@@ -1,4 +1,4 @@
-// What pairs with a rounded hull share: the gap of two cores, and manifolds of cores made into those of their skins.
+// Parts of pairs with a rounded hull: the gap of two cores, and manifolds of cores made into those of their skins.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -1,4 +1,4 @@
-// SurfaceShape: what meshes and height fields have in common, which is all but their blobs.
+// SurfaceShape: the shape that meshes and height fields have in common, all but their blobs.
 // SPDX-License-Identifier: MIT
 #pragma once
 
