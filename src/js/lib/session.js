@@ -193,8 +193,8 @@ export class Session extends Handle {
   resync() { return this.#try('iso_session_resync'); }
   /**
    * Goes on with those who are here, at this machine. It is for sessions with `migration` whose match stands for lack
-   * of a majority, or whose host is lost. The caller knows that the others play nowhere else: nothing else keeps one match
-   * from becoming two.
+   * of a majority, or whose host is lost. The caller knows that the others play nowhere else: nothing else keeps one
+   * match from becoming two.
    */
   goOn(now) { return this.#try('iso_session_go_on', time(now)); }
   pause() { return this.#try('iso_session_pause'); }

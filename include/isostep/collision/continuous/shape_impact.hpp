@@ -41,13 +41,13 @@ template <class S>
 FreeWay<S> free_way(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                     const CoreMotion<S>& of_b);
 
-/// True if `a`, a solid, overlaps `b` by more than kTooDeep, or half of its inner radius, if that is less. A shallower
-/// overlap is left to contacts.
+/// Returns true if `a`, a solid, overlaps `b` by more than kTooDeep, or half of its inner radius, if that is less. A
+/// shallower overlap is left to contacts.
 template <class S>
 bool is_deep(const PlacedShape<S>& a, const Pose<S>& pose_of_a, const PlacedShape<S>& b, const Pose<S>& pose_of_b);
 
-/// True if they touch at the start, apart or overlapping by half of kGraze or less; `on_a` is then the place of the
-/// touch, at most kGraze deep in `a`.
+/// Returns true if they touch at the start, apart or overlapping by half of kGraze or less; `on_a` is then the place of
+/// the touch, at most kGraze deep in `a`.
 template <class S>
 bool touches_at_start(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                       const Pose<S>& pose_of_b, Vec3<S>& on_a);

@@ -19,7 +19,7 @@ template <class S> struct Parting {
   ISO_INLINE S least_gap(Vec3<S> from, Vec3<S> way) const {
     return gap + dot(from - at, normal) + min(dot(way, normal), S(0));
   }
-  /// True if that gap is more than `clear` [m].
+  /// Returns true if that gap is more than `clear` [m].
   ISO_INLINE bool holds(Vec3<S> from, Vec3<S> way, S clear) const { return clear < least_gap(from, way); }
 };
 

@@ -115,7 +115,7 @@ class TriangleMesh {
   static ISO_INLINE MeshPoint clamped(const std::int64_t (&at)[3]) {
     return {clamped(at[0]), clamped(at[1]), clamped(at[2])};
   }
-  /// True if the box of the triangle has a point between the two.
+  /// Returns true if the box of the triangle has a point between the two.
   ISO_INLINE bool touches(std::uint32_t id, MeshPoint low, MeshPoint high) const {
     const MeshTriangle& triangle = triangles_[id];
     const MeshPoint a = points_[triangle.vertices[0]], b = points_[triangle.vertices[1]],
