@@ -65,8 +65,8 @@ export class Session extends Handle {
   /**
    * Plays what is due with `game.step`, and tells `rolledBack`, `restarted` and `confirmed` of it. Returns how many
    * frames were stepped, those again included. Without inputs of its own since the last turn a player repeats the last.
-   * What the game throws ends the turn: the next one tells 'misuse', steps again what was missed, from the newest final
-   * state, and the match goes on.
+   * An error that the game throws ends the turn: the next one tells 'misuse', steps again what was missed, from the
+   * newest final state, and the match goes on.
    */
   drive(now) {
     this.#call('iso_session_advance', time(now));

@@ -26,8 +26,8 @@ template <class S> struct FreeWay {
   Vec3<Unit<S>> normal;  // [1] where the middle may not go on, if it is held
 };
 
-/// Returns up to where, on its motion, `a`, a solid, does not pass `b`. `b` moves as well if it is a solid; half-spaces
-/// and surfaces stay at the start of `of_b`. Both are placed in the frames of the poses.
+/// Finds how far `a`, a solid, moves before it would pass `b`. `b` moves as well if it is a solid; half-spaces and
+/// surfaces stay at the start of `of_b`. Both are placed in the frames of the poses.
 /// Method:  `a` is swept as a solid that is kGraze deep in it (a quarter of its inner radius, if that is less), up to
 ///          where the two overlap by half to three quarters of that: what does not touch the solid grazes. To stop
 ///          where all of `a` touches would hold what slides or tips over: contacts close gaps of that size.
