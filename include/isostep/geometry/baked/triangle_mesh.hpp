@@ -146,8 +146,8 @@ class TriangleMesh {
 /// ErrorCode::invalid: "exponent" above 16; "materials" of another count, or all ghosts; at "table[i]" a material out
 /// of range; "triangles" that are none; at "points[i]" a coordinate out of range; at "triangles[i]" a vertex that is no
 /// point, a triangle without area (exactly), one that is there already, more than two triangles at an edge, two that
-/// run along an edge in the same direction. ErrorCode::limit: more "points" or "triangles" than there may be, or a
-/// longer "table".
+/// run along an edge in the same direction.
+/// ErrorCode::limit: more "points" or "triangles" than there may be, or a longer "table".
 Result<TriangleMesh> triangle_mesh(std::span<const MeshPoint> points, std::span<const MeshTriangle> triangles,
                                    const SurfaceMaterials& materials, int exponent);
 
