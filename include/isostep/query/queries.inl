@@ -35,8 +35,7 @@ bool Queries<S>::sees_part(const QueryFilter& filter, const BodyProperties<S>& b
   return sees(filter, part.filter_or(body.filter), part.material_or(body.material).kind,
               (body.flags & body_flag::kSensor) != 0 || part.has(part_flag::kSensor));
 }
-template <class S>
-bool Queries<S>::sees(const QueryFilter& filter, const Filter& of, std::uint32_t kind, bool senses) {
+template <class S> bool Queries<S>::sees(const QueryFilter& filter, const Filter& of, std::uint32_t kind, bool senses) {
   for (const std::uint32_t ignored : filter.ignore_kinds) {
     if (ignored == kind) return false;
   }
@@ -143,4 +142,4 @@ template <class S> S Queries<S>::joint_position(JointId joint, JointAxis axis) c
 }  // namespace isostep
 
 /// What games ask between steps.
-#define ISO_INSTANTIATE_WORLD_QUERIES(S) template class Queries<S>;
+#define ISO_INSTANTIATE_WORLD_QUERIES(S) ISO_QUERIES_OF(, S)

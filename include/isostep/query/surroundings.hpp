@@ -63,8 +63,8 @@ template <class S> class Surroundings {
   struct Placed {
     BodyId body;
     ShapeView<S> shape;
-    Transform<S> at;  // of the part's frame, world
-    Aabb<S> box;      // [m] around it, world
+    Transform<S> at;              // of the part's frame, world
+    Aabb<S> box;                  // [m] around it, world
     const PartTraits<S>* traits;  // of its own; null: it is as its body
 
     ISO_INLINE bool is_convex() const { return !is_surface(shape.primitive.type); }
@@ -150,8 +150,7 @@ template <class S> class Surroundings {
   std::vector<std::uint32_t> children_, children_scratch_;
 };
 
-#define ISO_EXTERN(S) extern template class Surroundings<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SURROUNDINGS_OF(extern, S) extern template class Surroundings<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SURROUNDINGS_OF)
 
 }  // namespace isostep

@@ -47,7 +47,7 @@ enum class PartMeeting {
 /// The meeting of leaf i of body a and leaf j of body b, whose bodies the broad phase pairs.
 template <class S>
 PartMeeting meeting_of(const BodyMap<S>& map, const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b,
-                   std::uint32_t j);
+                       std::uint32_t j);
 /// True if leaf i is a sensor's.
 template <class S> bool is_sensor_leaf(const BodyFrame<S>& body, std::uint32_t i);
 
@@ -71,8 +71,6 @@ bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slo
   extern template BodyFrame<S> frame_at<S>(const BodyMap<S>&, Location);                   \
   extern template LeafRange detail::leaves_of_part<S>(const BodyFrame<S>&, std::uint32_t); \
   extern template bool bodies_touch<S>(const BodyMap<S>&, std::uint32_t, std::uint32_t, ByParts, S);
-#define ISO_EXTERN(S) ISO_BODY_FRAMES_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BODY_FRAMES_OF)
 
 }  // namespace isostep
