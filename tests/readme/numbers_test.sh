@@ -33,7 +33,7 @@ state=include/isostep/state
 substeps=$(value $world substeps)
 scalars=$(sed -n 's/^#define ISO_FOR_EACH_SCALAR(X)//p' include/isostep/core/instantiate.hpp | grep -o 'ISO_IF_' | wc -l)
 targets=$(grep -v '^#' tests/matrix/targets.tsv | grep -vc '^target')
-constants $session/frame.hpp $session/config.hpp $session/roster.hpp $session/large_order.hpp $session/packet.hpp $world \
+constants $session/timeline/frame.hpp $session/config.hpp $session/protocol/message.hpp $session/observers/large_order.hpp $world \
   $state/replay_header.hpp $state/replay_format.hpp $state/command_log.hpp $state/frame.hpp src/isostep/state/replay_writer.cpp
 # preset_GENRE_FIELD of every field that preset.cpp sets.
 eval "$(awk '/case Genre::/ {genre = $2; gsub(/Genre::|:/, "", genre)}
@@ -86,7 +86,7 @@ numbers() {
   says $page 'Up to @ (`kMaxPlayers`' "$kMaxPlayers"
   says $page '`credential` of up to @ bytes' "$kCredentialCap"
   says $page 'such an order of up to @ KB' "$((kLargeOrderCap >> 10))"
-  says $page 'travels in pieces of @ bytes' "$(value $session/large_order.hpp kPiece)"
+  says $page 'travels in pieces of @ bytes' "$(value $session/observers/large_order.hpp kPiece)"
   says $page 'own datagrams have at most @ bytes' "$kDatagramCap"
   says $page 'its messages at most @ KiB' "$((kReliableCap >> 10))"
   page=$session/CHOOSING.md
