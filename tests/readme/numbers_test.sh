@@ -76,7 +76,7 @@ numbers() {
   says $page 'worlds in @ scalars' "$scalars"
   says $page '`UdpTransport.Listen` and `Connect`, @ bytes' "$(sed -n 's/.*PacketKey = .*, \([0-9]*\)>;/\1/p' src/transport/line_guard.hpp)"
 
-  page=include/isostep/dynamics/README.md
+  page=include/isostep/dynamics/pages/friction.md
   says $page 'or faster, @ m/s by default' "$(value $world restitution_threshold)"
   says $page 'if it slipped faster than @ m/s' "$(value include/isostep/dynamics/contact_friction.hpp kSlidingSpeed)"
   page=include/isostep/geometry/README.md
