@@ -123,7 +123,9 @@ template <class S> class RecordDraw {
   /// One of length 1 is a direction.
   template <class T> void draw_value(Vec3<T>& member) {
     const D3 now = real(member);
-    member = length(now) == 1 ? normalise(vec<T>(dice_.direction())) : vec<T>(now + dice_.point(1));
+    if (length(now) != 1) member = vec<T>(now + dice_.point(1));
+    else if constexpr (std::is_same_v<T, Unit<S>>) member = normalise(vec<T>(dice_.direction()));
+    else member = vec<T>(dice_.direction());
   }
   void draw_value(Quat<Unit<S>>& member) { member = turn(); }
   void draw_value(Pose<S>& member) { member = {point(3), turn()}; }
