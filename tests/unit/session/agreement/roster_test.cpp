@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "isostep/session/config.hpp"
 #include "isostep/session/protocol/message.hpp"
 
 namespace isostep {
