@@ -23,12 +23,12 @@ inline constexpr BodyType kinematic = BodyType::kinematic;
 namespace body_flag {
 inline constexpr std::uint32_t kSensor = 1u << 0;  // reports overlaps, is not solved
 inline constexpr std::uint32_t kAllowSleep = 1u << 1;
-inline constexpr std::uint32_t kCollide = 1u << 2;   // has contacts at all
-inline constexpr std::uint32_t kSpins = 1u << 3;     // inertia differs between axes: the gyroscopic term matters
-inline constexpr std::uint32_t kBullet = 1u << 4;    // continuous collision with what moves, too
-inline constexpr std::uint32_t kDisabled = 1u << 5;  // takes no part until it is enabled again
+inline constexpr std::uint32_t kCollide = 1u << 2;         // has contacts at all
+inline constexpr std::uint32_t kSpins = 1u << 3;           // inertia differs between axes: the gyroscopic term matters
+inline constexpr std::uint32_t kBullet = 1u << 4;          // continuous collision with what moves, too
+inline constexpr std::uint32_t kDisabled = 1u << 5;        // takes no part until it is enabled again
 inline constexpr std::uint32_t kReportContacts = 1u << 6;  // its contacts tell when they begin and end
-inline constexpr std::uint32_t kLockX = 1u << 8;     // no motion along world x; then y, z, and turning about x, y, z
+inline constexpr std::uint32_t kLockX = 1u << 8;  // no motion along world x; then y, z, and turning about x, y, z
 inline constexpr std::uint32_t kLockAngularX = 1u << 11;
 inline constexpr std::uint32_t kAngularLocks = 7u * kLockAngularX;
 inline constexpr std::uint32_t kAllLocks = 0x3fu << 8;

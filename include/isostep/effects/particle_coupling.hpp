@@ -38,8 +38,8 @@ struct CouplingReport {
 /// commands, touches one way, forces and impulses the other, so each world's recording replays without the other.
 /// Nothing is remembered from frame to frame: composite(bodies, particles) is the state.
 ///
-/// Any particle meets any part of a body with collisions whose filter agrees, pinned ones too; sensors meet none. A particle is
-/// a ball of its material's radius. Friction and restitution mix as two bodies' do, so without friction of its own a
+/// Any particle meets any part of a body that collides and whose filter agrees, pinned ones too; no sensor. A particle
+/// is a ball of its material's radius. Friction and restitution mix as two bodies' do, so without friction of its own a
 /// particle slides. Fast particles are traced to the shape they hit.
 ///
 /// Particles solve each touch for itself; they know neither the body nor its other touches. Each therefore meets a body

@@ -115,11 +115,11 @@ ISO_INLINE constexpr bool parts_collide(const PartTraits<S>& a, const Filter& of
 
 /// What all parts of a shape have in common: no less than any of them would allow.
 struct ShapeTraits {
-  std::uint32_t flags = 0;       // part_flag, of any of them
-  bool any_as_body = false;      // some part has the filter of the body
-  bool any_solid = false;        // some part is no sensor
-  bool mixes_alone = true;       // every material of a part does, see contact_friction.hpp
-  Filter filters = {0, 0, 0};    // of those that have one, together; group 0 where they differ
+  std::uint32_t flags = 0;     // part_flag, of any of them
+  bool any_as_body = false;    // some part has the filter of the body
+  bool any_solid = false;      // some part is no sensor
+  bool mixes_alone = true;     // every material of a part does, see contact_friction.hpp
+  Filter filters = {0, 0, 0};  // of those that have one, together; group 0 where they differ
 
   ISO_INLINE constexpr bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
   /// Of the whole body, where it has `of_body`.

@@ -35,8 +35,8 @@ template <class S> class Queries {
   void cast_shape_all(const ShapeCast<S>& cast, std::vector<ShapeCastHit<S>>& out) const;
   std::size_t cast_shape_all(const ShapeCast<S>& cast, std::span<ShapeCastHit<S>> out) const;
   // For who asks often about one place, and asks nothing that is refused: appends the slots of all that the filter sees
-  // whose fat box meets a box, in no order; what a cast or ray meets of those, where its way lies in `box`, by parts that
-  // collide with `own`.
+  // whose fat box meets a box, in no order; what a cast or ray meets of those, where its way lies in `box`, of parts
+  // that collide with `own`.
   void find_near(const Aabb<S>& box, const QueryFilter& filter, std::vector<std::uint32_t>& out) const;
   std::size_t cast_among(std::span<const std::uint32_t> slot_list, const Aabb<S>& box, const Filter& own,
                          const ShapeCast<S>& cast, std::span<ShapeCastHit<S>> out) const;

@@ -35,8 +35,7 @@ bool Queries<S>::sees_part(const QueryFilter& filter, const BodyProperties<S>& b
   return sees(filter, part.filter_or(body.filter), part.material_or(body.material).kind,
               (body.flags & body_flag::kSensor) != 0 || part.has(part_flag::kSensor));
 }
-template <class S>
-bool Queries<S>::sees(const QueryFilter& filter, const Filter& of, std::uint32_t kind, bool senses) {
+template <class S> bool Queries<S>::sees(const QueryFilter& filter, const Filter& of, std::uint32_t kind, bool senses) {
   for (const std::uint32_t ignored : filter.ignore_kinds) {
     if (ignored == kind) return false;
   }

@@ -63,8 +63,8 @@ template <class S> class Surroundings {
   struct Placed {
     BodyId body;
     ShapeView<S> shape;
-    Transform<S> at;  // of the part's frame, world
-    Aabb<S> box;      // [m] around it, world
+    Transform<S> at;              // of the part's frame, world
+    Aabb<S> box;                  // [m] around it, world
     const PartTraits<S>* traits;  // of its own; null: it is as its body
 
     ISO_INLINE bool is_convex() const { return !is_surface(shape.primitive.type); }

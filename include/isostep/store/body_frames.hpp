@@ -47,7 +47,7 @@ enum class PartMeeting {
 /// The meeting of leaf i of body a and leaf j of body b, whose bodies the broad phase pairs.
 template <class S>
 PartMeeting meeting_of(const BodyMap<S>& map, const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b,
-                   std::uint32_t j);
+                       std::uint32_t j);
 /// True if leaf i is a sensor's.
 template <class S> bool is_sensor_leaf(const BodyFrame<S>& body, std::uint32_t i);
 

@@ -186,12 +186,11 @@ void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::ui
 }
 
 template <class S> bool is_sensor_leaf(const BodyFrame<S>& body, std::uint32_t i) {
-  return body.sensor ||
-         (body.senses && body.children[detail::leaf_at(body, i).child].traits.has(part_flag::kSensor));
+  return body.sensor || (body.senses && body.children[detail::leaf_at(body, i).child].traits.has(part_flag::kSensor));
 }
 template <class S>
 PartMeeting meeting_of(const BodyMap<S>& map, const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b,
-                   std::uint32_t j) {
+                       std::uint32_t j) {
   if (!a.traits && !b.traits) return a.sensor || b.sensor ? PartMeeting::sensed : PartMeeting::solid;
   const bool senses_a = is_sensor_leaf(a, i), senses_b = is_sensor_leaf(b, j);
   if (senses_a && senses_b) return PartMeeting::none;

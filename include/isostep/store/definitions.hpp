@@ -38,8 +38,8 @@ template <class S> struct BodyDefinition {
   std::uint32_t locks = 0;   // body_flag::kLockX ...
   bool sensor = false;       // tells what it overlaps, and touches nothing
   bool allow_sleep = true;
-  bool collide = true;  // false: no contacts, no events
-  bool bullet = false;  // moving bodies stop it too, at any speed; two bullets may pass through each other
+  bool collide = true;           // false: no contacts, no events
+  bool bullet = false;           // moving bodies stop it too, at any speed; two bullets may pass through each other
   bool report_contacts = false;  // events tell when contacts begin and end; parts may report by themselves
 
   ISO_FIELDS(type, shape, position, orientation, velocity, angular_velocity, density, mass, inertia, material, filter,

@@ -62,9 +62,9 @@ template <class S> struct JointBroke {
 template <class S> struct ContactHit {
   BodyId a, b;
   std::uint32_t child_a, child_b;  // parts of their shapes
-  Vec3<S> point;         // [m] where they closed fastest, where b has it as the step ends
-  Vec3<Unit<S>> normal;  // [1] from a to b
-  S speed;               // [m/s] of approach along the normal, as the step began
+  Vec3<S> point;                   // [m] where they closed fastest, where b has it as the step ends
+  Vec3<Unit<S>> normal;            // [1] from a to b
+  S speed;                         // [m/s] of approach along the normal, as the step began
 
   ISO_FIELDS(a, b, child_a, child_b, point, normal, speed)
 };
@@ -74,10 +74,10 @@ template <class S> struct ContactPoint {
   BodyId a, b;
   std::uint32_t child_a, child_b;        // parts of their shapes
   std::uint32_t triangle_a, triangle_b;  // of a mesh or height field; else 0
-  Vec3<S> point;                   // [m] where b has it as the step ends
-  Vec3<Unit<S>> normal;            // [1] from a to b
-  S separation;                    // [m] as the step began; negative: overlap
-  S impulse;                       // [kg m/s] that it gave over the step along the normal; held at the format's end
+  Vec3<S> point;                         // [m] where b has it as the step ends
+  Vec3<Unit<S>> normal;                  // [1] from a to b
+  S separation;                          // [m] as the step began; negative: overlap
+  S impulse;  // [kg m/s] that it gave over the step along the normal; held at the format's end
 
   ISO_FIELDS(a, b, child_a, child_b, triangle_a, triangle_b, point, normal, separation, impulse)
 };

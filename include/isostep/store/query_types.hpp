@@ -26,8 +26,8 @@ enum class HitPer : std::uint8_t {
 };
 
 /// A query sees bodies whose category meets the mask, sensors only when asked, and neither the one to be ignored nor
-/// those of the group: who looks is in the way of its own ray. A stale id ignores nobody. A part with a filter, material
-/// or sensor flag of its own is seen by those, whatever its body's are.
+/// those of the group: who looks is in the way of its own ray. A stale id ignores nobody. A part with a filter, a
+/// material or a sensor flag of its own is seen by those, whatever its body's are.
 struct QueryFilter {
   std::uint32_t mask = 0xffffffffu;
   bool sensors = false;

@@ -30,8 +30,8 @@ template <class S> class ContactEvents {
  public:
   ISO_INLINE ContactEvents(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
-  /// Two bodies touch when any of their contacts that are reported carried an impulse. Appends to `events`, which may hold ends that
-  /// commands made.
+  /// Two bodies touch when any of their contacts that are reported carried an impulse. Appends to `events`, which may
+  /// hold ends that commands made.
   void collect(const SolvedContacts<S>& contacts, Events<S>& events);
 
  private:

@@ -65,8 +65,7 @@ template <class S> void IslandWake<S>::find_run_over(std::size_t index) {
   if (!(detail::kSpeculativeDistance<S> < max_abs(way))) return;  // it touches first
   S thick = Limits<S>::extent();
   for (const Child<S>& child : map_.children_of(body.shape)) {
-    if (!child.traits.has(part_flag::kSensor))
-      thick = min(thick, thickness<S>(map_.contents().view(child.primitive)));
+    if (!child.traits.has(part_flag::kSensor)) thick = min(thick, thickness<S>(map_.contents().view(child.primitive)));
   }
   if (max_abs(way) < thick) return;
   const Aabb<S> there = {saturating_add(state.fat.low, way), saturating_add(state.fat.high, way)};
@@ -77,8 +76,7 @@ template <class S> void IslandWake<S>::find_run_over(std::size_t index) {
     if (!at.is_asleep() || !overlap(swept, map_.state_at(at).fat)) return true;
     const BodyProperties<S>& sleeper = map_.properties_at(at);
     const bool collides = should_collide(map_.filter_of(body), map_.filter_of(sleeper));
-    if (map_.has_contacts(sleeper) && collides && !are_ghosts(state.slot, other))
-      met.push_back(other);
+    if (map_.has_contacts(sleeper) && collides && !are_ghosts(state.slot, other)) met.push_back(other);
     return true;
   });
   detail::sort_slots(met);

@@ -72,9 +72,9 @@ template <class S> class VehicleRows {
   };
   /// The ground that a wheel stands on.
   struct Ground {
-    BodyId body = {};    // null: no ground
+    BodyId body = {};         // null: no ground
     std::uint32_t child = 0;  // of its shape
-    Vec3<S> point = {};  // [m] world
+    Vec3<S> point = {};       // [m] world
     Vec3<U> normal = {};
   };
   /// A wheel in this step.
