@@ -63,7 +63,7 @@ template <class S> class CouplingRows {
     bool begins;     // nothing of this step is in `changed` yet
     bool holds;      // something moves
     S lower, upper;  // [rad] or [m]
-    S unit;          // [kg m] or [kg], by the sum's measure: impulse on the sum by a change of it in rows of the first term
+    S unit;          // [kg m] or [kg] impulse on the sum by a change of it in rows of the first term
     V low, high;     // [m/s] that the sum may have, in rows of the first term
     V most;          // [m/s] by which a sub-step may change it
     V changed;       // [m/s] by which this one has

@@ -51,7 +51,7 @@ template <class S> class VehicleRows {
 
  private:
   using Row = detail::WheelRow<S>;
-  static constexpr V kSettled = V(0x1p-7);  // [1] of the load: what changes an impulse by less is the last sweep
+  static constexpr V kSettled = V(0x1p-7);      // [1] of the load: what changes an impulse by less is the last sweep
   static constexpr std::uint32_t kMostMet = 8;  // bodies that a wheel looks at for ground
   static constexpr std::uint32_t kNone = ~0u;
   static constexpr int kMostLooks = 8;        // along the way of a step: half a radius apart up to four radii
