@@ -18,7 +18,6 @@ namespace isostep {
   ISO_PAIR(collide_capsule_capsule, S)    \
   ISO_PAIR(collide_capsule_half_space, S) \
   ISO_HULL_PAIRS_OF(, S)                  \
-  ISO_ROUND_PAIRS_OF(, S)                 \
   ISO_SURFACE_PAIRS_OF(, S)               \
   ISO_COLLIDE_OF(, S)
 ISO_FOR_EACH_SCALAR(ISO_NARROWPHASE)
