@@ -43,7 +43,7 @@ template <class S> class Characters {
   };
   using Place = typename CharacterWalk<S>::Place;
   void walk(std::uint32_t slot);
-  /// Who is asked for its surroundings.
+  /// The shape and pose that asks for its surroundings.
   struct Asking {
     ShapeId shape;
     Pose<S> pose;  // of the body's origin

@@ -11,7 +11,7 @@
 namespace isostep {
 
 namespace detail {
-/// [1] of an error that a sub-step closes: as kBaumgarte, but of a sub-step.
+/// [1] The part of an error that a sub-step closes: as kBaumgarte, but of a sub-step.
 template <class S> inline constexpr S kCouplingBias = S(0.2);
 }  // namespace detail
 

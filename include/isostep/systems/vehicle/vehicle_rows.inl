@@ -100,17 +100,17 @@ template <class S> void VehicleRows<S>::compress(Run& run, S length) const {
   run.strut.bar = run.partner == kNone ? S(0) : divide_to<S>(run.anti_roll, mass);
   const S firm = times(times(times(run.up.give, run.lean), run.lean), run.strut.damping * h_);
   run.strut.firm = saturating_add(S(1), firm);
-  // No shorter after the sub-step, and where it is too short, out of that.
+  // The strut is no shorter than its travel leaves after the sub-step, and where it is shorter, it comes out of that.
   const S room = divide_to<S>(length - (w.free_length - w.travel), run.lean);
   run.strut.stop = min(saturate_to<V>(product(-room, S(rate_))), detail::kPushSpeed<S>);
 }
 
-/// [m/s] Along a row. Row 0 does not move.
+/// [m/s] The speed along a row. Row 0 does not move.
 template <class S>
 ISO_INLINE Velocity<S> VehicleRows<S>::speed_of(const Run& run, const Row& row, const MotionRow<V>& body) const {
   return run.ground == 0 ? row.speed(body) : row.speed(body, bodies_->velocity[run.ground]);
 }
-/// The same, as it would be without the impulse that it has made so far.
+/// [m/s] The speed along a row without the impulse that it has made so far.
 template <class S>
 ISO_INLINE Velocity<S> VehicleRows<S>::without(const Run& run, const Row& row, V impulse,
                                                const MotionRow<V>& body) const {
