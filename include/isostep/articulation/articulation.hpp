@@ -126,8 +126,7 @@ template <class S> class Articulation<S>::Snapshot {
   std::unique_ptr<Kept> kept_;
 };
 
-#define ISO_EXTERN(S) extern template class Articulation<S>;
-ISO_IF_FLOAT(ISO_EXTERN) ISO_IF_DOUBLE(ISO_EXTERN) ISO_IF_Q32_32(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_ARTICULATION_OF(extern, S) extern template class Articulation<S>;
+ISO_EXTERN_FLOAT(ISO_ARTICULATION_OF) ISO_EXTERN_DOUBLE(ISO_ARTICULATION_OF) ISO_EXTERN_Q32_32(ISO_ARTICULATION_OF)
 
 }  // namespace isostep

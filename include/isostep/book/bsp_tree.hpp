@@ -141,8 +141,7 @@ ISO_INLINE bool BspTree<S>::overlapping_pairs_of(std::span<const std::uint32_t> 
   return detail::query_pairs_of(*this, slot_list, most, visit);
 }
 
-#define ISO_EXTERN(S) extern template class BspTree<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_BSP_TREE_OF(extern, S) extern template class BspTree<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BSP_TREE_OF)
 
 }  // namespace isostep

@@ -288,10 +288,9 @@ ISO_INLINE bool CellGrid<S, kManySizes>::overlapping_pairs_of(std::span<const st
   return detail::query_pairs_of(*this, slot_list, most, visit);
 }
 
-#define ISO_EXTERN(S)                       \
+#define ISO_CELL_GRID_OF(extern, S)         \
   extern template class CellGrid<S, false>; \
   extern template class CellGrid<S, true>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CELL_GRID_OF)
 
 }  // namespace isostep

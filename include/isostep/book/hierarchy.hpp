@@ -210,10 +210,9 @@ ISO_INLINE bool Hierarchy<S, Volume>::resolve(Matches& matches, std::uint32_t co
   return true;
 }
 
-#define ISO_EXTERN(S)                                    \
+#define ISO_HIERARCHY_OF(extern, S)                      \
   extern template class Hierarchy<S, BoundingSphere<S>>; \
   extern template class Hierarchy<S, Aabb<S>>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_HIERARCHY_OF)
 
 }  // namespace isostep

@@ -71,8 +71,7 @@ template <class S> class Destruction {
   std::vector<SensorEvent> sensor_end_scratch_;
 };
 
-#define ISO_EXTERN(S) extern template class Destruction<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_DESTRUCTION_OF(extern, S) extern template class Destruction<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_DESTRUCTION_OF)
 
 }  // namespace isostep

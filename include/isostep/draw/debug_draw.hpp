@@ -216,10 +216,9 @@ class DebugDraw {
 template <class S> void draw(const World<S>& world, DebugDraw& to, const DrawOptions& options = {});
 template <class S> void draw(const ParticleWorld<S>& world, DebugDraw& to, const DrawOptions& options = {});
 
-#define ISO_EXTERN(S)                                                            \
+#define ISO_DEBUG_DRAW_OF(extern, S)                                             \
   extern template void draw<S>(const World<S>&, DebugDraw&, const DrawOptions&); \
   extern template void draw<S>(const ParticleWorld<S>&, DebugDraw&, const DrawOptions&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_DEBUG_DRAW_OF)
 
 }  // namespace isostep

@@ -190,8 +190,7 @@ template <class S> class ParticleCoupling {
   std::vector<Touching> touching_;
 };
 
-#define ISO_EXTERN(S) extern template class ParticleCoupling<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_COUPLING_OF(extern, S) extern template class ParticleCoupling<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_COUPLING_OF)
 
 }  // namespace isostep

@@ -46,9 +46,8 @@ template <class S> struct Ragdoll {
 template <class S>
 Ragdoll<S> add_ragdoll(World<S>& world, std::span<const RagdollBone<S>> bones, const RagdollSettings<S>& settings = {});
 
-#define ISO_EXTERN(S) \
+#define ISO_RAGDOLL_OF(extern, S) \
   extern template Ragdoll<S> add_ragdoll<S>(World<S>&, std::span<const RagdollBone<S>>, const RagdollSettings<S>&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_RAGDOLL_OF)
 
 }  // namespace isostep

@@ -27,8 +27,7 @@ struct BreakReport {
 /// Seeds:  the record's, the body's id and the tick.
 template <class S> BreakReport break_bodies(World<S>& world, std::uint32_t most = 0xffffffffu);
 
-#define ISO_EXTERN(S) extern template BreakReport break_bodies<S>(World<S>&, std::uint32_t);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_BREAKING_OF(extern, S) extern template BreakReport break_bodies<S>(World<S>&, std::uint32_t);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BREAKING_OF)
 
 }  // namespace isostep

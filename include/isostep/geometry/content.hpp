@@ -23,8 +23,6 @@ template <class S> void find_contents(std::span<const BlobRef> blobs, std::vecto
 #define ISO_CONTENT_OF(extern, S)                         \
   extern template const void* content_of<S>(const Blob&); \
   extern template void find_contents<S>(std::span<const BlobRef>, std::vector<const void*>&);
-#define ISO_EXTERN(S) ISO_CONTENT_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CONTENT_OF)
 
 }  // namespace isostep

@@ -52,8 +52,8 @@ template <class S> ISO_INLINE constexpr MassProperties<S> with_mass(MassProperti
   return properties;
 }
 
-#define ISO_EXTERN(S) extern template MassProperties<S> mass_properties<S>(std::span<const Child<S>>, S, Contents<S>);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_MASS_PROPERTIES_OF(extern, S) \
+  extern template MassProperties<S> mass_properties<S>(std::span<const Child<S>>, S, Contents<S>);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_MASS_PROPERTIES_OF)
 
 }  // namespace isostep

@@ -42,8 +42,7 @@ template <class S> ISO_INLINE MassTensor<S> operator+(const MassTensor<S>& a, co
   return a.joined(b);
 }
 
-#define ISO_EXTERN(S) extern template struct MassTensor<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_MASS_TENSOR_OF(extern, S) extern template struct MassTensor<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_MASS_TENSOR_OF)
 
 }  // namespace isostep

@@ -28,8 +28,7 @@ template <class S> struct Submersion {
 template <class S>
 Submersion<S> submersion(std::type_identity_t<ShapeView<S>> solid, Vec3<Unit<S>> up, std::type_identity_t<S> level);
 
-#define ISO_EXTERN(S) extern template Submersion<S> submersion<S>(ShapeView<S>, Vec3<Unit<S>>, S);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SUBMERSION_OF(extern, S) extern template Submersion<S> submersion<S>(ShapeView<S>, Vec3<Unit<S>>, S);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SUBMERSION_OF)
 
 }  // namespace isostep

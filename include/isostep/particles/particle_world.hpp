@@ -112,10 +112,9 @@ template <class S> class ParticleWorld final : public WorldBase<ParticleWorld<S>
   using Base::engine_;
 };
 
-#define ISO_EXTERN(S)                                \
+#define ISO_PARTICLE_WORLD_OF(extern, S)             \
   extern template class WorldBase<ParticleWorld<S>>; \
   extern template class ParticleWorld<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_WORLD_OF)
 
 }  // namespace isostep

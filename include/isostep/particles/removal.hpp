@@ -42,8 +42,7 @@ template <class S> class ParticleRemoval {
   std::vector<std::uint8_t> is_leaving_;  // by slot: 1 while they are being removed
 };
 
-#define ISO_EXTERN(S) extern template class ParticleRemoval<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_REMOVAL_OF(extern, S) extern template class ParticleRemoval<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_REMOVAL_OF)
 
 }  // namespace isostep

@@ -32,10 +32,9 @@ template <class S> OscillatorStep<S> oscillator_step(S stiffness, S damping, Inv
 /// with D = 1 + 2 delta + kappa, vv = dv = 1 / D, dd = 1 - kappa / D, vd = -kappa / (h D).
 template <class S> OscillatorStep<S> implicit_oscillator_step(S stiffness, S damping, InverseMass<S> w, S rate);
 
-#define ISO_EXTERN(S)                                                            \
+#define ISO_STIFF_SPRING_OF(extern, S)                                           \
   extern template OscillatorStep<S> oscillator_step<S>(S, S, InverseMass<S>, S); \
   extern template OscillatorStep<S> implicit_oscillator_step<S>(S, S, InverseMass<S>, S);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_STIFF_SPRING_OF)
 
 }  // namespace isostep

@@ -104,8 +104,7 @@ template <class S> class Queries {
   FaultLog& faults_;
 };
 
-#define ISO_EXTERN(S) extern template class Queries<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_QUERIES_OF(extern, S) extern template class Queries<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_QUERIES_OF)
 
 }  // namespace isostep

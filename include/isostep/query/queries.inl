@@ -142,4 +142,4 @@ template <class S> S Queries<S>::joint_position(JointId joint, JointAxis axis) c
 }  // namespace isostep
 
 /// What games ask between steps.
-#define ISO_INSTANTIATE_WORLD_QUERIES(S) template class Queries<S>;
+#define ISO_INSTANTIATE_WORLD_QUERIES(S) ISO_QUERIES_OF(, S)

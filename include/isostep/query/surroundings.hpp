@@ -150,8 +150,7 @@ template <class S> class Surroundings {
   std::vector<std::uint32_t> children_, children_scratch_;
 };
 
-#define ISO_EXTERN(S) extern template class Surroundings<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SURROUNDINGS_OF(extern, S) extern template class Surroundings<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SURROUNDINGS_OF)
 
 }  // namespace isostep

@@ -71,8 +71,6 @@ bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slo
   extern template BodyFrame<S> frame_at<S>(const BodyMap<S>&, Location);                   \
   extern template LeafRange detail::leaves_of_part<S>(const BodyFrame<S>&, std::uint32_t); \
   extern template bool bodies_touch<S>(const BodyMap<S>&, std::uint32_t, std::uint32_t, ByParts, S);
-#define ISO_EXTERN(S) ISO_BODY_FRAMES_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BODY_FRAMES_OF)
 
 }  // namespace isostep

@@ -182,8 +182,7 @@ template <class S> class BodyMap {
   mutable bool knows_thickness_ = false;
 };
 
-#define ISO_EXTERN(S) extern template class BodyMap<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_BODY_MAP_OF(extern, S) extern template class BodyMap<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BODY_MAP_OF)
 
 }  // namespace isostep

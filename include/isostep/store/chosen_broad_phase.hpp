@@ -67,8 +67,7 @@ template <class S> class ChosenBroadPhase {
 #undef ISO_MEMBER
 };
 
-#define ISO_EXTERN(S) extern template class ChosenBroadPhase<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CHOSEN_BROAD_PHASE_OF(extern, S) extern template class ChosenBroadPhase<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CHOSEN_BROAD_PHASE_OF)
 
 }  // namespace isostep

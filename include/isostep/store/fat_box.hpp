@@ -14,9 +14,12 @@ template <class S> inline constexpr S kFatMargin = S(0.1);
 template <class S>
 void renew_fat_box(const BodyMap<S>& map, BodyState<S>& state, const BodyProperties<S>& body, bool always);
 
-#define ISO_EXTERN(S) \
-  extern template void renew_fat_box<S>(const BodyMap<S>&, BodyState<S>&, const BodyProperties<S>&, bool);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
-
 }  // namespace isostep::detail
+
+namespace isostep {
+
+#define ISO_FAT_BOX_OF(extern, S) \
+  extern template void detail::renew_fat_box<S>(const BodyMap<S>&, BodyState<S>&, const BodyProperties<S>&, bool);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_FAT_BOX_OF)
+
+}  // namespace isostep

@@ -60,8 +60,7 @@ template <class S> class Proxies {
   std::vector<Proxy<S>> proxies_;  // by slot
 };
 
-#define ISO_EXTERN(S) extern template class Proxies<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PROXIES_OF(extern, S) extern template class Proxies<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PROXIES_OF)
 
 }  // namespace isostep

@@ -140,8 +140,7 @@ template <class S> class WorldEngine {
 };
 
 /// The step is compiled apart from what is called between steps: instantiate/world_step.cpp.
-#define ISO_EXTERN(S) extern template StepReport WorldEngine<S>::step(const StageObserver&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_ENGINE_OF(extern, S) extern template StepReport WorldEngine<S>::step(const StageObserver&);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ENGINE_OF)
 
 }  // namespace isostep

@@ -135,5 +135,5 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
 
 /// Instantiates what a game calls every frame. The systems that it calls: *_systems.inl, acting_records.inl.
 #define ISO_INSTANTIATE_WORLD_STEP(S) \
-  template class StepSolver<S>;       \
-  template StepReport WorldEngine<S>::step(const StageObserver&);
+  ISO_STEP_SOLVER_OF(, S)             \
+  ISO_ENGINE_OF(, S)

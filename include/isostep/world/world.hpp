@@ -277,10 +277,9 @@ template <class S> class World final : public WorldBase<World<S>> {
   using Base::engine_;
 };
 
-#define ISO_EXTERN(S)                        \
+#define ISO_WORLD_OF(extern, S)              \
   extern template class WorldBase<World<S>>; \
   extern template class World<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_WORLD_OF)
 
 }  // namespace isostep

@@ -311,7 +311,6 @@ template <class S> const std::vector<RenderPose>& World<S>::poses_float(float al
 
 /// World<S>, and how states come into it. What it calls: executing_commands.inl, queries.inl, engine_step.inl.
 #define ISO_INSTANTIATE_WORLD(S)                       \
-  template class StateLoader<S>;                       \
+  ISO_STATE_LOADER_OF(, S)                             \
   template std::uint64_t WorldEngine<S>::hash() const; \
-  template class WorldBase<World<S>>;                  \
-  template class World<S>;
+  ISO_WORLD_OF(, S)

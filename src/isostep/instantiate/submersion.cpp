@@ -4,7 +4,7 @@
 
 namespace isostep {
 
-#define ISO_INSTANTIATE(S) template Submersion<S> submersion<S>(ShapeView<S>, Vec3<Unit<S>>, S);
+#define ISO_INSTANTIATE(S) ISO_SUBMERSION_OF(, S)
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE
 

@@ -96,8 +96,7 @@ ISO_INLINE Leaf leaf_at(const ChildTree<S>* tree, std::span<const Child<S>> chil
   return tree != nullptr ? tree->leaf_at(index) : leaf_at(children, contents, index);
 }
 
-#define ISO_EXTERN(S) extern template class ChildTree<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CHILD_TREE_OF(extern, S) extern template class ChildTree<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CHILD_TREE_OF)
 
 }  // namespace isostep

@@ -21,8 +21,6 @@ TimeOfImpact<S> plane_impact(const ConvexCore<S>& core, const CoreMotion<S>& mot
 
 #define ISO_PLANE_IMPACT_OF(extern, S) \
   extern template TimeOfImpact<S> plane_impact<S>(const ConvexCore<S>&, const CoreMotion<S>&, const SolidPlane<S>&, S);
-#define ISO_EXTERN(S) ISO_PLANE_IMPACT_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PLANE_IMPACT_OF)
 
 }  // namespace isostep

@@ -65,8 +65,6 @@ template <class S> inline constexpr S kTooDeep = S(0.0078125);  // [m] twice as 
   extern template bool is_deep<S>(const PlacedShape<S>&, const Pose<S>&, const PlacedShape<S>&, const Pose<S>&); \
   extern template bool touches_at_start<S>(const PlacedShape<S>&, const CoreMotion<S>&, const PlacedShape<S>&,   \
                                            const Pose<S>&, Vec3<S>&);
-#define ISO_EXTERN(S) ISO_SHAPE_IMPACT_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SHAPE_IMPACT_OF)
 
 }  // namespace isostep

@@ -47,8 +47,6 @@ TimeOfImpact<S> time_of_impact(const ConvexCore<S>& a, const CoreMotion<S>& of_a
 #define ISO_TIME_OF_IMPACT_OF(extern, S)                                                                              \
   extern template TimeOfImpact<S> time_of_impact<S>(const ConvexCore<S>&, const CoreMotion<S>&, const ConvexCore<S>&, \
                                                     const CoreMotion<S>&, S);
-#define ISO_EXTERN(S) ISO_TIME_OF_IMPACT_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_TIME_OF_IMPACT_OF)
 
 }  // namespace isostep

@@ -37,8 +37,6 @@ GjkDistance<S> gjk_distance(const ConvexCore<S>& a, const Transform<S>& ta, cons
                                                  const Transform<S>&);                                            \
   extern template GjkDistance<S> gjk_distance<S>(const ConvexCore<S>&, const Transform<S>&, const ConvexCore<S>&, \
                                                  const Transform<S>&);
-#define ISO_EXTERN(S) ISO_GJK_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_GJK_OF)
 
 }  // namespace isostep

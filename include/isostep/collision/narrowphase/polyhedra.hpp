@@ -36,8 +36,6 @@ void collide_polyhedron_half_space(const Polyhedron<S>& a, const Transform<S>& t
                                             const Transform<S>&, S, Manifold<S>&);                                   \
   extern template void collide_polyhedron_half_space<S>(const Polyhedron<S>&, const Transform<S>&, Vec3<Unit<S>>, S, \
                                                         const Transform<S>&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_POLYHEDRA_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_POLYHEDRA_OF)
 
 }  // namespace isostep

@@ -25,8 +25,6 @@ void collide_capsule_polyhedron(S half_height, S radius, const Transform<S>& ta,
                                                     S, Manifold<S>&);                                                  \
   extern template void collide_capsule_polyhedron<S>(S, S, const Transform<S>&, const Polyhedron<S>&,                  \
                                                      const Transform<S>&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_ROUND_POLYHEDRON_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ROUND_POLYHEDRON_OF)
 
 }  // namespace isostep

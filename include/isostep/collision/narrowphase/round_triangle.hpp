@@ -27,8 +27,6 @@ void collide_capsule_triangle(S half_height, S radius, const Transform<S>& ta, c
                                                   const BakedTriangle&, S, Manifold<S>&);             \
   extern template void collide_capsule_triangle<S>(S, S, const Transform<S>&, const SurfaceFrame<S>&, \
                                                    const BakedTriangle&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_ROUND_TRIANGLE_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ROUND_TRIANGLE_OF)
 
 }  // namespace isostep

@@ -40,8 +40,6 @@ void collide_rounded_triangle(const RoundedPolyhedron<S>& a, const Transform<S>&
                                                     CollidePolyhedra<S>);                                              \
   extern template void collide_rounded_triangle<S>(const RoundedPolyhedron<S>&, const Transform<S>&,                   \
                                                    const SurfaceFrame<S>&, const BakedTriangle&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_ROUNDED_POLYHEDRA_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ROUNDED_POLYHEDRA_OF)
 
 }  // namespace isostep

@@ -31,8 +31,6 @@ void collide_half_space_solid(ShapeView<S> a, const Transform<S>& ta, ShapeView<
   ISO_SOLID_PAIR(extern, collide_solids, S)       \
   ISO_SOLID_PAIR(extern, collide_sphere_solid, S) \
   ISO_SOLID_PAIR(extern, collide_half_space_solid, S)
-#define ISO_EXTERN(S) ISO_SOLID_PAIRS_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SOLID_PAIRS_OF)
 
 }  // namespace isostep

@@ -19,11 +19,9 @@ template <class S>
 void collide_solid_triangle(ShapeView<S> a, const Transform<S>& ta, const SurfaceFrame<S>& frame,
                             const BakedTriangle& baked, S margin, Manifold<S>& out);
 
-#define ISO_SOLID_TRIANGLE_OF(extern, S)                                                          \
+#define ISO_SOLID_TRIANGLE_OF(extern, S)                                                                    \
   extern template void collide_solid_triangle<S>(ShapeView<S>, const Transform<S>&, const SurfaceFrame<S>&, \
                                                  const BakedTriangle&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_SOLID_TRIANGLE_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SOLID_TRIANGLE_OF)
 
 }  // namespace isostep

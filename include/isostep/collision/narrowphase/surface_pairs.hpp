@@ -48,8 +48,6 @@ void collide_surface_with(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b
                                                S, Manifold<S>&);                                                     \
   extern template void collide_surface_with<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, \
                                                S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_SURFACE_PAIRS_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SURFACE_PAIRS_OF)
 
 }  // namespace isostep

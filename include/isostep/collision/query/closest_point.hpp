@@ -17,8 +17,8 @@ namespace isostep {
 template <class S>
 ClosestPoint<S> closest_point(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> query);
 
-#define ISO_EXTERN(S) extern template ClosestPoint<S> closest_point<S>(ShapeView<S>, const Transform<S>&, Vec3<S>);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CLOSEST_POINT_OF(extern, S) \
+  extern template ClosestPoint<S> closest_point<S>(ShapeView<S>, const Transform<S>&, Vec3<S>);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CLOSEST_POINT_OF)
 
 }  // namespace isostep

@@ -44,8 +44,6 @@ void ray_cast_all(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& 
   extern template bool ray_cast<S>(ShapeView<S>, const Transform<S>&, Vec3<S>, Vec3<S>, S, RayHit<S>&, bool);   \
   extern template void ray_cast_all<S>(ShapeView<S>, const Transform<S>&, Vec3<S>, Vec3<S>, const RayReach<S>&, \
                                        const RayHitTaker<S>&);
-#define ISO_EXTERN(S) ISO_RAY_CAST_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_RAY_CAST_OF)
 
 }  // namespace isostep

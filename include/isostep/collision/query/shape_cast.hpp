@@ -57,8 +57,6 @@ bool cast_convex(const ConvexCore<S>& a, const Transform<S>& ta, const ConvexCor
 #define ISO_SHAPE_CAST_OF(extern, S)                                                                   \
   extern template bool cast_convex<S>(const ConvexCore<S>&, const Transform<S>&, const ConvexCore<S>&, \
                                       const Transform<S>&, const CastMotion<S>&, CastHit<S>&);
-#define ISO_EXTERN(S) ISO_SHAPE_CAST_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SHAPE_CAST_OF)
 
 }  // namespace isostep

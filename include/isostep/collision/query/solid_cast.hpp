@@ -57,8 +57,6 @@ template <class S> ISO_INLINE S cast_margin(S farthest) { return gap_noise(farth
   extern template bool cast_solid<S>(const SolidCast<S>&, ShapeView<S>, const Transform<S>&, SolidHit<S>&); \
   extern template void cast_solid_all<S>(const SolidCast<S>&, ShapeView<S>, const Transform<S>&,            \
                                          const SolidHitTaker<S>&);
-#define ISO_EXTERN(S) ISO_SOLID_CAST_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SOLID_CAST_OF)
 
 }  // namespace isostep

@@ -29,8 +29,7 @@ template <class S> struct HullContent {
   ISO_INLINE std::size_t memory() const { return sizeof *this + solid.memory(); }  // [bytes]
 };
 
-#define ISO_EXTERN(S) extern template struct HullContent<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_HULL_CONTENT_OF(extern, S) extern template struct HullContent<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_HULL_CONTENT_OF)
 
 }  // namespace isostep

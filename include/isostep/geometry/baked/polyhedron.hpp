@@ -79,8 +79,7 @@ template <class S> class HullSolid {
   S inner_radius_ = S(0);
 };
 
-#define ISO_EXTERN(S) extern template class HullSolid<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_HULL_SOLID_OF(extern, S) extern template class HullSolid<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_HULL_SOLID_OF)
 
 }  // namespace isostep

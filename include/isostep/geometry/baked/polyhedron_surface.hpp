@@ -44,8 +44,6 @@ ISO_INLINE S beyond_side(const Polyhedron<S>& solid, std::uint32_t half_edge, Ve
 #define ISO_POLYHEDRON_SURFACE_OF(extern, S)                                    \
   extern template NearestPoint<S> nearest_on<S>(const Polyhedron<S>&, Vec3<S>); \
   extern template detail::LocalHit<S> cast_ray<S>(const Polyhedron<S>&, const detail::LocalRay<S>&);
-#define ISO_EXTERN(S) ISO_POLYHEDRON_SURFACE_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_POLYHEDRON_SURFACE_OF)
 
 }  // namespace isostep

@@ -16,9 +16,7 @@ detail::LocalHit<S> cast_rounded(const Polyhedron<S>& solid, S radius, const det
 
 #define ISO_ROUNDED_POLYHEDRON_OF(extern, S) \
   extern template detail::LocalHit<S> cast_rounded<S>(const Polyhedron<S>&, S, const detail::LocalRay<S>&);
-#define ISO_EXTERN(S) ISO_ROUNDED_POLYHEDRON_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ROUNDED_POLYHEDRON_OF)
 
 namespace detail {
 

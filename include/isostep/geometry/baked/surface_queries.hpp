@@ -48,8 +48,6 @@ template <class G, class S> Aabb<S> box_of_surface(const G& surface);
 #define ISO_SURFACE_QUERIES_OF(extern, S)             \
   ISO_SURFACE_QUERIES_OF_ONE(extern, TriangleMesh, S) \
   ISO_SURFACE_QUERIES_OF_ONE(extern, BakedHeightField, S)
-#define ISO_EXTERN(S) ISO_SURFACE_QUERIES_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SURFACE_QUERIES_OF)
 
 }  // namespace isostep

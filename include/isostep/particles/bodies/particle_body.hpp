@@ -39,8 +39,7 @@ template <class S> struct SpringKind {
 /// Limits of a body, and of a row of it.
 inline constexpr std::uint32_t kMostBodyParticles = 1u << 20, kMostBodyRow = 1u << 14;
 
-#define ISO_EXTERN(S) extern template void remove<S>(ParticleWorld<S>&, ParticleBody&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_BODY_OF(extern, S) extern template void remove<S>(ParticleWorld<S>&, ParticleBody&);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_BODY_OF)
 
 }  // namespace isostep

@@ -21,8 +21,7 @@ template <class S> struct RopeDefinition {
 /// Particles from start to end, evenly on the straight line; link i joins particles i and i + 1.
 template <class S> ParticleBody build(ParticleWorld<S>& world, const RopeDefinition<S>& definition);
 
-#define ISO_EXTERN(S) extern template ParticleBody build<S>(ParticleWorld<S>&, const RopeDefinition<S>&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_ROPE_OF(extern, S) extern template ParticleBody build<S>(ParticleWorld<S>&, const RopeDefinition<S>&);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ROPE_OF)
 
 }  // namespace isostep

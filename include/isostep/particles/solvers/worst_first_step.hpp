@@ -67,8 +67,7 @@ template <class S> class WorstFirstStep {
   Axes<V> way_;                   // [m] of the sub-step, if nothing is met
 };
 
-#define ISO_EXTERN(S) extern template class WorstFirstStep<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_WORST_FIRST_STEP_OF(extern, S) extern template class WorstFirstStep<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_WORST_FIRST_STEP_OF)
 
 }  // namespace isostep

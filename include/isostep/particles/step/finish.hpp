@@ -29,8 +29,7 @@ template <class S> class ParticleFinish {
   FreeFlight<S>& flight_;
 };
 
-#define ISO_EXTERN(S) extern template class ParticleFinish<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_FINISH_OF(extern, S) extern template class ParticleFinish<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_FINISH_OF)
 
 }  // namespace isostep

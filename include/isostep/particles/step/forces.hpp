@@ -45,8 +45,7 @@ template <class S> class ParticleForces {
   Bitset cut_;                              // slots that the report's clamped_force has counted
 };
 
-#define ISO_EXTERN(S) extern template class ParticleForces<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_FORCES_OF(extern, S) extern template class ParticleForces<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_FORCES_OF)
 
 }  // namespace isostep

@@ -53,8 +53,7 @@ template <class S> class FreeFlight {
   std::vector<FlightRow<S>> rows_;  // by material
 };
 
-#define ISO_EXTERN(S) extern template class FreeFlight<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_FREE_FLIGHT_OF(extern, S) extern template class FreeFlight<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_FREE_FLIGHT_OF)
 
 }  // namespace isostep

@@ -61,8 +61,7 @@ template <class S> class ParticleIntegration {
   Axes<V> mean_, end_;                  // [m/s] weighted mean of their velocities; the velocity after the sub-step
 };
 
-#define ISO_EXTERN(S) extern template class ParticleIntegration<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_INTEGRATION_OF(extern, S) extern template class ParticleIntegration<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_INTEGRATION_OF)
 
 }  // namespace isostep

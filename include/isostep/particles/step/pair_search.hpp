@@ -60,8 +60,7 @@ template <class S> class PairSearch {
   std::vector<S> reaches_;            // [m] of those
 };
 
-#define ISO_EXTERN(S) extern template class PairSearch<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PAIR_SEARCH_OF(extern, S) extern template class PairSearch<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PAIR_SEARCH_OF)
 
 }  // namespace isostep

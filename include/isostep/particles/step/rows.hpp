@@ -56,8 +56,7 @@ template <class S> class ParticleRows {
   std::uint32_t first_contact_ = 0, first_touch_ = 0;
 };
 
-#define ISO_EXTERN(S) extern template class ParticleRows<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_ROWS_OF(extern, S) extern template class ParticleRows<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_ROWS_OF)
 
 }  // namespace isostep

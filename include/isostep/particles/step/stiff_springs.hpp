@@ -45,8 +45,7 @@ template <class S> class StiffSprings {
   std::vector<std::uint32_t> holds_;            // by particle's slot: stiff springs and constraints, 2 for more
 };
 
-#define ISO_EXTERN(S) extern template class StiffSprings<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_STIFF_SPRINGS_OF(extern, S) extern template class StiffSprings<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_STIFF_SPRINGS_OF)
 
 }  // namespace isostep

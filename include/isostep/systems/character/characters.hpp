@@ -74,8 +74,7 @@ template <class S> class Characters {
   std::vector<std::uint32_t> passed_kinds_;  // likewise
 };
 
-#define ISO_EXTERN(S) extern template class Characters<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CHARACTERS_OF(extern, S) extern template class Characters<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CHARACTERS_OF)
 
 }  // namespace isostep

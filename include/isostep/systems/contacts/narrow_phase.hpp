@@ -107,8 +107,7 @@ template <class S> class NarrowPhase {
   std::vector<SensorOverlap> overlaps_;
 };
 
-#define ISO_EXTERN(S) extern template class NarrowPhase<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_NARROW_PHASE_OF(extern, S) extern template class NarrowPhase<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_NARROW_PHASE_OF)
 
 }  // namespace isostep

@@ -108,8 +108,7 @@ template <class S> class PartPairs {
   std::uint32_t cut_compounds_ = 0;
 };
 
-#define ISO_EXTERN(S) extern template class PartPairs<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PART_PAIRS_OF(extern, S) extern template class PartPairs<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PART_PAIRS_OF)
 
 }  // namespace isostep

@@ -222,8 +222,7 @@ template <class S> class ContinuousCollision {
   std::vector<Pose<S>> ends_;            // of a mechanism's bodies: where the solver left them
 };
 
-#define ISO_EXTERN(S) extern template class ContinuousCollision<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CONTINUOUS_COLLISION_OF(extern, S) extern template class ContinuousCollision<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CONTINUOUS_COLLISION_OF)
 
 }  // namespace isostep

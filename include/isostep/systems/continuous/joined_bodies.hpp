@@ -56,8 +56,7 @@ template <class S> class JoinedBodies {
   std::vector<Link> links_;
 };
 
-#define ISO_EXTERN(S) extern template class JoinedBodies<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_JOINED_BODIES_OF(extern, S) extern template class JoinedBodies<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_JOINED_BODIES_OF)
 
 }  // namespace isostep

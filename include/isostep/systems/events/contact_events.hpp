@@ -42,8 +42,7 @@ template <class S> class ContactEvents {
   std::vector<ContactEnd> end_scratch_;
 };
 
-#define ISO_EXTERN(S) extern template class ContactEvents<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CONTACT_EVENTS_OF(extern, S) extern template class ContactEvents<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CONTACT_EVENTS_OF)
 
 }  // namespace isostep

@@ -39,8 +39,7 @@ template <class S> class HitEvents {
   std::vector<Approach> approaches_;  // parallel to the contacts; empty: nobody asks
 };
 
-#define ISO_EXTERN(S) extern template class HitEvents<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_HIT_EVENTS_OF(extern, S) extern template class HitEvents<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_HIT_EVENTS_OF)
 
 }  // namespace isostep

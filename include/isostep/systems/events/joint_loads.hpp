@@ -38,8 +38,7 @@ template <class S> class JointLoads {
   std::vector<JointBroke<S>> broken_;
 };
 
-#define ISO_EXTERN(S) extern template class JointLoads<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_JOINT_LOADS_OF(extern, S) extern template class JointLoads<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_JOINT_LOADS_OF)
 
 }  // namespace isostep

@@ -36,8 +36,7 @@ template <class S> class SensorOverlaps {
   std::vector<SensorEvent> end_scratch_;
 };
 
-#define ISO_EXTERN(S) extern template class SensorOverlaps<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SENSOR_OVERLAPS_OF(extern, S) extern template class SensorOverlaps<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SENSOR_OVERLAPS_OF)
 
 }  // namespace isostep

@@ -30,8 +30,7 @@ template <class S> class BlastShields {
   const SubstepBodies<S>& bodies_;
 };
 
-#define ISO_EXTERN(S) extern template class BlastShields<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_BLAST_SHIELDS_OF(extern, S) extern template class BlastShields<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BLAST_SHIELDS_OF)
 
 }  // namespace isostep

@@ -63,8 +63,7 @@ template <class S> class BodyForces {
   RecordForces<S> forces_ = {bodies_, sums_, zones_, resistance_, wet_, shields_};
 };
 
-#define ISO_EXTERN(S) extern template class BodyForces<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_BODY_FORCES_OF(extern, S) extern template class BodyForces<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BODY_FORCES_OF)
 
 }  // namespace isostep

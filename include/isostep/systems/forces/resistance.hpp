@@ -66,8 +66,7 @@ template <class S> class Resistance {
   std::vector<Rates> fading_;         // by awake body; empty where none fades
 };
 
-#define ISO_EXTERN(S) extern template class Resistance<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_RESISTANCE_OF(extern, S) extern template class Resistance<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_RESISTANCE_OF)
 
 }  // namespace isostep

@@ -81,8 +81,7 @@ template <class S> class SubstepBodies {
   std::uint32_t substep_ = 0;
 };
 
-#define ISO_EXTERN(S) extern template class SubstepBodies<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SUBSTEP_BODIES_OF(extern, S) extern template class SubstepBodies<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SUBSTEP_BODIES_OF)
 
 }  // namespace isostep

@@ -51,8 +51,7 @@ template <class S> class WetBodies {
   std::vector<Wet<S>> wet_;
 };
 
-#define ISO_EXTERN(S) extern template class WetBodies<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_WET_BODIES_OF(extern, S) extern template class WetBodies<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_WET_BODIES_OF)
 
 }  // namespace isostep

@@ -49,8 +49,7 @@ template <class S> class Zones {
   std::tuple<RecordRanks<ForceZone<S>>, RecordRanks<DampingZone<S>>, RecordRanks<Water<S>>> ranks_;
 };
 
-#define ISO_EXTERN(S) extern template class Zones<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_ZONES_OF(extern, S) extern template class Zones<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ZONES_OF)
 
 }  // namespace isostep

@@ -94,8 +94,7 @@ template <class S> class CouplingRows {
   Step<S> h_ = {};
 };
 
-#define ISO_EXTERN(S) extern template class CouplingRows<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_COUPLING_ROWS_OF(extern, S) extern template class CouplingRows<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_COUPLING_ROWS_OF)
 
 }  // namespace isostep

@@ -48,8 +48,7 @@ template <class S> class Mechanisms {
   std::vector<Velocity<S>> fastest_;   // [rad/s] of those
 };
 
-#define ISO_EXTERN(S) extern template class Mechanisms<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_MECHANISMS_OF(extern, S) extern template class Mechanisms<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_MECHANISMS_OF)
 
 }  // namespace isostep

@@ -45,8 +45,7 @@ template <class S> class MoveTargets {
   std::vector<Move> moves_;
 };
 
-#define ISO_EXTERN(S) extern template class MoveTargets<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_MOVE_TARGETS_OF(extern, S) extern template class MoveTargets<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_MOVE_TARGETS_OF)
 
 }  // namespace isostep

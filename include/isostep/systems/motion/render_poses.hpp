@@ -48,8 +48,7 @@ template <class S> class RenderPoses {
   std::vector<RenderPose> poses_;
 };
 
-#define ISO_EXTERN(S) extern template class RenderPoses<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_RENDER_POSES_OF(extern, S) extern template class RenderPoses<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_RENDER_POSES_OF)
 
 }  // namespace isostep

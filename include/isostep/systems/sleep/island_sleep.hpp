@@ -66,8 +66,7 @@ template <class S> class IslandSleep {
   std::vector<std::shared_ptr<SleepingIsland<S>>> asleep_;  // by island
 };
 
-#define ISO_EXTERN(S) extern template class IslandSleep<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_ISLAND_SLEEP_OF(extern, S) extern template class IslandSleep<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ISLAND_SLEEP_OF)
 
 }  // namespace isostep

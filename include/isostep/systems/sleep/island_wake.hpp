@@ -78,8 +78,7 @@ template <class S> class IslandWake {
   std::vector<std::uint32_t> touched_;
 };
 
-#define ISO_EXTERN(S) extern template class IslandWake<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_ISLAND_WAKE_OF(extern, S) extern template class IslandWake<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ISLAND_WAKE_OF)
 
 }  // namespace isostep

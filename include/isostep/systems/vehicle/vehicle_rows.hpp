@@ -209,8 +209,7 @@ template <class S> class VehicleRows {
   Step<S> h_ = {};
 };
 
-#define ISO_EXTERN(S) extern template class VehicleRows<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_VEHICLE_ROWS_OF(extern, S) extern template class VehicleRows<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_VEHICLE_ROWS_OF)
 
 }  // namespace isostep
