@@ -99,7 +99,7 @@ void JointTrees<S>::weigh_sets(std::span<const JointConstraint<S>> joints, const
     asked_[sets_.find(bodies.moves(joints[j].row_a) ? joints[j].row_a : joints[j].row_b)] = 1;
   }
   if (order == JointOrder::trees) return;
-  // A tree is solved once a step, and would throw off the joints beside it that its bodies are tied by.
+  // A tree that loose joints tie too is not solved at once: over a whole step each would throw off the other.
   for (std::uint32_t j = 0; j < joints.size(); ++j) {
     if (role_[j] != detail::kLoose) continue;
     for (const std::uint32_t row : {joints[j].row_a, joints[j].row_b}) {
