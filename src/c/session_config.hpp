@@ -8,8 +8,8 @@
 
 namespace isostep::c {
 
-/// A struct of the caller's, of any size that it may have: what it does not hold keeps its default. A status, and for
-/// ISO_REFUSED and ISO_BAD_ENUM the field and what it may be.
+/// The problem of a caller's struct: a status, and for ISO_REFUSED and ISO_BAD_ENUM the field and the values that it
+/// may have. A struct may have any size; members that it does not hold keep their defaults.
 struct Problem {
   iso_status status = ISO_OK;
   const char* text = "";
@@ -22,7 +22,7 @@ Problem read_game(const iso_game* from, iso_game& to);
 
 /// Converts a configuration without a problem. The identity is still to be set.
 SessionConfig to_session_config(const iso_session_config& config);
-/// `world`: null where the game has none.
+/// The identity of a game. `world` is null where the game has none.
 Result<ReplayHeader> identity_of_game(const iso_game& game, const SessionWorld* world, const char* name);
 
 }  // namespace isostep::c

@@ -12,7 +12,7 @@ namespace {
 
 using CSession = isostep::Session<SessionGame>;
 
-/// `otherwise` of what is no session.
+/// Asks a session; returns `otherwise` of a handle that is none.
 template <class T, class F> T look(const iso_session* session, const char* call, T otherwise, const F& function) {
   const Found<iso_session> found(session, call);
   return found.object != nullptr ? static_cast<T>(function(found.object->session)) : otherwise;

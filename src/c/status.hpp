@@ -16,7 +16,7 @@ inline constexpr iso_status kOk = ISO_OK;
 iso_status refuse(iso_status status, const char* call, const char* what = "", const char* expected = "");
 /// Tells why a world refused a call.
 iso_status refuse(const FaultReport& report);
-/// Tells what bytes or geometry lack.
+/// Tells why bytes or geometry were refused.
 iso_status refuse(iso_status status, const char* call, const Error& error);
 const char* last_error();
 
@@ -47,9 +47,9 @@ template <class Work> iso_status guarded(const char* call, const Work& work) {
 #define ISO_C_REQUIRE(call, pointer) \
   if ((pointer) == nullptr) return ::isostep::c::refuse(ISO_NULL, call, #pointer)
 
-/// `size`: room in, need out. Nothing is copied into too little room.
+/// Copies bytes out. `size`: room in, need out. Nothing is copied into too little room.
 iso_status copy_out(const char* call, const void* from, std::size_t need, void* to, std::size_t* size);
-/// A sentence with the 0 that ends it.
+/// Copies a sentence out with the 0 that ends it.
 iso_status copy_text(const char* call, const char* text, char* to, std::size_t* size);
 /// Copies as much as a member has room for, with a 0 behind it.
 void copy_member(char* to, std::size_t room, const char* from, std::size_t length);

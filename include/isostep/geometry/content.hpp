@@ -10,11 +10,11 @@
 
 namespace isostep {
 
-/// What ShapeView names: the Content of the blob's shape in S, made when it is first asked for. Null for a type without
-/// blobs.
+/// The content that ShapeView names: the Content of the blob's shape in S, made when it is first asked for. Null for a
+/// type without blobs.
 template <class S> const void* content_of(const Blob& blob);
 
-/// Of many, for Contents; null where a blob is null.
+/// Finds the contents of many blobs, for Contents; null where a blob is null.
 template <class S> void find_contents(std::span<const BlobRef> blobs, std::vector<const void*>& out) {
   out.resize(blobs.size());
   for (std::size_t i = 0; i < blobs.size(); ++i) out[i] = blobs[i] == nullptr ? nullptr : content_of<S>(*blobs[i]);

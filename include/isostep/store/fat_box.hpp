@@ -7,10 +7,10 @@
 
 namespace isostep::detail {
 
-/// [m] added around a body's bounds: a body is looked up anew only when it leaves the margin.
+/// [m] The margin added around a body's bounds: a body's pairs are looked up anew only when it leaves its fat box.
 template <class S> inline constexpr S kFatMargin = S(0.1);
 
-/// `always`: also where the body is still inside.
+/// Renews a body's fat box when the body has left it, or `always`.
 template <class S>
 void renew_fat_box(const BodyMap<S>& map, BodyState<S>& state, const BodyProperties<S>& body, bool always);
 

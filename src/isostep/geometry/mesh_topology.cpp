@@ -30,7 +30,7 @@ void sort(std::vector<Record>& records, std::vector<Record>& scratch, const Key&
   stable_sort(records.data(), scratch.data(), static_cast<std::uint32_t>(records.size()), key);
 }
 
-/// The first point with the coordinates of each point.
+/// Returns for each point the first one with its coordinates.
 std::vector<std::uint32_t> first_equals(std::span<const MeshPoint> points) {
   std::vector<IndexedPoint> sorted(points.size()), scratch(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) sorted[i] = {points[i], i};
@@ -59,7 +59,7 @@ class EdgeFinder {
  public:
   explicit EdgeFinder(const WeldedMesh& mesh) : mesh_(mesh), edges_(mesh.triangles.size()) {}
 
-  /// Groups of half-edges with the same ends.
+  /// Groups half-edges with the same ends, and makes each group an edge.
   Result<std::vector<MeshEdges>> run() {
     const std::vector<HalfEdgeRecord> sorted = sorted_half_edges();
     std::size_t end = 0;

@@ -23,10 +23,10 @@ struct WeldedMesh {
   ISO_INLINE WeldedMesh& operator=(WeldedMesh&&) = default;
   ISO_INLINE ~WeldedMesh() = default;
 };
-/// Vertices must be points.
+/// Makes points with equal coordinates one. Vertices must be points.
 WeldedMesh weld(std::span<const MeshPoint> points, std::span<const MeshTriangle> triangles);
 
-/// The edges of each triangle. Errors: see triangle_mesh.
+/// Finds the edges of each triangle. Errors: see triangle_mesh.
 Result<std::vector<MeshEdges>> find_edges(const WeldedMesh& mesh);
 
 }  // namespace isostep

@@ -1,4 +1,4 @@
-// As much of WASI (preview 1) as the engine's module asks for: libc's own start, and nothing that the engine uses.
+// The part of WASI (preview 1) that the engine's module asks for: libc's own start, and nothing that the engine uses.
 // SPDX-License-Identifier: MIT
 //
 // Source: WASI preview 1, "wasi_snapshot_preview1" (witx). The engine opens no file, reads no clock and prints nothing:

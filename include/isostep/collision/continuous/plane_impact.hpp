@@ -12,9 +12,9 @@ template <class S> struct SolidPlane {
   Vec3<S> point;         // [m] of the surface, within Limits<S>::position() of the core
 };
 
-/// time_of_impact() against a plane: the same bound along its normal, which is given and needs no search. The normal of
-/// the result points from the core to the plane; its points are zero, but for `on_a` where they touch at the start: the
-/// lowest of the core.
+/// time_of_impact() against a plane: it takes the bound along the plane's normal, which is given and needs no search.
+/// The normal of the result points from the core to the plane; its points are zero, but for `on_a` where they touch at
+/// the start: the lowest of the core.
 template <class S>
 TimeOfImpact<S> plane_impact(const ConvexCore<S>& core, const CoreMotion<S>& motion, const SolidPlane<S>& plane,
                              S target);

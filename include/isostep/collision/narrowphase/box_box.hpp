@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// Separating axes, then clipping of the incident face.
+/// Collides two boxes by separating axes, then clips the incident face.
 /// Source:  Gottschalk, Lin, Manocha 1996, OBBTree, sec. 5 (the axes); Sutherland, Hodgman 1974, Reentrant Polygon
 ///          Clipping, CACM 17(1).
 /// Differs: crosses of edges are normalised only when, unnormalised, they could still be the best or separate; a face

@@ -28,7 +28,7 @@ template <class S> struct LeafView {
   ShapeView<S> shape;
   std::uint32_t triangle;  // 0 of what is no surface
 };
-/// The same of leaves.
+/// collide() for leaves.
 template <class S>
 void collide_leaves(const LeafView<S>& a, const Transform<S>& ta, const LeafView<S>& b, const Transform<S>& tb,
                     S margin, Manifold<S>& out, CollidePolyhedra<S> polyhedra = collide_polyhedra<S>);

@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// Closest surface point to `query` [m], world frame, from outside or inside.
+/// Returns the surface point closest to `query` [m], world frame, from outside or inside.
 /// Error:  fixed: point and distance within 4 raw units; float, double: 4 ulp of the largest coordinate. The normal is
 ///         as good as that error over the distance to the core (centre, segment or box).
 /// Order:  where several points are closest, a box takes the lowest axis, towards plus from its very centre; a

@@ -1,4 +1,4 @@
-// Whether two primitives touch: the narrow phase asked for nothing but its sign.
+// overlaps: the narrow phase asked for nothing but its sign.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// Where a polyhedron's surface is nearest to a point, in its own frame.
+/// The point of a polyhedron's surface that is nearest to another, in its own frame.
 template <class S> struct NearestPoint {
   Vec3<S> point;          // [m]
   S distance;             // [m] negative inside
@@ -21,7 +21,7 @@ template <class S> struct NearestPoint {
 };
 template <class S> NearestPoint<S> nearest_on(const Polyhedron<S>& solid, Vec3<S> query);
 
-/// Where a ray enters a polyhedron; it misses what it leaves. In the polyhedron's frame.
+/// Finds where a ray enters a polyhedron, in its frame; a ray that starts inside is reported as `inside`.
 template <class S> detail::LocalHit<S> cast_ray(const Polyhedron<S>& solid, const detail::LocalRay<S>& ray);
 
 namespace detail {
@@ -32,7 +32,7 @@ template <class S> ISO_INLINE Segment<S> edge_of(const Polyhedron<S>& solid, std
   return {from + half, solid.directions[k], dot(half, solid.directions[k])};
 }
 
-/// [m] by how far p is beyond the side of a face at one of its half-edges.
+/// [m] The distance by which p is beyond the side of a face at one of its half-edges.
 template <class S>
 ISO_INLINE S beyond_side(const Polyhedron<S>& solid, std::uint32_t half_edge, Vec3<Unit<S>> normal, Vec3<S> p) {
   const Vec3<Unit<S>> along = solid.directions[half_edge / 2];
