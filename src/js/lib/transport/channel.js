@@ -6,7 +6,7 @@
 // channel of datagrams, and arrives whole and in order on the reliable one, or the connection ends.
 
 export const kDatagram = 0, kReliable = 1;
-/** [bytes] The caps of one message, by channel: those of isostep/session/frame.hpp. */
+/** [bytes] The caps of one message, by channel: those of isostep/session/timeline/frame.hpp. */
 export const kCaps = [1180, 16384];
 
 /** Peers by their numbers, the lowest free one first, and the arrivals from them. */
