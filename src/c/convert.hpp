@@ -140,7 +140,7 @@ template <class T> Flaw take_at(const std::uint8_t* at, T& value) {
   return {};
 }
 
-/// True if the size is one of this library's release, an earlier one or a later one.
+/// Returns true if the size is one of this library's release, an earlier one or a later one.
 template <class T> bool is_struct_size(std::size_t size) {
   return size >= kHeadSize && size <= sized_size<T>() + kMostUnknown;
 }

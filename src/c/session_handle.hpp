@@ -57,7 +57,7 @@ struct SessionObserver {
 class SessionTurn {
  public:
   bool is_open() const { return is_open_; }
-  /// True while the step that was asked for last is not over.
+  /// Returns true while the step that was asked for last is not over.
   bool is_stepping() const { return is_stepping_; }
   const iso_input* inputs() const { return inputs_.data(); }
 

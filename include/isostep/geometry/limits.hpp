@@ -18,7 +18,7 @@ namespace isostep {
 ///   surface_speed() [m/s]    largest speed of a point of a body against its centre
 template <class S> struct Limits;
 
-/// Fixed point with W = bits - 1 - F whole bits, so |value| < 2^W:
+/// The limits of fixed point with W = bits - 1 - F whole bits, so |value| < 2^W:
 ///   extent <= 2^((W-1)/2)    a product of two extents, 2^(W-1), fits.
 ///   speed  <= 2^((W-3)/2)    its square, 2^(W-3), fits with room for an energy's other terms.
 ///   angular_speed <= 2^((W-3)/2)    two points at arms of sqrt(3) extent move against each other with at most

@@ -95,7 +95,7 @@ class FaceLoops {
       ++planes_;
     }
   }
-  /// True if two neighbours lie in one plane.
+  /// Returns true if two neighbours lie in one plane.
   bool coplanar(const HullTriangle& a, const HullTriangle& b) const {
     const GridPoint at = points_[a.vertices[0]];
     const GridVector normal = cross(points_[a.vertices[1]] - at, points_[a.vertices[2]] - at);
@@ -210,7 +210,7 @@ std::int64_t width_of(std::span<const GridPoint> points) {
   return std::max(size.x, std::max(size.y, size.z));
 }
 
-/// True if every face is thick enough: the vertex furthest below it is `least` [steps] deep or more.
+/// Returns true if every face is thick enough: the vertex furthest below it is `least` [steps] deep or more.
 bool is_thick(const ConvexHull& hull) {
   const std::int64_t least = std::max(ConvexHull::kLeastThickness, width_of(hull.vertices) / ConvexHull::kMostSlender);
   for (std::uint32_t f = 0; f < hull.faces.size(); ++f) {

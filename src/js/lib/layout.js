@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Vectors are [x, y, z], quaternions [x, y, z, w], ids and other 64-bit integers BigInt, enumerators their names, bools
-// true and false, arrays arrays. What an object does not name keeps its default; what the struct has not is an error.
+// true and false, arrays arrays. Members that an object does not name keep their defaults; what the struct has not is
+// an error.
 
 import {badValue, kBadEnum, IsostepError} from './errors.js';
 

@@ -1,4 +1,4 @@
-// How each scalar's numbers lie in memory, and how they become JavaScript's.
+// The numbers of each scalar in memory, and their way to JavaScript's and back.
 // SPDX-License-Identifier: MIT
 //
 // A Number becomes the nearest number of the format, ties away from zero, as iso_<P>_from_double has it; outside of the

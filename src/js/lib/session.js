@@ -65,8 +65,8 @@ export class Session extends Handle {
   /**
    * Plays what is due with `game.step`, and tells `rolledBack`, `restarted` and `confirmed` of it. Returns how many
    * frames were stepped, those again included. Without inputs of its own since the last turn a player repeats the last.
-   * What the game throws ends the turn: the next one tells 'misuse', steps again what was missed, from the newest final
-   * state, and the match goes on.
+   * An error that the game throws ends the turn: the next one tells 'misuse', steps again what was missed, from the
+   * newest final state, and the match goes on.
    */
   drive(now) {
     this.#call('iso_session_advance', time(now));
@@ -193,8 +193,8 @@ export class Session extends Handle {
   resync() { return this.#try('iso_session_resync'); }
   /**
    * Goes on with those who are here, at this machine. It is for sessions with `migration` whose match stands for lack
-   * of a majority, or whose host is lost. The caller knows that the others play nowhere else: nothing else keeps one match
-   * from becoming two.
+   * of a majority, or whose host is lost. The caller knows that the others play nowhere else: nothing else keeps one
+   * match from becoming two.
    */
   goOn(now) { return this.#try('iso_session_go_on', time(now)); }
   pause() { return this.#try('iso_session_pause'); }

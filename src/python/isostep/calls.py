@@ -79,7 +79,7 @@ class Handle:
 
 def copied(c_type, address, count, dtype):
     """`count` elements in the library's memory as they are now: a read-only numpy array or, without numpy, ctypes'
-    own. What lies there goes with its owner, or is moved by the next call; a copy costs less than the call."""
+    own. The elements go with their owner, or the next call moves them; a copy costs less than the call."""
     size = count * ctypes.sizeof(c_type)
     data = ctypes.string_at(address, size) if size else b""
     if numpy is None:

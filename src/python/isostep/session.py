@@ -101,9 +101,9 @@ class Session(Handle):
         self.call("add_local_input", player, data)
 
     def drive(self, now):
-        """Plays a turn at `now` [us]: steps the game as often as it is due; returns the number of steps. What the game
-        raises ends the turn. The next one tells "misuse", steps again what was missed, from the newest final state, and
-        the match goes on."""
+        """Plays a turn at `now` [us]: steps the game as often as it is due; returns the number of steps. An
+        error that the game raises ends the turn. The next one tells "misuse", steps again what was missed, from the
+        newest final state, and the match goes on."""
         self.call("advance", now)
         steps = 0
         while True:

@@ -72,7 +72,7 @@ template <class S> struct SweepTest {
 /// A binary tree of boxes over leaves that the caller names by small integers (slots), each at most once.
 ///
 /// The tree is a means, not state: its shape depends on what was inserted and moved before, so the order of visits does
-/// too. Which leaves `query` and `overlapping_pairs` visit does not. A caller whose results depend on it sorts them.
+/// too. The leaves that `query` and `overlapping_pairs` visit do not. A caller whose results depend on order sorts.
 ///
 /// Siblings lie side by side (nodes 2k and 2k + 1; the root is node 0), a leaf is a node of height 0. `update` only
 /// enlarges ancestors and marks them; `optimise` takes the marked part apart and splits what hangs below it anew, so

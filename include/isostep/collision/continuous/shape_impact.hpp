@@ -26,8 +26,8 @@ template <class S> struct FreeWay {
   Vec3<Unit<S>> normal;  // [1] where the middle may not go on, if it is held
 };
 
-/// Returns up to where, on its motion, `a`, a solid, does not pass `b`. `b` moves as well if it is a solid; half-spaces
-/// and surfaces stay at the start of `of_b`. Both are placed in the frames of the poses.
+/// Finds how far `a`, a solid, moves before it would pass `b`. `b` moves as well if it is a solid; half-spaces and
+/// surfaces stay at the start of `of_b`. Both are placed in the frames of the poses.
 /// Method:  `a` is swept as a solid that is kGraze deep in it (a quarter of its inner radius, if that is less), up to
 ///          where the two overlap by half to three quarters of that: what does not touch the solid grazes. To stop
 ///          where all of `a` touches would hold what slides or tips over: contacts close gaps of that size.
@@ -41,13 +41,13 @@ template <class S>
 FreeWay<S> free_way(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                     const CoreMotion<S>& of_b);
 
-/// True if `a`, a solid, overlaps `b` by more than kTooDeep, or half of its inner radius, if that is less. A shallower
-/// overlap is left to contacts.
+/// Returns true if `a`, a solid, overlaps `b` by more than kTooDeep, or half of its inner radius, if that is less. A
+/// shallower overlap is left to contacts.
 template <class S>
 bool is_deep(const PlacedShape<S>& a, const Pose<S>& pose_of_a, const PlacedShape<S>& b, const Pose<S>& pose_of_b);
 
-/// True if they touch at the start, apart or overlapping by half of kGraze or less; `on_a` is then the place of the
-/// touch, at most kGraze deep in `a`.
+/// Returns true if they touch at the start, apart or overlapping by half of kGraze or less; `on_a` is then the place of
+/// the touch, at most kGraze deep in `a`.
 template <class S>
 bool touches_at_start(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                       const Pose<S>& pose_of_b, Vec3<S>& on_a);

@@ -27,7 +27,7 @@ template <class S> struct TimeOfImpact {
   std::int32_t rounds;
 };
 
-/// Returns up to where two moving cores are at least half of `target` [m] apart, all the way. The target is at least 8
+/// Finds how far two cores move while at least half of `target` [m] apart, all the way. The target is at least 8
 /// gap_noise() of their size and distance and 4 resolutions of S: a smaller one counts as that.
 /// Source:  Conservative advancement, Mirtich 1996, Impulse-based Dynamic Simulation of Rigid Body Systems, sec. 2.3.2.
 /// Differs: Along a plane's normal n that GJK found at t, the separation after d more is not less than

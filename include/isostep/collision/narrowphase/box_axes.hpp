@@ -73,8 +73,8 @@ ISO_INLINE S separation_of_a(BoxPair<S>& p, const Mat3<Unit<S>>& turn_a, const M
   return abs(p.offset[I]) - p.half_a[I] - dot(p.turn_size.rows[I], p.half_b);
 }
 
-/// True of two faces that look at each other to within kNearFace. Either gives the same points then, and a's does,
-/// however trembling changes their distance.
+/// Returns true of two faces that look at each other to within kNearFace. Either gives the same points then, and a's
+/// does, however trembling changes their distance.
 template <class S> ISO_INLINE bool are_beside(const BoxPair<S>& p, int face_a, int face_b) {
   const bool below_a = p.offset[face_a] < S(0), below_b = dot(p.offset, p.turn.column(face_b)) < S(0);
   return negate_if(below_a != below_b, p.turn.rows[face_a][face_b]) >= Unit<S>(kNearFace);

@@ -19,7 +19,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
   using Batch = typename Pairs::Batch;
   using Bodies = typename Pairs::Bodies;
 
-  /// Both boxes in a's frame.
+  /// Two boxes of each pair, in a's frame.
   struct Boxes {
     Vec3<L> half_a, half_b;
     Mat3<U> turn_a, turn_b;  // to the world's axes

@@ -74,7 +74,8 @@ struct Region {
   int side[3];
 };
 
-/// True beside a face, or beside an edge and nearly parallel to it: within 3.6 degrees, as between two capsules.
+/// Returns true beside a face, or beside an edge and nearly parallel to it: within 3.6 degrees, as between two
+/// capsules.
 template <class U> ISO_INLINE bool lies_along(Region region, Vec3<U> direction) {
   const int sides = (region.side[0] != 0) + (region.side[1] != 0) + (region.side[2] != 0);
   const int along = region.side[0] == 0 ? 0 : region.side[1] == 0 ? 1 : 2;

@@ -250,7 +250,7 @@ ISO_INLINE void touch_best_faces(const BoxPair<S>& pair, int axis, S radius_a, c
   touch_face_of_b(pair, axis - 3, offset[axis - 3] < S(0), offset, radius_a, radius_b, tb, margin, out);
 }
 
-/// True if the points of a manifold show the gap `separation`, but for `slack` [m].
+/// Returns true if the points of a manifold show the gap `separation`, but for `slack` [m].
 template <class S> ISO_INLINE bool tells_of(const Manifold<S>& m, S separation, S slack) {
   if (m.count == 0) return false;
   S least = m.points[0].separation;

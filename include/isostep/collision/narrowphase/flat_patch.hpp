@@ -19,7 +19,7 @@ template <class S> class FlatPatch {
     add(first);
   }
 
-  /// True if the other's normal is that of the first, to kAlike.
+  /// Returns true if the other's normal is that of the first, to kAlike.
   ISO_INLINE bool takes(const Manifold<S>& other) const { return max_abs(other.normal - normal_) <= Unit<S>(kAlike); }
   ISO_INLINE void add(const Manifold<S>& other) {
     for (int i = 0; i < other.count; ++i) add(other.points[i]);

@@ -47,7 +47,7 @@ template <class U> ISO_INLINE constexpr Vec3<U> unit_axis(int k, bool negative) 
 }
 template <class T> ISO_INLINE constexpr T negate_if(bool negative, T value) { return negative ? -value : value; }
 
-/// True if |v| > length, for length >= 0: exact for fixed point, without a root.
+/// Returns true if |v| > length, for length >= 0: exact for fixed point, without a root.
 template <class S> ISO_INLINE constexpr bool longer_than(Vec3<S> v, S length) {
   return dot_sum(v, v) > product(length, length);
 }

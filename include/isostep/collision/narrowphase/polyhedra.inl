@@ -165,8 +165,9 @@ ISO_INLINE EdgeContact<S> contact_of(const PolyhedronPair<S, W, Isa>& pair, cons
   return {best, of_a.at(closest.s), of_b.at(closest.t)};
 }
 
-/// True if the edges near both best faces have the best cross of all: solids that overlap have a point of one inside
-/// the other, and those that are apart along it points that are no further apart than that, but for the tolerance.
+/// Returns true if the edges near both best faces have the best cross of all: solids that overlap have a point of one
+/// inside the other, and those that are apart along it points that are no further apart than that, but for the
+/// tolerance.
 template <class S, int W, class Isa>
 ISO_INLINE bool is_best(const PolyhedronPair<S, W, Isa>& pair, const EdgeContact<S>& contact, S margin) {
   const S separation = contact.axis.separation;
@@ -195,7 +196,7 @@ template <class S, int W, class Isa>
 ISO_INLINE EdgeContact<S> all_edges(const PolyhedronPair<S, W, Isa>& pair, S best, S margin) {
   return contact_of(pair, EdgeAxes<S, W, Isa>(pair).best(best + pair.tolerance, margin));
 }
-/// True if a point of the manifold, halfway between the surfaces, is inside both: they overlap.
+/// Returns true if a point of the manifold, halfway between the surfaces, is inside both: they overlap.
 template <class S, int W, class Isa>
 ISO_INLINE bool shares_a_point(const PolyhedronPair<S, W, Isa>& pair, const Transform<S>& ta, const Manifold<S>& m) {
   for (int i = 0; i < m.count; ++i) {

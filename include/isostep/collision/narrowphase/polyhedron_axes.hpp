@@ -66,8 +66,8 @@ template <class S, int W, class Isa> struct PolyhedronPair {
       vertices_a.store(i, to_local(lanes, a.vertices.template load<L>(i)));
   }
 
-  /// True if they are further apart than `reach` [m] along the line from a's origin to b's: of the pairs of S10 that
-  /// are, nine of ten are so along it. False where the origins coincide.
+  /// Returns true if they are further apart than `reach` [m] along the line from a's origin to b's: of the pairs of S10
+  /// that are, nine of ten are so along it. False where the origins coincide.
   ISO_INLINE bool are_apart(S reach) const {
     const Vec3<U> along = normalise(b_in_a.position);
     const Vec3<UL> up = broadcast<UL>(along), down = broadcast<UL>(-along);

@@ -82,7 +82,7 @@ template <class S> class TriangleAxes {
     }
     return least;
   }
-  /// True if the surface can be touched from a direction, by its points that are lowest above a face.
+  /// Returns true if the surface can be touched from a direction, by its points that are lowest above a face.
   ISO_INLINE bool owns(Vec3<U> direction, const S (&heights)[3], S least) const {
     for (int k = 0; k < 3; ++k) {
       const bool along = abs(dot(direction, triangle_.edges[k].along)) <= U(kAlongEdge);
@@ -92,7 +92,7 @@ template <class S> class TriangleAxes {
     }
     return false;
   }
-  /// True if the arcs of two edges meet, as EdgeAxes has it, with the arc from the triangle's normal to its
+  /// Returns true if the arcs of two edges meet, as EdgeAxes has it, with the arc from the triangle's normal to its
   /// neighbour's.
   ISO_INLINE bool arcs_meet(std::uint32_t i, int k) const {
     const SurfaceEdge<S>& edge = triangle_.edges[k];
@@ -136,7 +136,7 @@ ISO_INLINE bool clip_to_edge(const SurfaceTriangle<S>& triangle, const Tangents<
   return clip(from, beyond, kTriangleEdge + static_cast<std::uint32_t>(k), kCutAcross, to);
 }
 
-/// True if a corner is there because of flat edges alone.
+/// Returns true if a corner is there because of flat edges alone.
 template <class S> ISO_INLINE bool is_cut_flat(const SurfaceTriangle<S>& triangle, const ClipPoint<S>& p) {
   const bool before = p.before >= kTriangleEdge, after = p.after >= kTriangleEdge;
   if (!before && !after) return false;

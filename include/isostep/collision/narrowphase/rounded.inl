@@ -35,8 +35,8 @@ template <class S> struct CoreGap {
   std::uint32_t corner[3];
 
   ISO_INLINE Vec3<S> across() const { return normal * distance; }
-  /// True if a manifold of the cores, whose normal is in a's frame, shows the same gap, to `tolerance` [m]: it reaches
-  /// as far along its own normal, and has a point there.
+  /// Returns true if a manifold of the cores, whose normal is in a's frame, shows the same gap, to `tolerance` [m]: it
+  /// reaches as far along its own normal, and has a point there.
   ISO_INLINE bool is_told_by(const Manifold<S>& cores, Vec3<Unit<S>> normal_in_a, S tolerance) const {
     S least = highest<S>();
     for (int i = 0; i < cores.count; ++i) least = min(least, cores.points[i].separation);

@@ -57,7 +57,7 @@ ISO_INLINE bool touch_edges_beside(const RoundedPolyhedron<S>& a, const Transfor
   return out.count > 0;
 }
 
-/// True if a solid has a face that comes as near to a gap, out of the solid, as is_told_by asks.
+/// Returns true if a solid has a face that comes as near to a gap, out of the solid, as is_told_by asks.
 template <class S> ISO_INLINE bool has_face_across(const Polyhedron<S>& solid, Vec3<S> gap, S distance, S tolerance) {
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
     if (dot(solid.normals[f], gap) >= distance - tolerance) return true;
@@ -73,7 +73,7 @@ ISO_INLINE CoreGap<S> gap_between(const Polyhedron<S>& a, const Transform<S>& ta
   return gap_between(core_a.core(), ta, core_b.core(), tb);
 }
 
-/// True if a triangle is further above a face of a solid than `reach`.
+/// Returns true if a triangle is further above a face of a solid than `reach`.
 template <class S>
 ISO_INLINE bool is_beyond_face(const Polyhedron<S>& solid, const SurfaceTriangle<S>& triangle, S reach) {
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
@@ -84,7 +84,7 @@ ISO_INLINE bool is_beyond_face(const Polyhedron<S>& solid, const SurfaceTriangle
   return false;
 }
 
-/// True if an edge's or a point's contact across a gap is the triangle's own, and no neighbour's.
+/// Returns true if an edge's or a point's contact across a gap is the triangle's own, and no neighbour's.
 template <class S> ISO_INLINE bool is_owned(const SurfaceTriangle<S>& triangle, const CoreGap<S>& gap) {
   const Vec3<Unit<S>> direction = -gap.normal;
   if (gap.corners == 1) return triangle.owns_at_point(static_cast<int>(gap.corner[0]), direction);

@@ -100,19 +100,19 @@ template <class S> struct SurfaceTriangle {
     return detail::gap_noise(reach) + detail::gap_noise(reach);
   }
 
-  /// True if a direction looks out of the surface at edge k: within the arc, to kAcross. A direction beyond the arc is
-  /// the neighbour's to touch.
+  /// Returns true if a direction looks out of the surface at edge k: within the arc, to kAcross. A direction beyond the
+  /// arc is the neighbour's to touch.
   ISO_INLINE bool owns_at_edge(int k, Vec3<Unit<S>> direction) const {
     const SurfaceEdge<S>& edge = edges[k];
     return edge.touchable && dot(direction, edge.away) <= Unit<S>(kAcross) &&
            dot(direction, edge.inward) <= Unit<S>(kAcross);
   }
-  /// True if a direction from edge k leads under both planes that meet there, by more than kAcross. A point in the
-  /// plane of one of them may be beyond its far edge, outside of everything.
+  /// Returns true if a direction from edge k leads under both planes that meet there, by more than kAcross. A point in
+  /// the plane of one of them may be beyond its far edge, outside of everything.
   ISO_INLINE bool is_under_edge(int k, Vec3<Unit<S>> direction) const {
     return dot(direction, normal) < Unit<S>(-kAcross) && dot(direction, edges[k].other) < Unit<S>(-kAcross);
   }
-  /// True if a direction at point i is beyond neither of the neighbours that meet there.
+  /// Returns true if a direction at point i is beyond neither of the neighbours that meet there.
   ISO_INLINE bool owns_at_point(int i, Vec3<Unit<S>> direction) const {
     return is_short_of(i, direction) && is_short_of((i + 2) % 3, direction);
   }

@@ -115,7 +115,7 @@ template <class S> struct CoreCast {
     miss.gap = gap;
     return miss;
   }
-  /// True if the gap has a direction. Else that of the step before is right: its plane has just been reached.
+  /// Returns true if the gap has a direction. Else that of the step before is right: its plane has just been reached.
   static ISO_INLINE bool is_clear(const GjkDistance<F>& found, F noise) { return found.distance > noise * F(256); }
 
   /// Decides the whole way by a plane that they do not sink through, as both are convex.

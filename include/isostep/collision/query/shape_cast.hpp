@@ -19,7 +19,7 @@ template <class S> struct Parting {
   ISO_INLINE S least_gap(Vec3<S> from, Vec3<S> way) const {
     return gap + dot(from - at, normal) + min(dot(way, normal), S(0));
   }
-  /// True if that gap is more than `clear` [m].
+  /// Returns true if that gap is more than `clear` [m].
   ISO_INLINE bool holds(Vec3<S> from, Vec3<S> way, S clear) const { return clear < least_gap(from, way); }
 };
 
@@ -49,7 +49,7 @@ template <class S> struct CastHit {
 /// Differs: a step ends where the plane that was proved to part them is passed, rounded down; after 32 steps it counts
 ///          as a hit where it is: early, never late. Formats of 32 bits are searched in Q32.32.
 /// Error:   at `fraction` the cores are apart by 0 to 4 gap_noise() of their extents and distance, or a step of the
-///          fraction (2^-30 in Q16.16, 2^-24 in float) times the way. What passes nearer than that may hit.
+///          fraction (2^-30 in Q16.16, 2^-24 in float) times the way. A core that passes nearer than that may hit.
 /// Limits:  positions within Limits<S>::position(), translation within twice that, at most 128 vertices.
 template <class S>
 bool cast_convex(const ConvexCore<S>& a, const Transform<S>& ta, const ConvexCore<S>& b, const Transform<S>& tb,

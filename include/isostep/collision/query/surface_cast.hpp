@@ -70,7 +70,7 @@ template <class S, class G> class SurfaceCast {
           return !touches(corners.bounds()) || each(id, corners);
         });
   }
-  /// True if it overlaps some triangle deeply: those that it touches beside that one are no obstacle either.
+  /// Returns true if it overlaps some triangle deeply: those that it touches beside that one are no obstacle either.
   ISO_INLINE bool starts_inside() {
     bool inside = false;
     visit(Unit<S>(0), [&](std::uint32_t id, const TriangleCorners& corners) ISO_INLINE_LAMBDA {
@@ -110,7 +110,8 @@ template <class S, class G> class SurfaceCast {
     a.gap = lowest - cast_.core.radius - (behind ? -triangle.offset : triangle.offset);
     return a;
   }
-  /// True where the plane alone decides a miss: the solid does not come down to it, or touches it and moves along.
+  /// Returns true where the plane alone decides a miss: the solid does not come down to it, or touches it and moves
+  /// along.
   ISO_INLINE bool passes(const Approach& a, S nearby) const {
     const S fall = a.fall * cast_.motion.max_fraction, touch = max(cast_.motion.touch, nearby);
     if (a.gap > fall + nearby) return true;
@@ -147,8 +148,8 @@ template <class S, class G> class SurfaceCast {
            id};
     return true;
   }
-  /// True if the normal found at an edge or corner is one of the surface there: the triangles about it lie below the
-  /// plane across that normal. Where they do not, the face was met.
+  /// Returns true if the normal found at an edge or corner is one of the surface there: the triangles about it lie
+  /// below the plane across that normal. Where they do not, the face was met.
   ISO_INLINE bool is_clear(std::uint32_t id, const BakedTriangle& baked, const SurfaceTriangle<S>& triangle,
                            const CastHit<S>& hit) const {
     bool at[3];

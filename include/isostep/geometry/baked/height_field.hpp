@@ -40,9 +40,9 @@ struct HeightPatch {
 
 /// An immutable surface. Cell (i, k) is number k (columns - 1) + i and lies between columns i, i + 1 and rows k, k + 1.
 /// It is cut from (i + 1, k) to (i, k + 1); both triangles face up. Triangle 2 cell + half: half 0 has the corner (i,
-/// k) and the points (i, k), (i, k + 1), (i + 1, k); half 1 has (i + 1, k + 1), (i + 1, k), (i, k + 1). All but heights
-/// and materials is computed when it is asked for; least and greatest heights are kept of blocks of cells, and of
-/// blocks of blocks.
+/// k) and the points (i, k), (i, k + 1), (i + 1, k); half 1 has (i + 1, k + 1), (i + 1, k), (i, k + 1).
+/// All but heights and materials is computed when it is asked for; least and greatest heights are kept of blocks of
+/// cells, and of blocks of blocks.
 class BakedHeightField {
  public:
   static constexpr std::uint32_t kMaxExponent = 16, kMaxHeightShift = 7, kMaxCells = 1u << 24;
@@ -268,10 +268,11 @@ class BakedHeightField {
   std::vector<Span> spans_;
 };
 
-/// Builds a height field. `heights` has columns times rows numbers. ErrorCode::invalid: "exponent" above 16;
-/// "height_shift" above 7; "columns" or "rows" below 2; "pitch" 0, or so large that a coordinate leaves the range of
-/// MeshPoint; "heights" or "materials" of another count; "materials" that are all holes or ghosts; at "table[i]" a
-/// material out of range. ErrorCode::limit: more "cells" than kMaxCells, or a longer "table".
+/// Builds a height field. `heights` has columns times rows numbers.
+/// ErrorCode::invalid: "exponent" above 16; "height_shift" above 7; "columns" or "rows" below 2; "pitch" 0, or so large
+/// that a coordinate leaves the range of MeshPoint; "heights" or "materials" of another count; "materials" that are all
+/// holes or ghosts; at "table[i]" a material out of range. ErrorCode::limit: more "cells" than kMaxCells, or a longer
+/// "table".
 Result<BakedHeightField> height_field(const HeightGrid& grid, std::span<const std::int16_t> heights,
                                       const SurfaceMaterials& materials);
 

@@ -115,7 +115,7 @@ class TriangleMesh {
   static ISO_INLINE MeshPoint clamped(const std::int64_t (&at)[3]) {
     return {clamped(at[0]), clamped(at[1]), clamped(at[2])};
   }
-  /// True if the box of the triangle has a point between the two.
+  /// Returns true if the box of the triangle has a point between the two.
   ISO_INLINE bool touches(std::uint32_t id, MeshPoint low, MeshPoint high) const {
     const MeshTriangle& triangle = triangles_[id];
     const MeshPoint a = points_[triangle.vertices[0]], b = points_[triangle.vertices[1]],
@@ -146,8 +146,8 @@ class TriangleMesh {
 /// ErrorCode::invalid: "exponent" above 16; "materials" of another count, or all ghosts; at "table[i]" a material out
 /// of range; "triangles" that are none; at "points[i]" a coordinate out of range; at "triangles[i]" a vertex that is no
 /// point, a triangle without area (exactly), one that is there already, more than two triangles at an edge, two that
-/// run along an edge in the same direction. ErrorCode::limit: more "points" or "triangles" than there may be, or a
-/// longer "table".
+/// run along an edge in the same direction.
+/// ErrorCode::limit: more "points" or "triangles" than there may be, or a longer "table".
 Result<TriangleMesh> triangle_mesh(std::span<const MeshPoint> points, std::span<const MeshTriangle> triangles,
                                    const SurfaceMaterials& materials, int exponent);
 

@@ -11,7 +11,7 @@ namespace Isostep
     /// again from the newest final state, and the match goes on.</summary>
     public sealed unsafe partial class Session : Handle
     {
-        // Named by the library while the session lives.
+        // The library names it while the session lives.
         private readonly WorldBase world;
         private readonly NativeBlock block;
 
