@@ -84,9 +84,7 @@ template <class S> class HeldVehicles : public ::testing::Test {
     return b;
   }
   /// Its nose stands 1 cm from it.
-  static void wall(Built& b) {
-    b.w.create(still<S>(add_box(b.w, 4, 2, 0.5), {0, 1, 2.1 + 0.01 + 0.5}));
-  }
+  static void wall(Built& b) { b.w.create(still<S>(add_box(b.w, 4, 2, 0.5), {0, 1, 2.1 + 0.01 + 0.5})); }
   static void control(Built& b, double throttle, double brake, double clutch = 1) {
     VehicleInput<S> input;
     input.throttle = num<S>(throttle);

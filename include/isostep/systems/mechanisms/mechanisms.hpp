@@ -12,8 +12,8 @@
 
 namespace isostep {
 
-/// Input:   the records of wheels, vehicles and couplings, the bodies in every sub-step; the broad phase, for the ground
-///          below wheels.
+/// Input:   the records of wheels, vehicles and couplings, the bodies in every sub-step; the broad phase, for the
+///          ground below wheels.
 /// Output:  the rows of a StepContext; the states of those records.
 /// Keeps:   nothing from step to step but memory.
 /// Order:   wheels, couplings.
