@@ -10,8 +10,8 @@
 namespace isostep {
 
 /// Contacts of a solid with one triangle where they are nearer than `margin` [m]; the normal points into the surface.
-/// The triangle's plane decides where the solid's lowest point is over it; else the axis that SolidGap finds from there,
-/// if it is the triangle's own: edges and points of the triangle count only where the surface can be touched from
+/// The triangle's plane decides where the solid's lowest point is over it; else the axis that SolidGap finds from
+/// there, if it is the triangle's own: edges and points of the triangle count only where the surface can be touched from
 /// there, so that none is found on a flat surface.
 /// Features: a point of the solid over the triangle has none of the triangle's. Of others bit 31: where edges cut it
 /// off, or a flat face of the solid is over an edge; else as solids have them.
@@ -19,7 +19,7 @@ template <class S>
 void collide_solid_triangle(ShapeView<S> a, const Transform<S>& ta, const SurfaceFrame<S>& frame,
                             const BakedTriangle& baked, S margin, Manifold<S>& out);
 
-#define ISO_SOLID_TRIANGLE_OF(extern, S)                                                          \
+#define ISO_SOLID_TRIANGLE_OF(extern, S)                                                                    \
   extern template void collide_solid_triangle<S>(ShapeView<S>, const Transform<S>&, const SurfaceFrame<S>&, \
                                                  const BakedTriangle&, S, Manifold<S>&);
 #define ISO_EXTERN(S) ISO_SOLID_TRIANGLE_OF(extern, S)
