@@ -31,7 +31,8 @@ class ShapeList : public ListProbe {
          "template <class Part, class Visit> void visit_sizes(ShapeClass<Probe>, Part& part, const Visit& visit) {\n"
          "  visit(\"radius\", part.radius, SizeRule::positive);\n"
          "  visit(\"half_height\", part.half_height, SizeRule::positive);\n}\n"
-         "template <class S, class Read> Probe<S> shape_of(ShapeClass<Probe>, const ScenePart& part, const Read& read) {\n"
+         "template <class S, class Read> Probe<S> shape_of(ShapeClass<Probe>, const ScenePart& part, const Read& read) "
+         "{\n"
          "  return {read.size(\"radius\", part.radius), read.size(\"half_height\", part.half_height)};\n}\n"
          "/// A part of a baked file has");
   }

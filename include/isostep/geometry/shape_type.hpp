@@ -1,5 +1,5 @@
-// The closed list of shapes. To add one: its line here, its file in shapes/, and what collision/README.md says. Whatever
-// is missing does not compile.
+// The closed list of shapes. To add one: its line here, its file in shapes/, and what collision/README.md says.
+// Whatever is missing does not compile.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -5,8 +5,8 @@
 
 namespace isostep {
 
-#define ISO_SOLIDS(S)      \
-  ISO_SOLID_PAIRS_OF(, S)  \
+#define ISO_SOLIDS(S)     \
+  ISO_SOLID_PAIRS_OF(, S) \
   ISO_SOLID_TRIANGLE_OF(, S)
 ISO_FOR_EACH_SCALAR(ISO_SOLIDS)
 

@@ -51,7 +51,8 @@ template <class S> struct ShapePairs {
   constexpr ShapePairs() {
     using enum ShapeType;
     for (int a = 0; a < kShapeTypes; ++a) {
-      for (int b = a; b < kShapeTypes; ++b) by_type[a][b] = of_all(static_cast<ShapeType>(a), static_cast<ShapeType>(b));
+      for (int b = a; b < kShapeTypes; ++b)
+        by_type[a][b] = of_all(static_cast<ShapeType>(a), static_cast<ShapeType>(b));
     }
     add(sphere, sphere, collide_records<S, collide_sphere_sphere<S>>);
     add(sphere, box, collide_records<S, collide_sphere_box<S>>);

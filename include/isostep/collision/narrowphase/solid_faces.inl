@@ -114,7 +114,7 @@ template <class S> class SolidTouch {
     at_point(gap.best(), coarser_of<U>(gap.best().normal), coarser<S>(gap.best().separation));
   }
 
-  /// Whether no axis is better than that of the manifold by more than the tolerance, or what one point may miss: no axis
+  /// Whether no axis is better than that of the manifold by more than the tolerance, or what a point may miss: no axis
   /// tells that a point of one core is further from the other than it is.
   ISO_INLINE bool is_best() const {
     const S least = least_of();
@@ -133,7 +133,7 @@ template <class S> class SolidTouch {
  private:
   static constexpr double kNearDisc = 0.25;     // sine within which a disc may be what is best
   static constexpr double kAlongLine = 0.0625;  // sine within which lines are along each other
-  static constexpr double kSharp = 1.0 / 32;    // [1] of the tolerance: no normal at a point is preferred to a better one
+  static constexpr double kSharp = 1.0 / 32;  // [1] of the tolerance: no normal at a point is preferred to a better one
 
   static constexpr int kMostLines = 4;
 

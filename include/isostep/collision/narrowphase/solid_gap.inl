@@ -58,9 +58,9 @@ template <class S> class SolidSupports {
 };
 
 /// Source:  Gilbert, Johnson and Keerthi 1988; van den Bergen 2001: see gjk.hpp and epa.hpp.
-/// Differs: solids that overlap are moved apart along the best axis so far, and GJK says which way they are nearest then;
-///          that way, where they are, is better or the axis stays. So the axis is a local best. Whether it is the best of
-///          all, a point proves (is_best); else EPA looks everywhere.
+/// Differs: solids that overlap are moved apart along the best axis so far, and GJK says which way they are nearest
+///          then; that way, where they are, is better or the axis stays. So the axis is a local best. Whether it is the
+///          best of all, a point proves (is_best); else EPA looks everywhere.
 /// Error:   of the separation what GJK leaves, some digits of the size; of the normal its root, over the radius of what
 ///          is round.
 template <class S> class SolidGap {

@@ -53,7 +53,7 @@ ISO_INLINE void plane_of(const SolidFace<S>& face, const Transform<S>& t, std::u
 /// Within this sine of the axis [1] a disc lies on a face with points that turn with it; the lowest of sixteen is then
 /// higher than the lowest of all by 0.0006 radii at most.
 inline constexpr double kFlatDisc = 0.03125;
-inline constexpr double kLeaningDisc = 0.5;  // sine up to which the points beside the lowest are looked at
+inline constexpr double kLeaningDisc = 0.5;        // sine up to which the points beside the lowest are looked at
 inline constexpr std::uint32_t kQuarterTurn = 34;  // names those
 
 template <class S> class SolidOverPlane {
@@ -132,7 +132,8 @@ template <class S> class SolidOverPlane {
       const ClipPoint<S>& p = polygon.points[i];
       const Vec3<S> at = across.t * p.u + across.u * p.v + plane.normal * (plane.offset + p.height);
       const auto name = [&](std::uint32_t k) ISO_INLINE_LAMBDA { return k < kSideName ? part.names[k] : k; };
-      add(plane, at, p.height, is_own(p) ? plane.own | part.names[p.after] : plane.cut | name(p.before) << 8 | name(p.after));
+      add(plane, at, p.height,
+          is_own(p) ? plane.own | part.names[p.after] : plane.cut | name(p.before) << 8 | name(p.after));
     }
   }
   /// The corners that would be kept if the plane had no sides.

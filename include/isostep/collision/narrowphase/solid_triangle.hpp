@@ -10,9 +10,9 @@
 namespace isostep {
 
 /// Contacts of a solid with one triangle where they are nearer than `margin` [m]; the normal points into the surface.
-/// The triangle's plane decides where the solid's lowest point is over it; else the axis that SolidGap finds from there,
-/// if it is the triangle's own: edges and points of the triangle count only where the surface can be touched from
-/// there, so that none is found on a flat surface.
+/// The triangle's plane decides where the solid's lowest point is over it; else the axis that SolidGap finds from
+/// there, if it is the triangle's own: edges and points of the triangle count only where the surface can be touched
+/// from there, so that none is found on a flat surface.
 /// Features: a point of the solid over the triangle has none of the triangle's. Of others bit 31: where edges cut it
 /// off, or a flat face of the solid is over an edge; else as solids have them.
 template <class S>

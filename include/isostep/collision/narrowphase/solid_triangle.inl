@@ -121,9 +121,9 @@ template <class S> class SolidOverTriangle {
 
   const SolidView<S>& solid_;
   const SurfaceTriangle<S>& triangle_;
-  const Vec3<S> centre_;  // [m]
+  const Vec3<S> centre_;        // [m]
   const S margin_, tolerance_;  // [m]
-  const Vec3<S> lowest_;  // [m] over the triangle's plane
+  const Vec3<S> lowest_;        // [m] over the triangle's plane
   Manifold<S>& out_;
 };
 

@@ -8,7 +8,7 @@
 
 namespace isostep::detail {
 
-/// What a solid's file tells of it, in the solid's own frame; `of` is what a view keeps. Supports are found in the finer
+/// What a solid's file tells of it, in the solid's own frame; `of` is what a view keeps. Supports are in the finer
 /// format, in which a direction across a short edge still has digits.
 template <class S> struct SolidCalls {
   using F = Finer<S>;

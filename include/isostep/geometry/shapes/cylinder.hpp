@@ -41,7 +41,9 @@ template <class S = Literal> struct Cylinder {
   }
 
   ISO_INLINE Vec3<S> middle() const { return Vec3<S>::zero(); }
-  ISO_INLINE Vec3<S> support(Vec3<Unit<S>> n) const { return detail::support_of_discs({radius, radius}, half_height, n); }
+  ISO_INLINE Vec3<S> support(Vec3<Unit<S>> n) const {
+    return detail::support_of_discs({radius, radius}, half_height, n);
+  }
   ISO_INLINE void find_face(Vec3<Unit<S>> n, Unit<S> flat, SolidFace<S>& face) const {
     detail::find_face_of_discs({radius, radius}, half_height, n, flat, face);
   }

@@ -24,9 +24,7 @@ template <class S> struct NearestInSection {
 };
 
 /// The radii [m] of two discs on one axis, the lower one first.
-template <class S> struct DiscRadii {
-  S low, high;
-};
+template <class S> struct DiscRadii { S low, high; };
 /// Of the hull of both, at y = -half and half: the point furthest along n.
 template <class S> ISO_INLINE Vec3<S> support_of_discs(DiscRadii<S> radii, S half, Vec3<Unit<S>> n) {
   const Direction<Unit<S>> d = direction_of(n.x, Unit<S>(0), n.z);

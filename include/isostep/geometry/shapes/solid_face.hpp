@@ -13,11 +13,11 @@ namespace isostep {
 template <class S> struct SolidFace {
   static constexpr int kMost = 64;  // corners
 
-  int count = 0;             // of corners: 1 a point, 2 a line, more a flat face, in order around it
-  bool is_disc = false;      // the corners are some of a circle, evenly around it
-  Vec3<Unit<S>> normal;      // [1] outward, of a flat face
-  std::uint32_t name = 0;    // of a flat face, below 128
-  Vec3<S> points[kMost];     // [m]
+  int count = 0;               // of corners: 1 a point, 2 a line, more a flat face, in order around it
+  bool is_disc = false;        // the corners are some of a circle, evenly around it
+  Vec3<Unit<S>> normal;        // [1] outward, of a flat face
+  std::uint32_t name = 0;      // of a flat face, below 128
+  Vec3<S> points[kMost];       // [m]
   std::uint32_t names[kMost];  // of the corners, below 128: the same in whatever face they are
 
   ISO_INLINE void add(Vec3<S> point, std::uint32_t corner) {
