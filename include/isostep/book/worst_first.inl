@@ -283,6 +283,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::solve_substep
       context.mechanisms.solve(bodies_.rows(), 1);
       resolve_motions();
     }
+    if (context.mechanisms.couples) context.mechanisms.close(bodies_.rows());
     any_followed_ = bodies_.integrate_positions(context, 0, bodies_.count());
     if (any_followed_) follow(context);
     if (context.mechanisms.any()) context.mechanisms.relax(bodies_.rows());

@@ -224,6 +224,7 @@ template <class S> void DirectSolver<S>::solve_mechanisms(const StepContext<S>& 
       solve_tight(context, islands_[i]);
     }
   }
+  if (context.mechanisms.couples) move_freely(context, [&] { context.mechanisms.close(bodies_.rows()); });
 }
 template <class S> void DirectSolver<S>::begin_mechanisms(const StepContext<S>& context) {
   if (!context.mechanisms.any()) return;

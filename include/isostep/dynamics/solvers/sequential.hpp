@@ -84,6 +84,7 @@ template <class S> class Sequential {
     solve_joints,
     solve,
     relieve,
+    close_mechanisms,
     integrate_positions,
     begin_contacts,
     follow,
@@ -133,12 +134,13 @@ template <class S> class Sequential {
   void add_stages(Work work, const PassPlan& plan);
   void add_pass(Work work, const PassPlan& plan, const StepContext<S>& context);
   void add_mechanisms(Work work, const StepContext<S>& context);
+  std::int32_t rounds_of(const StepContext<S>& context) const;
   void add_substep(const StepContext<S>& context, std::uint32_t joints);
   static void do_piece(void* job, std::uint32_t stage, std::uint32_t piece);
   void do_slice(const Job& job, Work work, const PassPlan::Slice& slice);
   void do_joints(const Job& job, Work work, std::uint32_t piece);
   void do_bodies(const Job& job, Work work, std::uint32_t piece);
-  void do_mechanisms(const MechanismRows<S>& mechanisms, Work work);
+  void do_mechanisms(const StepContext<S>& context, Work work);
 
   ScheduleOf schedule_of_;
   Schedule<S> schedule_ = {};

@@ -67,8 +67,9 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     case Work::renew_forces: return solver.bodies_.renew_forces(job.context);
     case Work::place_mechanisms:
     case Work::solve_mechanisms:
+    case Work::close_mechanisms:
     case Work::relax_mechanisms:
-    case Work::end_mechanisms: return solver.do_mechanisms(job.context.mechanisms, what.work);
+    case Work::end_mechanisms: return solver.do_mechanisms(job.context, what.work);
     case Work::warm_start_joints:
     case Work::solve_joints:
     case Work::relax_joints:
@@ -109,11 +110,18 @@ template <class S> void Sequential<S>::do_joints(const Job& job, Work work, std:
   }
 }
 
-template <class S> void Sequential<S>::do_mechanisms(const MechanismRows<S>& mechanisms, Work work) {
+/// Of mechanisms and joints in a pass: what a motor or a brake does to a coupling does not wait for the next sub-step.
+template <class S> std::int32_t Sequential<S>::rounds_of(const StepContext<S>& context) const {
+  return context.mechanisms.couples ? max(1, kMechanismSweeps / schedule_.passes) : 1;
+}
+template <class S> void Sequential<S>::do_mechanisms(const StepContext<S>& context, Work work) {
   SolverBodies<S>& bodies = bodies_.rows();
+  const MechanismRows<S>& mechanisms = context.mechanisms;
   switch (work) {
     case Work::place_mechanisms: return mechanisms.place(bodies, schedule_.rate);
-    case Work::solve_mechanisms: return mechanisms.solve(bodies, max(1, kMechanismSweeps / schedule_.passes));
+    case Work::solve_mechanisms:
+      return mechanisms.solve(bodies, max(1, kMechanismSweeps / (schedule_.passes * rounds_of(context))));
+    case Work::close_mechanisms: return mechanisms.close(bodies);
     case Work::relax_mechanisms: return mechanisms.relax(bodies);
     default: return mechanisms.end();
   }
@@ -145,11 +153,14 @@ template <class S> void Sequential<S>::add_substep(const StepContext<S>& context
   add_stage(Work::warm_start_joints, joints);
   add_stages(Work::warm_start, colours_[detail::kShallow]);
   for (std::int32_t pass = 0; pass < schedule_.passes; ++pass) {
-    add_mechanisms(Work::solve_mechanisms, context);
-    add_stage(Work::solve_joints, joints);
+    for (std::int32_t round = 0; round < rounds_of(context); ++round) {
+      add_mechanisms(Work::solve_mechanisms, context);
+      add_stage(Work::solve_joints, joints);
+    }
     add_pass(Work::solve, colours_[detail::kShallow], context);
   }
   if (schedule_.relaxes) add_pass(Work::solve, colours_[detail::kPressed], context);
+  if (context.mechanisms.couples) add_stage(Work::close_mechanisms, 1);
   add_stage(Work::integrate_positions, body_pieces_);
   if (schedule_.relaxes) add_stage(Work::follow, 1);  // of pgs the step is over
   add_mechanisms(Work::relax_mechanisms, context);

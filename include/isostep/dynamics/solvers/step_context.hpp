@@ -33,8 +33,10 @@ template <class S> struct SubstepForces {
 template <class S> struct MechanismCalls {
   /// As velocities are integrated over 1 / rate seconds: rows as the bodies lie now, and their impulses of before.
   void (*place)(void* mechanisms, SolverBodies<S>& bodies, std::int32_t rate) = nullptr;
-  /// Before each pass over joints and contacts.
+  /// In turn with joints, before contacts.
   void (*solve)(void* mechanisms, SolverBodies<S>& bodies, int sweeps) = nullptr;
+  /// Before positions, where joints are coupled: brakes and motors may slip, teeth do not.
+  void (*close)(void* mechanisms, SolverBodies<S>& bodies) = nullptr;
   /// After positions: once more, so that nothing of the speed that closed errors stays.
   void (*relax)(void* mechanisms, SolverBodies<S>& bodies) = nullptr;
   /// After all else: what turns without being a body, wheels and engines, has its speed.
@@ -45,12 +47,14 @@ template <class S> struct MechanismCalls {
 /// those do; what they have to remember is theirs.
 template <class S> struct MechanismRows {
   MechanismCalls<S> calls = {};
-  void* mechanisms = nullptr;  // null: there are none
+  void* mechanisms = nullptr;                  // null: there are none
+  bool couples = false;                        // joints
   std::span<const std::uint32_t> bodies = {};  // rows of what they may push, ascending
 
   ISO_INLINE bool any() const { return mechanisms != nullptr; }
   ISO_INLINE void place(SolverBodies<S>& rows, std::int32_t rate) const { calls.place(mechanisms, rows, rate); }
   ISO_INLINE void solve(SolverBodies<S>& rows, int sweeps) const { calls.solve(mechanisms, rows, sweeps); }
+  ISO_INLINE void close(SolverBodies<S>& rows) const { calls.close(mechanisms, rows); }
   ISO_INLINE void relax(SolverBodies<S>& rows) const { calls.relax(mechanisms, rows); }
   ISO_INLINE void end() const { calls.end(mechanisms); }
 };

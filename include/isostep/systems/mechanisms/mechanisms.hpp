@@ -34,6 +34,7 @@ template <class S> class Mechanisms {
   static ISO_INLINE Mechanisms& of(void* mechanisms) { return *static_cast<Mechanisms*>(mechanisms); }
   static void place(void* mechanisms, SolverBodies<S>& bodies, std::int32_t rate);
   static void solve(void* mechanisms, SolverBodies<S>& bodies, int sweeps);
+  static void close(void* mechanisms, SolverBodies<S>& bodies);
   static void relax(void* mechanisms, SolverBodies<S>& bodies);
   static void end(void* mechanisms);
 

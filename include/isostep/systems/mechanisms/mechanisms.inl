@@ -16,7 +16,7 @@ template <class S> void Mechanisms<S>::begin_step() {
 }
 template <class S> MechanismRows<S> Mechanisms<S>::rows() {
   if (!wheels_.any() && !couplings_.any()) return {};
-  return {{&place, &solve, &relax, &end}, this, bodies_};
+  return {{&place, &solve, &close, &relax, &end}, this, couplings_.any(), bodies_};
 }
 template <class S> void Mechanisms<S>::end_step() {
   wheels_.end_step();
@@ -56,6 +56,11 @@ template <class S> void Mechanisms<S>::solve(void* mechanisms, SolverBodies<S>& 
   Mechanisms& all = of(mechanisms);
   all.wheels_.solve(sweeps);
   all.couplings_.solve(sweeps);
+  all.keep_in_range(bodies);
+}
+template <class S> void Mechanisms<S>::close(void* mechanisms, SolverBodies<S>& bodies) {
+  Mechanisms& all = of(mechanisms);
+  all.couplings_.solve(kMechanismSweeps);
   all.keep_in_range(bodies);
 }
 template <class S> void Mechanisms<S>::relax(void* mechanisms, SolverBodies<S>& bodies) {
