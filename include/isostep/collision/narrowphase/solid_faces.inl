@@ -29,27 +29,32 @@ template <class S> ISO_INLINE Segment<S> line_of(const SolidFace<S>& face, Vec3<
 }
 
 /// Of a solid, where a line in its frame is nearest to it: the distance is convex along the line, inside too, and rises
-/// as the normal says.
+/// as the normal says. The zero of that slope by false position, the end that stays counting half (Illinois).
 template <class S> ISO_INLINE ClosestPoint<S> nearest_of_line(const SolidView<S>& solid, const Segment<S>& line) {
   using U = Unit<S>;
   constexpr int kSteps = 24;
   constexpr double kLevel = 0x1p-18;  // [1] of the slope, 4e-6 rad
+  const U half = U(0.5);
+  const auto slope_of = [&](const ClosestPoint<S>& p)
+                            ISO_INLINE_LAMBDA { return dot(p.normal, line.direction) * half; };
   S low = -line.half, high = line.half;
-  const ClosestPoint<S> at_low = solid.closest(line.at(low));
-  U slope_low = dot(at_low.normal, line.direction);
-  if (slope_low >= U(0)) return at_low;
-  const ClosestPoint<S> at_high = solid.closest(line.at(high));
-  U slope_high = dot(at_high.normal, line.direction);
-  if (slope_high <= U(0)) return at_high;
-  ClosestPoint<S> found = at_low;
+  ClosestPoint<S> found = solid.closest(line.at(low));
+  U at_low = slope_of(found);
+  if (at_low >= U(0)) return found;
+  found = solid.closest(line.at(high));
+  U at_high = slope_of(found);
+  if (at_high <= U(0)) return found;
+  int stays = 0;  // -1: the lower end did, 1: the upper one
   for (int i = 0; i < kSteps && high - low > resolution<S>(); ++i) {
-    const U half = U(0.5), share = divide_to<U>(slope_low * half, slope_low * half - slope_high * half);
-    const S at = low + (high - low) * (i % 3 == 2 ? half : share);
+    const S at = low + (high - low) * divide_to<U>(at_low, at_low - at_high);
     found = solid.closest(line.at(at));
-    const U slope = dot(found.normal, line.direction);
+    const U slope = slope_of(found);
     if (abs(slope) <= U(kLevel)) break;
-    if (slope > U(0)) high = at, slope_high = slope;
-    else low = at, slope_low = slope;
+    const int side = slope > U(0) ? -1 : 1;
+    if (side < 0) high = at, at_high = slope;
+    else low = at, at_low = slope;
+    if (side == stays) (side < 0 ? at_low : at_high) = (side < 0 ? at_low : at_high) * half;
+    stays = side;
   }
   return found;
 }
@@ -72,11 +77,39 @@ template <class S> class SolidTouch {
         tolerance_(tolerance),
         out_(out) {}
 
-  /// Takes better axes across lines of both, and from one solid to where a line of the other is nearest to it, until
-  /// there are none: lines of what is round, and edges, are others along another axis.
+  /// Takes a better axis across a line of each.
+  ISO_INLINE bool look_across_lines(SolidGap<S>& gap) const {
+    const Vec3<U> n = coarser_of<U>(gap.best().normal);
+    const Segment<S> of_a = line_of_a(n), of_b = line_of_b(n);
+    if (!(of_a.half > S(0)) || !(of_b.half > S(0))) return false;
+    const Heading<U> across = heading_of(cross(of_a.direction, of_b.direction));
+    if (across.length < U(kAlongLine)) return false;
+    const Vec3<U> way = negate_if(dot(across.direction, n) < U(0), across.direction);
+    if (!gap.look(finer_of<Unit<F>>(way))) return false;
+    const Segment<S> there_a = line_of_a(way), there_b = line_of_b(way);
+    const ClosestPair<S> closest = closest_points(there_a, there_b);
+    gap.meet(finer_of<F>(there_a.at(closest.s)), finer_of<F>(there_b.at(closest.t)));
+    return true;
+  }
+  /// Takes a better axis to where a line of a is nearest to b.
+  ISO_INLINE bool look_at_line_of_a(SolidGap<S>& gap) const {
+    const Segment<S> line = line_of_a(coarser_of<U>(gap.best().normal));
+    const ClosestPoint<S> found = nearest_of_line(b_, seen_by(a_in_b_, line));
+    if (!gap.look(-(gap.b_in_a().rotation * finer_of<Unit<F>>(found.normal)))) return false;
+    gap.meet(finer_of<F>(to_world(b_in_a_, found.point + found.normal * found.distance)),
+             finer_of<F>(to_world(b_in_a_, found.point)));
+    return true;
+  }
+  ISO_INLINE bool look_at_line_of_b(SolidGap<S>& gap) const {
+    const ClosestPoint<S> found = nearest_of_line(a_, line_of_b(coarser_of<U>(gap.best().normal)));
+    if (!gap.look(finer_of<Unit<F>>(found.normal))) return false;
+    gap.meet(finer_of<F>(found.point), finer_of<F>(found.point + found.normal * found.distance));
+    return true;
+  }
+  /// All of these until there is none better: lines of what is round, and edges, are others along another axis.
   ISO_INLINE void look_at_lines(SolidGap<S>& gap) const {
     for (int round = 0; round < kMostLines; ++round) {
-      const bool crossed = look_across_lines(gap), by_a = look_at_line_of_a(gap), by_b = look_at_line_of_b(gap);
+      const bool by_a = look_at_line_of_a(gap), by_b = look_at_line_of_b(gap), crossed = look_across_lines(gap);
       if (!crossed && !by_a && !by_b) return;
     }
   }
@@ -136,34 +169,6 @@ template <class S> class SolidTouch {
   static constexpr double kSharp = 1.0 / 32;    // [1] of the tolerance: no normal at a point is preferred to a better one
 
   static constexpr int kMostLines = 4;
-
-  ISO_INLINE bool look_across_lines(SolidGap<S>& gap) const {
-    const Vec3<U> n = coarser_of<U>(gap.best().normal);
-    const Segment<S> of_a = line_of_a(n), of_b = line_of_b(n);
-    if (!(of_a.half > S(0)) || !(of_b.half > S(0))) return false;
-    const Heading<U> across = heading_of(cross(of_a.direction, of_b.direction));
-    if (across.length < U(kAlongLine)) return false;
-    const Vec3<U> way = negate_if(dot(across.direction, n) < U(0), across.direction);
-    if (!gap.look(finer_of<Unit<F>>(way))) return false;
-    const Segment<S> there_a = line_of_a(way), there_b = line_of_b(way);
-    const ClosestPair<S> closest = closest_points(there_a, there_b);
-    gap.meet(finer_of<F>(there_a.at(closest.s)), finer_of<F>(there_b.at(closest.t)));
-    return true;
-  }
-  ISO_INLINE bool look_at_line_of_a(SolidGap<S>& gap) const {
-    const Segment<S> line = line_of_a(coarser_of<U>(gap.best().normal));
-    const ClosestPoint<S> found = nearest_of_line(b_, seen_by(a_in_b_, line));
-    if (!gap.look(-(gap.b_in_a().rotation * finer_of<Unit<F>>(found.normal)))) return false;
-    gap.meet(finer_of<F>(to_world(b_in_a_, found.point + found.normal * found.distance)),
-             finer_of<F>(to_world(b_in_a_, found.point)));
-    return true;
-  }
-  ISO_INLINE bool look_at_line_of_b(SolidGap<S>& gap) const {
-    const ClosestPoint<S> found = nearest_of_line(a_, line_of_b(coarser_of<U>(gap.best().normal)));
-    if (!gap.look(finer_of<Unit<F>>(found.normal))) return false;
-    gap.meet(finer_of<F>(found.point), finer_of<F>(found.point + found.normal * found.distance));
-    return true;
-  }
 
   ISO_INLINE Segment<S> line_of_a(Vec3<U> n) const {
     SolidFace<S> face;

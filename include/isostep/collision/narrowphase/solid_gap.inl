@@ -94,13 +94,14 @@ template <class S> class SolidGap {
   }
 
   /// From the best axis to the best one nearby, with the points where the cores are nearest along it. Ends where one
-  /// separates the cores by more than `reach`.
-  ISO_INLINE void climb(F reach, F apart) {
+  /// separates the cores by more than `reach`, or is better by no more than `enough` [m]: the next is so by a part of
+  /// that, their depth over the radius of what is round, squared.
+  ISO_INLINE void climb(F reach, F apart, F enough) {
     for (int round = 0; round < kRounds && best_.separation <= reach; ++round) {
       const F before = best_.separation;
       const Vec3<F> shift = best_.normal * max(apart - before, F(0));
       if (!step(shift)) return;
-      if (best_.separation - before <= noise_) return;
+      if (best_.separation - before <= max(noise_, enough)) return;
     }
   }
   /// The best axis of all, of cores that overlap.

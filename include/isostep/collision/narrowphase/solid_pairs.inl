@@ -26,19 +26,21 @@ void collide_cores(const SolidView<S>& a, const Transform<S>& ta, const SolidVie
   gap.look(gap.b_in_a().rotation * finer_of<U>(-b.closest(to_world(relative(tb, ta), a.middle)).normal));
   if (gap.best().separation > reach) return;
   SolidTouch<S> points(a, ta, b, tb, margin, tolerance, out);
+  if (a.radius > S(0)) points.look_at_line_of_a(gap);  // of capsules the core itself
   if (points.touch(gap) && points.is_best()) return;
+  if (points.look_across_lines(gap) && points.touch(gap) && points.is_best()) return;
   points.look_at_lines(gap);
   out.clear();
   if (gap.best().separation > reach) return;
   if (points.touch(gap) && points.is_best()) return;
-  const F step = finer<F>(max(smaller * S(1.0 / 16), tolerance));
-  gap.climb(reach, step);
+  const F step = finer<F>(max(smaller * S(1.0 / 16), tolerance)), enough = finer<F>(tolerance * S(1.0 / 256));
+  gap.climb(reach, step, enough);
   out.clear();
   if (gap.best().separation > reach) return;
   if (points.touch(gap) && (gap.best().separation >= F(0) || points.is_best())) return;
   if (gap.best().separation < F(0)) {
     gap.search_everywhere(finer<F>(tolerance * S(0.25)));
-    gap.climb(reach, step);
+    gap.climb(reach, step, enough);
   }
   if (!points.touch(gap)) points.touch_anyway(gap);
 }

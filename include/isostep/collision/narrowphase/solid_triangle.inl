@@ -42,7 +42,8 @@ template <class S> class SolidOverTriangle {
     const SolidView<S> other(kTriangleCalls<S>, &triangle_, S(0), solid_.inner, triangle_.points[0]);
     SolidGap<S> gap(solid_, other, here, here);
     gap.look(finer_of<Unit<F>>(-triangle_.normal));
-    gap.climb(finer<F>(margin_), finer<F>(max(solid_.inner * S(1.0 / 16), tolerance_)));
+    gap.climb(finer<F>(margin_), finer<F>(max(solid_.inner * S(1.0 / 16), tolerance_)),
+              finer<F>(tolerance_ * S(1.0 / 256)));
     const S separation = coarser<S>(gap.best().separation);
     if (separation > margin_) return;
     const bool owned = owns(coarser_of<U>(gap.best().normal), tolerance_ * S(0.125));

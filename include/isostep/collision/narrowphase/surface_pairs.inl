@@ -13,13 +13,22 @@
 
 namespace isostep {
 
+namespace detail {
+/// The same bits wherever both are, as long as the difference of their positions is exact.
+template <class S>
+ISO_INLINE SurfaceFrame<S> frame_from(const ShapeView<S>& a, const Transform<S>& ta, const Transform<S>& tb,
+                                      int exponent) {
+  const Transform<S> turn_a = {Vec3<S>::zero(), ta.rotation}, b_from_a = {tb.position - ta.position, tb.rotation};
+  return {turn_a, middle_of(a), b_from_a, exponent};
+}
+}  // namespace detail
+
 template <class S>
 void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, std::uint32_t triangle,
                            const Transform<S>& tb, S margin, Manifold<S>& out) {
   detail::visit_surface(b, [&](const auto& surface) ISO_INLINE_LAMBDA {
     const BakedTriangle baked = surface.triangle(triangle);
-    const Transform<S> turn_a = {Vec3<S>::zero(), ta.rotation}, b_from_a = {tb.position - ta.position, tb.rotation};
-    const SurfaceFrame<S> frame(turn_a, detail::middle_of(a), b_from_a, surface.exponent());
+    const SurfaceFrame<S> frame(ta, detail::middle_of(a), tb, surface.exponent());
     switch (a.primitive.type) {
       case ShapeType::sphere: return collide_sphere_triangle(a.primitive.radius, ta, frame, baked, margin, out);
       case ShapeType::capsule: {
@@ -37,7 +46,7 @@ void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> 
       }
       default:
         if (!is_bounded(a.primitive.type)) return out.clear();
-        return collide_solid_triangle(a, ta, frame, baked, margin, out);
+        return collide_solid_triangle(a, ta, detail::frame_from(a, ta, tb, surface.exponent()), baked, margin, out);
     }
   });
 }

@@ -51,23 +51,13 @@ inline constexpr Known kKnown[] = {
     {kPolyhedra, bit(ShapeType::height_field), as_deep_as_its_normal, 100},
     {kPolyhedra, bit(ShapeType::height_field), no_axis_is_better, 320},
     {kPolyhedra, bit(ShapeType::height_field), some_in_touch, 2},
+    // A search from a triangle's plane that finds no way from there.
+    {kRevolved, kSurfaces, none_apart, 2},
     {kRevolved, kSurfaces, some_in_touch, 90},
     {kRevolved, kSurfaces, as_deep_as_its_normal, 150},
     {kRevolved, kSurfaces, no_axis_is_better, 280},
     {kRevolved, kSurfaces, points_between, 40},
     {kRevolved, kSurfaces, the_same_far_off, 25},
-    // A core inside the solid leaves from its deepest point, see collide_capsule_revolved.
-    {kCapsule, kRevolved, as_deep_as_its_normal, 90},
-    {kCapsule, kRevolved, no_axis_is_better, 85},
-    // Deep overlaps, whose best axis is across a line beyond the solid's own axis; and a preferred face or disc over
-    // which there is only what is less deep.
-    {kPolyhedra, kRevolved, none_apart, 2},
-    {kPolyhedra, kRevolved, as_deep_as_its_normal, 160},
-    {kPolyhedra, kRevolved, no_axis_is_better, 140},
-    {kPolyhedra, kRevolved, points_between, 140},
-    {kRevolved, kRevolved, as_deep_as_its_normal, 60},
-    {kRevolved, kRevolved, no_axis_is_better, 30},
-    {kRevolved, kRevolved, points_between, 50},
     // reduce_to_four() keeps corners that are as deep as the deepest but for depth_tie().
     {bit(ShapeType::box), bit(ShapeType::mesh), as_deep_as_its_normal, 1},
     {bit(ShapeType::box), bit(ShapeType::hull), as_deep_as_its_normal, 1},
