@@ -60,8 +60,11 @@ if(TARGET isostep_c)
   if(TARGET isostep_c_udp)
     install(FILES src/c/include/isostep_udp.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   endif()
-  install(DIRECTORY ${PROJECT_BINARY_DIR}/csharp/com.isostep.physics/Runtime/ DESTINATION ${CMAKE_INSTALL_DATADIR}/isostep/csharp OPTIONAL
-    FILES_MATCHING PATTERN "*.cs")
+  if(TARGET isostep_csharp_package)
+    get_target_property(package isostep_csharp_package PACKAGE)
+    install(DIRECTORY ${package}/Runtime/ DESTINATION ${CMAKE_INSTALL_DATADIR}/isostep/csharp OPTIONAL
+      FILES_MATCHING PATTERN "*.cs")
+  endif()
   isostep_install_pc(src/c/isostep.pc.in)
   install(EXPORT isostep-c NAMESPACE isostep:: FILE isostep-c.cmake DESTINATION ${isostep_package})
 endif()
@@ -83,8 +86,8 @@ endif()
 
 # All that is installed, and the programs that packages are tried with: what `./isostep package` needs of this build.
 add_custom_target(isostep_packaged)
-foreach(target isostep isostep_scalar isostep_c isostep_c_udp isostep_csharp_package isostep_python isostep_transport isostep_sealed isostep_threads
-    isostep_tool example_four_scalars example_four_scalars_c js_hello_hashes js_enet_host match_host match_client_q32)
+foreach(target isostep isostep_scalar isostep_c isostep_c_udp isostep_csharp_package isostep_python isostep_transport
+    isostep_sealed isostep_threads isostep_tool example_four_scalars example_four_scalars_c js_hello_hashes js_enet_host match_host match_client_q32)
   if(TARGET ${target})
     add_dependencies(isostep_packaged ${target})
   endif()

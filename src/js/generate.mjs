@@ -8,6 +8,10 @@ import {fileURLToPath} from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const to = process.argv[2];
+if (to === undefined) {
+  console.error('usage: node generate.mjs FOLDER');
+  process.exit(64);
+}
 const described = JSON.parse(readFileSync(join(here, '../c/interface.json'), 'utf8'));
 
 const camel = name => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());

@@ -1,7 +1,8 @@
 #!/bin/sh
 # One match with a host in C++ and clients in C, C# and JavaScript.
 # usage: four_languages_test.sh REPOSITORY PACKAGE MATCH_HOST ISOSTEP LIBISOSTEP C_CLIENT FOLDER SCALAR
-# PACKAGE: of C#. C_CLIENT: its path less _SCALAR. FOLDER: where npm has installed the package and ws. Exits 77 where one is missing.
+# PACKAGE: of C#. C_CLIENT: its path less _SCALAR. FOLDER: where npm has installed the package and ws. Exits 77 where one
+# is missing.
 set -u
 . "$1/tests/scratch.sh"
 . "$1/tests/csharp/family.sh"
