@@ -300,6 +300,26 @@ TYPED_TEST(PartTraitsLaws, a_character_stands_on_the_part_that_it_meets) {
   }
 }
 
+TYPED_TEST(PartTraitsLaws, a_belt_carries_a_character_through_the_parts_that_it_does_not_meet) {
+  using S = TypeParam;
+  for (const PartTraits<S>& over : {this->flagged(part_flag::kSensor), this->only(kOther)}) {
+    this->w = World<S>(settings<S>());
+    // Both parts are as near to the foot; the first is no ground.
+    const BodyId ground =
+        this->fixed({this->box({8, 0.5, 8}, {0, -0.5, 0}, over), this->box({8, 0.5, 8}, {0, -0.5, 0})});
+    ASSERT_TRUE(this->w.add(SurfaceVelocity<S>{ground, vec<S>(1, 0, 0), Vec3<S>::zero(), 1}));
+    BodyDefinition<S> d = still<S>(this->w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.5)}), {0, 0.8125, 0});
+    d.type = BodyType::kinematic;
+    CharacterSettings<S> character;
+    character.body = this->w.create(d);
+    ASSERT_TRUE(this->w.add(character));
+    run(this->w, 30);
+    const double from = this->at(character.body).x;
+    run(this->w, 60);
+    EXPECT_NEAR(this->at(character.body).x - from, 1, 0.02);
+  }
+}
+
 TYPED_TEST(PartTraitsLaws, a_wheel_finds_the_ground_that_a_part_of_the_same_body_hides) {
   using S = TypeParam;
   this->w = World<S>(settings<S>());

@@ -37,6 +37,7 @@ struct DrawnBody {
 struct DrawnPart {
   ShapeType type;
   std::uint32_t child;  // its place in the shape
+  bool sensor;          // reports overlaps, is not solved: its own or its body's
   DrawnPose pose;   // of its centre; round ones lie along its y; of a half-space: its point nearest the body's origin;
                     // of a part with content: of the frame that its points are in
   float half[3];    // [m] of a box; of a capsule, cylinder or cone y alone

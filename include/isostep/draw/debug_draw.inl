@@ -98,6 +98,7 @@ template <class S> class BodySketch {
     DrawnPart part = {};
     part.type = primitive.type;
     part.child = index;
+    part.sensor = body.sensor || child.traits.has(part_flag::kSensor);
     part.pose = sketch_.pose(
         visit_shape(shape_view, [&](const auto& shape) ISO_INLINE_LAMBDA { return shape.drawn_at(view.pose, pose); }));
     sketch_.vector(primitive.half, part.half);

@@ -10,9 +10,8 @@
 namespace isostep {
 
 /// What a surface is like. Two surfaces mix: friction and spin resistance by the root of the product, the rest by the
-/// larger; two kinds
-/// that stand in the world's table of pairs (material_pair.hpp) have what the table says. contact_friction.hpp: which
-/// coefficient of friction a contact has in a step.
+/// larger; two kinds that stand in the world's table of pairs (material_pair.hpp) have what the table says.
+/// contact_friction.hpp: which coefficient of friction a contact has in a step.
 template <class S> struct Material {
   S friction = S(0.6);          // [1] Coulomb, of what slides: the dynamic coefficient
   S restitution = S(0);         // [1] 0..1, of what meets at Settings::restitution_threshold or more
@@ -115,11 +114,11 @@ ISO_INLINE constexpr bool parts_collide(const PartTraits<S>& a, const Filter& of
 
 /// What all parts of a shape have in common: no less than any of them would allow.
 struct ShapeTraits {
-  std::uint32_t flags = 0;       // part_flag, of any of them
-  bool any_as_body = false;      // some part has the filter of the body
-  bool any_solid = false;        // some part is no sensor
-  bool mixes_alone = true;       // every material of a part does, see contact_friction.hpp
-  Filter filters = {0, 0, 0};    // of those that have one, together; group 0 where they differ
+  std::uint32_t flags = 0;     // part_flag, of any of them
+  bool any_as_body = false;    // some part has the filter of the body
+  bool any_solid = false;      // some part is no sensor
+  bool mixes_alone = true;     // every material of a part does, see contact_friction.hpp
+  Filter filters = {0, 0, 0};  // of those that have one, together; group 0 where they differ
 
   ISO_INLINE constexpr bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
   /// Of the whole body, where it has `of_body`.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "isostep/core/id.hpp"
 #include "isostep/dynamics/body.hpp"
 #include "isostep/geometry/shape.hpp"
 

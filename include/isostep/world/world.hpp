@@ -126,8 +126,8 @@ template <class S> class World final : public WorldBase<World<S>> {
   bool set_shape(BodyId body, ShapeId shape);
   bool set_shape(BodyId body, ShapeId shape, const BodyMass<S>& mass);
   /// Puts a dynamic body and all that touches it or is tied to it to sleep at once: they stop, and lose what was asked
-  /// of them for the next step. No event tells of it. Refused where one of them may not sleep, or the world's settings
-  /// forbid it. What moves and touches them wakes them, in the next step if it does so now.
+  /// of them for the next step, which lists them in `fell_asleep`. Refused where one of them may not sleep, or the
+  /// world's settings forbid it. What moves and touches them wakes them, in the next step if it does so now.
   bool sleep(BodyId body);
   /// The next step carries a kinematic body to that pose. In that step it has the velocity that leads there, along a
   /// line and about one axis by the shorter way, so that it pushes and carries what it touches, and is held by no lock;

@@ -51,7 +51,7 @@ template <class S> class Characters {
   static QueryFilter seen_by(const Walker<S>& character);
   void find_passed(const Walker<S>& character, const Asking& asking);
   bool is_above(const Walker<S>& character, const Asking& asking, const OneWay<S>& way);
-  S highest_of(BodyId body, Vec3<Unit<S>> axis) const;
+  S highest_of(const Walker<S>& character, BodyId body, Vec3<Unit<S>> axis) const;
   Vec3<S> local_to(BodyId body, Vec3<S> point) const;
   void push_touched(const CharacterWalk<S>& walk, const Walker<S>& character);
   void bear(const Walker<S>& character);

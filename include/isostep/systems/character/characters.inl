@@ -15,12 +15,21 @@
 namespace isostep {
 
 namespace detail {
+/// Whether a part of another body carries and stops the character: neither a sensor nor filtered out.
+template <class S>
+bool is_solid_for(const BodyMap<S>& map, const Walker<S>& character, const BodyProperties<S>& other,
+                  const Child<S>& part) {
+  const PartTraits<S> plain = {};
+  return parts_collide(part.traits, other.filter, plain, map.properties_of(character.body)->filter);
+}
 /// The part of its ground whose surface is nearest to its foot, of equals the first.
 template <class S> std::uint32_t part_under(const BodyMap<S>& map, const Walker<S>& character) {
-  const std::span<const Child<S>> parts = map.children_of(map.properties_of(character.ground)->shape);
+  const BodyProperties<S>& ground = *map.properties_of(character.ground);
+  const std::span<const Child<S>> parts = map.children_of(ground.shape);
   std::uint32_t nearest = 0;
   S least = highest<S>();
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
+    if (!is_solid_for(map, character, ground, parts[i])) continue;
     const ShapeView<S> view = map.contents().view(parts[i].primitive);
     const S gap = abs(closest_point<S>(view, Transform<S>::of(parts[i].pose), character.foot).distance);
     if (!(gap < least)) continue;
@@ -164,7 +173,7 @@ bool Characters<S>::is_above(const Walker<S>& character, const Asking& asking, c
   const S slack = character.skin * S(0.5) + rises;
   const S lowest =
       dot(asking.pose.position - pose.position, axis) - queries_.reach_of(asking.shape, asking.pose.orientation, -axis);
-  if (!(lowest < highest_of(way.body, way.axis) - slack)) return true;
+  if (!(lowest < highest_of(character, way.body, way.axis) - slack)) return true;
   if (!knows_contacts_) {
     const S way_of_step = (max_abs(character.velocity) + max_abs(character.move)) / hz;
     around_.begin(asking.shape, asking.pose, seen_by(character), map_.properties_of(character.body)->filter);
@@ -180,12 +189,14 @@ bool Characters<S>::is_above(const Walker<S>& character, const Asking& asking, c
   return in_front;
 }
 
-/// [m] The highest point along an axis in the body's frame, from its origin.
-template <class S> S Characters<S>::highest_of(BodyId body, Vec3<Unit<S>> axis) const {
+/// [m] The highest point along an axis in the body's frame, from its origin, of what the character meets.
+template <class S> S Characters<S>::highest_of(const Walker<S>& character, BodyId body, Vec3<Unit<S>> axis) const {
   const Vec3<Unit<S>> y = {Unit<S>(0), Unit<S>(1), Unit<S>(0)};
   const Transform<S> upright = Transform<S>::of({Vec3<S>::zero(), rotation_between(axis, y)});
   S highest = -Limits<S>::position();
-  for (const Child<S>& child : map_.children_of(map_.properties_at(map_.location(body.slot)).shape)) {
+  const BodyProperties<S>& properties = map_.properties_at(map_.location(body.slot));
+  for (const Child<S>& child : map_.children_of(properties.shape)) {
+    if (!detail::is_solid_for(map_, character, properties, child)) continue;
     const Transform<S> at = compose(upright, Transform<S>::of(child.pose));
     highest = max(highest, bounds(map_.contents().view(child.primitive), at).high.y);
   }
