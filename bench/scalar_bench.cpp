@@ -83,7 +83,7 @@ template <class S> void exp(benchmark::State& s) {
 template <class S> void log(benchmark::State& s) {
   measure<S>(s, 0, 5000, [](const S* x) { return iso::log(x[0]); });
 }
-/// What a damping between 0 and 1 per second leaves after a step.
+/// The share that a damping between 0 and 1 per second leaves after a step.
 template <class S> void power_to(benchmark::State& s) {
   const auto h = iso::divide_to<iso::Step<S>>(S(1), S(60));
   measure<S>(s, 0, 1, [h](const S* x) { return iso::power_to<iso::Step<S>>(x[0], h); });

@@ -31,6 +31,6 @@ inline std::vector<SolverName> built(std::initializer_list<SolverName> all) {
 
 }  // namespace isostep::test
 
-/// First in a test of the book's methods: skips it where they are left out, and says so.
+/// It stands first in a test of the book's methods: skips it where they are left out, and says so.
 #define ISO_NEEDS_BOOK() \
   if (const char* why = ::isostep::left_out(::isostep::SolverName::worst_first)) GTEST_SKIP() << why

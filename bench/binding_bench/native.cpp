@@ -1,4 +1,5 @@
-// What Bench.cs and bench.py measure, in C++: a frame of 1000 boxes with poses read, and calls through the C interface.
+// The measurements of Bench.cs and bench.py in C++: a frame of 1000 boxes with poses read, and calls through the C
+// interface.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdio>
@@ -55,7 +56,7 @@ template <class S> void frames(const char* name) {
         read();
       });
   std::printf("%s %.4f ms a frame, sum %.6g\n", name, frame * 1e3, sum);
-  // What a frame has beside its step, which is the same code for all languages.
+  // The poses are what a frame has beside its step, which is the same code for all languages.
   const double poses = least(
       kReads, [] {}, read);
   std::printf("%s %.4f us for its poses, sum %.6g\n", name, poses * 1e6, sum);

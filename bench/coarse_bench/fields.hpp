@@ -17,7 +17,7 @@ struct Field {
   int doublings;        // of sizes, from the smallest: 0 is one size
   bool spreads_upward;  // or is a level's ground, 4 m high
 };
-/// What games have: a crowd on a level, sparse and dense, things of all sizes, debris in the air.
+/// The fields that games have: a crowd on a level, sparse and dense, things of all sizes, debris in the air.
 inline std::vector<Field> fields_of(int count) {
   return {{"sparse level", count, 0.25, 0, false},
           {"dense level", count, 4, 0, false},

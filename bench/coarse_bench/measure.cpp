@@ -18,7 +18,7 @@ template <class S> struct Ways {
   std::vector<Aabb<S>> boxes;
   std::vector<Sweep<S>> rays;
 };
-/// From where boxes are, so that fields of every size are asked where there is something.
+/// Questions start where boxes are, so that fields of every size are asked where there is something.
 template <class S> Ways<S> ways_in(const std::vector<Aabb<S>>& boxes) {
   Ways<S> ways;
   Pcg32 random = Pcg32::seeded(5);
@@ -58,7 +58,7 @@ template <class S, class Structure> class Measured {
                                rounds_, [] {}, [&] { ask_rays(ways); });
     return row_;
   }
-  /// What keeps the compiler from leaving questions out.
+  /// The count keeps the compiler from leaving questions out.
   std::uint64_t found() const { return found_; }
 
  private:
@@ -66,7 +66,7 @@ template <class S, class Structure> class Measured {
     for (std::uint32_t i = 0; i < boxes_.size(); ++i) structure_.insert(i, boxes_[i]);
     structure_.optimise();
   }
-  /// There and back again, each in its own direction.
+  /// Moves all boxes there and back again, each in its own direction.
   void move_all() {
     way_ = -way_;
     for (std::uint32_t i = 0; i < boxes_.size(); ++i) {

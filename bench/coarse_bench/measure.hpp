@@ -1,4 +1,4 @@
-// What each coarse structure costs: to build, to renew, to find pairs, to ask, and in memory.
+// The cost of each coarse structure: to build, to renew, to find pairs, to ask, and in memory.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -21,7 +21,7 @@ struct CoarseRow {
   double bytes = 0;   // a box
 };
 
-/// Of every structure in every field of that many boxes, in float and Q32.32. Times are medians of `rounds`.
+/// Measures every structure in every field of that many boxes, in float and Q32.32. Times are medians of `rounds`.
 /// Throws where two structures find other pairs.
 std::vector<CoarseRow> measure_coarse(int count, int rounds);
 

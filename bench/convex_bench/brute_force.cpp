@@ -29,7 +29,7 @@ double widest_gap(const PlacedHull& a, const PlacedHull& b) {
   return widest;
 }
 
-/// Where the lines come nearest, if that is inside of both; the ends are with the triangles.
+/// The distance where the lines come nearest, if that is inside of both; the ends are with the triangles.
 double distance_of_edges(const Segment& e, const Segment& f) {
   const V d = e[1] - e[0], g = f[1] - f[0], between = e[0] - f[0];
   const double dd = dot(d, d), gg = dot(g, g), dg = dot(d, g), det = dd * gg - dg * dg;

@@ -10,7 +10,7 @@
 
 namespace isostep::bench {
 
-/// In the frame of the pair.
+/// A hull in the frame of the pair.
 struct PlacedHull {
   std::vector<Vec3<double>> vertices, normals;         // [m], [1]
   std::vector<std::array<Vec3<double>, 2>> edges;      // [m]
@@ -24,7 +24,7 @@ struct Exact {
 };
 Exact brute_force(const PlacedHull& a, const PlacedHull& b);
 
-/// [m] Between the two along a direction from a to b, of any length.
+/// [m] The gap between the two along a direction from a to b, of any length.
 double gap_along(const PlacedHull& a, const PlacedHull& b, Vec3<double> direction);
 
 }  // namespace isostep::bench

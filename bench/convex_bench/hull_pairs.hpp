@@ -17,7 +17,7 @@ struct BenchHull {
   std::shared_ptr<const scenes::SolidHull> solid;
 };
 
-/// Beside one another: the middle of the two is near the origin, as the step sees its pairs.
+/// Two hulls beside one another: the middle of the two is near the origin, as the step sees its pairs.
 struct BenchPair {
   std::size_t a, b;  // hulls
   Pose<double> at_a, at_b;
@@ -31,9 +31,9 @@ struct PairSet {
   std::vector<BenchPair> pairs[std::size(kClosenessNames)];
 };
 
-/// Of S10 after `frames`, at most `most` pairs of each kind. Near: up to 10 cm apart. Touching: at rest on one another,
-/// less than 2 mm apart or overlapping by less than 20 mm. Deep: those with the second pushed in by half of the smaller
-/// inner radius.
+/// The pairs of S10 after `frames`, at most `most` of each kind. Near: up to 10 cm apart. Touching: at rest on one
+/// another, less than 2 mm apart or overlapping by less than 20 mm. Deep: those with the second pushed in by half of
+/// the smaller inner radius.
 PairSet pairs_of_pile(int frames, std::size_t most);
 
 }  // namespace isostep::bench

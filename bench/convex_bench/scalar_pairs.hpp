@@ -13,7 +13,7 @@
 
 namespace isostep::bench {
 
-/// What an algorithm says of a pair.
+/// The answer of an algorithm about a pair.
 struct Said {
   bool answered;  // it ended by itself
   bool apart;

@@ -10,7 +10,7 @@ namespace iso = isostep;
 
 namespace {
 
-/// [us] of one `work()`, the least of the rounds, in CPU time.
+/// [us] The cost of one `work()`, the least of the rounds, in CPU time.
 template <class Work> double cost(int times, int rounds, const Work& work) {
   double least = 1e9;
   for (int round = 0; round < rounds; ++round) {

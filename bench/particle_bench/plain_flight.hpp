@@ -15,9 +15,9 @@ struct PlainFlight {
   float keep;                         // [1] of the velocity, a sub-step
 };
 
-/// With the compiler's own flags for speed: -O3, its vectoriser, no errno from square roots.
+/// Steps with the compiler's own flags for speed: -O3, its vectoriser, no errno from square roots.
 void step_fast(const PlainFlight& flight);
-/// With the library's exact flags.
+/// Steps with the library's exact flags.
 void step_exact(const PlainFlight& flight);
 
 }  // namespace isostep::bench

@@ -41,7 +41,7 @@ double per_kilogram(double energy, const Sight& sight) {
   return sight.energy.mass > 0 ? energy / sight.energy.mass : 0;
 }
 
-/// What is noted while a peer runs.
+/// The notes of a peer's run.
 class Notes {
  public:
   explicit Notes(const Sight& start) : start_(per_kilogram(start.energy.total(), start)) {}

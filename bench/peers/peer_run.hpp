@@ -15,10 +15,10 @@ struct PeerJob {
   std::string scene;  // a named scene's or a trial's
   Maker maker;
 };
-/// With point and version, and of a run that never began: what is written when a process does not come back.
+/// A record with point and version, of a run that never began: it is written when a process does not come back.
 LabRecord empty_record(const PeerJob& job);
 
-/// What all engines' runs of the scene need and is the same for them: before their processes begin.
+/// Prepares what all engines' runs of the scene need and is the same for them: before their processes begin.
 void prepare(const PeerJob& job, double limit);
 /// Steps of 1/60 s for as long as the scene runs; given up as slow after `limit` [s] of CPU time in steps.
 LabRecord run_peer(const PeerJob& job, double limit);

@@ -36,7 +36,7 @@ std::string read_all(int pipe) {
   return text;
 }
 
-/// Not exec: what the parent has made is at hand.
+/// The child does not exec: what the parent has made is at hand.
 pid_t start(const Work& work, std::size_t index, int& reading) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");

@@ -8,7 +8,7 @@
 
 namespace isostep::bench {
 
-/// How a process went.
+/// The end of a process.
 struct ProcessEnd {
   std::string said;  // what `work` returned; empty where it did not come to that
   int signal = 0;    // that ended it; 0: none
@@ -23,7 +23,7 @@ struct Work {
   std::function<std::string(std::size_t)> run;  // in the process; not more than 64 KiB
   std::function<void(std::size_t, const ProcessEnd&)> done;
 };
-/// For every i < count, begun in order. `run` may not throw.
+/// Runs every i < count, begun in order. `run` may not throw.
 void in_processes(const Work& work);
 
 }  // namespace isostep::bench

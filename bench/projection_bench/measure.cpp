@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kSubsteps = 4;
 
-/// On ground without friction a box of 4 kg meets five of 1 kg that stand in a row, at 8 m/s: it is 6.7 cm deep in the
-/// first when the step that finds it there begins.
+/// A box of 4 kg meets, on ground without friction, five of 1 kg that stand in a row, at 8 m/s: it is 6.7 cm deep in
+/// the first when the step that finds it there begins.
 template <class S> void add_impact(World<S>& world) {
   BodyDefinition<S> d;
   d.type = BodyType::static_;

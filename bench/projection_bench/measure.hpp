@@ -1,4 +1,4 @@
-// What the projections of the solver worst_first leave and cost, and what finding its worst row costs.
+// The errors that projections of the solver worst_first leave, their cost, and the cost of finding its worst row.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -24,7 +24,7 @@ namespace {
 
 using S = float;
 
-/// What a step gives its solver, without a world around it; it can be had again and again.
+/// The inputs that a step gives its solver, without a world around it; it can be had again and again.
 class OneStep {
  public:
   explicit OneStep(const World<S>& world) {
@@ -67,7 +67,7 @@ class OneStep {
   std::vector<Contact<S>> contacts_;
 };
 
-/// When bodies of a pile fall on each other.
+/// The frame in which bodies of a pile fall on each other.
 constexpr int kFrame = 120;
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace isostep::bench {
 
-/// Of the base whose number of boxes is nearest to `bodies`. Nobody sleeps.
+/// The pyramid on the base whose number of boxes is nearest to `bodies`. Nobody sleeps.
 scenes::Scene pyramid_of(int bodies);
 /// The base grows with the number, so the pile is as deep as S4. Dropped from just above where it will lie: every third
 /// layer of S4's lattice is as dense as the pile, so few frames settle it. Nobody sleeps.

@@ -1,4 +1,4 @@
-// What a step costs with ever more bodies, stage by stage.
+// The cost of a step with ever more bodies, stage by stage.
 // SPDX-License-Identifier: MIT
 #include "scale.hpp"
 

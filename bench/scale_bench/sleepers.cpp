@@ -1,4 +1,4 @@
-// What sleepers cost those who are awake.
+// The cost of sleepers to those who are awake.
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cstdio>

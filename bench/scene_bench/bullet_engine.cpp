@@ -27,7 +27,7 @@ struct GroupFilter : btOverlapFilterCallback {
 btScalar restitution_of_pair(const btCollisionObject* a, const btCollisionObject* b) {
   return btMax(a->getRestitution(), b->getRestitution());
 }
-/// What is left after a second of damping by `rate` [1/s], as Bullet wants it.
+/// The damping as Bullet wants it: the share lost in a second at `rate` [1/s].
 btScalar damping(double rate) { return bt(1 - std::exp(-rate)); }
 
 /// Shapes first, so that they go last.

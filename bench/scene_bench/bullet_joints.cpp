@@ -8,7 +8,7 @@ namespace isostep::bench {
 namespace {
 
 btTransform frame(const PeerEnd& end) { return btTransform(bt(end.orientation), bt(end.position)); }
-/// What slides and what twists does so along and about x.
+/// The joint's frame about x: Bullet slides and twists along and about that axis.
 btTransform frame_of_x(const PeerEnd& end) {
   return frame(end) * btTransform(btQuaternion(btVector3(0, 1, 0), -SIMD_HALF_PI));
 }

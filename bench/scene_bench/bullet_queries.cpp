@@ -13,7 +13,7 @@ btVector3 place(scenes::Point p) { return {bt(p.x), bt(p.y), bt(p.z)}; }
 
 constexpr int kAllButStatic = btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter;
 
-/// Each body once, however many contacts it has.
+/// Collects each body once, however many contacts it has.
 struct Touched : btCollisionWorld::ContactResultCallback {
   btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
                            const btCollisionObjectWrapper* other, int, int) override {

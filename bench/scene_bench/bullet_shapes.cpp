@@ -62,7 +62,8 @@ void make_mesh(BulletShape& made) {
   made.shape = std::move(mesh);
 }
 
-/// Between equal heights up and down, for Bullet puts the middle of those at its origin. The same diagonal as ours.
+/// Makes a height field between equal heights up and down, for Bullet puts the middle of those at its origin. The
+/// diagonal is the same as ours.
 void make_field(BulletShape& made) {
   const PeerSurface& of = *made.surface;
   for (const double h : of.heights) made.numbers.push_back(bt(h));

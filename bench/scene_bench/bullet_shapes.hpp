@@ -26,7 +26,7 @@ struct BulletShape {
   std::unique_ptr<btCollisionShape> shape;
 };
 BulletShape bullet_shape(const PeerPart& part);
-/// For gContactAddedCallback: Bullet's own remedy for bodies that catch on inner edges of a mesh or field.
+/// A gContactAddedCallback: Bullet's own remedy for bodies that catch on inner edges of a mesh or field.
 bool turn_to_surface(btManifoldPoint& point, const btCollisionObjectWrapper* a, int part_a, int index_a,
                      const btCollisionObjectWrapper* b, int part_b, int index_b);
 

@@ -19,7 +19,7 @@ inline double thread_milliseconds() {
 #endif
 }
 
-/// Of a copy, nearest rank; 0 of nothing.
+/// The quantile of a copy, nearest rank; 0 of nothing.
 inline double quantile(std::vector<double> values, double q) {
   if (values.empty()) return 0;
   const std::size_t rank =

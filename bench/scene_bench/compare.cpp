@@ -20,7 +20,7 @@ void keep_faster(std::optional<Fastest>& best, std::string_view engine, double m
   if (ms > 0 && (!best || ms < best->ms)) best = Fastest{std::string(engine), ms};
 }
 
-/// In the order of their first row.
+/// The names in the order of their first row.
 template <class Name> std::vector<std::string> names_of(const std::vector<Row>& rows, Name&& name) {
   std::vector<std::string> names;
   for (const Row& row : rows) {

@@ -10,10 +10,10 @@ namespace isostep::bench {
 
 /// A time to be compared: S8's is that of a step with everybody asleep, less than 0 where that never came.
 double shown_ms(const Row& row);
-/// How a report calls an engine.
+/// The name of an engine in a report.
 const char* title_of(std::string_view engine);
 
-/// What a dated engine would take today: its ratio to kAnchor then, times kAnchor's time among these rows.
+/// The time that a dated engine would take today: its ratio to kAnchor then, times kAnchor's time among these rows.
 std::optional<double> estimated_ms(const std::vector<Row>& rows, std::string_view scene, std::string_view engine);
 
 struct Fastest {

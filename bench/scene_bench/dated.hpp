@@ -7,7 +7,8 @@
 
 namespace isostep::bench {
 
-/// What is measured here and was measured then: times of others are scaled by how much slower or faster it is today.
+/// The engine that is measured here and was measured then: times of others are scaled by how much slower or faster it
+/// is today.
 inline constexpr const char* kAnchor = "rapier-simd";
 
 inline constexpr const char* kDatedEngines[] = {"box3d", "jolt", "physx"};
@@ -17,7 +18,7 @@ struct Dated {
   bool lost;     // the scene fell, or fell apart
   double error;  // [m] the scene's error, as the chart shows it; less than 0: not known
 };
-/// Of kDatedEngines and kAnchor; nothing where it was not measured.
+/// The figures of kDatedEngines and kAnchor; nothing where it was not measured.
 std::optional<Dated> dated(std::string_view engine, std::string_view scene);
 
 }  // namespace isostep::bench

@@ -1,4 +1,4 @@
-// What the scene benchmark asks of an engine that has a scene under way, ours or a peer.
+// The interface of an engine that has a scene of the benchmark under way, ours or a peer.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace isostep::bench {
 
-/// What S14 asks: the first hit of a ray or of a shape that is cast, one by one or all in one call; the bodies that a
-/// sphere overlaps; all bodies along a ray.
+/// The queries of S14: the first hit of a ray or of a shape that is cast, one by one or all in one call; the bodies
+/// that a sphere overlaps; all bodies along a ray.
 enum class Query { ray, rays, cast, casts, overlap, all_hits };
 inline constexpr const char* kQueryNames[] = {"ray", "rays", "cast", "casts", "overlap", "all_hits"};
 /// The terrain is not asked for by the last two, and those have as many rays.
@@ -28,8 +28,8 @@ struct Answered {
   std::uint64_t hits;  // of all of them
 };
 
-/// Built by a Maker, then before_step and a step once a frame; only steps are timed. Measures are in double and cheap
-/// but for `overlap`, which is asked for once, at the end.
+/// An engine is built by a Maker, then before_step and a step follow once a frame; only steps are timed. Measures are
+/// in double and cheap but for `overlap`, which is asked for once, at the end.
 class Engine {
  public:
   Engine() = default;
@@ -37,7 +37,7 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
   virtual ~Engine() = default;
 
-  /// What happens between frames: kinematic bodies move on, and the scene's script acts.
+  /// Moves kinematic bodies on and lets the scene's script act, between frames.
   virtual void before_step(int frame) = 0;
   virtual void step() = 0;
   /// Takes steps and says the CPU time [ms] of all of them: this thread's, or that of the process where they are taken.
@@ -77,7 +77,7 @@ std::vector<Maker> peer_makers();
 
 std::unique_ptr<Engine> make_bullet(const scenes::Scene& scene, const EngineOptions& options);
 std::unique_ptr<Engine> make_ode(const scenes::Scene& scene, const EngineOptions& options);
-/// Of the packages that npm has brought.
+/// The makers of the packages that npm has brought.
 std::vector<Maker> rapier_makers();
 
 }  // namespace isostep::bench

@@ -88,7 +88,8 @@ void write(const std::string& path, const std::string& text) {
   file << text;
   if (!file.flush()) throw std::runtime_error("cannot write " + path);
 }
-/// What is not finished, or of some scenes or engines, overwrites no run of all, and has no chart.
+/// Writes the results of a whole run. A run that is not finished, or of some scenes or engines, overwrites no run of
+/// all, and has no chart.
 void write_results(const Arguments& arguments, const Report& report, bool finished) {
   if (arguments.results.empty()) return;
   const bool whole = finished && arguments.whole();
@@ -100,7 +101,7 @@ void write_results(const Arguments& arguments, const Report& report, bool finish
 
 using Memories = std::map<std::pair<std::string, std::string>, Memory>;  // by scene and engine
 
-/// Before anything else, while this process is small.
+/// It is called before anything else, while this process is small.
 Memories measure_memories(const Arguments& arguments, const std::vector<Maker>& engines) {
   Memories memories;
   for (const std::string& name : chosen_scenes(arguments)) {

@@ -12,7 +12,7 @@ struct Memory {
   double before = -1;  // with the scene read, but no world made of it
   double peak = -1;    // over the whole run
 };
-/// To be called before this process has grown, for that one begins as its copy.
+/// It is to be called before this process has grown, for the measured one begins as its copy.
 Memory measure_memory(const scenes::Scene& scene, const Maker& maker, const EngineOptions& options);
 
 }  // namespace isostep::bench

@@ -24,7 +24,7 @@ void set_damping(dBodyID body, double rate, void (*set_scale)(dBodyID, dReal), v
   set_threshold(body, 0);
 }
 
-/// Once a process; ODE keeps tables of its own.
+/// Starts ODE once a process; it keeps tables of its own.
 void start_ode() {
   static const bool started = dInitODE2(0) != 0 && dAllocateODEDataForThread(dAllocateMaskAll) != 0;
   if (!started) throw scenes::SceneError("", "ODE does not start");

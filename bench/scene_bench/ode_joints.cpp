@@ -31,7 +31,7 @@ dJointID ball(dWorldID world, const PeerJoint& joint, const OdePlace& at) {
   dJointSetBallAnchor(made, at.on_b.x, at.on_b.y, at.on_b.z);
   return made;
 }
-/// Where a is the world ODE takes b for its first body, and so the coordinate of b, but the axis as it is given.
+/// ODE takes b for its first body where a is the world, and so the coordinate of b, but the axis as it is given.
 dJointID hinge(dWorldID world, const PeerJoint& joint, const OdePlace& at) {
   const dJointID made = dJointCreateHinge(world, nullptr);
   dJointAttach(made, at.a, at.b);

@@ -8,7 +8,7 @@
 
 namespace isostep::bench {
 
-/// Where a joint's ends lie at the start, world, and along what it turns or slides.
+/// The places of a joint's ends at the start, world, and the axis along which it turns or slides.
 struct OdePlace {
   dBodyID a, b;             // null: the world
   Vec3<double> on_a, on_b;  // [m]

@@ -16,7 +16,7 @@ bool is_number(const Motion& m) {
          std::isfinite(m.orientation.w);
 }
 
-/// From the principal axes to the scene's frame of the body.
+/// The rotation from the principal axes to the scene's frame of the body.
 Quat<double> body_axes(const PeerBody& body, const Motion& at) {
   return body.frame.is_identity() ? at.orientation : normalise(at.orientation * conjugate(body.frame.orientation));
 }
@@ -46,7 +46,7 @@ void Peer::before_step(int frame) {
   if (scene_.script == scenes::Script::hit) hit(frame);
 }
 
-/// As scenes::before_step does it for a World: the drum is body 0, the others are replaced in turn.
+/// Exchanges bodies as scenes::before_step does it for a World: the drum is body 0, the others are replaced in turn.
 void Peer::exchange(int frame) {
   if (frame < 4 || frame >= scenes::kMixerBirthsEnd || frame % 4 != 0) return;
   const int turn = frame / 4 - 1;
@@ -97,7 +97,7 @@ PeerEnd Peer::end_now(int body, const PeerEnd& end) const {
   return {at.position + to_matrix(at.orientation) * end.position, normalise(at.orientation * end.orientation)};
 }
 
-/// As World::joint_error.
+/// The error as World::joint_error measures it.
 double Peer::joint_error() const {
   double largest = 0;
   for (const PeerJoint& joint : joints_) {

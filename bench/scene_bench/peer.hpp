@@ -1,4 +1,4 @@
-// What the peers share: the scene as doubles, and measures by the same exact geometry as ours.
+// The base of the peers: the scene as doubles, and measures by the same exact geometry as ours.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace isostep::bench {
 
-/// How a peer says where a body is, in the frame of PeerBody.
+/// The place and motion of a body, as a peer tells them in the frame of PeerBody.
 struct Motion {
   Vec3<double> position, velocity, angular_velocity;
   Quat<double> orientation;
@@ -37,7 +37,7 @@ class Peer : public Engine {
   /// The body at this index is gone; another takes its place.
   virtual void replace(std::size_t body, const PeerBody& by) = 0;
   virtual void launch(std::size_t body, Vec3<double> velocity) = 0;  // [m/s], and does not turn
-  /// Whoever drives the engine does here what it does not do itself: kinematic bodies, forces.
+  /// Drives what the engine does not do itself: kinematic bodies, forces.
   virtual void drive(int frame) = 0;
 
  private:

@@ -21,7 +21,7 @@ double real(const scenes::Number& number) { return scenes::value_of<double>(numb
 Vec3<double> real(const scenes::Vector& v) { return {real(v[0]), real(v[1]), real(v[2])}; }
 Quat<double> real(const scenes::Rotation& q) { return {real(q[0]), real(q[1]), real(q[2]), real(q[3])}; }
 
-/// Of a hull, a mesh, a height field and a half-space nothing yet.
+/// The thickness of a part; of a hull, a mesh, a height field and a half-space 0.
 double thickness_of(const PeerPart& part) {
   switch (part.type) {
     case ShapeType::box: return min(part.half_extents.x, min(part.half_extents.y, part.half_extents.z));
@@ -74,7 +74,7 @@ Primitive<double> primitive(const PeerPart& part, std::uint32_t blob) {
   }
 }
 
-/// As World<double> has it of the same body.
+/// The mass properties that World<double> has of the same body.
 MassProperties<double> mass_of(const PeerBody& body, const scenes::SceneBody& of) {
   std::vector<Child<double>> children;
   std::vector<BlobRef> blobs;
@@ -93,7 +93,7 @@ MassProperties<double> mass_of(const PeerBody& body, const scenes::SceneBody& of
   return inertia == Vec3<double>::zero() ? p : from_mass_and_inertia(p.mass, inertia, p.centre);
 }
 
-/// From the scene's frame of the body to `frame` within it.
+/// Moves a body from the scene's frame to `frame` within it.
 void move_frame(PeerBody& body, const Pose<double>& frame) {
   if (frame.is_identity()) return;
   body.frame = frame;
@@ -121,7 +121,7 @@ void set_mass(PeerBody& body, const scenes::SceneBody& of) {
   if (!is_finite(body.inertia)) throw SceneError("", "peers are given no body that cannot turn");
 }
 
-/// Into the frame of the body: engines have hulls of one part where the body is.
+/// Moves points into the frame of the body: engines have hulls of one part where the body is.
 void move_points(PeerPart& part) {
   const Mat3<double> axes = to_matrix(part.orientation);
   for (Vec3<double>& point : part.points) point = part.position + axes * point;
@@ -129,7 +129,7 @@ void move_points(PeerPart& part) {
   part.orientation = Quat<double>::identity();
 }
 
-/// [kg] of the two bodies; what no force moves weighs nothing in it.
+/// [kg] The reduced mass of the two bodies; one that no force moves counts as infinitely heavy.
 double reduced_mass(const PeerJoint& joint, const std::vector<PeerBody>& bodies) {
   double inverse = 0;
   for (const int body : {joint.a, joint.b}) {
@@ -144,7 +144,7 @@ void set_spring(PeerJoint& joint, const scenes::SceneJoint& of, double mass) {
   joint.stiffness = mass * omega * omega;
   joint.damping = 2 * real(of.spring_damping) * mass * omega;
 }
-/// So that the world is always the first.
+/// Swaps the ends, so that the world is always the first.
 void turn_round(PeerJoint& joint) {
   std::swap(joint.a, joint.b);
   std::swap(joint.on_a, joint.on_b);

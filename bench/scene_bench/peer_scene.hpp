@@ -65,7 +65,7 @@ PeerBody peer_body(const scenes::SceneBody& body);
 PeerJoint peer_joint(const scenes::SceneJoint& joint, const std::vector<PeerBody>& bodies);
 PeerGear peer_gear(const scenes::SceneRecord& record, const std::vector<scenes::SceneJoint>& joints);
 Vec3<double> peer_gravity(const scenes::Scene& scene);
-/// Whether this is a scene whose bodies are PeerBody::fast: the bullets, and the thin boxes.
+/// The bodies of the scene are PeerBody::fast: bullets, and thin boxes.
 bool has_fast_bodies(const scenes::Scene& scene);
 
 }  // namespace isostep::bench

@@ -20,14 +20,14 @@ struct PeerSurface {
   double pitch = 0;                     // [m] between them
   std::vector<double> heights;          // [m] by rows: column i is at x = i pitch, row k at z = k pitch
 
-  /// [m] What peers hold a height field by: its middle in x and z, at height 0.
+  /// [m] The place by which peers hold a height field: its middle in x and z, at height 0.
   Vec3<double> middle() const { return {(columns - 1.0) * pitch / 2, 0, (rows - 1.0) * pitch / 2}; }
   /// [m] The largest height, either way.
   double highest() const;
 };
 
-/// Of a part that is a mesh or a height field. Throws SceneError with the reason where peers cannot be told: holes, and
-/// friction by triangle.
+/// The surface of a part that is a mesh or a height field. Throws SceneError with the reason where peers cannot be
+/// told: holes, and friction by triangle.
 std::shared_ptr<const PeerSurface> peer_surface(const scenes::ScenePart& part);
 
 }  // namespace isostep::bench

@@ -1,4 +1,4 @@
-// How a benchmark's program ends: 0, or 64 for words that it does not take, or 70 and a line that says what failed.
+// The end of a benchmark's program: 0, or 64 for words that it does not take, or 70 and a line that says what failed.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -10,7 +10,7 @@
 namespace isostep::bench {
 namespace {
 
-/// How often the queries of ten frames hit, by brute force and in the engines that were measured with them.
+/// The numbers of hits of ten frames' queries, by brute force and in the engines that were measured with them.
 constexpr int kFrames = 10;
 constexpr std::array<std::int64_t, kQueryKinds> kHits = {75892, 75892, 7305, 7305, 4045, 4297};
 

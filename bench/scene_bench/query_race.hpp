@@ -11,7 +11,7 @@ namespace isostep::bench {
 
 inline constexpr std::size_t kQueryKinds = std::size(kQueryNames);
 
-/// What one engine answered.
+/// The answers of one engine.
 struct QueryRow {
   std::string engine;
   bool ours = false;

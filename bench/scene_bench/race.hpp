@@ -7,7 +7,7 @@
 
 namespace isostep::bench {
 
-/// What one engine did in one scene.
+/// The run of one engine in one scene.
 struct Row {
   std::string scene, engine, settings;
   bool ours = false;
@@ -34,7 +34,7 @@ struct Row {
   double figure = 0;                      // of the trial, in its unit; not a number: it did not do what it is to do
   std::vector<double> speeds;             // [rad/s] of its bodies about z, mean of the run
   double asleep_at = -1;                  // [s] first frame with nobody awake; less than 0: never
-  // Judged by verdict.hpp.
+  // The verdict by verdict.hpp.
   bool failed = false;
   std::string bar;  // "aim", "must", "misses" or "-"
 };

@@ -70,7 +70,7 @@ class RapierEngine : public Peer {
  private:
   static constexpr std::size_t kNumbers = 14;  // a body
 
-  /// Asked for once a step.
+  /// The state is asked for once a step.
   const std::vector<double>& state() const {
     if (state_.empty()) state_ = node_.ask({{"state", 0}}, kNumbers * bodies().size());
     return state_;

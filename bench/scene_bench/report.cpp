@@ -30,7 +30,7 @@ bool is(const Row& row, std::initializer_list<const char*> scenes) {
 /// [m] A tooth of a wheel is so long.
 constexpr double kTooth = scenes::kTurn / 40;
 
-/// What the chart shows of a run: the error that its scene is about [m].
+/// [m] The error of a run that the chart shows: the one that its scene is about.
 double error_of(const Row& row) {
   if (is(row, {"slider_crank"})) return row.figure / 1000;
   if (is(row, {"braked_gears"})) return row.figure * kTooth;
@@ -40,7 +40,7 @@ double error_of(const Row& row) {
   return row.overlap.worst;
 }
 
-/// What this scene is about.
+/// The text of what this scene is about.
 std::string particular(const Row& row) {
   std::string text;
   if (is(row, {"S1", "S1x5", "S1x10", "S1s"})) {

@@ -58,7 +58,7 @@ template <class S> RollbackRow measure(const scenes::Scene& scene) {
   row.awake = world.counts().awake;
   row.snapshot_bytes = settled.bytes();
   row.bytes_per_awake = static_cast<double>(settled.bytes()) / std::max(1u, row.awake);
-  // Before each, a step: what is saved, loaded or hashed then lies where a game leaves it.
+  // A step goes before each: what is saved, loaded or hashed then lies where a game leaves it.
   row.save_us = 1e3 * median_milliseconds(kRuns, step_once, [&] { world.save(ring[0]); });
   row.hash_us = 1e3 * median_milliseconds(kRuns, step_once, [&] { hashes ^= world.hash(); });
   row.load_us = 1e3 * median_milliseconds(kRuns, step_once, reload);

@@ -1,4 +1,4 @@
-// What a rollback costs in a settled scene, one row a scalar.
+// The cost of a rollback in a settled scene, one row a scalar.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -27,7 +27,7 @@ bool nothing_moved(const Row& row) { return row.moved < 0.25; }
 /// [m] A chain whose ends of links are further apart than a link is long is no chain.
 constexpr double kLink = 0.5;
 
-/// As many bullets passed as the scene's bar forbids.
+/// The bullets that passed are as many as the scene's bar forbids.
 bool passed(const Row& row) {
   for (const scenes::Bar& bar : scenes::bars_of(row.scene, false)) {
     if (bar.measure == Measure::through && row.through >= bar.must) return true;
@@ -35,7 +35,7 @@ bool passed(const Row& row) {
   return false;
 }
 
-/// What is thin and hits something fast turns by more than a radian a sub-step: that ours cuts and reports it loses no
+/// A thin body that hits something fast turns by more than a radian a sub-step: that ours cuts and reports it loses no
 /// body.
 bool turns_are_cut(const Row& row) {
   return row.ours && (starts_with(row.scene, "S13") || starts_with(row.scene, "S15"));

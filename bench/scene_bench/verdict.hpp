@@ -1,4 +1,4 @@
-// Whether a run failed its scene, and which bar it reached.
+// The verdict on a run: whether it failed its scene, and which bar it reached.
 // SPDX-License-Identifier: MIT
 #pragma once
 

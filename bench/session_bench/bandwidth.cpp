@@ -1,4 +1,4 @@
-// What a player's link carries: the session's own bytes, and what ENet, UDP and IP put around them.
+// The traffic of a player's link: the session's own bytes, and what ENet, UDP and IP put around them.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 
@@ -17,7 +17,7 @@ struct Traffic {
 };
 Traffic operator-(const Traffic& a, const Traffic& b) { return {a.bytes - b.bytes, a.datagrams - b.datagrams}; }
 
-/// Of all clients together.
+/// The traffic of all clients together.
 Traffic traffic(TimedMatch<TinyGame>& match, transport::Direction direction) {
   Traffic sum;
   for (std::size_t i = 1; i < match.size(); ++i) {

@@ -1,4 +1,4 @@
-// What a match of many players costs its host: on good lines, with a game that costs nothing.
+// The cost of a match of many players to its host: on good lines, with a game that costs nothing.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kSettled = 300;  // [frames] until clocks and delays have found their values
 
-/// Of the host [us a frame], the least of the repetitions frame by frame.
+/// [us a frame] The cost to the host, the least of the repetitions frame by frame.
 FrameCost host_cost(int players, const SessionBenchOptions& options, double& out) {
   SessionConfig config;
   config.players = players;

@@ -1,4 +1,5 @@
-// What each preset gives its players: how long inputs wait, what is corrected, how evenly frames come, what it sends.
+// The effect of each preset on its players: how long inputs wait, what is corrected, how evenly frames come, what it
+// sends.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 
@@ -25,7 +26,7 @@ struct Line {
 
 using Match = TimedMatch<TinyGame>;
 
-/// What is counted since the beginning, of one machine.
+/// The counts of one machine since the beginning.
 struct Counts {
   std::uint64_t steps;
   std::size_t drives;
@@ -41,7 +42,7 @@ Counts counts_of(const TimedPeer<TinyGame>& peer) {
           static_cast<double>(stats.bytes_out) + static_cast<double>(stats.datagrams_out) * kUdpIp, replaced};
 }
 
-/// What the players of a match notice, of all machines together.
+/// The delays and corrections that the players of a match notice, of all machines together.
 struct Felt {
   double delay = 0;            // [frames] mean of the machines
   std::vector<double> depths;  // [frames] of each turn's rollback

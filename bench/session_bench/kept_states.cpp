@@ -1,4 +1,4 @@
-// What it costs to keep the states of the last second, for the cause of a desync to be found in.
+// The cost of keeping the states of the last second, for the cause of a desync to be found in.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <memory>
@@ -24,7 +24,7 @@ constexpr int kRuns = 64;
 /// [saves] A snapshot allocates whenever there are more contacts than it ever held: three rounds, and it rarely does.
 constexpr int kGrowing = 3 * static_cast<int>(kKept);
 
-/// [MB] of this process in memory; 0 where nobody tells.
+/// [MB] The size of this process in memory; 0 where nobody tells.
 double resident_megabytes() {
 #if defined(__linux__)
   std::FILE* file = std::fopen("/proc/self/statm", "r");

@@ -1,4 +1,4 @@
-// What a session costs in a frame, beside the game: every player's machine in one process and in virtual time.
+// The cost of a session in a frame, beside the game: every player's machine in one process and in virtual time.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 
@@ -21,7 +21,7 @@ SessionConfig config_of(int players, SessionMode mode) {
   return config;
 }
 
-/// By machine and frame, the least of the repetitions.
+/// The costs by machine and frame, the least of the repetitions.
 using Costs = std::vector<std::vector<FrameCost>>;
 
 void keep_least(std::vector<FrameCost>& least, const std::vector<FrameCost>& costs) {

@@ -20,7 +20,7 @@ void report_overhead(const SessionBenchOptions& options);
 void report_crowds(const SessionBenchOptions& options);
 /// Bytes of a player's link.
 void report_bandwidth(const SessionBenchOptions& options);
-/// What the presets give on several lines.
+/// Reports what the presets give on several lines.
 void report_genres(const SessionBenchOptions& options);
 /// The longest drive() of a match with a thousand bodies.
 void report_drives(const SessionBenchOptions& options);

@@ -1,4 +1,4 @@
-// What a seal costs, beside what the system takes to send and receive the same bytes on this machine.
+// The cost of a seal, beside what the system takes to send and receive the same bytes on this machine.
 // SPDX-License-Identifier: MIT
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -65,7 +65,7 @@ struct Ends {
   }
 };
 
-/// [ns] of one, the least of the repeats.
+/// [ns] The cost of one item, the least of the repeats.
 template <class Work> double least_ns(int repeats, int items, Work&& work) {
   double least = 1e300;
   for (int repeat = 0; repeat < repeats; ++repeat) {
@@ -81,7 +81,7 @@ void report(int repeats, Channel channel, std::size_t size) {
   Loop loop;
   std::vector<std::uint8_t> said(size, 1), sealed(size + SealedLink::kSeal), heard(sealed.size());
   const double seal = least_ns(repeats, kItems, [&] { ends.client.seal(channel, said, sealed.data()); });
-  // Sealed anew, for what was opened once is refused.
+  // It is sealed anew, for what was opened once is refused.
   const double both = least_ns(repeats, kItems, [&] {
     ends.host.seal(channel, said, sealed.data());
     require(ends.client.open(channel, sealed, heard.data()) == Opened::good, "a seal does not open");

@@ -16,7 +16,7 @@
 
 namespace isostep::bench {
 
-/// [us] of a clock that is read in some 20 ns. It counts what else the machine does: take minima.
+/// [us] A clock that is read in some 20 ns. It counts what else the machine does: take minima.
 inline double microseconds() {
   return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -42,7 +42,7 @@ template <class Game> class Clocked {
     timed([&] { hash = game_->hash(); });
     return hash;
   }
-  /// [us] since the last call.
+  /// [us] The time spent since the last call.
   double take_spent() { return std::exchange(spent_, 0); }
 
  private:
@@ -56,7 +56,7 @@ template <class Game> class Clocked {
   mutable double spent_ = 0;
 };
 
-/// What the session took within one frame [us].
+/// [us] The time that the session took within one frame.
 struct FrameCost {
   double receive = 0;  // connected, disconnected, receive
   double drive = 0;    // add_local_input and drive(), without the game
@@ -72,7 +72,7 @@ struct Drive {
 
 template <class Game> using Bot = std::function<typename Game::Input(int player, Frame frame)>;
 
-/// When a machine's loop comes round.
+/// The time at which a machine's loop comes round.
 enum class Loop : std::uint8_t {
   woken,   // by a datagram, and when wait() is over
   polling  // every millisecond
@@ -147,7 +147,8 @@ template <class Game> class TimedPeer {
   Time wake_ = 0;
 };
 
-/// The same settings give the same turns, whatever they cost: so repetitions can be compared turn by turn.
+/// A match whose turns are the same for the same settings, whatever they cost: so repetitions can be compared turn by
+/// turn.
 template <class Game> class TimedMatch {
  public:
   using Maker = std::function<std::unique_ptr<Game>()>;
@@ -168,7 +169,7 @@ template <class Game> class TimedMatch {
     }
   }
 
-  /// Until all machines have stepped so many frames.
+  /// Runs until all machines have stepped so many frames.
   void run_to(Frame frames, Loop loop) {
     const Time limit = now_ + static_cast<Time>(frames) * kSecond / 10 + 60 * kSecond;
     for (; least_frame() < frames; now_ += 1000) {

@@ -10,7 +10,7 @@ using namespace isostep::c;
 
 namespace {
 
-/// A handle of what was made; of what was not, why.
+/// Hands out a handle of the blob that was made, or tells why none was.
 iso_status put_blob(const char* call, Result<BlobRef> made, iso_blob** out) {
   if (!made) {
     const ErrorCode code = made.error().code;

@@ -31,7 +31,7 @@ template <class S> iso_status body_create(iso_world* world, const void* from, is
   });
 }
 
-/// A stale id is told as the world tells it.
+/// Refuses a stale id in the world's words.
 iso_status stale(const char* call) { return refuse({Fault::stale_id, call, "body", "a body of this world"}); }
 
 template <class S> CBodyState<S> state_of(const World<S>& world, BodyId id) {
@@ -144,7 +144,7 @@ iso_status set_plain(iso_world* world, const char* call, iso_body body, const vo
     return taken;
   });
 }
-/// One that takes two vectors, the second may be null where that is said.
+/// A change that takes two vectors; the second may be null where that is said.
 template <class S, class Work>
 iso_status set_vectors(iso_world* world, const char* call, iso_body body, const void* first, const void* second,
                        bool second_may_be_null, const Work& work) {

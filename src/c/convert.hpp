@@ -1,4 +1,4 @@
-// Between C structs and their C++ twins, member by member, at the offsets of layout.hpp.
+// Conversions between C structs and their C++ twins, member by member, at the offsets of layout.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,10 +16,10 @@ template <class IdType> constexpr IdType id_of(std::uint64_t bits) {
   return {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32)};
 }
 
-/// [bytes] A struct of a later release has at most so much that this one does not know.
+/// [bytes] The most by which a struct of a later release is longer than this release's.
 inline constexpr std::size_t kMostUnknown = 4096;
 
-/// Numbers cross raw: T from the same bits of a Raw, or the other way round.
+/// Copies the bits: numbers cross raw, T from the bits of a Raw or the other way round.
 template <class To, class From> To same_bits(From from) {
   static_assert(sizeof(To) == sizeof(From) && std::is_trivially_copyable_v<To>);
   To to;
@@ -49,7 +49,7 @@ struct Put {
   }
 };
 
-/// Into bytes that are 0.
+/// Writes a value into bytes that are 0.
 template <class T> void put_at(std::uint8_t* at, const T& value) {
   if constexpr (std::is_bounded_array_v<T>) {
     constexpr std::size_t kStride = extent_of<std::remove_extent_t<T>>().size;
@@ -71,7 +71,7 @@ template <class T> void put_at(std::uint8_t* at, const T& value) {
   }
 }
 
-/// A member that cannot be what it should.
+/// A member with a value that it cannot have.
 struct Flaw {
   const char* member = nullptr;
 
@@ -80,7 +80,7 @@ struct Flaw {
 
 template <class T> Flaw take_at(const std::uint8_t* at, T& value);
 
-/// Reads the members that lie before `end`; the others stay. `cut` where a member lies across it.
+/// Reads the members that lie before `end`; the others stay. `cut` is set where a member lies across it.
 struct Take {
   const std::uint8_t* from;
   std::size_t end;
@@ -109,7 +109,7 @@ struct Take {
   }
 };
 
-/// The flaw of a single value is named by who asked for it: its text is empty.
+/// Reads a value from bytes. Its flaw has an empty text: the caller names the place.
 template <class T> Flaw take_at(const std::uint8_t* at, T& value) {
   if constexpr (std::is_bounded_array_v<T>) {
     constexpr std::size_t kStride = extent_of<std::remove_extent_t<T>>().size;
@@ -140,15 +140,15 @@ template <class T> Flaw take_at(const std::uint8_t* at, T& value) {
   return {};
 }
 
-/// Of this library's release, an earlier one or a later one.
+/// Returns true if the size is one of this library's release, an earlier one or a later one.
 template <class T> bool is_struct_size(std::size_t size) {
   return size >= kHeadSize && size <= sized_size<T>() + kMostUnknown;
 }
 
-/// What a caller's size says: that it is one, and that what this library does not know is 0.
+/// Checks a caller's struct by its size: that it is one, and that the bytes which this library does not know are 0.
 iso_status check_size(const void* from, std::size_t known, const char* call, std::size_t& size);
 
-/// A struct that begins with its size. `value` keeps what the caller's version of the struct lacks.
+/// Takes a struct that begins with its size. `value` keeps the members that the caller's version of the struct lacks.
 template <class T> iso_status take_sized(const char* call, const void* from, T& value) {
   std::size_t size = 0;
   const iso_status status = check_size(from, sized_size<T>(), call, size);
@@ -158,7 +158,7 @@ template <class T> iso_status take_sized(const char* call, const void* from, T& 
   if (take.cut) return refuse(ISO_WRONG_SIZE, call, "size", "the end of a member");
   return take.flaw ? refuse(ISO_BAD_ENUM, call, take.flaw.member) : kOk;
 }
-/// One without.
+/// Takes a struct that does not begin with its size.
 template <class T> iso_status take_plain(const char* call, const void* from, T& value) {
   if (from == nullptr) return refuse(ISO_NULL, call);
   const Flaw flaw = take_at(static_cast<const std::uint8_t*>(from), value);
@@ -169,7 +169,7 @@ template <class T> void put_plain(void* to, const T& value) {
   std::memset(to, 0, extent_of<T>().size);
   put_at(static_cast<std::uint8_t*>(to), value);
 }
-/// Into a struct whose size the caller has set: what is larger than this library knows ends in zeros.
+/// Fills a struct whose size the caller has set: bytes beyond the members that this library knows become zeros.
 template <class T> iso_status put_sized(const char* call, void* to, const T& value) {
   if (to == nullptr) return refuse(ISO_NULL, call, "out");
   std::uint32_t size = 0;
@@ -181,7 +181,7 @@ template <class T> iso_status put_sized(const char* call, void* to, const T& val
   CFields<T>::fields(put, value);
   return kOk;
 }
-/// What _init does: the defaults, into a struct of the caller's that has so many bytes.
+/// Writes, for _init, the defaults into a struct of the caller's that has so many bytes.
 template <class T> iso_status init_sized(const char* call, void* to, std::size_t size) {
   if (to == nullptr) return refuse(ISO_NULL, call, "out");
   if (!is_struct_size<T>(size)) return refuse(ISO_WRONG_SIZE, call, "size", "sizeof of the struct");

@@ -7,7 +7,7 @@ using namespace isostep::c;
 
 namespace {
 
-/// Where a kind of events lies in WorldObject::events.
+/// The place of a kind of events in WorldObject::events.
 enum class EventKind : std::uint32_t {
   contact_begin,
   contact_end,

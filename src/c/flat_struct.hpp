@@ -10,12 +10,13 @@
 
 namespace isostep::c {
 
-/// [bytes] The smallest struct has its size and a word; a newer caller's is not longer than this library's by more.
+/// [bytes] The size of the smallest struct, its size and a word; the most by which a newer caller's is longer than this
+/// library's.
 inline constexpr std::uint32_t kLeastSize = 8, kMostGrowth = 1024;
 template <class T> bool is_size(std::size_t size) { return size >= kLeastSize && size <= sizeof(T) + kMostGrowth; }
 
-/// What a caller's struct holds of `to`, which keeps its defaults beyond: an older caller's is shorter; of a newer
-/// one the part that this library does not know is zero.
+/// Takes the members of `to` that a caller's struct holds; the rest keeps its defaults. An older caller's is shorter;
+/// the part of a newer one that this library does not know must be zero.
 template <class T> iso_status take(const T* from, T& to) {
   if (from == nullptr) return ISO_NULL;
   const std::uint32_t size = from->size;
@@ -29,12 +30,12 @@ template <class T> iso_status take(const T* from, T& to) {
   return ISO_OK;
 }
 
-/// Is there room for what is filled: a struct whose size the caller has set?
+/// Checks a struct that is to be filled, whose size the caller has set.
 template <class T> iso_status can_give(const T* to) {
   if (to == nullptr) return ISO_NULL;
   return is_size<T>(to->size) ? ISO_OK : ISO_WRONG_SIZE;
 }
-/// After can_give: as much as the caller's struct holds, and zeros where it knows more than this library.
+/// Gives, after can_give, as much as the caller's struct holds, and zeros where it knows more than this library.
 template <class T> void give(const T& from, T* to) {
   const std::uint32_t size = to->size;
   std::memset(to, 0, size);
@@ -42,7 +43,7 @@ template <class T> void give(const T& from, T* to) {
   to->size = size;
 }
 
-/// What _init does: `defaults`, into a struct of the caller's that has so many bytes.
+/// Writes, for _init, `defaults` into a struct of the caller's that has so many bytes.
 template <class T> iso_status start(const T& defaults, T* to, std::size_t size) {
   if (to == nullptr) return ISO_NULL;
   if (!is_size<T>(size)) return ISO_WRONG_SIZE;

@@ -30,7 +30,7 @@ struct Cells {
   std::deque<Cell*> closed;
   std::size_t fresh = kBlock;  // the next cell of the last block
 };
-/// Never destroyed: handles may be used until the process ends.
+/// The cells are never destroyed: handles may be used until the process ends.
 Cells& cells() {
   static Cells* const all = new Cells;
   return *all;

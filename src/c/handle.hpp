@@ -9,7 +9,7 @@
 
 namespace isostep::c {
 
-/// Of each kind of handle another word: "WRLD" and the like.
+/// The word of each kind of handle: "WRLD" and the like.
 enum class HandleKind : std::uint32_t {
   none = 0,
   world = 0x444c5257,
@@ -28,14 +28,14 @@ struct Cell {
   void* object = nullptr;
 };
 
-/// Throws std::bad_alloc, as all that allocates here.
+/// Opens a cell for an object. Throws std::bad_alloc, like all that allocates here.
 Cell* open_cell(HandleKind kind, void* object);
-/// The object is the caller's again.
+/// Closes a cell; the object is the caller's again.
 void close_cell(Cell* cell);
-/// The object of a handle of that kind. On ISO_NULL and ISO_NOT_ALIVE `object` is null.
+/// Finds the object of a handle of that kind. On ISO_NULL and ISO_NOT_ALIVE `object` is null.
 iso_status find_object(const void* handle, HandleKind kind, const char* call, const char* name, void*& object);
 
-/// Which kind of handle and which object a C type stands for: specialised beside the object.
+/// The kind of handle and the object that a C type stands for: specialised beside the object.
 template <class Handle> struct HandleOf;
 
 /// The object behind a handle, or the status to return.

@@ -53,7 +53,8 @@ ISO_C_FAMILIES(ISO_RECORD_INITS)
 ISO_C_FAMILIES(ISO_FAMILY)
 
 namespace {
-/// Rounded to nearest, whatever the caller's float environment: languages without one come through here.
+/// Rounds to the nearest number, whatever the caller's float environment: languages without such numbers come through
+/// here.
 template <class S> S number_of(double value) {
   return isostep::detail::pinned([&] { return from_double<S>(value); });
 }

@@ -52,7 +52,7 @@ template <class S> iso_status joint_set(iso_world* world, iso_joint joint, const
   });
 }
 
-/// What is asked of a joint that exists: ask(world, id) puts it.
+/// Puts a question to a joint that exists: ask(world, id).
 template <class World, class Ask>
 iso_status ask_joint(const World& world, const char* call, iso_joint joint, const void* out, const Ask& ask) {
   ISO_C_REQUIRE(call, out);

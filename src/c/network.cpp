@@ -50,7 +50,7 @@ struct Line {
   }
 };
 
-/// `work(NetworkObject&)` returns a status. The endpoints that it names are there.
+/// Runs `work(NetworkObject&)`, which returns a status, where the network and the endpoints that it names are there.
 template <class Work>
 iso_status in_network(iso_network* handle, const char* call, std::initializer_list<std::uint32_t> endpoints,
                       const Work& work) {
@@ -64,7 +64,7 @@ iso_status in_network(iso_network* handle, const char* call, std::initializer_li
 
 iso_status refuse_host(const char* call) { return refuse(ISO_REFUSED, call, "client", "one that was added, not 0"); }
 
-/// `work(line, session)`, where both are there.
+/// Runs `work(line, session)` where both are there.
 template <class Work>
 iso_status meet(iso_network* network, const char* call, std::uint32_t endpoint, iso_session* session,
                 const Work& work) {

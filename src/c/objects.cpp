@@ -1,4 +1,4 @@
-// Entering a world's calls.
+// The entry of a world's calls.
 // SPDX-License-Identifier: MIT
 #include "objects.hpp"
 

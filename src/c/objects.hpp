@@ -18,9 +18,9 @@ namespace isostep::c {
 
 struct TapeObject;
 
-/// Of any scalar. Destroyed as the WorldOf that it is.
+/// A world of any scalar. It is destroyed as its WorldOf.
 struct WorldObject {
-  /// In `inside`: the world steps, or so many batches of queries run, and the game's threads may call back.
+  /// The values of `inside`: the world steps, or so many batches of queries run, and the game's threads may call back.
   static constexpr std::uint32_t kSteps = 1, kBatch = 2;
 
   explicit WorldObject(ScalarName of) : scalar(of) {}
@@ -34,10 +34,10 @@ struct WorldObject {
   std::vector<std::uint8_t> log;
   std::vector<std::uint64_t> stage_hashes;
   std::vector<BlobRef> assets;
-  /// Has `world`, of any scalar, find them. This object outlives it.
+  /// Makes `world`, of any scalar, find these assets. This object outlives it.
   template <class World> void use_assets_of(World& world) { world.use_assets({find_asset, this}); }
   static BlobRef find_asset(void* user, const ContentId& id);
-  /// Events of the last step in C's layout, each kind in a list of its own; whole words, so that ids are aligned.
+  /// The events of the last step in C's layout, each kind in a list of its own; whole words, so that ids are aligned.
   static constexpr int kEventKinds = 10;
   std::vector<std::uint64_t> events[kEventKinds];
   std::vector<std::uint64_t> poses;
@@ -49,7 +49,7 @@ template <class S> struct WorldOf : WorldObject {
   World<S> world;
 };
 
-/// By a holder; the last one takes the world along.
+/// Gives up one holder; the last one takes the world along.
 inline void let_go_of(WorldObject* object) {
   if (object->holders.fetch_sub(1) == 1) delete object;
 }
@@ -68,14 +68,14 @@ struct BlobObject {
   BlobRef blob;
 };
 
-/// The file and what is read from it.
+/// A replay: the file and the recording read from it.
 struct ReplayObject {
   explicit ReplayObject(Bytes file) : bytes(file.begin(), file.end()), reader(bytes) {}
   std::vector<std::uint8_t> bytes;
   ReplayReader reader;
 };
 
-/// What writes a recording, of a world of any scalar.
+/// The writer of a recording, of a world of any scalar.
 class TapeWriter {
  public:
   virtual ~TapeWriter();
@@ -86,7 +86,7 @@ class TapeWriter {
 };
 struct TapeObject {
   ~TapeObject() { let_go(); }
-  /// The world is no longer recorded.
+  /// Ends the recording of the world.
   void let_go() {
     writer.reset();
     if (world != nullptr) world->tape = nullptr;
@@ -113,13 +113,13 @@ ISO_C_HANDLE(iso_replay, ReplayObject, replay)
 
 // ---- Calls
 
-/// What a call does to the world.
+/// The access of a call to the world.
 enum class Access : std::uint32_t { reads, changes };
 
-/// The world of a handle, if it may be called now.
+/// Finds the world of a handle, if it may be called now.
 iso_status enter(const iso_world* handle, const char* call, Access access, WorldObject*& object);
 
-/// Runs `work` and turns what the world refused meanwhile into the status.
+/// Runs `work` and turns a refusal of the world meanwhile into the status.
 template <class S, class Work> iso_status run_in(WorldObject& object, const char* call, const Work& work) {
   Refusal& refusal = refusal_here();
   refusal.happened = false;
@@ -127,7 +127,7 @@ template <class S, class Work> iso_status run_in(WorldObject& object, const char
   return refusal.happened && status == kOk ? refuse(refusal.report) : status;
 }
 
-/// work(WorldOf<S>&) returns a status; what the world refuses meanwhile becomes the call's.
+/// Runs work(WorldOf<S>&), which returns a status; a refusal of the world meanwhile becomes the call's.
 template <class S, class Work>
 iso_status in_world(const iso_world* handle, const char* call, Access access, const Work& work) {
   WorldObject* object = nullptr;
@@ -141,7 +141,7 @@ iso_status in_world(const iso_world* handle, const char* call, Access access, co
   return refuse(ISO_WRONG_SCALAR, call);
 }
 
-/// The same for a world of whatever scalar it is.
+/// in_world() for a world of any scalar.
 template <class Work>
 iso_status in_any_world(const iso_world* handle, const char* call, Access access, const Work& work) {
   WorldObject* object = nullptr;
@@ -154,7 +154,7 @@ iso_status in_any_world(const iso_world* handle, const char* call, Access access
   return refuse(ISO_NOT_ALIVE, call);
 }
 
-/// While the game's threads may call back.
+/// Marks, while it lives, that the game's threads may call back.
 class Inside {
  public:
   Inside(WorldObject& object, std::uint32_t what) : object_(object), what_(what) { object_.inside += what_; }
@@ -167,10 +167,10 @@ class Inside {
   std::uint32_t what_;
 };
 
-/// What a call may not do now; no fault of the world's.
+/// The status of a call that may not be made now, which is no fault of the world's.
 inline constexpr iso_status kMisused = ISO_FAULT_BAD_ARGUMENT;
 
-/// As many of `all` as there is room for; their number.
+/// Puts as many of `all` as there is room for, and their number.
 template <class T>
 iso_status put_list(const char* call, const std::vector<T>& all, void* out, std::size_t room, std::size_t* count) {
   ISO_C_REQUIRE(call, count);
@@ -180,7 +180,7 @@ iso_status put_list(const char* call, const std::vector<T>& all, void* out, std:
   for (std::size_t i = 0; i < many; ++i) put_plain(static_cast<std::uint8_t*>(out) + i * extent_of<T>().size, all[i]);
   return many < all.size() ? refuse(ISO_SMALL_BUFFER, call, "room") : kOk;
 }
-/// An id that a world gave; where it gave none it has said why.
+/// Hands out an id that a world gave; where it gave none it has said why.
 template <class IdType> iso_status put_id(IdType id, std::uint64_t* out) {
   *out = id_bits(id);
   return kOk;

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "include/isostep.h"
-#include "isostep/session/core.hpp"
+#include "isostep/session/peer/session_core.hpp"
 
 namespace isostep::c {
 

@@ -28,7 +28,7 @@ template <class S, class Query> QueryShape<S> shape_of(const Query& query) {
   return query.shape ? QueryShape<S>(query.shape) : QueryShape<S>(query.primitive);
 }
 
-/// ask(world, query, filter) returns a status.
+/// Asks the world: ask(world, query, filter) returns a status.
 template <class S, class Query, class Ask>
 iso_status ask_world(const iso_world* world, const char* call, const void* from, const Ask& ask) {
   return in_world<S>(world, call, Access::reads, [&](auto& of) {
@@ -39,7 +39,7 @@ iso_status ask_world(const iso_world* world, const char* call, const void* from,
     return status == kOk ? ask(of.world, query, filtered.filter) : status;
   });
 }
-/// One thing that is found or not: find(world, query, filter) returns an optional.
+/// Finds one thing or none: find(world, query, filter) returns an optional.
 template <class S, class Query, class Find>
 iso_status find_one(const iso_world* world, const char* call, const void* from, void* out, uint8_t* found,
                     const Find& find) {
@@ -52,7 +52,7 @@ iso_status find_one(const iso_world* world, const char* call, const void* from, 
     return kOk;
   });
 }
-/// Many: list(world, query, filter, vector) appends them.
+/// Finds many: list(world, query, filter, vector) appends them.
 template <class S, class Query, class Hit, class List>
 iso_status find_all(const iso_world* world, const char* call, const void* from, void* out, std::size_t room,
                     std::size_t* count, const List& list) {
@@ -63,18 +63,18 @@ iso_status find_all(const iso_world* world, const char* call, const void* from, 
   });
 }
 
-/// Hits of a batch, `each` of them for every query.
+/// Writes the hits of a batch, `each` of them for every query.
 template <class Hit> void put_hits(const std::vector<Hit>& hits, void* out) {
   for (std::size_t i = 0; i < hits.size(); ++i) {
     put_plain(static_cast<std::uint8_t*>(out) + i * extent_of<Hit>().size, hits[i]);
   }
 }
 
-/// Most hits of one batch: beyond, a product of counts is more likely a mistake than memory.
+/// The most hits of one batch: a larger product of counts is more likely a mistake than memory.
 constexpr std::size_t kMostHits = std::size_t{1} << 28;
 
-/// make(query, filter) is what the world is asked; run(world, all, hits) asks it. The structs are as large as the first
-/// of them says.
+/// Casts a batch: make(query, filter) is the question to the world; run(world, all, hits) puts it. The structs are as
+/// large as the first of them says.
 template <class S, class Query, class Cast, class Hit, class Make, class Run>
 iso_status cast_many(const iso_world* world, const char* call, const void* from, std::size_t count, void* out,
                      std::size_t each, const Make& make, const Run& run) {

@@ -48,7 +48,7 @@ template <class S> iso_status set_spin(iso_world* world, const char* call, iso_r
     return kOk;
   });
 }
-/// An input or a state, as `find(world, id)` has it.
+/// Hands out an input or a state that `find(world, id)` returns.
 template <class S, class Id, class Find>
 iso_status get_part(const iso_world* world, const char* call, iso_record id, void* out, const Find& find) {
   return in_world<S>(world, call, Access::reads, [&](auto& of) {

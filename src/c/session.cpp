@@ -75,7 +75,7 @@ void step(SessionObject& session, Frame frame) {
   game.step(game.user, frame, session.turn.inputs(), static_cast<std::uint32_t>(session.session.config().players));
 }
 
-/// Tells the game's callbacks; true: that was a step.
+/// Tells the game's callbacks. Returns true when that was a step.
 bool carry_out(SessionObject& session, const iso_request& request) {
   const iso_game& game = session.game.callbacks();
   switch (request.kind) {

@@ -19,7 +19,7 @@ template <std::size_t N> bool ends(const char (&text)[N], std::size_t most) {
 
 constexpr std::size_t kMostBlock = 256u << 20;  // [bytes] a state that is saved every frame is much smaller
 
-/// Numbers that C and C++ have alike: an entry is a field that is copied as it is.
+/// The numbers that C and C++ have alike: an entry is a field that is copied as it is.
 #define ISO_SESSION_FIELDS(X)                                                                                      \
   X(players)                                                                                                       \
   X(local_players)                                                                                                 \

@@ -1,4 +1,4 @@
-// From iso_session_config to SessionConfig, and what is wrong with one or with a game.
+// The way from iso_session_config to SessionConfig, and what is wrong with one or with a game.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace isostep::c {
 
-/// A struct of the caller's, of any size that it may have: what it does not hold keeps its default. A status, and for
-/// ISO_REFUSED and ISO_BAD_ENUM the field and what it may be.
+/// The problem of a caller's struct: a status, and for ISO_REFUSED and ISO_BAD_ENUM the field and the values that it
+/// may have. A struct may have any size; members that it does not hold keep their defaults.
 struct Problem {
   iso_status status = ISO_OK;
   const char* text = "";
@@ -20,9 +20,9 @@ inline iso_status refuse(const Problem& problem, const char* call, const char* w
 Problem read_config(const iso_session_config* from, iso_session_config& to);
 Problem read_game(const iso_game* from, iso_game& to);
 
-/// Of a configuration without a problem. The identity is still to be set.
+/// Converts a configuration without a problem. The identity is still to be set.
 SessionConfig to_session_config(const iso_session_config& config);
-/// `world`: null where the game has none.
+/// The identity of a game. `world` is null where the game has none.
 Result<ReplayHeader> identity_of_game(const iso_game& game, const SessionWorld* world, const char* name);
 
 }  // namespace isostep::c

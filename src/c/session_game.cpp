@@ -51,7 +51,7 @@ void SessionGame::write_portable(Writer& writer) const {
   if (game_.block != nullptr) writer.write_raw({static_cast<const std::uint8_t*>(game_.block), game_.block_size});
   if (game_.write == nullptr) return;
   std::vector<std::uint8_t> own(game_.write(game_.user, nullptr, 0));
-  // A game that changes its mind about the size writes nothing: the receiver's hash says so.
+  // A game that changes its mind about the size writes nothing: the receiver's hash shows that.
   if (game_.write(game_.user, own.data(), own.size()) == own.size()) writer.write_raw(own);
 }
 
@@ -64,7 +64,7 @@ Result<void> SessionGame::read_portable(Reader& reader) {
   return reader.result("game");
 }
 
-/// The block and what callbacks keep: both or none. False: the reader says why.
+/// Reads the block and the state that callbacks keep: both or none. Returns false when the reader says why.
 bool SessionGame::read_own(Reader& reader) {
   const Bytes block = reader.read_view(game_.block != nullptr ? game_.block_size : 0);
   if (!reader.ok()) return false;

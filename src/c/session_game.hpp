@@ -18,7 +18,7 @@ template <> struct InputCodec<Bytes> {
     for (std::size_t i = 0; i < input.size(); ++i) to[i] = input[i];
     return input.size();
   }
-  /// The bytes are the core's and hold until its next advance().
+  /// Gives the bytes themselves: they are the core's and hold until its next advance().
   static bool decode(Bytes bytes, Bytes& input) {
     input = bytes;
     return true;
@@ -27,7 +27,8 @@ template <> struct InputCodec<Bytes> {
 
 namespace c {
 
-/// Models Simulation but for `step`, which the caller does, and PortableState. Never copied or moved: rules() names it.
+/// Models Simulation but for `step`, which the caller does, and PortableState. It is never copied or moved: rules()
+/// names it.
 class SessionGame {
  public:
   using Input = Bytes;
@@ -38,7 +39,7 @@ class SessionGame {
     std::uint32_t slot = kNoSlot;  // of the game's own
   };
 
-  /// Both were looked at: problem_of_game().
+  /// Takes a game and a configuration without a problem: read_game(), read_config().
   SessionGame(const iso_game& game, const iso_session_config& config);
   SessionGame(const SessionGame&) = delete;
   SessionGame& operator=(const SessionGame&) = delete;
@@ -46,15 +47,15 @@ class SessionGame {
   void save(Snapshot& to);
   bool load(const Snapshot& from);
   std::uint64_t hash() const;
-  /// Nothing of a game without a portable form.
+  /// Writes nothing of a game without a portable form.
   void write_portable(Writer& writer) const;
-  /// All of it or nothing.
+  /// Reads all of it or nothing.
   Result<void> read_portable(Reader& reader);
   bool has_portable() const { return game_.save == nullptr || game_.write != nullptr; }
 
   InputRules rules() const;
   const iso_game& callbacks() const { return game_; }
-  /// Null: the game has none.
+  /// Returns null where the game has no world.
   SessionWorld* world() const { return world_.get(); }
   bool is_alive() const { return world_ == nullptr || world_->is_alive(); }
 

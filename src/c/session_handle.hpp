@@ -1,4 +1,4 @@
-// What is behind an iso_session: a Session of a SessionGame, the turn that is under way, and what observes it.
+// The object behind an iso_session: a Session of a SessionGame, the turn that is under way, and what observes it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -18,7 +18,7 @@ namespace isostep::c {
 
 inline constexpr std::uint32_t kRecordings = 2;  // ISO_RECORD_MATCH, ISO_RECORD_WORLD
 
-/// Observes the turns for the recordings that are under way, and keeps what the caller is to be told next.
+/// Observes the turns for the recordings that are under way, and keeps the request that the caller is told next.
 struct SessionObserver {
   std::unique_ptr<FrameRecording> recordings[kRecordings];
   bool has_ended[kRecordings] = {};  // its file is whole
@@ -52,12 +52,12 @@ struct SessionObserver {
   }
 };
 
-/// drive(), one request at a time. A turn that the caller leaves in its middle, by an exception of the game's step, is
+/// drive(), one request at a time. A turn that the caller leaves in the middle, by an exception of the game's step, is
 /// over where the next begins: its requests were not carried out, which the session tells as misuse and makes good.
 class SessionTurn {
  public:
   bool is_open() const { return is_open_; }
-  /// The step that was asked for last is not over.
+  /// Returns true while the step that was asked for last is not over.
   bool is_stepping() const { return is_stepping_; }
   const iso_input* inputs() const { return inputs_.data(); }
 
@@ -92,10 +92,10 @@ template <> struct HandleOf<iso_session> {
   static constexpr const char* kName = "session";
 };
 
-/// The name of the function that this stands in, as sentences have it: without iso_.
+/// The name of the function that this stands in, without iso_, as sentences have it.
 #define ISO_C_CALL (__func__ + 4)
 
-/// May it be called now?
+/// Finds the session of a handle, if it may be called now.
 iso_status enter(const iso_session* handle, const char* call, SessionObject*& object);
 
 /// Every function that changes a session is called by this; `work(SessionObject&)` returns a status.
@@ -108,19 +108,19 @@ template <class Work> iso_status in_session(iso_session* handle, const char* cal
   if (status == ISO_NO_MEMORY) object->is_broken = true;
   return status;
 }
-/// The same of what returns whether it was done.
+/// Runs `work`, which returns whether it was done.
 template <class Work>
 iso_status ask_session(iso_session* handle, const char* call, const char* expected, const Work& work) {
   return in_session(handle, call, [&](SessionObject& object) {
     return work(object.session) ? iso_status{ISO_OK} : refuse(ISO_REFUSED, call, "", expected);
   });
 }
-/// A struct that is filled, whose size the caller has set.
+/// Checks a struct that is to be filled, whose size the caller has set.
 template <class T> iso_status check_struct(const T* out, const char* call) {
   const iso_status status = can_give(out);
   return status == ISO_OK ? status : refuse(status, call, "out");
 }
-/// What _init does.
+/// Writes, for _init, `defaults` into a struct of the caller's.
 template <class T>
 iso_status start_struct(const char* call, const std::type_identity_t<T>& defaults, T* out, std::size_t size) {
   const iso_status status = start(defaults, out, size);

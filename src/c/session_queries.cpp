@@ -12,12 +12,12 @@ namespace {
 
 using CSession = isostep::Session<SessionGame>;
 
-/// `otherwise` of what is no session.
+/// Asks a session; returns `otherwise` of a handle that is none.
 template <class T, class F> T look(const iso_session* session, const char* call, T otherwise, const F& function) {
   const Found<iso_session> found(session, call);
   return found.object != nullptr ? static_cast<T>(function(found.object->session)) : otherwise;
 }
-/// Into a struct of the caller's.
+/// Fills a struct of the caller's.
 template <class T, class F>
 iso_status look_into(const iso_session* session, const char* call, T* out, const F& function) {
   const Found<iso_session> found(session, call);

@@ -1,6 +1,6 @@
 // Sessions in C: recordings of their frames, and matches that are put away.
 // SPDX-License-Identifier: MIT
-#include "isostep/session/match_recorder.hpp"
+#include "isostep/session/observers/match_recorder.hpp"
 #include "session_handle.hpp"
 
 namespace isostep::c {
@@ -22,7 +22,7 @@ class MatchRecording final : public FrameRecording {
   MatchRecorder<SessionGame> recorder_;
 };
 
-/// Between two turns alone: states of one under way are missing.
+/// Requires that no turn is under way: states are missing in the middle of one.
 iso_status require_no_turn(const SessionObject& session, const char* call) {
   return session.turn.is_open() ? refuse(ISO_UNFINISHED, call) : iso_status{ISO_OK};
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "include/isostep.h"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "isostep/state/archive.hpp"
 #include "isostep/state/replay_header.hpp"
 
@@ -23,11 +23,11 @@ class FrameRecording {
   virtual void rolled_back(Frame) = 0;
   virtual void restarted(Frame) = 0;
   virtual void confirmed(Frame, std::uint64_t hash) = 0;
-  /// All final frames so far are in the file.
+  /// Puts all final frames so far into the file.
   virtual Result<void> flush() = 0;
   virtual Result<void> finish() = 0;
   const std::vector<std::uint8_t>& file() const { return file_; }
-  /// Of the file what was not shown before.
+  /// The part of the file that was not shown before.
   Bytes show_news() {
     const Bytes news = Bytes(file_).subspan(shown_);
     shown_ = file_.size();
@@ -56,15 +56,15 @@ class SessionWorld {
   virtual void write_portable(Writer& writer) const = 0;
   virtual Result<void> read_portable(Reader& reader) = 0;
   virtual Result<ReplayHeader> identity(std::string_view name) const = 0;
-  /// By its tape or its log: one recording at a time.
+  /// Returns true while its tape or its log records the world: one recording at a time.
   virtual bool is_recorded() const = 0;
-  /// Of the world's commands; `kept`: frames that may be stepped before they are confirmed.
+  /// Records the world's commands. `kept`: frames that may be stepped before they are confirmed.
   virtual std::unique_ptr<FrameRecording> record(std::size_t kept, std::string_view scene) = 0;
-  /// False once its handle was destroyed; what the session has of the world is there until it ends itself.
+  /// Returns false once the world's handle was destroyed; the session's own part of it lives until the session ends.
   virtual bool is_alive() const = 0;
 };
 
-/// Null where there is no such world.
+/// Returns null where there is no such world.
 std::unique_ptr<SessionWorld> session_world_of(iso_world* world);
 
 }  // namespace isostep::c

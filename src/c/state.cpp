@@ -7,7 +7,7 @@ using namespace isostep::c;
 
 namespace {
 
-/// work(WorldOf<S>&, SnapshotOf<S>&) for a snapshot of the world's scalar.
+/// Runs work(WorldOf<S>&, SnapshotOf<S>&) for a snapshot of the world's scalar.
 template <class Work>
 iso_status with_snapshot(const iso_world* world, const iso_snapshot* snapshot, const char* call, Access access,
                          const Work& work) {
@@ -81,7 +81,7 @@ iso_status iso_world_read(iso_world* world, const void* bytes, size_t size) {
   return in_any_world(world, kCall, Access::changes, [&](auto& of) {
     if (size != 0) ISO_C_REQUIRE(kCall, bytes);
     Reader reader(Bytes(static_cast<const std::uint8_t*>(bytes), size));
-    // What follows the state is an error too, and the world is to be as it was: so it is read aside first.
+    // The state is read aside first: bytes behind it are an error too, and the world stays as it was.
     std::remove_reference_t<decltype(of.world)> aside(of.world.settings());
     of.use_assets_of(aside);
     Result<void> read = aside.read_portable(reader);

@@ -8,7 +8,7 @@
 namespace isostep::c {
 namespace {
 
-/// A sentence of fixed size: what does not fit is cut.
+/// A sentence of fixed size: text beyond it is cut.
 struct Sentence {
   char text[512] = {};
   std::size_t length = 0;

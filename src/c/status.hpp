@@ -1,4 +1,4 @@
-// How calls of the C interface end: a status, and for the thread that called a sentence.
+// The end of calls of the C interface: a status, and for the thread that called a sentence.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,9 +14,9 @@ inline constexpr iso_status kOk = ISO_OK;
 
 /// Notes "call: what: the status in words; expected ..." for iso_last_error and returns the status. Texts may be empty.
 iso_status refuse(iso_status status, const char* call, const char* what = "", const char* expected = "");
-/// Why a world refused a call.
+/// Tells why a world refused a call.
 iso_status refuse(const FaultReport& report);
-/// What bytes or geometry lack.
+/// Tells why bytes or geometry were refused.
 iso_status refuse(iso_status status, const char* call, const Error& error);
 const char* last_error();
 
@@ -43,15 +43,15 @@ template <class Work> iso_status guarded(const char* call, const Work& work) {
 #endif
 }
 
-/// In a function that returns a status: what may not be null.
+/// Refuses null, in a function that returns a status.
 #define ISO_C_REQUIRE(call, pointer) \
   if ((pointer) == nullptr) return ::isostep::c::refuse(ISO_NULL, call, #pointer)
 
-/// `size`: room in, need out. Nothing is copied into too little room.
+/// Copies bytes out. `size`: room in, need out. Nothing is copied into too little room.
 iso_status copy_out(const char* call, const void* from, std::size_t need, void* to, std::size_t* size);
-/// A sentence with the 0 that ends it.
+/// Copies a sentence out with the 0 that ends it.
 iso_status copy_text(const char* call, const char* text, char* to, std::size_t* size);
-/// As much as a member has room for, with a 0 behind it.
+/// Copies as much as a member has room for, with a 0 behind it.
 void copy_member(char* to, std::size_t room, const char* from, std::size_t length);
 
 }  // namespace isostep::c

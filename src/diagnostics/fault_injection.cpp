@@ -1,4 +1,4 @@
-// Turning one bit.
+// FaultInjection: turns one bit.
 // SPDX-License-Identifier: MIT
 #include "diagnostics/fault_injection.hpp"
 

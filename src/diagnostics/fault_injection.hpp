@@ -10,12 +10,12 @@
 
 namespace isostep {
 
-/// For tests of what finds faults: an index or a count that is turned may lead the engine beyond its arrays.
+/// It tests what finds faults: an index or a count that is turned may lead the engine beyond its arrays.
 class FaultInjection {
  public:
   FaultInjection(std::string_view path, std::uint32_t bit);
-  /// False when no field has that path and bit, or none that may be written: what lies in an island asleep is not.
-  /// `edit`: of the engine that the view is of.
+  /// Injects the fault. Returns false when no field has that path and bit, or none that may be written: what lies in an
+  /// island asleep is not. `edit`: of the engine that the view is of.
   bool inject(const StageView& view, EditFields edit) const;
 
  private:

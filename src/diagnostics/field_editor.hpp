@@ -1,4 +1,4 @@
-// What writes fields of an engine in the midst of a step, which the library itself only reads.
+// Writers of an engine's fields in the midst of a step, which the library itself only reads.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,7 +9,8 @@
 
 namespace isostep {
 
-/// Called for every field, returns the bits that it shall have from now on. Fields that may not be written keep theirs.
+/// `field` is called for every field and returns the bits that it shall have from now on. Fields that may not be
+/// written keep theirs.
 struct FieldEditor {
   std::uint64_t (*field)(void* user, const PathPart& path, FieldFormat format, std::uint64_t bits);
   void* user;
@@ -18,7 +19,7 @@ struct FieldEditor {
 /// Edits one group of the fields of an engine, in the order of FieldSource::walk.
 using EditFields = void (*)(void* engine, FieldGroup group, std::uint32_t stage, const FieldEditor& editor);
 
-/// Of the engines behind the two kinds of world, compiled for the scalars that the library holds.
+/// Edits the fields of the engines behind the two kinds of world, compiled for the scalars that the library holds.
 template <class S>
 void edit_rigid_fields(void* engine, FieldGroup group, std::uint32_t stage, const FieldEditor& editor);
 template <class S>

@@ -1,4 +1,4 @@
-// Editing the fields of rigid worlds, for every shipped scalar.
+// The editor of the fields of rigid worlds, for every shipped scalar.
 // SPDX-License-Identifier: MIT
 #include "diagnostics/field_editing.inl"
 #include "isostep/world/engine_fields.inl"

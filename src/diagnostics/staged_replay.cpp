@@ -1,4 +1,4 @@
-// Which world a replay needs, played with somebody who watches.
+// StagedReplay: the world that a replay needs, played with somebody who watches.
 // SPDX-License-Identifier: MIT
 #include "diagnostics/staged_replay.hpp"
 
@@ -11,7 +11,7 @@
 namespace isostep {
 namespace {
 
-/// What is done at a point: look(point's step and stage, what was left there).
+/// The action at a point: look(point's step and stage, what was left there).
 struct Watch {
   const StagedReplay& how;
   const TraceSink* trace;  // or, for the fields of one point:

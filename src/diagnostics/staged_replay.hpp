@@ -14,7 +14,7 @@
 
 namespace isostep {
 
-/// In place of a stage: what came before a step's first one, and in the end what came after the last step.
+/// The name in place of a stage's for what came before a step's first one, and in the end after the last step.
 inline constexpr char kCommandsStage[] = "commands";
 
 struct StagePoint {
@@ -62,7 +62,7 @@ struct TraceSink {
 /// else is the file's.
 Result<void> trace_stages(const ReplayReader& replay, const StagedReplay& how, const TraceSink& sink);
 
-/// At one point; `invalid` when the recording has not got it.
+/// Visits the fields at one point; `invalid` when the recording has not got it.
 Result<void> visit_stage(const ReplayReader& replay, const StagedReplay& how, const StagePoint& at,
                          const FieldSink& sink);
 

@@ -14,7 +14,7 @@ constexpr int kFrames = 240, kWindow = 6;  // [frames] in all; that inputs take 
 using Inputs = std::array<std::uint8_t, 2>;
 constexpr std::uint8_t kLeft = 1, kRight = 2, kThrow = 4;
 
-/// In the manner of such libraries; the first pointer because these two peers share a process.
+/// The callbacks in the manner of such libraries; the first pointer is there because these two peers share a process.
 struct Callbacks {
   void (*save_game_state)(void* game, unsigned char** buffer, int* checksum, int frame);
   void (*load_game_state)(void* game, unsigned char* buffer);
@@ -22,7 +22,7 @@ struct Callbacks {
   void (*advance_frame)(void* game);
 };
 
-/// Stands for that library. The other's inputs come late and are guessed to stay as they were.
+/// This class stands for that library. The other's inputs come late and are guessed to stay as they were.
 class Netcode {
  public:
   Netcode(const Callbacks& callbacks, void* game, int local) : call_(callbacks), game_(game), local_(local) { save(); }
@@ -90,7 +90,7 @@ struct Game : State {
   }
 };
 
-/// A buffer is a snapshot, opaque to the netcode; where bytes are wanted, write_portable gives them.
+/// A buffer is a snapshot, opaque to the netcode; write_portable gives bytes where they are wanted.
 const Callbacks kCallbacks = {
     [](void* game, unsigned char** buffer, int* checksum, int frame) {
       Game& g = *static_cast<Game*>(game);

@@ -38,7 +38,8 @@ int main() {
                               .shape = crate,
                               .position = {3, 2, 0},
                               .material = {.friction = 0.5, .restitution = 0.25},
-                              .filter = {kWood, kAll}});  // a bad one: null id, and world.fault() says why
+                              .filter = {kWood, kAll},
+                              .report_contacts = true});  // a bad one: null id, and world.fault() says why
   iso::Q32_32 hardest = 0;
   for (int i = 0; i < 120; ++i) {
     iso::StepReport report = world.step();  // clean() unless a limit was met

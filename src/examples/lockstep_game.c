@@ -37,6 +37,7 @@ static void build(machine* m) {
   must(iso_q32_body_create(m->world, &body, &m->pucks[0]));
   must(iso_q32_add_sphere(m->world, &ball, &body.shape));
   body.type = ISO_BODY_TYPE_DYNAMIC;
+  body.report_contacts = 1;
   body.position.y = one;
   for (int n = 0; n < 2; ++n) {
     body.position.x = (4 * n - 2) * one;

@@ -30,7 +30,9 @@ struct Game : iso::Composite<iso::World<S>, Score> {  // world and user: saved, 
   Game() {
     world.create({.shape = world.add_shape(iso::Box{{20, 1, 20}}), .position = {0, -1, 0}});
     const auto ball = world.add_shape(iso::Sphere{0.5});
-    for (int n : {0, 1}) pucks[n] = world.create({.type = iso::dynamic, .shape = ball, .position = {4 * n - 2, 1, 0}});
+    for (int n : {0, 1})
+      pucks[n] = world.create(
+          {.type = iso::dynamic, .shape = ball, .position = {4 * n - 2, 1, 0}, .report_contacts = true});
   }
   void step(iso::InputView<Input> inputs) {
     for (int n : {0, 1}) world.apply_impulse(pucks[n], {S(0.125) * S(inputs[n].way), 0, 0});

@@ -34,7 +34,7 @@ struct Game {
   }
 };
 
-/// What a player does: rushes, waits, backs off.
+/// A player rushes, waits, backs off.
 int input_of(int player, int frame) { return (frame / (11 + 6 * player) + player) % 3 - 1; }
 
 struct Peer {
@@ -73,7 +73,7 @@ int main() {
     for (int player = 0; player < 2; ++player) peers[player].play(frame, player);
     straight.step({input_of(0, frame), input_of(1, frame)});
   }
-  // The last inputs arrive: roll back once more, to what really happened.
+  // The last inputs arrive: roll back once more, to the game that really happened.
   for (int player = 0; player < 2; ++player) {
     Peer& peer = peers[player];
     peer.game.world.load(peer.saved[(kFrames - kLate) % peer.saved.size()]);

@@ -32,7 +32,8 @@ struct Game : iso::Composite<World, Rules> {  // world and user: saved, loaded, 
 
   Game() {
     ball = world.add_shape(iso::Sphere{0.25});
-    paddle = world.create({.type = iso::kinematic, .shape = world.add_shape(iso::Box{{1, 0.125, 1}})});
+    paddle = world.create(
+        {.type = iso::kinematic, .shape = world.add_shape(iso::Box{{1, 0.125, 1}}), .report_contacts = true});
   }
   void step(iso::InputView<Input> inputs) {
     world.set_velocity(paddle, {S(4 * inputs[0].way), 0, 0}, {0, 0, 0});

@@ -79,6 +79,7 @@ int main(void) {
   sphere.radius = 0.5f;
   floor.normal.y = 1;
   ball.type = ISO_BODY_TYPE_DYNAMIC;
+  ball.report_contacts = 1;
   ball.position.y = 3;
   ISO(iso_f32_world_create(&settings, &world));
   ISO(iso_f32_add_sphere(world, &sphere, &ball.shape));

@@ -1,4 +1,4 @@
-// What a game asks at start: does the engine compute on this machine as it does on every other?
+// A check at start: does the engine compute on this machine as it does on every other?
 // SPDX-License-Identifier: MIT
 #include "isostep/replay/selfcheck.hpp"
 

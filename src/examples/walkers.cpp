@@ -64,7 +64,7 @@ struct Game : iso::Composite<iso::World<S>, Jumps> {
   bool rides(int player) const { return world.state(walkers[player])->ground == lift; }
 };
 
-/// What a player does: walks to the lift, then to and fro on it, and jumps now and then.
+/// A player walks to the lift, then to and fro on it, and jumps now and then.
 Pad pad_of(int player, iso::Frame frame) {
   const int there = player == 0 ? 64 : -64, away = frame / 40 % 2 == 0 ? there / 4 : -there / 4;
   return {static_cast<std::int8_t>(frame < 120 ? there : away), static_cast<std::int8_t>(frame % (130 + player) == 0)};

@@ -1,4 +1,4 @@
-// How our programs end.
+// The exit status of our programs.
 // SPDX-License-Identifier: MIT
 #pragma once
 

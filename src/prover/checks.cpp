@@ -1,4 +1,4 @@
-// Checking one recording.
+// The check of one recording.
 // SPDX-License-Identifier: MIT
 #include "checks.hpp"
 

@@ -45,7 +45,7 @@ constexpr Macro kMacros[] = {
 #undef ISO_ROW
 #undef ISO_EXPANDED
 
-/// As the macros of this program tell them: the library's are the same where one configuration builds both.
+/// The flags by the macros of this program: the library's are the same where one configuration builds both.
 std::string flags() {
   List list;
   for (const Macro& macro : kMacros) {

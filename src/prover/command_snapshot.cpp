@@ -8,7 +8,7 @@
 namespace isostep::prover {
 namespace {
 
-/// Whether the state to continue from is at fault, not the recording: it fails before any frame is stepped.
+/// The state to continue from is at fault, not the recording: it fails before any frame is stepped.
 bool is_state_refused(std::string_view path, const CheckedReplay& checked, ReplayCheck check) {
   const VerifyResult& result = checked.result;
   if (result.outcome == VerifyOutcome::diverged) return result.where == VerifyResult::Where::start;

@@ -1,4 +1,4 @@
-// Reading the prover's words.
+// The reader of the prover's words.
 // SPDX-License-Identifier: MIT
 #include "request.hpp"
 

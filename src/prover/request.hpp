@@ -1,4 +1,4 @@
-// What the prover is asked for: its words, read.
+// The request of the prover: its words, read.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -19,10 +19,11 @@ int digit_of(std::uint8_t c) {
   return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/// Above any recording: what never ends must end.
+/// [bytes] It is above any recording: what never ends must end.
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 31;
 
-/// Without exceptions a vector that cannot grow ends the program; so it grows by what can be had.
+/// Makes room for more bytes. Without exceptions a vector that cannot grow ends the program; so it grows by what can be
+/// had.
 bool make_room(std::vector<std::uint8_t>& bytes, std::size_t more) {
   if (bytes.capacity() - bytes.size() >= more) return true;
   const std::uint64_t wanted = 2 * static_cast<std::uint64_t>(bytes.capacity()) + more;
@@ -34,7 +35,7 @@ bool make_room(std::vector<std::uint8_t>& bytes, std::size_t more) {
   return true;
 }
 
-/// Empty, or why not.
+/// Returns an empty text, or why it could not read.
 std::string read_all(std::FILE* file, std::vector<std::uint8_t>& bytes) {
   std::uint8_t block[4096];
   for (std::size_t n = 1; n != 0;) {

@@ -16,7 +16,7 @@ void make_streams_binary();
 
 /// The whole file; "-": standard input. Empty, or why it cannot be read.
 std::string read_file(std::string_view path, std::vector<std::uint8_t>& bytes);
-/// To standard output.
+/// Prints to standard output.
 void print(std::string_view text);
 
 /// 64 digits a line.

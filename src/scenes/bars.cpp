@@ -60,7 +60,7 @@ constexpr Bar kBars[] = {
     {"S20", Measure::limit_end, 0.02, 0.005},
     {"S20", Measure::energy_gain, 0.001, 0.001},
 };
-/// Fixed point of 32 bits is for particles and small scenes, and has bars for those alone.
+/// The bars of fixed point of 32 bits, which is for particles and small scenes alone.
 constexpr Bar kSmallBars[] = {
     {"S1x10", Measure::top, 0.05, 0.025},
     {"S1x10", Measure::drift, 0.05, 0.025},

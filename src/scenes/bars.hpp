@@ -63,12 +63,12 @@ template <class ValueOf> Reach reach_of(const std::vector<Bar>& bars, ValueOf&& 
 
 /// Dynamic bodies whose centre is not where the scene keeps them: in the pit, above the floor, in the drum.
 int count_outside(std::string_view scene, const std::vector<BodySight>& bodies);
-/// Of scenes of bullets: those that are past their wall, or left their plate less than a tenth of the speed that they
+/// The bullets of such a scene that are past their wall, or left their plate less than a tenth of the speed that they
 /// would share with it. Nothing for other scenes.
 std::optional<int> count_through(std::string_view scene, const std::vector<BodySight>& start,
                                  const std::vector<BodySight>& now);
 
-/// What a benchmark scene is about beside overlap, joints and energy, for they are measured anyway.
+/// The measure that a benchmark scene is about beside overlap, joints and energy, for they are measured anyway.
 Measure own_measure(std::string_view scene);
 bool is_benchmark(std::string_view scene);
 /// Its figure is that measure, at the end. Null for what is no benchmark scene.

@@ -1,4 +1,4 @@
-// Baked files of scenes.
+// Baked files of scenes, read.
 // SPDX-License-Identifier: MIT
 #include "blob_files.hpp"
 

@@ -11,7 +11,7 @@
 
 namespace isostep::scenes {
 
-/// Whether parts of that type may name a file.
+/// Parts of that type may name a file.
 bool has_blob(ShapeType type);
 
 /// Each file is read once, however many parts name it.

@@ -66,6 +66,21 @@ Primitive<S> primitive(const ScenePart& part, std::vector<BlobRef>& blobs, const
   throw SceneError(place + "/file", part.file + ": " + describe(fault));
 }
 
+template <class S> PartTraits<S> traits_of(const ScenePartTraits& own, const std::string& at) {
+  PartTraits<S> traits;
+  traits.flags = own.flags;
+  if (traits.has(part_flag::kOwnFilter)) traits.filter = own.filter;
+  if (!traits.has(part_flag::kOwnMaterial)) return traits;
+  traits.material = Material<S>{};
+  traits.material.friction = read<S>(own.friction, at + "/friction");
+  traits.material.static_friction = read<S>(own.static_friction, at + "/static_friction");
+  traits.material.restitution = read<S>(own.restitution, at + "/restitution");
+  traits.material.rolling_resistance = read<S>(own.rolling_resistance, at + "/rolling_resistance");
+  traits.material.spin_resistance = read<S>(own.spin_resistance, at + "/spin_resistance");
+  traits.material.kind = own.kind;
+  return traits;
+}
+
 template <class S> ShapeId add_shape(World<S>& world, const SceneBody& body, const std::string& place) {
   std::vector<Child<S>> children;
   std::vector<BlobRef> blobs;
@@ -73,7 +88,8 @@ template <class S> ShapeId add_shape(World<S>& world, const SceneBody& body, con
     const std::string at = place + "/shapes/" + std::to_string(i);
     const Primitive<S> shape = primitive<S>(body.parts[i], blobs, at);
     const Vec3<S> position = read<S>(body.parts[i].position, at + "/position");
-    children.push_back({shape, {position, read<Unit<S>>(body.parts[i].orientation, at + "/orientation")}});
+    const Quat<Unit<S>> orientation = read<Unit<S>>(body.parts[i].orientation, at + "/orientation");
+    children.push_back({shape, {position, orientation}, traits_of<S>(body.parts[i].own, at)});
     if (!is_bounded(shape.type) && body.type == BodyType::dynamic) {
       throw SceneError(at,
                        std::string("a ") + kShapeNames[static_cast<std::size_t>(shape.type)] + " is for static bodies");
@@ -118,6 +134,7 @@ BodyDefinition<S> definition_of(const SceneBody& body, ShapeId shape, std::uint6
   d.user_data = user_data;
   d.sensor = body.sensor;
   d.bullet = body.bullet;
+  d.report_contacts = body.report_contacts;
   d.allow_sleep = body.allow_sleep;
   d.collide = body.collide;
   return d;
@@ -151,13 +168,23 @@ std::string text_of(const std::vector<SceneSurface>& surfaces) {
   for (const SceneSurface& s : surfaces) text += text_of(s.friction) + text_of(s.restitution);
   return text;
 }
+std::string text_of(const ScenePartTraits& own) {
+  std::string text = ' ' + std::to_string(own.flags);
+  const auto add = [&](const char*, const auto& number) {
+    if constexpr (std::is_same_v<decltype(number), const Number&>) text += text_of(number);
+    else text += ' ' + std::to_string(number);
+  };
+  visit_part_material(own, add);
+  visit_part_filter(own, add);
+  return text;
+}
 /// Bodies of equal parts share one shape.
 std::string key_of(const SceneBody& body) {
   std::string key;
   for (const ScenePart& part : body.parts) {
     key += std::to_string(static_cast<unsigned>(part.type));
     visit_sizes(part, [&](const char*, const auto& size, SizeRule) { key += text_of(size); });
-    key += text_of(part.position) + text_of(part.orientation);
+    key += text_of(part.position) + text_of(part.orientation) + text_of(part.own);
   }
   return key;
 }

@@ -1,4 +1,5 @@
-// From a scene to a world: every number enters the scalar once, and what the world refuses is said with its place.
+// The build of a world from a scene: every number enters the scalar once, and a refusal of the world is told with its
+// place.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,7 +10,7 @@
 
 namespace isostep::scenes {
 
-/// In the scene's order.
+/// The ids in the scene's order.
 template <class S> struct Built {
   std::vector<BodyId> bodies;
   std::vector<JointId> joints;
@@ -17,7 +18,8 @@ template <class S> struct Built {
 
 /// Throws SceneError when gravity is no number of S, or rates are beyond Settings'.
 template <class S> Settings<S> settings_of(const Scene& scene);
-/// Into a world that is empty. A body's user data is its place in the order of creation, from 1. Throws SceneError.
+/// Builds into a world that is empty. A body's user data is its place in the order of creation, from 1. Throws
+/// SceneError.
 template <class S> Built<S> build(const Scene& scene, World<S>& world);
 
 /// One body more; `place` is what errors name. Throws SceneError.

@@ -46,7 +46,7 @@ SceneBody plate(int n) {
   return body;
 }
 
-/// As large as the wall, of cells of 2 m, facing what comes.
+/// A mesh as large as the wall, of cells of 2 m, that faces the bullets.
 SceneBody sheet() {
   constexpr int kRows = 30, kColumns = 20;
   ScenePart part;

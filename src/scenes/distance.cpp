@@ -1,4 +1,4 @@
-// Separating axes for cores that meet, closest points for cores that do not.
+// Distances of solids: separating axes for cores that meet, closest points for cores that do not.
 // SPDX-License-Identifier: MIT
 #include "distance.hpp"
 
@@ -50,7 +50,7 @@ double point_to_box(V point, const Solid& box) {
   return length(outside);
 }
 
-/// Between segments c + t d, t in -1..1.
+/// The distance between segments c + t d, t in -1..1.
 /// Source: Ericson 2005, Real-Time Collision Detection, 5.1.9, with the parameters centred.
 double segment_to_segment(V c1, V d1, V c2, V d2) {
   const V r = c1 - c2;

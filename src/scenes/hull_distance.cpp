@@ -1,4 +1,5 @@
-// Separating axes for cores that meet a hull, closest points of its triangles for round ones that do not.
+// Distances of hulls: separating axes for cores that meet a hull, closest points of its triangles for round ones that
+// do not.
 // SPDX-License-Identifier: MIT
 #include "hull_distance.hpp"
 

@@ -6,7 +6,7 @@
 
 namespace isostep::scenes {
 
-/// As signed_distance(), where a or b is a hull.
+/// The signed_distance() where a or b is a hull.
 double hull_distance(const Solid& a, const Solid& b);
 
 }  // namespace isostep::scenes

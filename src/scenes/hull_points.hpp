@@ -26,11 +26,11 @@ struct SolidHull {
   Mat3<double> moments;                                // [m^2] means of x x^T about the centre
   double inner_radius;                                 // [m] from the centre to the nearest face
 };
-/// Of a hull's blob.
+/// The solid of a hull's blob.
 std::shared_ptr<const SolidHull> solid_hull(const Blob& blob);
 
-/// What the engine says that a hull with a radius [m] weighs and turns like: stretched about its centre, along each
-/// axis until its box has grown by the radius on both sides.
+/// The volume and moments that the engine gives a hull with a radius [m]: stretched about its centre, along each axis
+/// until its box has grown by the radius on both sides.
 struct StretchedHull {
   double volume;         // [m^3]
   Mat3<double> moments;  // [m^2] as SolidHull has them

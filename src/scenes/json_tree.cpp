@@ -43,7 +43,7 @@ class TreeBuilder {
 
   bool null() { return add({}); }
   bool boolean(bool value) { return add({JsonKind::boolean, value, {}, {}, {}}); }
-  /// Only a negative integer comes here, so zero was written "-0".
+  /// Zero here was written "-0": only a negative integer comes.
   bool number_integer(std::int64_t value) { return number(value == 0 ? "-0" : std::to_string(value)); }
   bool number_unsigned(std::uint64_t value) { return number(std::to_string(value)); }
   bool number_float(double, const std::string& text) { return number(text); }

@@ -1,4 +1,4 @@
-// By how much joints are past their limits, from what is seen of the bodies alone.
+// The errors of joints past their limits, from what is seen of the bodies alone.
 // SPDX-License-Identifier: MIT
 #pragma once
 

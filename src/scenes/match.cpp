@@ -46,7 +46,7 @@ template <class S> void Match<S>::write_portable(Writer& writer) const {
   writer.write(settings_);
   state_.write_portable(writer);
 }
-/// What the bytes say about the game is only ever used as ids, which the world checks, and as counters.
+/// The bytes about the game are only ever used as ids, which the world checks, and as counters.
 template <class S> Result<void> Match<S>::read_portable(Reader& reader) {
   MatchSettings settings;
   if (reader.read(settings) && !(settings == settings_)) {

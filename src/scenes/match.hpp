@@ -10,13 +10,13 @@
 
 #include "isostep/core/fields.hpp"
 #include "isostep/core/random.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "isostep/state/composite.hpp"
 #include "isostep/world/world.hpp"
 
 namespace isostep::scenes {
 
-/// What a button does while its wait is over; a held button acts again and again.
+/// The action of a button while its wait is over; a held button acts again and again.
 enum class MatchAction : std::uint8_t {
   jump,     // when something is underfoot
   shove,    // what is near flies off
@@ -43,7 +43,8 @@ struct MatchInput {
 };
 static_assert(kHasNoPadding<MatchInput> && sizeof(MatchInput) == 4);
 
-/// What a player might do: another choice every 9 to 24 frames, its buttons held for the first three. A pure function.
+/// The input that a player might give: another choice every 9 to 24 frames, its buttons held for the first three. A
+/// pure function.
 MatchInput bot_input(std::uint64_t seed, int player, Frame frame);
 
 /// Players of one arena: its state has a place for each.
@@ -62,7 +63,8 @@ struct MatchSettings {
   ISO_FIELDS(players, pile, seed, hz, substeps)
 };
 
-/// For sounds and sparks. Of prediction and truth alike when nothing was mispredicted: it holds names, no measures.
+/// The events of a match, for sounds and sparks. Those of prediction and truth are alike when nothing was mispredicted:
+/// an event holds names, no measures.
 enum class MatchEventKind : std::uint16_t {
   jump,
   shove,
@@ -127,19 +129,19 @@ template <class S> class Match {
   void load(const Snapshot& from);
   std::uint64_t hash() const;
   void write_portable(Writer& writer) const;
-  /// Of a match of the same settings; another's is `incompatible`.
+  /// Reads a match of the same settings; another's is `incompatible`.
   Result<void> read_portable(Reader& reader);
 
   /// A frame as `step_recorded` takes it: for every player the input and a byte, 1 for disconnected.
   void write_inputs(InputView<MatchInput> inputs, Writer& writer) const;
   Result<void> step_recorded(Bytes input);
 
-  /// Of the last step; not state.
+  /// The events and the report of the last step; not state.
   std::span<const MatchEvent> events() const;
   const StepReport& report() const;
 
   const MatchSettings& settings() const;
-  /// To be looked at, drawn and recorded; commands are the game's own affair.
+  /// The world, to be looked at, drawn and recorded; commands are the game's own affair.
   const World<S>& world() const;
   World<S>& world();
   const MatchState& state() const;
@@ -149,7 +151,7 @@ template <class S> class Match {
   void set_up_pucks(int first_puck, const std::vector<BodyId>& bodies);
   MatchState::Player& player_state(int player);
 
-  // Before the step.
+  // These run before the step.
   void cool_down();
   void attend(int player, bool away);
   void act(int player, const MatchInput& input);
@@ -164,7 +166,7 @@ template <class S> class Match {
   void tilt(Vec3<Unit<S>> aim);
   ShapeId draw_shape();
 
-  // After it.
+  // These run after it.
   void count_touches();
   void count_goals();
   void put_back_fallen();
@@ -180,14 +182,14 @@ template <class S> class Match {
   MatchSettings settings_;
   State state_;
 
-  // The same from the start of every match of these settings.
+  // These are the same from the start of every match of these settings.
   std::array<BodyId, kMostPucks> pucks_;
   std::array<Vec3<S>, kMostPucks> starts_;  // [m] of the pucks
   JointId mill_;
   BodyId ring_;
   S half_;  // [m] of the floor's inside
 
-  // Of the last step.
+  // These are of the last step.
   StepReport report_;
   std::array<MatchEvent, kMaxMatchEvents> events_;
   std::size_t event_count_;

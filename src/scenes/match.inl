@@ -174,6 +174,7 @@ template <class S> void Match<S>::spawn(int player, Vec3<Unit<S>> aim) {
   definition.material.restitution = S(0.25);
   definition.filter.category = match_category::kSpawned;
   definition.angular_damping = MatchRules<S>::kAngularDamping;
+  definition.report_contacts = true;
   const BodyId body = world.create(definition);
   own.spawned[place] = body;
   own.shapes[place] = definition.shape;

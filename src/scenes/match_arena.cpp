@@ -45,7 +45,7 @@ void add_pile(Scene& scene, int count, int edge, std::uint32_t seed) {
   }
 }
 
-/// Turned about the world's y axis by a motor.
+/// Adds a mill, which a motor turns about the world's y axis.
 int add_mill(Scene& scene) {
   SceneJoint hinge;
   hinge.type = JointType::hinge;
@@ -87,6 +87,7 @@ void add_pucks(Scene& scene, int players, double distance) {
     body.density = 1.25;
     body.restitution = 0.5;
     body.angular_damping = 1;
+    body.report_contacts = true;
     scene.bodies.push_back(body);
   }
 }

@@ -1,4 +1,4 @@
-// What the match is built from, before any scalar is chosen.
+// The arena that a match is built from, before any scalar is chosen.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -155,7 +155,7 @@ Overlap summary(std::vector<double> depths) {
 
 }  // namespace
 
-/// Sorted along x and swept.
+/// The parts are sorted along x and swept.
 template <class S> Overlap measure_overlap(const World<S>& world) {
   constexpr double kNear = 0.01;  // [m]
   std::vector<Part> parts = parts_of(world.state());

@@ -1,4 +1,4 @@
-// What a world is like, for reports: overlap by exact geometry, energy, joint error. All in double, never fed back.
+// Measures of a world, for reports: overlap by exact geometry, energy, joint error. All in double, never fed back.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,7 +12,7 @@ namespace isostep::scenes {
 template <class T> Vec3<double> in_double(Vec3<T> v) { return {to_double(v.x), to_double(v.y), to_double(v.z)}; }
 inline double length_of(Vec3<double> v) { return std::sqrt(dot(v, v)); }
 
-/// Over pairs of parts that may collide and are closer than 1 cm, overlapping ones included.
+/// The overlap over pairs of parts that may collide and are closer than 1 cm, overlapping ones included.
 struct Overlap {
   double worst = 0;        // [m]
   double mean = 0;         // [m] over the pairs, a gap counting as 0
@@ -22,7 +22,7 @@ struct Overlap {
 };
 template <class S> Overlap measure_overlap(const World<S>& world);
 
-/// Of all dynamic bodies, asleep or not. Potential energy is zero at the origin.
+/// The energy of all dynamic bodies, asleep or not. Potential energy is zero at the origin.
 struct Energy {
   double kinetic = 0;    // [J] of translation and rotation
   double potential = 0;  // [J]

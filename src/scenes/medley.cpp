@@ -34,6 +34,7 @@ void add_heap(Scene& scene) {
   for (int n = 0; n < 8; ++n) {
     const Point at = {(n % 2 - 0.5) * 1.1, 1.9 + 0.8 * (n / 4), (n / 2 % 2 - 0.5) * 1.1};
     SceneBody body = n == 3 ? dumbbell(at) : n == 6 ? bracket(at) : drawn_body(n, at, draws, 1);
+    body.report_contacts = true;
     if (n % 3 == 1) body.restitution = 0.5;
     if (n % 3 == 2) body.rolling_resistance = 0.02;
     scene.bodies.push_back(body);
@@ -43,7 +44,7 @@ void add_heap(Scene& scene) {
   scene.bodies.push_back(slider);
 }
 
-/// Where nothing disturbs them, so that they fall asleep.
+/// Adds a stack where nothing disturbs it, so that it falls asleep.
 void add_stack(Scene& scene) {
   for (int n = 0; n < 3; ++n) scene.bodies.push_back(body_of(box_part({0.4, 0.3, 0.4}), {8, 0.3 + 0.6 * n, 0}));
 }

@@ -1,4 +1,4 @@
-// What the scene `medley` and its script share.
+// Numbers that the scene `medley` and its script share.
 // SPDX-License-Identifier: MIT
 #pragma once
 

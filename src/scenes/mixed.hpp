@@ -1,4 +1,4 @@
-// What the scene `mixed` and its script share, and the compounds in it.
+// Numbers that the scene `mixed` and its script share, and the compounds in it.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -18,7 +18,7 @@ struct NamedScene {
   const char* left_out = nullptr;  // why this build cannot play it
 };
 std::span<const NamedScene> named_scenes();
-/// Of these, or of the trials (trials/trial.hpp). Nothing for a name that neither has.
+/// Finds one of these, or of the trials (trials/trial.hpp). Nothing for a name that neither has.
 std::optional<Scene> find_scene(std::string_view name);
 
 // Makers, one file a family.
@@ -26,21 +26,21 @@ Scene stack(int boxes);
 Scene wall();
 Scene pyramid();
 Scene pile(int bodies);
-/// The same of hulls.
+/// The pile with hulls in place of other shapes.
 Scene hull_pile(int bodies);
 Scene rain();
-// On terrain: a mesh, or a height field.
+// Terrain scenes: on a mesh, or on a height field.
 Scene terrain(bool field);
 Scene thin_bodies(bool field);
 Scene sliders(bool field);
 /// A thousand bodies over the hills, for queries: queries.hpp.
 Scene scattered();
-/// What happens in the levels of levels/level.hpp.
+/// Scenes in the levels of levels/level.hpp.
 Scene town();
 Scene yard();
 Scene chain(bool hanging);
 Scene ragdolls();
-/// The same with cones, twists and hinges that bend as far as a body's do.
+/// The ragdolls with cones, twists and hinges that bend as far as a body's do.
 Scene limited_ragdolls();
 /// 100 of those, each alone 2 m above the floor, tilted by one hundredth of a turn more than the one before.
 Scene tilted_ragdolls();
@@ -51,11 +51,11 @@ inline constexpr std::size_t kRagdollParts = 11;
 enum class BulletTarget { wall, sheet, plates };
 Scene bullets(BulletTarget at);
 inline constexpr int kBullets = 1000;
-/// [kg] of the n-th.
+/// [kg] The mass of the n-th bullet.
 double bullet_mass(int n);
 /// 160 figures of 23 parts with cones and limits fall in a heap on the hills.
 Scene figures();
-// After the peers' own benchmarks.
+// Scenes after the peers' own benchmarks.
 Scene trees();
 Scene joint_grid();
 Scene washer();

@@ -18,7 +18,7 @@ inline Vec3<double> nearest_on_segment(Vec3<double> p, Vec3<double> from, Vec3<d
   const double square = dot(way, way);
   return from + way * (square > 0 ? clamp(dot(p - from, way) / square, 0.0, 1.0) : 0.0);
 }
-/// Over its inside that of its plane, else of its sides.
+/// The nearest point of the triangle: over its inside that of its plane, else of its sides.
 inline Vec3<double> nearest_on_triangle(Vec3<double> p, const std::array<Vec3<double>, 3>& t) {
   const Vec3<double> normal = cross(t[1] - t[0], t[2] - t[0]);
   bool above = true;

@@ -1,4 +1,4 @@
-// Reading one JSON object, member by member.
+// The reader of one JSON object, member by member.
 // SPDX-License-Identifier: MIT
 #include "object_reader.hpp"
 
@@ -7,7 +7,7 @@
 namespace isostep::scenes {
 namespace {
 
-/// As it stands in a JSON pointer (RFC 6901).
+/// The key as it stands in a JSON pointer (RFC 6901).
 std::string escaped(const std::string& key) {
   std::string text;
   for (const char c : key) {
@@ -50,7 +50,7 @@ void ObjectReader::number(const char* key, Number& to) {
   if (const JsonNode* node = find(key, JsonKind::number)) to = Number(node->text);
 }
 
-/// By its text: some digit before the exponent is not zero.
+/// The number is positive by its text: some digit before the exponent is not zero.
 void ObjectReader::positive(const char* key, Number& to) {
   number(key, to);
   if (!has(key)) return;

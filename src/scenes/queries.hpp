@@ -17,7 +17,7 @@ struct DrawnQueries {
   std::vector<DrawnLine> rays;   // 10 000 of 40 m
   std::vector<DrawnLine> casts;  // 1000 of 20 m: even ones a sphere, odd ones a box
 };
-/// Of frames 0 to frames - 1.
+/// The queries of frames 0 to frames - 1.
 std::vector<DrawnQueries> drawn_queries(int frames);
 
 inline constexpr double kCastRadius = 0.3, kOverlapRadius = 1;  // [m]

@@ -32,7 +32,7 @@ const RagdollJoint kRagdollJoints[] = {{0, 1, 0, 0.11, kAxisUp, 0.5, -0.4, 0.4},
                                        {7, 9, 0.09, -0.53, kAxisRight, 0, 0, 2.4},       // knees
                                        {8, 10, -0.09, -0.53, kAxisRight, 0, 0, 2.4}};
 
-/// With its frame tilted about x as its ragdoll is.
+/// Sets the limits of a joint, with its frame tilted about x as its ragdoll is.
 void limit(SceneJoint& joint, const RagdollJoint& of, const SinCos<double>& half_tilt) {
   const double s = half_tilt.sin, c = half_tilt.cos;
   joint.orientation = {c * of.axis.x + s * kHalfRoot, c * of.axis.y, s * of.axis.y, c * kHalfRoot - s * of.axis.x};

@@ -40,13 +40,26 @@ using Rotation = std::array<Number, 4>;  // x y z w
 inline Vector zero_vector() { return {0, 0, 0}; }
 inline Rotation no_rotation() { return {0, 0, 0, 1}; }
 
-/// What a number among a part's materials stands for.
+/// The surface behind a number among a part's materials.
 struct SceneSurface {
   Number friction = 0.5;   // [1]
   Number restitution = 0;  // [1]
 };
 
 /// One primitive of a body; of the sizes only those of its type count.
+/// What a part has of its own, as PartTraits says: a file that names a number of the material, or of the filter, names
+/// the part's, and leaves the others as they are here.
+struct ScenePartTraits {
+  std::uint32_t flags = 0;             // part_flag
+  Number friction = 0.6;               // [1]
+  Number static_friction = 0;          // [1] below friction: the same
+  Number restitution = 0;              // [1]
+  Number rolling_resistance = 0;       // [m] lever arm of the normal force that resists rolling
+  Number spin_resistance = 1.0 / 128;  // [m] radius at which friction resists spinning about the normal
+  std::uint32_t kind = 0;              // of material, for pairs; 0: none
+  Filter filter;
+};
+
 struct ScenePart {
   ShapeType type = ShapeType::box;
   Vector half_extents = zero_vector();  // [m] box
@@ -66,6 +79,7 @@ struct ScenePart {
   BlobRef blob;                         // its content
   Vector position = zero_vector();      // [m] in the body's frame
   Rotation orientation = no_rotation();
+  ScenePartTraits own;
 };
 
 struct SceneBody {
@@ -95,6 +109,7 @@ struct SceneBody {
   bool collide = true;
   bool sensor = false;
   bool bullet = false;
+  bool report_contacts = false;
 };
 
 /// Frames as they lie at the start, world.
@@ -124,7 +139,7 @@ struct SceneRecord {
   std::vector<SceneField> fields;  // of record and input, those that differ from the engine's
 };
 
-/// What happens between frames: closed, so that a scene file can name it. Peers know none of it.
+/// The script that acts between frames: closed, so that a scene file can name it. Peers know none of it.
 enum class Script : std::uint32_t {
   none,
   mixer,
@@ -158,7 +173,7 @@ struct Scene {
   std::vector<SceneRecord> records;
 };
 
-/// Null, or why this build cannot play the scene: core/book.hpp.
+/// Returns null, or why this build cannot play the scene: core/book.hpp.
 inline const char* left_out(const Scene& scene) {
   const char* const solver = isostep::left_out(scene.solver);
   return solver != nullptr ? solver : isostep::left_out(scene.broad_phase);

@@ -38,7 +38,7 @@ void read_sizes(ObjectReader& reader, ScenePart& part) {
     else reader.number(key, size);
   });
 }
-/// In place of the sizes of a part.
+/// Reads a baked file in place of the sizes of a part.
 void read_baked(ObjectReader& reader, ScenePart& part, BlobFiles& files) {
   visit_sizes(part, [&](const char* key, auto& size, SizeRule rule) {
     if constexpr (std::is_same_v<decltype(size), Number&>) {
@@ -53,6 +53,30 @@ void read_baked(ObjectReader& reader, ScenePart& part, BlobFiles& files) {
   part.blob = files.read(part.file, part.type, reader.place_of("file"));
 }
 
+std::uint32_t read_number(ObjectReader& reader, const char* key, std::int64_t least) {
+  std::int64_t number = least;
+  reader.integer(key, least, 0xffffffff, number);
+  return static_cast<std::uint32_t>(number);
+}
+
+void read_traits(ObjectReader& reader, ScenePartTraits& own) {
+  const auto take = [&](std::uint32_t flag) {
+    return [&reader, &own, flag](const char* key, auto& number) {
+      if (!reader.has(key)) return;
+      own.flags |= flag;
+      if constexpr (std::is_same_v<decltype(number), Number&>) reader.number(key, number);
+      else number = read_number(reader, key, 0);
+    };
+  };
+  visit_part_material(own, take(part_flag::kOwnMaterial));
+  visit_part_filter(own, take(part_flag::kOwnFilter));
+  visit_part_flags([&](const char* key, std::uint32_t flag) {
+    bool set = false;
+    reader.flag(key, set);
+    if (set) own.flags |= flag;
+  });
+}
+
 ScenePart read_part(const JsonNode& node, const std::string& place, BlobFiles& files) {
   ObjectReader reader(node, place);
   ScenePart part;
@@ -61,6 +85,7 @@ ScenePart read_part(const JsonNode& node, const std::string& place, BlobFiles& f
   else read_sizes(reader, part);
   reader.vector("position", part.position);
   reader.rotation("orientation", part.orientation);
+  read_traits(reader, part.own);
   reader.finish();
   return part;
 }
@@ -71,12 +96,6 @@ void read_flags(ObjectReader& reader, std::span<const FlagKey> keys, std::uint32
     reader.flag(key, set);
     if (set) flags |= flag;
   }
-}
-
-std::uint32_t read_number(ObjectReader& reader, const char* key, std::int64_t least) {
-  std::int64_t number = least;
-  reader.integer(key, least, 0xffffffff, number);
-  return static_cast<std::uint32_t>(number);
 }
 
 SceneBody read_body(const JsonNode& node, const std::string& place, BlobFiles& files) {
@@ -108,6 +127,7 @@ SceneBody read_body(const JsonNode& node, const std::string& place, BlobFiles& f
   reader.flag("collide", body.collide);
   reader.flag("sensor", body.sensor);
   reader.flag("bullet", body.bullet);
+  reader.flag("report_contacts", body.report_contacts);
   const auto parts = reader.array("shapes");
   for (std::size_t i = 0; i < parts.size(); ++i)
     body.parts.push_back(read_part(parts[i], item(place, "shapes", i), files));

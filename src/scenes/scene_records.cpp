@@ -1,4 +1,4 @@
-// Reading, writing and building records, driven by the fields that they visit.
+// Records of scenes, read, written and built by the fields that they visit.
 // SPDX-License-Identifier: MIT
 #include "scene_records.hpp"
 
@@ -13,9 +13,6 @@ namespace {
 #define ISO_NAME(name, Record, Id, S) #name,
 constexpr const char* kRecordNames[] = {ISO_FOR_EACH_RECORD(ISO_NAME, double)};
 #undef ISO_NAME
-constexpr const char* kZoneShapes[] = {"everywhere", "sphere", "box"};
-constexpr const char* kBreakPatterns[] = {"eight_boxes", "grain", "radial", "voronoi"};
-constexpr const char* kAxes[] = {"x", "y", "z", "swing_x", "swing_y", "twist"};
 
 struct NoInput {
   template <class Visitor, class Self> static constexpr void fields(Visitor&&, Self&&) {}
@@ -51,11 +48,8 @@ template <class Record, class Visit> void visit_fields(Record& record, const Vis
       },
       record);
 }
+/// A choice: its words stand beside it, in the file of its kind.
 template <class T> constexpr bool is_name = std::is_enum_v<T>;
-/// The words of a choice.
-std::span<const char* const> words_of(ZoneShape) { return kZoneShapes; }
-std::span<const char* const> words_of(BreakPattern) { return kBreakPatterns; }
-std::span<const char* const> words_of(JointAxis) { return kAxes; }
 
 Number whole(std::int64_t n) { return Number(std::to_string(n)); }
 const SceneField* find(const SceneRecord& record, std::string_view name) {
@@ -67,7 +61,7 @@ const SceneField* find(const SceneRecord& record, std::string_view name) {
 
 /// A record of a kind has to name these bodies and joints.
 template <class Record> void require_named(const ObjectReader& reader, const Record& record) {
-  const auto bodies = detail::RecordRules<Record>::bodies(record);
+  const auto bodies = detail::bodies_of(record);
   for (int i = 0; i < bodies.count; ++i) {
     if (!bodies.all[i].may_be_null) reader.require(bodies.all[i].field);
   }

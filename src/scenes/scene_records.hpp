@@ -17,12 +17,13 @@ namespace isostep::scenes {
 /// -1 for none; choices as words.
 SceneRecord read_record(const JsonNode& node, const std::string& place, std::size_t bodies, std::size_t joints);
 std::string text_of(const SceneRecord& record);
-/// What a scene's places stand for in a world.
+/// The ids in a world of a scene's places.
 struct SceneIds {
   const std::vector<BodyId>& bodies;
   const std::vector<JointId>& joints;
 };
-/// Into a world that has the scene's bodies and joints. Sets inputs of which a field is given. Throws SceneError.
+/// Adds records to a world that has the scene's bodies and joints. Sets inputs of which a field is given. Throws
+/// SceneError.
 template <class S> void add_records(World<S>& world, const Scene& scene, const SceneIds& ids);
 
 #define ISO_EXTERN(S) extern template void add_records<S>(World<S>&, const Scene&, const SceneIds&);

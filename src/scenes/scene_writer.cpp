@@ -61,6 +61,17 @@ class ObjectWriter {
   std::string text_;
 };
 
+/// All of a material or filter of its own, so that the part has one again.
+void write_traits(ObjectWriter& out, const ScenePartTraits& own) {
+  const auto put = [&](const char* key, const auto& number) {
+    if constexpr (std::is_same_v<decltype(number), const Number&>) out.member(key, number);
+    else out.raw(key, std::to_string(number));
+  };
+  if ((own.flags & part_flag::kOwnMaterial) != 0) visit_part_material(own, put);
+  if ((own.flags & part_flag::kOwnFilter) != 0) visit_part_filter(own, put);
+  visit_part_flags([&](const char* key, std::uint32_t flag) { out.member(key, (own.flags & flag) != 0, false); });
+}
+
 std::string text_of(const ScenePart& part) {
   const ScenePart plain;
   ObjectWriter out(kShapeNames[static_cast<std::size_t>(part.type)]);
@@ -76,6 +87,7 @@ std::string text_of(const ScenePart& part) {
   });
   out.member("position", part.position, plain.position);
   out.member("orientation", part.orientation, plain.orientation);
+  write_traits(out, part.own);
   return out.text();
 }
 
@@ -106,6 +118,7 @@ std::string text_of(const SceneBody& body) {
   out.member("collide", body.collide, plain.collide);
   out.member("sensor", body.sensor, plain.sensor);
   out.member("bullet", body.bullet, plain.bullet);
+  out.member("report_contacts", body.report_contacts, plain.report_contacts);
   std::string parts;
   for (const ScenePart& part : body.parts) parts += (parts.empty() ? "" : ", ") + text_of(part);
   out.raw("shapes", "[" + parts + "]");

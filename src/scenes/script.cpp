@@ -26,7 +26,7 @@ template <class S> Vec3<S> vector(double x, double y, double z) {
   return {sx, sy, scalar<S>(z)};
 }
 
-/// With the body its shape goes, unless another body has it too.
+/// Destroys the body, and its shape unless another body has it too.
 template <class S> void destroy_with_shape(World<S>& world, BodyId body) {
   const auto find = [&](const BodySet<S>& set, std::uint32_t& shape) {
     for (std::size_t i = 0; i < set.states.size(); ++i) {
@@ -59,8 +59,8 @@ template <class S> BodyId oldest(const World<S>& world, const std::vector<BodyId
   return first;
 }
 
-/// From frame 4 on, every 4th frame the oldest body is replaced by a new one in the drum's middle; the last second of
-/// the run is without births, so that its end shows how bodies lie and not how the newest one began.
+/// Replaces from frame 4 on, every 4th frame, the oldest body by a new one in the drum's middle; the last second of the
+/// run is without births, so that its end shows how bodies lie and not how the newest one began.
 template <class S> void stir(World<S>& world) {
   constexpr int kFirstNew = 600;
   if (world.tick() < 4 || world.tick() >= kMixerBirthsEnd || world.tick() % 4 != 0) return;
@@ -143,7 +143,7 @@ template <class S> class Mixing {
   Draws draws_;
 };
 
-/// At tick 120 the last body made is thrown down with 20 m/s.
+/// Throws down the last body made, at tick 120, with 20 m/s.
 template <class S> void hit(World<S>& world) {
   if (world.tick() != 120) return;
   BodyId last;

@@ -1,4 +1,4 @@
-// What a scripted scene does between frames: world commands alone, chosen from the tick and the world's state.
+// The scripts of scenes: world commands alone between frames, chosen from the tick and the world's state.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -6,7 +6,7 @@
 
 namespace isostep::scenes {
 
-/// What a scene file must say of a size. A thickness is left out where it is 0, and stands beside a baked file too.
+/// The rule of a scene file for a size. A thickness is left out where it is 0, and stands beside a baked file too.
 enum class SizeRule { positive, required, optional, thickness };
 
 // visit_sizes: visit(key, size, rule) for every size of a part of that type; `part` may be const.
@@ -60,6 +60,27 @@ template <class Part, class Visit> void visit_sizes(Part& part, const Visit& vis
       if (!baked || rule == SizeRule::thickness) visit(key, size, rule);
     });
   });
+}
+
+// What a part has of its own: visit(key, number), of a friction or a filter's bits, and visit_part_flags(visit(key,
+// flag)).
+
+template <class Traits, class Visit> void visit_part_material(Traits& own, const Visit& visit) {
+  visit("friction", own.friction);
+  visit("static_friction", own.static_friction);
+  visit("restitution", own.restitution);
+  visit("rolling_resistance", own.rolling_resistance);
+  visit("spin_resistance", own.spin_resistance);
+  visit("kind", own.kind);
+}
+template <class Traits, class Visit> void visit_part_filter(Traits& own, const Visit& visit) {
+  visit("category", own.filter.category);
+  visit("mask", own.filter.mask);
+  visit("group", own.filter.group);
+}
+template <class Visit> void visit_part_flags(const Visit& visit) {
+  visit("sensor", part_flag::kSensor);
+  visit("report_contacts", part_flag::kReportContacts);
 }
 
 // shape_of: read.size(key, number) is an S, read.sizes(key, vector) a Vec3<S>, read.direction a Vec3<Unit<S>>,

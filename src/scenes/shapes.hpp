@@ -66,7 +66,7 @@ inline SceneBody fixed_box(Point at, Point half) {
   body.type = BodyType::static_;
   return body;
 }
-/// With both frames at one point.
+/// A joint with both frames at one point.
 inline SceneJoint joint_of(JointType type, int a, int b, Point anchor) {
   SceneJoint joint;
   joint.type = type;
@@ -75,7 +75,7 @@ inline SceneJoint joint_of(JointType type, int a, int b, Point anchor) {
   joint.anchor = vector_of(anchor);
   return joint;
 }
-/// About the world's y axis.
+/// A turn about the world's y axis.
 inline Rotation yaw(double angle) {
   const SinCos<double> half = sin_cos(angle / 2);
   return {0, half.sin, 0, half.cos};
@@ -88,7 +88,7 @@ inline Scene awake(int frames) {
   scene.frames = frames;
   return scene;
 }
-/// And nobody falls.
+/// A scene in which nobody sleeps, and nobody falls.
 inline Scene weightless(int frames) {
   Scene scene = awake(frames);
   scene.gravity = zero_vector();

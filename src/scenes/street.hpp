@@ -6,7 +6,7 @@
 #include <span>
 
 #include "isostep/core/fields.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "isostep/world/world.hpp"
 #include "scene.hpp"
 
@@ -14,7 +14,7 @@ namespace isostep::scenes {
 
 inline constexpr int kStreetPlayers = 4;
 
-/// What a player does in a frame; any bytes are an input.
+/// The input of a player in a frame; any bytes are one.
 struct StreetInput {
   std::int8_t throttle = 0, steer = 0;  // [1/128]
   std::int8_t walk_x = 0, walk_z = 0;   // [1/32 m/s]
@@ -23,7 +23,7 @@ struct StreetInput {
   friend bool operator==(const StreetInput&, const StreetInput&) = default;
   ISO_FIELDS(throttle, steer, walk_x, walk_z, buttons)
 };
-/// What a player might do: another choice every second. A pure function.
+/// The input that a player might give: another choice every second. A pure function.
 StreetInput street_bot(int player, Frame frame);
 
 /// Crates, a lift, two doors on hinges and a wagon besides.

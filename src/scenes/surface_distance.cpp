@@ -14,8 +14,8 @@ namespace {
 using V = Vec3<double>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Of a point to the triangles: negative under the surface. Near an edge the sign is that of the triangle whose plane
-/// the point is furthest from.
+/// The height of a point over the triangles: negative under the surface. Near an edge the sign is that of the triangle
+/// whose plane the point is furthest from.
 double height_over(V p, const SolidSurface& surface, const std::vector<std::size_t>& near) {
   double least = kFar, off_plane = 0, sign = 1;
   for (const std::size_t i : near) {
@@ -32,7 +32,7 @@ double height_over(V p, const SolidSurface& surface, const std::vector<std::size
   return sign * least;
 }
 
-/// By how far a point is inside of a solid that is no ball or capsule, in its own frame.
+/// The depth of a point inside of a solid that is no ball or capsule, in its own frame.
 double depth_inside(V p, const Solid& body) {
   if (is_revolved(body.type)) return depth_in_round(body, p);
   double depth = kFar;

@@ -6,7 +6,7 @@
 
 namespace isostep::scenes {
 
-/// As signed_distance(), where a or b is a mesh or a height field. Gaps beyond 1 m count as infinite.
+/// The signed_distance() where a or b is a mesh or a height field. Gaps beyond 1 m count as infinite.
 double surface_distance(const Solid& a, const Solid& b);
 
 }  // namespace isostep::scenes

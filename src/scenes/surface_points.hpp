@@ -14,7 +14,7 @@
 
 namespace isostep::scenes {
 
-/// Of a part's numbers, or of its baked file. Throw SceneError.
+/// The blob of a part's numbers, or of its baked file. These throw SceneError.
 BlobRef mesh_of_part(const ScenePart& part, const std::string& place);
 BlobRef height_field_of_part(const ScenePart& part, const std::string& place);
 
@@ -25,10 +25,10 @@ struct SolidSurface {
   std::vector<Triangle> triangles;                                // [m]
   std::map<std::pair<int, int>, std::vector<std::size_t>> cells;  // by x and z, 1 m wide: triangles that meet them
 
-  /// Of the triangles whose x and z are within `reach` [m] of a point, each once.
+  /// The triangles whose x and z are within `reach` [m] of a point, each once.
   std::vector<std::size_t> near(Vec3<double> p, double reach) const;
 };
-/// Of a mesh's or height field's blob.
+/// The surface of a mesh's or height field's blob.
 std::shared_ptr<const SolidSurface> solid_surface(const Blob& blob);
 
 }  // namespace isostep::scenes

@@ -76,7 +76,7 @@ ScenePart slider(int n) {
     default: return hull_part(prism_points(0.4, 0.2, 0.29));
   }
 }
-/// [m] of a slider's centre over the plain.
+/// [m] The height of a slider's centre over the plain.
 double slider_height(int n) {
   const double heights[] = {0.25, 0.2, 0.25, on_grid(0.15 + 0.35 * 0.29)};
   return heights[n % 4];

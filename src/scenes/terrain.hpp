@@ -6,9 +6,9 @@
 
 namespace isostep::scenes {
 
-/// [m] Of the hills of S11, S12 and S15 over x and z.
+/// [m] The height of the hills of S11, S12 and S15 over x and z.
 double hill_height(double x, double z);
-/// [m] Of them at the low corner of the cell over x and z.
+/// [m] The height of the hills at the low corner of the cell over x and z.
 double hill_corner(double x, double z);
 /// The mesh of them, and nothing else.
 Scene hills();

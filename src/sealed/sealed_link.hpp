@@ -8,21 +8,21 @@
 #include <span>
 
 #include "isostep/core/bytes.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "transport/line_guard.hpp"
 #include "transport/replay_window.hpp"
 
 namespace isostep::sealed {
 
-/// What the game's lobby gives the machines of a match: one for all of them, or one for each two. Who has it is a
-/// member; 32 bytes from a source of random numbers, and never the same in two matches.
+/// A key that the game's lobby gives the machines of a match: one for all of them, or one for each two. A machine that
+/// has it is a member; it is 32 bytes from a source of random numbers, and never the same in two matches.
 struct LobbyKey {
   std::uint64_t id = 0;  // travels in the clear; who is connected to looks the key up by it
   std::array<std::uint8_t, 32> secret{};
 };
 
-/// For EnetSettings::key: packets without a tag by the lobby's key are none, ENet's own words included. Where each two
-/// machines have a key, the lobby gives one more to all of them for this.
+/// The key for EnetSettings::key: packets without a tag by the lobby's key are none, ENet's own words included. Where
+/// each two machines have a key, the lobby gives one more to all of them for this.
 transport::PacketKey packet_key(const LobbyKey& key);
 
 enum class Opened : std::uint8_t {
@@ -50,20 +50,22 @@ class SealedLink {
 
   enum class Stage : std::uint8_t { none, greeted, answered, open };
 
-  /// Who connects: the hello. False: the system gives no random numbers.
+  /// Writes the hello of the side that connects. False: the system gives no random numbers.
   bool begin(const LobbyKey& key, std::span<std::uint8_t, kHello> hello);
-  /// Who connects: false: not from who has the key. Else the link is open, and a confirm is due.
+  /// Takes the reply on the side that connects. False: the sender has not got the key. Else the link is open, and a
+  /// confirm is due.
   bool take_reply(const LobbyKey& key, Bytes reply);
-  /// Who is connected to: which key a hello names; false: it is none.
+  /// Reads on the side that is connected to which key a hello names; false: it is none.
   static bool read_key_id(Bytes hello, std::uint64_t& id);
-  /// Who is connected to: false: nobody who has the key says this.
+  /// Answers a hello on the side that is connected to. False: the sender has not got the key.
   bool answer(const LobbyKey& key, Bytes hello, std::span<std::uint8_t, kReply> reply);
-  /// Who is connected to: false: not from who said hello. Else the link is open.
+  /// Takes the confirm on the side that is connected to. False: it is not from the sender of the hello. Else the link
+  /// is open.
   bool take_confirm(Bytes confirm);
 
-  /// Into `out`, kSeal bytes longer than `bytes`. False: no counts are left, the connection has to end.
+  /// Seals into `out`, kSeal bytes longer than `bytes`. False: no counts are left, the connection has to end.
   bool seal(Channel channel, Bytes bytes, std::uint8_t* out);
-  /// Into `out`, kSeal bytes shorter. What is not good changes nothing.
+  /// Opens into `out`, kSeal bytes shorter. Bytes that are not good change nothing.
   Opened open(Channel channel, Bytes sealed, std::uint8_t* out);
 
   Stage stage() const { return stage_; }
@@ -72,7 +74,7 @@ class SealedLink {
   bool has_drawn(Bytes hello) const;
   /// Forgets all keys.
   void close();
-  /// For tests: as if so many had been sealed.
+  /// Counts, for tests, as if so many had been sealed.
   void skip_to(Channel channel, std::uint32_t count) { ways_[kOut][index_of(channel)].count = count; }
 
  private:

@@ -23,7 +23,7 @@ struct SealSettings {
   Time handshake = 2 * kSecond;  // [us] until a connection is given up on which no handshake ends
 };
 
-/// What was refused, and changed nothing.
+/// The counts of what was refused, and changed nothing.
 struct SealStatistics {
   std::uint64_t truncated = 0, forged = 0, replayed = 0;  // see Opened
   std::uint64_t early = 0;                                // datagrams before their connection's keys are agreed upon
@@ -50,12 +50,13 @@ template <transport::Endpoint Inner> class SealedTransport {
   Result<void> connect_to(std::string_view address) requires transport::Connector<Inner> {
     return inner_.connect_to(address);
   }
-  /// For the connections that we ask for from now on: where each two machines have a key, before connecting.
+  /// Sets the key of the connections that we ask for from now on: where each two machines have a key, before
+  /// connecting.
   void set_own_key(std::uint64_t id) { settings_.own_key = id; }
-  /// Once a turn, before receive(): ends handshakes that take too long. transport::deliver does it.
+  /// Ends handshakes that take too long; called once a turn, before receive(). transport::deliver does it.
   void tend(Time now);
 
-  /// Which key the peer has shown. Where each player has a key of its own, that is who it is.
+  /// The key that the peer has shown. Where each player has a key of its own, it says who that is.
   std::optional<std::uint64_t> key_of(PeerId peer) const {
     if (peer >= links_.size() || links_[peer].seal.stage() != SealedLink::Stage::open) return std::nullopt;
     return links_[peer].seal.key_id();

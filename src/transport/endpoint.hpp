@@ -1,4 +1,4 @@
-// What every way from session to session offers its user: send, receive, end a connection.
+// The concept of an endpoint, the same for every way from session to session: send, receive, end a connection.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,11 +9,11 @@
 
 #include "isostep/core/bytes.hpp"
 #include "isostep/core/result.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 
 namespace isostep::transport {
 
-/// After `connected` come messages, after `disconnected` nothing more until the id is connected again. An attempt to
+/// `connected` is followed by messages, `disconnected` by nothing until the id is connected again. An attempt to
 /// connect that fails is a `disconnected` without a `connected`.
 enum class ArrivalKind : std::uint8_t { connected, disconnected, message };
 
@@ -34,8 +34,9 @@ concept Endpoint = requires(E& endpoint, PeerId peer, Channel channel, Bytes byt
   { endpoint.disconnect(peer) } -> std::same_as<void>;
 };
 
-/// Also connects to the machines whose addresses a session names when its host is gone: text as this transport writes
-/// it, which each machine gives its session as SessionConfig::address. `connected` or `disconnected` follows.
+/// An endpoint that also connects to the machines whose addresses a session names when its host is gone: text as this
+/// transport writes it, which each machine gives its session as SessionConfig::address. `connected` or `disconnected`
+/// follows.
 template <class E>
 concept Connector = Endpoint<E> && requires(E& endpoint, std::string_view address) {
   { endpoint.connect_to(address) } -> std::same_as<Result<void>>;

@@ -1,4 +1,4 @@
-// What passes between ENet and its socket.
+// EnetLines: packets between ENet and its socket.
 // SPDX-License-Identifier: MIT
 #include "transport/enet_lines.hpp"
 
@@ -66,7 +66,7 @@ int ENET_CALLBACK EnetLines::intercept(ENetHost* host, ENetEvent*) {
   return lines_of(host)->take({host->receivedData, host->receivedDataLength}) ? 0 : 1;
 }
 
-/// Whether ENet may read it.
+/// ENet may read the packet.
 bool EnetLines::take(std::span<std::uint8_t> packet) {
   if (Doorkeeper::is_word(packet) && packet.size() <= Doorkeeper::kWord) {
     if (!take_challenge(packet) && !answer(packet)) ++refused_;
@@ -120,12 +120,12 @@ ENetPeer* EnetLines::place_for(const ENetAddress& address, std::uint32_t connect
   return of_address < host_->duplicatePeers ? free : nullptr;
 }
 
-/// Of who has proved its address ENet reads one packet more, a CONNECT, and takes a peer for it.
+/// Lets ENet read one packet, a CONNECT, of a sender that has proved its address, and takes a peer for it.
 bool EnetLines::take_open(std::span<std::uint8_t> open) {
   constexpr std::size_t kConnect = Doorkeeper::kOpen + LineTags::kSize + 4 + sizeof(ENetProtocolConnect);
   const auto nonce = door_.take_open(open, source_of(host_->receivedAddress), enet_time_get());
   if (!nonce || open.size() != kConnect) return false;
-  // Asked again, before it heard that it is let in; or said again by others.
+  // The sender asks again, before it heard that it is let in; or others say it again.
   if (std::find(opened_.begin(), opened_.end(), *nonce) != opened_.end()) return false;
   const std::span<std::uint8_t> packet = open.subspan(Doorkeeper::kOpen);
   LineTags tags = door_.tags(*nonce, false);
@@ -169,14 +169,14 @@ LineTags* EnetLines::tags_to(std::uint32_t connect_id, std::uint32_t peer_there)
   if (peer_there == kPeerMask) return nullptr;
   for (std::size_t i = 0; i < tags_.size(); ++i) {
     const ENetPeer& peer = host_->peers[i];
-    // Who acknowledges an end is over for ENet before that is sent.
+    // A peer that acknowledges an end is over for ENet before that is sent.
     if (peer.state == ENET_PEER_STATE_DISCONNECTED) continue;
     if (peer.connectID == connect_id && peer.outgoingPeerID == peer_there) return &tags_[i];
   }
   return nullptr;
 }
 
-/// Of ENet's buffers one with the tag before them; of a CONNECT the ask.
+/// Makes of ENet's buffers one with the tag before them; of a CONNECT the ask.
 void EnetLines::seal() {
   ENetBuffer* const buffers = host_->buffers;
   const std::size_t header = buffers[0].dataLength - kChecksum;

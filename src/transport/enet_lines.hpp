@@ -14,8 +14,8 @@
 
 namespace isostep::transport {
 
-/// By ENet's two hooks: `intercept` has every packet that came before ENet reads it, `checksum` every packet that goes
-/// before it is sent. The four bytes that ENet keeps for a checksum are not sent.
+/// It works by ENet's two hooks: `intercept` has every packet that came before ENet reads it, `checksum` every packet
+/// that goes before it is sent. The four bytes that ENet keeps for a checksum are not sent.
 class EnetLines {
  public:
   /// `accepts`: connections that others ask for.
@@ -25,11 +25,12 @@ class EnetLines {
 
   /// Sets the hooks, and outlives the host.
   void guard(ENetHost* host);
-  /// Of the connection that was just asked for: what ENet sends as its CONNECT waits for the other side's challenge.
+  /// Begins the connection that was just asked for: what ENet sends as its CONNECT waits for the other side's
+  /// challenge.
   void begin(ENetPeer* peer, std::uint64_t nonce);
 
   std::uint64_t refused() const { return refused_; }
-  /// Since it was last asked, beside what ENet sent itself.
+  /// The traffic since the last call, beside what ENet sent itself.
   struct Sent {
     std::uint64_t packets = 0, bytes = 0;
   };

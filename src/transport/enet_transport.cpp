@@ -21,7 +21,8 @@ static_assert(ENET_VERSION >= ENET_VERSION_CREATE(1, 3, 17), "earlier ones crash
 
 constexpr enet_uint8 kDatagrams = 0, kReliables = 1;  // ENet's channels
 
-/// [bytes] of messages of one peer that ENet holds for us: reliable ones out of order, and what poll() leaves behind.
+/// [bytes] The cap on messages of one peer that ENet holds for us: reliable ones out of order, and what poll() leaves
+/// behind.
 constexpr std::size_t kWaitingCap = 512 << 10;
 
 /// ENet drops unreliable messages on purpose when round trips grow. Recovering all at once and never giving way means
@@ -140,13 +141,13 @@ void EnetTransport::State::purge(PeerId peer) {
   });
 }
 
-/// At once and without an event here; the peer is told, once.
+/// Ends a connection at once and without an event here; the peer is told, once.
 void EnetTransport::State::leave(PeerId peer) {
   purge(peer);
   peers[peer].link = Link::none;
   if (ours == peer) ours.reset();
   ENetPeer* remote = enet_peer(peer);
-  // Who has not answered yet cannot be told.
+  // A peer that has not answered yet cannot be told.
   if (remote->state == ENET_PEER_STATE_CONNECTING) return enet_peer_reset(remote);
   enet_peer_disconnect_now(remote, 0);
 }

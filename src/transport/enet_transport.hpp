@@ -15,7 +15,7 @@
 namespace isostep::transport {
 
 struct EnetSettings {
-  // Of who listens.
+  // These are for an endpoint that listens.
   PeerId max_peers = 64;             // those connecting included: the session's max_peers + max_strangers
   PeerId max_peers_an_address = 16;  // of those that others asked for: players behind one router share its address
   std::string bind_address = {};     // empty: every interface
@@ -72,7 +72,7 @@ class EnetTransport {
   /// already there for receive() or poll().
   void wait(Time longest);
 
-  /// In a message's own packet or with others of the same flush.
+  /// Sends in a message's own packet or with others of the same flush.
   Result<void> send(PeerId peer, Channel channel, Bytes bytes);
   void flush();
   std::optional<Arrival> receive();

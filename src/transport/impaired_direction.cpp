@@ -7,10 +7,11 @@
 namespace isostep::transport {
 namespace {
 
-/// What a router holds before it drops: about what home routers do without queue management.
+/// [us] The longest queue of a router before it drops: about that of home routers without queue management.
 constexpr Time kLongestQueue = 200000;  // [us]
 
-/// In [0, bound) from one word. Not exactly even, off by bound / 2^32 at most: an even draw would sometimes take two.
+/// A number in [0, bound) from one word. It is not exactly even, off by bound / 2^32 at most: an even draw would
+/// sometimes take two.
 std::uint32_t scaled(std::uint32_t word, std::uint32_t bound) {
   return static_cast<std::uint32_t>(std::uint64_t{word} * bound >> 32);
 }

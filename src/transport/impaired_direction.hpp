@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "isostep/core/random.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "transport/network_profile.hpp"
 
 namespace isostep::transport {
@@ -29,7 +29,7 @@ class ImpairedDirection {
   Fate decide(Time now, std::size_t bytes);
 
   const Conditions& conditions() const { return conditions_; }
-  /// From the next packet on; the generator and a burst under way go on.
+  /// Sets the conditions from the next packet on; the generator and a burst under way go on.
   void set_conditions(const Conditions& conditions) { conditions_ = conditions; }
 
  private:

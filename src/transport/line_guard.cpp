@@ -19,7 +19,7 @@ SipKey key_of(const PacketKey& key) {
   return {load_le<std::uint64_t>(key.data()), load_le<std::uint64_t>(key.data() + 8)};
 }
 
-/// Of one direction. `use` is unlike the first byte of any word.
+/// Derives the key of one direction. `use` is unlike the first byte of any word.
 SipKey derive(const PacketKey& key, std::uint64_t nonce, std::uint8_t use) {
   std::uint8_t text[9] = {use};
   store_le(text + 1, nonce);

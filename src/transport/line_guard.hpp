@@ -1,4 +1,4 @@
-// What goes over UDP before ENet's packets and around them: the proof of an address, and a tag on each packet.
+// Guards of UDP lines, before ENet's packets and around them: the proof of an address, and a tag on each packet.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <span>
 
 #include "isostep/core/bytes.hpp"
-#include "isostep/session/siphash.hpp"
+#include "isostep/session/protocol/siphash.hpp"
 #include "transport/replay_window.hpp"
 
 namespace isostep::transport {
@@ -17,7 +17,7 @@ namespace isostep::transport {
 /// That the machines of a match share and nobody else has; all zeros: they share none.
 using PacketKey = std::array<std::uint8_t, 16>;
 
-/// Where a packet comes from, in any order of bytes that is always the same.
+/// The sender of a packet, in any order of bytes that is always the same.
 struct Source {
   std::uint32_t host = 0;
   std::uint16_t port = 0;
@@ -35,7 +35,7 @@ class LineTags {
   LineTags(const PacketKey& key, std::uint64_t nonce, bool connects);
   /// Writes the first kSize bytes of what will be sent.
   void seal(std::span<std::uint8_t> packet);
-  /// False: not the other side's, or it came before. Overwrites the first kSize bytes.
+  /// Opens a packet. Returns false where it is not the other side's, or came before. Overwrites the first kSize bytes.
   bool open(std::span<std::uint8_t> packet);
 
  private:
@@ -66,16 +66,16 @@ class Doorkeeper {
   Doorkeeper() = default;
   Doorkeeper(const PacketKey& key, const SipKey& secret) : key_(key), secret_(secret) {}
 
-  /// Whether these bytes are no packet with LineTags.
+  /// These bytes are no packet with LineTags.
   static bool is_word(Bytes bytes) { return !bytes.empty() && (bytes[0] & 0x80) != 0; }
   LineTags tags(std::uint64_t nonce, bool connects) const { return {key_, nonce, connects}; }
 
-  // Who connects.
+  // These are of the side that connects.
   Word ask(std::uint64_t nonce) const;
   std::optional<Cookie> take_challenge(Bytes challenge, std::uint64_t nonce) const;
   static void write_open(std::uint64_t nonce, const Cookie& cookie, std::span<std::uint8_t, kOpen> out);
 
-  // Who is connected to. Times are in ms and may wrap.
+  // These are of the side that is connected to. Times are in ms and may wrap.
   std::optional<Word> answer(Bytes ask, const Source& source, std::uint32_t now) const;
   /// The nonce of an open whose sender has proved its address.
   std::optional<std::uint64_t> take_open(Bytes open, const Source& source, std::uint32_t now) const;

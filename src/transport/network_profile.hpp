@@ -1,4 +1,5 @@
-// How bad a network is: named profiles and a text form, in whole numbers, so that a seed is one schedule everywhere.
+// The quality of a network: named profiles and a text form, in whole numbers, so that a seed is one schedule
+// everywhere.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,14 +9,14 @@
 
 #include "isostep/core/result.hpp"
 #include "isostep/core/short_text.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 
 namespace isostep::transport {
 
 enum class Direction : std::uint8_t { up, down };  // client to host, host to client
 inline constexpr Direction kDirections[] = {Direction::up, Direction::down};
 
-/// What befalls the packets of one direction; without any member set nothing does.
+/// The conditions of the packets of one direction; without any member set nothing befalls them.
 struct Conditions {
   std::uint32_t latency = 0;       // [us] one way
   std::uint32_t jitter = 0;        // [us] a delay is anything from latency - jitter to latency + jitter, at least 0

@@ -1,13 +1,13 @@
-// Between a transport and a session: what has arrived goes in, what the session has to say goes out.
+// The pump between a transport and a session: what has arrived goes in, what the session has to say goes out.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/session/core.hpp"
+#include "isostep/session/peer/session_core.hpp"
 #include "transport/endpoint.hpp"
 
 namespace isostep::transport {
 
-/// Before drive().
+/// Gives a session what has arrived. It comes before drive().
 template <Endpoint E, class Session> void deliver(E& endpoint, Session& session, Time now) {
   if constexpr (requires { endpoint.tend(now); }) endpoint.tend(now);
   while (const std::optional<Arrival> arrival = endpoint.receive()) {
@@ -19,8 +19,9 @@ template <Endpoint E, class Session> void deliver(E& endpoint, Session& session,
   }
 }
 
-/// After it. What the transport refuses is as good as lost, and a session lives with losses. With an endpoint that is
-/// no Connector the caller asks poll_connect() itself, where the match may go on without its host.
+/// Sends what a session has to say. It comes after drive(). What the transport refuses is as good as lost, and a
+/// session lives with losses. With an endpoint that is no Connector the caller asks poll_connect() itself, where the
+/// match may go on without its host.
 template <Endpoint E, class Session> void dispatch(E& endpoint, Session& session, Time now) {
   if constexpr (Connector<E>) {
     // An address that cannot be is as one where nobody answers: the session goes on to the next.

@@ -1,4 +1,5 @@
-// Which packets of a connection have come: each counts once, and what is too old to tell counts not at all.
+// ReplayWindow: the packets of a connection that have come: each counts once, and one too old to tell counts not at
+// all.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,15 +11,15 @@ namespace isostep::transport {
 /// Source: RFC 4303 sec. 3.4.3 and RFC 6347 sec. 4.1.2.6 (the window), RFC 6479 (the ring).
 class ReplayWindow {
  public:
-  /// [packets] behind the newest; at 60 a second lines may be 17 s late.
+  /// [packets] The length of the window behind the newest; at 60 a second lines may be 17 s late.
   static constexpr std::uint32_t kSize = 1024;
 
-  /// Before the packet is opened, which costs more.
+  /// The packet has not come yet. It is asked before the packet is opened, which costs more.
   bool is_fresh(std::uint64_t number) const {
     if (number >= end_) return true;
     return end_ - number <= kSize && (block_of(number) >> number % kBits & 1) == 0;
   }
-  /// Once it is known to be the sender's; it was fresh.
+  /// Marks a fresh number, once it is known to be the sender's.
   void mark(std::uint64_t number) {
     if (number >= end_) {
       const std::uint64_t newest = number / kBits;

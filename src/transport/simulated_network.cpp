@@ -128,7 +128,7 @@ void SimulatedNetwork::disconnect(EndpointId from, PeerId peer) {
   advance_to(now_);
 }
 
-/// To a hello, by who is connected to.
+/// Answers a hello on the side that is connected to.
 void SimulatedNetwork::answer(Link& link) {
   if (!take_number(link, Direction::up)) return send_reliable(link, Direction::down, Content::goodbye, nullptr);
   link.ears[index_of(Direction::up)] = Ear::open;
@@ -222,7 +222,7 @@ void SimulatedNetwork::try_piece(Link& link, Event event) {
   schedule(now_ + patience, std::move(event));
 }
 
-/// Also ends the connection when the line has been dead for too long.
+/// Puts a packet on the line. Ends the connection when the line has been dead for too long.
 Fate SimulatedNetwork::put_on_line(Link& link, Direction direction, std::size_t bytes) {
   Line& line = link.lines[index_of(direction)];
   Fate fate = line.direction.decide(now_, bytes);

@@ -26,7 +26,7 @@ struct SimulationSettings {
   Time timeout = 10 * kSecond;  // a connection ends when one direction lost all that it was given for this long
 };
 
-/// Of one client's direction, over all its connections. Bytes are those of messages, without any header.
+/// The traffic of one client's direction, over all its connections. Bytes are those of messages, without any header.
 struct DirectionStatistics {
   std::uint64_t datagrams = 0, datagram_bytes = 0;  // given to send
   std::uint64_t reliable = 0, reliable_bytes = 0;   // given to send
@@ -62,23 +62,25 @@ class SimulatedNetwork {
   EndpointId add_client(const NetworkProfile& profile);
   Port port(EndpointId endpoint) { return Port(this, endpoint); }
 
-  /// To the host, which hears `connected` one way later, the client after a round trip. False while the client's last
-  /// connection is not over.
+  /// Connects to the host, which hears `connected` one way later, the client after a round trip. False while the
+  /// client's last connection is not over.
   bool connect(EndpointId client) { return connect(client, kHost); }
-  /// To any other, over the line that `from` has to the host, or that `to` has when it is the host that connects.
+  /// Connects to any other, over the line that `from` has to the host, or that `to` has when it is the host that
+  /// connects.
   bool connect(EndpointId from, EndpointId to);
   /// Both sides hear `disconnected` now; what was under way is gone.
   void cut(EndpointId client);
-  /// As if the cable were pulled, or the process had died: every packet from now on is lost until it is put back.
+  /// Silences an endpoint as if the cable were pulled, or the process had died: every packet from now on is lost until
+  /// it is put back.
   void set_silent(EndpointId endpoint, bool silent);
   /// Packets between endpoints of different sides are lost; all are on side 0 at first.
   void set_side(EndpointId endpoint, int side);
   void set_profile(EndpointId client, const NetworkProfile& profile);
-  /// For hostile tests: arrives at once, whatever the connection's state and the channel's cap.
+  /// Delivers at once, for hostile tests, whatever the connection's state and the channel's cap.
   void inject(EndpointId to, PeerId from, Channel channel, Bytes bytes);
 
   Time now() const { return now_; }
-  /// When something will happen on its own; nothing when the network is idle.
+  /// The time at which something will happen on its own; nothing when the network is idle.
   std::optional<Time> next_event_time() const;
   /// Lets everything due until then happen, in order of time and then of sending. Not before now(). What is due at
   /// once, as all of `loopback` is, happens without it.
@@ -94,7 +96,7 @@ class SimulatedNetwork {
   using Payload = std::shared_ptr<const std::vector<std::uint8_t>>;
 
   enum class Content : std::uint8_t { message, hello, welcome, goodbye };
-  /// On the reliable channel, from its sending to its delivery.
+  /// A message on the reliable channel, from its sending to its delivery.
   struct Message {
     Content content;
     std::uint32_t pieces_left;
@@ -107,9 +109,9 @@ class SimulatedNetwork {
     std::uint64_t next_number = 0;
     std::optional<Time> losing_since;  // [us] first of the losses since something came through
   };
-  /// What the receiver of a direction knows: the client of its attempt, either side that it is connected.
+  /// The knowledge of a direction's receiver: the client's of its attempt, either side's that it is connected.
   enum class Ear : std::uint8_t { closed, waiting, open };
-  /// From an endpoint that connects, up to the one that is connected to.
+  /// A link from an endpoint that connects, up to the one that is connected to.
   struct Link {
     std::size_t number;
     EndpointId ends[2];  // that a direction leads to
@@ -157,7 +159,7 @@ class SimulatedNetwork {
   const Link& home_of(EndpointId client) const { return *links_[stations_[client].home]; }
   Link& link_between(EndpointId from, EndpointId to);
   Link& add_link(EndpointId from, EndpointId to, const NetworkProfile& profile, std::uint64_t stream);
-  /// Where `from` speaks to `peer`; null when that is not, or no longer, part of a connection.
+  /// The link on which `from` speaks to `peer`; null when that is not, or no longer, part of a connection.
   Link* link_of(EndpointId from, PeerId peer, Direction& direction);
   bool take_number(Link& link, Direction direction);
   void send_datagram(Link& link, Direction direction, Payload payload);

@@ -7,7 +7,7 @@
 
 namespace isostep::transport {
 
-/// False: the system gives none.
+/// Draws secret words. Returns false where the system gives none.
 bool draw_secret(std::span<std::uint64_t> words);
 
 }  // namespace isostep::transport

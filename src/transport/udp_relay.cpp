@@ -60,7 +60,7 @@ Socket open_socket(int family) {
   if (opened.descriptor() < 0) return opened;
   const int flags = ::fcntl(opened.descriptor(), F_GETFL, 0);
   if (flags < 0 || ::fcntl(opened.descriptor(), F_SETFL, flags | O_NONBLOCK) < 0) return Socket();
-  // As large as the system allows; a smaller one only loses more.
+  // The buffer is as large as the system allows; a smaller one only loses more.
   ::setsockopt(opened.descriptor(), SOL_SOCKET, SO_RCVBUF, &kSocketBuffer, sizeof kSocketBuffer);
   return opened;
 }
@@ -97,7 +97,7 @@ std::optional<UdpAddress> look_up(const std::string& name, std::uint16_t port) {
   return std::nullopt;
 }
 
-/// Of a client: its address and port, which is all that the system fills in of a sender.
+/// The key of a client: its address and port, which is all that the system fills in of a sender.
 using AddressBytes = std::array<std::uint8_t, 16 + 4 + 2>;
 AddressBytes key_of(UdpAddress address) {
   AddressBytes key{};
@@ -173,7 +173,7 @@ Result<void> UdpRelay::State::bind() {
   return {};
 }
 
-/// Among those idle for kIdle the longest.
+/// Drops the client that has been idle longest, if that is kIdle or more.
 bool UdpRelay::State::make_room(Time now) {
   if (clients.size() < settings.max_clients) return true;
   const auto oldest = std::min_element(clients.begin(), clients.end(), [](const auto& a, const auto& b) {
@@ -190,7 +190,7 @@ Client* UdpRelay::State::client_at(const UdpAddress& address, Time now) {
   if (found != clients.end()) return &found->second;
   if (!make_room(now)) return nullptr;
   Socket upstream = open_socket(target.family());
-  // Connected, so that only the target can answer.
+  // The socket is connected, so that only the target can answer.
   if (upstream.descriptor() < 0 || ::connect(upstream.descriptor(), target.generic(), target.size) != 0) {
     return nullptr;
   }

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "isostep/core/result.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "transport/network_profile.hpp"
 
 namespace isostep::transport {
@@ -25,7 +25,7 @@ struct RelaySettings {
   std::size_t max_queued = 8192;  // packets of all clients under way
 };
 
-/// Of one direction; bytes are those of UDP's payload.
+/// The traffic of one direction; bytes are those of UDP's payload.
 struct RelayTraffic {
   std::uint64_t received = 0, received_bytes = 0;
   std::uint64_t forwarded = 0, forwarded_bytes = 0;
@@ -58,7 +58,7 @@ class UdpRelay {
   std::uint16_t port() const;
   /// Takes what has come and sends what is due, after waiting at most this long for either.
   Result<void> turn(Time longest);
-  /// Until `stop`, which is looked at every 50 ms.
+  /// Runs until `stop`, which is looked at every 50 ms.
   Result<void> run(const std::atomic<bool>& stop);
 
   const RelayStatistics& statistics() const;

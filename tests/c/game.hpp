@@ -49,6 +49,7 @@ struct Q32Game {
     definition.type = type;
     definition.shape = box;
     definition.position.y = whole(y);
+    definition.report_contacts = 1;
     iso_body made = 0;
     EXPECT_EQ(iso_q32_body_create(world, &definition, &made), ISO_OK) << iso_last_error();
     return made;
@@ -61,7 +62,7 @@ struct Q32Game {
   static std::int64_t whole(int n) { return iso_q32_from_double(n); }
 };
 
-/// What a call of the form (bytes, &size) writes.
+/// The bytes that a call of the form (bytes, &size) writes.
 template <class Write> std::vector<std::uint8_t> bytes_of(const Write& write) {
   std::size_t size = 0;
   EXPECT_EQ(write(nullptr, &size), ISO_SMALL_BUFFER);

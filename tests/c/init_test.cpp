@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint8_t kCanary = 0xa5;
 constexpr std::size_t kRoom = 64;  // [bytes] behind a struct
 
-/// What _init makes of a struct for a caller that knows so many bytes of it, and what lies behind.
+/// The bytes that _init makes of a struct for a caller that knows so many of it, and what lies behind.
 template <class T, class Init> std::vector<std::uint8_t> made(const Init& init, std::size_t size) {
   std::vector<std::uint64_t> words((sizeof(T) + kRoom) / 8);
   std::memset(words.data(), kCanary, words.size() * 8);

@@ -20,7 +20,7 @@ constexpr std::size_t kRegion = 1 << 16;  // [bytes] that each pointer argument 
 constexpr std::size_t kElements = 20;     // of an array, at most
 constexpr std::size_t kAlive = 12;        // handles of a kind
 
-/// What there is of a kind of handle.
+/// The handles of one kind.
 struct Handles {
   std::vector<void*> alive, dead;
 };
@@ -92,7 +92,7 @@ class Drawer {
   }
   Dice& dice() { return dice_; }
 
-  /// To what an argument points: `to` as in "iso_world", "const iso_blob*" or "void".
+  /// The object to which an argument points: `to` as in "iso_world", "const iso_blob*" or "void".
   void* pointer(const std::string& to, bool is_const, const std::string& name) {
     if (dice_.one_in(60)) return nullptr;
     for (const char* kind : kKinds) {

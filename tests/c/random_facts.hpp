@@ -1,4 +1,4 @@
-// What the random caller knows of the structs of isostep.h, and its dice.
+// The random caller's facts about the structs of isostep.h, and its dice.
 // SPDX-License-Identifier: MIT
 #pragma once
 

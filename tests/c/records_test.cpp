@@ -73,7 +73,7 @@ struct AnyValue {
     }
   }
 };
-/// How many bytes of members differ: none of the random ones is left out.
+/// Expects that no random byte of members is left out.
 template <class T, bool kSized> void expect_round_trip(const char* name) {
   constexpr std::size_t kSize = kSized ? sized_size<T>() : extent_of<T>().size;
   Pcg32 random(7, 11);
@@ -121,7 +121,8 @@ TEST(CStructs, CrossWithAllTheirMembers) {
 
 // ---- Records
 
-/// The same world in C and in C++: two crates, a carrier without weight, a sensor, two hinges and a six-axis joint.
+/// Twins: the same world in C and in C++: two crates, a carrier without weight, a sensor, two hinges and a six-axis
+/// joint.
 template <class S> struct Twins {
   World<S> cpp;
   iso_world* c = nullptr;

@@ -17,7 +17,8 @@ template <class S> void play(const char* name) {
   const auto ground = world.add_shape(iso::Box{{50, 1, 50}});
   world.create({.shape = ground, .position = {0, -1, 0}});
   const auto crate = world.add_shape(iso::Box{{0.5, 0.5, 0.5}});
-  const auto body = world.create({.type = iso::dynamic, .shape = crate, .position = {0, 2, 0}, .user_data = 42});
+  const auto body = world.create(
+      {.type = iso::dynamic, .shape = crate, .position = {0, 2, 0}, .user_data = 42, .report_contacts = true});
   world.apply_impulse(body, {0, 3, 0});
   iso::Snapshot<World> frame;
   world.save(frame);

@@ -191,7 +191,7 @@ template <class F> void conversions(Vectors& out, Operands& draw, const std::str
   out.end();
 }
 
-/// What decimal text is made of a number: eight characters a word, 12 words; and the number itself comes back.
+/// The decimal text that is made of a number: eight characters a word, 12 words; and the number itself comes back.
 template <class F> void texts(Vectors& out, Operands& draw, const std::string& name) {
   out.begin(name + ".ToString", 1, 12);
   const auto one = [&](F a) {

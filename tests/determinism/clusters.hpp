@@ -11,7 +11,7 @@
 
 namespace isostep::test {
 
-/// What clusters share, made before anything else: materials, the ground, what coheres.
+/// The common ground of clusters, made before anything else: materials, the ground, what coheres.
 struct ClusterGround {
   ParticleMaterialId balls, cloth, feather, goo;
   template <class S> static ClusterGround of(ParticleWorld<S>& w) {
@@ -101,7 +101,7 @@ template <class S> class Cluster {
     }
     return all.value();
   }
-  /// Whether all of it is where nothing of another can be.
+  /// All of it is where nothing of another can be.
   bool keeps_apart(const ParticleWorld<S>& w) const {
     for (const ParticleId id : particles_) {
       const D3 from = real(w.position(id)) - at_;

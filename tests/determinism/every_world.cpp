@@ -21,8 +21,8 @@ using namespace isostep;
 
 constexpr int kFrames = 36;
 
-/// So many thousandths, rounded as the scalar does. One product a call, out of line: what a careless compiler makes of
-/// a user's own sums is the user's.
+/// A number of so many thousandths, rounded as the scalar does. One product a call, out of line: what a careless
+/// compiler makes of a user's own sums is the user's.
 template <class S> [[gnu::noinline]] S number(int thousandths) { return S(thousandths) * S(0.001); }
 template <class S> Vec3<S> place(int x, int y, int z) { return {number<S>(x), number<S>(y), number<S>(z)}; }
 
@@ -110,7 +110,7 @@ template <class S> void build(ParticleWorld<S>& world) {
   world.add(cohesion);
 }
 
-/// Whether something went on.
+/// Runs a world. Returns whether something went on.
 template <class W> bool run(const char* scalar, const char* way, W& world) {
   HashCombiner frames;
   std::uint64_t same = 0, last = world.hash();

@@ -111,7 +111,7 @@ template <class S> class Island {
     }
     return all.value();
   }
-  /// Whether all of it is where nothing of another can be.
+  /// All of it is where nothing of another can be.
   bool keeps_apart(const World<S>& w) const {
     return std::all_of(bodies_.begin(), bodies_.end(), [&](BodyId id) {
       const D3 from = real(w.center_of_mass(id)) - at_;

@@ -1,5 +1,5 @@
-// What never touches does not know of each other: in whatever order islands were made, beside whatever else, every body
-// moves bit for bit as it does when its island is alone.
+// Islands that never touch do not know of each other: in whatever order they were made, beside whatever else, every
+// body moves bit for bit as it does when its island is alone.
 // SPDX-License-Identifier: MIT
 
 #include "determinism/islands.hpp"
@@ -28,7 +28,7 @@ constexpr int frames_of(SolverName solver) {
 /// A look at all that a stage leaves takes longer than the stage.
 constexpr int kWatched = 60;
 
-/// How a world comes to its islands.
+/// The way in which a world comes to its islands.
 struct Circumstances {
   std::vector<int> turns;  // an island makes its next body, again and again
   std::uint32_t past = 0;  // bodies that were there before and left their slots
@@ -100,7 +100,7 @@ template <class S> Motions motions_of(SolverName solver, const Circumstances& ho
   return motions;
 }
 
-/// Of islands that were there.
+/// Compares the motions of islands that were there.
 void expect_equal(const Motions& now, const Motions& expected, const char* what) {
   for (std::size_t i = 0; i < kIslands; ++i) {
     for (std::size_t f = 0; f < now[i].size(); ++f) {

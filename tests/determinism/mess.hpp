@@ -62,7 +62,7 @@ template <class S> Mess<S> build_mess(World<S>& w, D3 at = {0, 0, 0}) {
   return m;
 }
 
-/// What a scene must have done for equal hashes to mean something.
+/// The activity that a scene must show for equal hashes to mean something.
 struct Activity {
   std::uint32_t contacts = 0, sleepers = 0, begins = 0, woke = 0, sensed = 0, joints = 0, accepted = 0, refused = 0;
   double spread = 0;

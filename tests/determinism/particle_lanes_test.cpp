@@ -195,7 +195,7 @@ template <class S> ParticleScript<S> particle_script_of(std::uint64_t frame, con
   s.spring = spring_of<S>(m.balls[frame % m.balls.size()], {}, chance.in(1, 30), 0.7);
   return s;
 }
-/// With denormals in the state where the scalar has them, saved and loaded on the way.
+/// Runs with denormals in the state where the scalar has them, saved and loaded on the way.
 template <class S> std::vector<std::uint64_t> run_scripted(std::uint32_t way, std::uint32_t control, bool hostile) {
   ParticleWorld<S> w(settings_of_way<S>(way));
   const ParticleMess m = build_particle_mess(w);

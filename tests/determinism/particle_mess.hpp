@@ -20,7 +20,7 @@ template <class S> ParticleSettings<S> settings_of_way(std::uint32_t way) {
   return s;
 }
 
-/// What the scene is told again every frame.
+/// The ids that the scene needs again every frame.
 struct ParticleMess {
   std::vector<ParticleId> balls, tossed;
   ParticleId swing;
@@ -121,7 +121,7 @@ template <class S> ParticleMess build_particle_mess(ParticleWorld<S>& w) {
   return m;
 }
 
-/// What a scene must have done for equal hashes to mean something.
+/// The activity that a scene must show for equal hashes to mean something.
 struct ParticleActivity {
   std::uint32_t contacts = 0, begins = 0, expired = 0, yielded = 0, touched = 0, accepted = 0, refused = 0, links = 0;
   std::uint32_t stopped = 0;
@@ -136,7 +136,7 @@ struct ParticleActivity {
     touched += static_cast<std::uint32_t>(w.events().touch_impulses.size());
     stopped += report.stopped;
   }
-  /// Of some hundred frames and more.
+  /// Expects what some hundred frames and more do.
   void expect_busy() const {
     EXPECT_GT(contacts, 12u);
     EXPECT_GT(links, 8u);

@@ -42,7 +42,7 @@ template <class S> class RandomWorldAnswers : public ::testing::Test {
     }
     return life;
   }
-  /// Of a world that stands where the expected one stood after the frame.
+  /// Checks a world that stands where the expected one stood after the frame.
   static void check(World<S>& w, const Life& life, std::uint64_t seed, std::uint64_t frame, const char* which) {
     ASSERT_EQ(w.hash(), life.hashes[frame]) << which << ", seed " << seed << " frame " << frame;
     const Answers<S> answers(w, questions(w, seed, frame));

@@ -1,4 +1,4 @@
-// What a warm world does about its records asks for no memory.
+// The records of a warm world ask for no memory.
 // SPDX-License-Identifier: MIT
 
 #include "determinism/allocation_count.hpp"

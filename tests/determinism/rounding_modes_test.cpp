@@ -13,7 +13,7 @@
 namespace isostep::test {
 namespace {
 
-/// What was answered, by the names of the calls. What has padding is taken apart into numbers.
+/// The answers by the names of the calls. A struct with padding is taken apart into numbers.
 struct Answers {
   std::vector<std::pair<const char*, std::uint64_t>> all;
 

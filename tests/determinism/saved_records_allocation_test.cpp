@@ -9,7 +9,8 @@
 namespace isostep::test {
 namespace {
 
-/// What records name: two crates that stand on the ground, a capsule and a sensor that are carried, three joints.
+/// The things that records name: two crates that stand on the ground, a capsule and a sensor that are carried, three
+/// joints.
 template <class S> class OneOfEach {
  public:
   explicit OneOfEach(World<S>& world) : world_(world) {

@@ -15,7 +15,7 @@ template <class S, class Structure> class CoarseFrames {
  public:
   explicit CoarseFrames(std::uint32_t seed) : random_(Pcg32::seeded(seed)) {}
 
-  /// From the same random numbers each time.
+  /// Runs by the same random numbers each time.
   std::size_t run() {
     Pcg32 random = random_;
     structure_.clear();

@@ -11,7 +11,8 @@
 namespace isostep::test {
 namespace {
 
-/// What is worth sharing in every scalar and at every width: a pyramid that settles, and ragdolls that fall into it.
+/// The hashes of a scene that is worth sharing in every scalar and at every width: a pyramid that settles, and ragdolls
+/// that fall into it.
 template <class S> std::vector<std::uint64_t> hashes_of(const char* scene, const TaskRunner& runner, int frames) {
   const scenes::Scene what = *scenes::find_scene(scene);
   World<S> world(scenes::settings_of<S>(what));

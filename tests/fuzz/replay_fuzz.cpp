@@ -37,7 +37,7 @@ void seal(Buffer& file) {
   }
 }
 
-/// What is accepted is what a writer would write, and fits its frames.
+/// Facts that are accepted are what a writer would write, and fit their frames.
 void check_facts(Bytes payload, std::uint64_t frames) {
   const Result<BundleFacts> facts = read_facts(payload, frames);
   if (!facts) return;

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: MIT
 //
 // clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -Dalways_inline= -Iscalar/include -Iinclude -Isrc
-//         -Itests tests/fuzz/session_fuzz.cpp src/isostep/{session,geometry,state}/*.cpp scalar/src/*.cpp
+//         -Itests tests/fuzz/session_fuzz.cpp src/isostep/{session,session/*,geometry,state}/*.cpp scalar/src/*.cpp
 //         src/transport/{simulated_network,impaired_direction,network_profile}.cpp build/release/libisostep.a
 //         -o session_fuzz
 
 #include <deque>
 
 #include "fuzz/session_script.hpp"
+#include "isostep/session/agreement/roster.hpp"
 
 namespace {
 

@@ -1,11 +1,11 @@
-// What a script for the sessions' fuzzer is made of: where its bytes go, and the words that it can say.
+// The script for the sessions' fuzzer: where its bytes go, and the words that it can say.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <map>
 
-#include "isostep/session/repair.hpp"
-#include "isostep/session/verdict.hpp"
+#include "isostep/session/agreement/repair.hpp"
+#include "isostep/session/agreement/verdict.hpp"
 #include "unit/session/hostile.hpp"
 
 namespace isostep::fuzz {
@@ -146,7 +146,7 @@ inline Buffer any_datagram(Script& script, std::uint64_t match, Frame now, std::
   return Buffer(writer.bytes().begin(), writer.bytes().end());
 }
 
-/// Of states: what a client says of its own, or a host of all.
+/// A word of states: what a client says of its own, or a host of all.
 inline Buffer any_word_of_states(Script& script, Frame now, bool from_host) {
   Buffer bytes;
   const std::uint8_t how = script.byte();

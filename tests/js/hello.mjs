@@ -26,7 +26,7 @@ export function playHello(iso) {
 
   const wooden = world.createBody({
     type: 'dynamic', shape: crate, position: [3, 2, 0], material: {friction: 0.5, restitution: 0.25},
-    filter: {category: 2, mask: 3}
+    filter: {category: 2, mask: 3}, reportContacts: true
   });
   let hardest = 0;
   for (let i = 0; i < 120; ++i) {

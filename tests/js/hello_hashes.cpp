@@ -34,7 +34,8 @@ template <class S> struct Play {
                   .shape = crate,
                   .position = {3, 2, 0},
                   .material = {.friction = S(0.5), .restitution = S(0.25)},
-                  .filter = {2, 3}});
+                  .filter = {2, 3},
+                  .report_contacts = true});
     for (int i = 0; i < 120; ++i) {
       frames(1);
       for (const auto& touch : world.events().contact_begin) hardest = iso::max(hardest, touch.impulse);

@@ -17,7 +17,9 @@ const read = kept => kept.map(records => [
 for (const ends of [false, true]) {
   const world = iso.createWorld(), ball = world.addShape('sphere', {radius: 0.5});
   const balls = count => {
-    for (let i = 0; i < count; ++i) world.createBody({type: 'dynamic', shape: ball, position: [2 * i, 0.45, 0]});
+    for (let i = 0; i < count; ++i) {
+      world.createBody({type: 'dynamic', shape: ball, position: [2 * i, 0.45, 0], reportContacts: true});
+    }
   };
   world.createBody({shape: world.addShape('half_space', {normal: [0, 1, 0]})});
   balls(300);

@@ -10,7 +10,7 @@ export function createPucks(iso, players = 2) {
   world.createBody({shape: world.addShape('box', {halfExtents: [20, 1, 20]}), position: [0, -1, 0]});
   const ball = world.addShape('sphere', {radius: 0.5});
   const pucks = Array.from({length: players}, (_, n) =>
-    world.createBody({type: 'dynamic', shape: ball, position: [4 * n - 2, 1, 0]}));
+    world.createBody({type: 'dynamic', shape: ball, position: [4 * n - 2, 1, 0], reportContacts: true}));
   return {
     world, state, pucks,
     step(inputs) {

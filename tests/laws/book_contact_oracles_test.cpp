@@ -201,7 +201,7 @@ TYPED_TEST(BookContactOracles, ten_boxes_stand_for_a_minute) {
   }
 }
 
-/// Whether a box of w / h = 1/2 stands for 15 s on a slope this much [degrees] steeper than that.
+/// A box of w / h = 1/2 stands for 15 s on a slope this much [degrees] steeper than that.
 template <class S> bool stands(double off, std::int32_t hz) {
   Settings<S> s = settings<S>(-10, hz);
   s.allow_sleep = false;

@@ -17,7 +17,7 @@ template <class S> class BookDefects : public ::testing::Test {
     d.mass = S(2);
     return w.create(d);
   }
-  /// [N] on the ball of 2 kg, from the speed that one step gives it.
+  /// [N] The force on the ball of 2 kg, from the speed that one step gives it.
   static double force_of_a_step(World<S>& w, BodyId id, double hz = 64) {
     const double before = real(w.velocity(id)).y;
     EXPECT_TRUE(w.step().clean());

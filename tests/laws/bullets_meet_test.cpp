@@ -8,7 +8,7 @@ namespace {
 
 template <class S> class BulletsThatMeet : public ::testing::Test {
  protected:
-  /// [m/s, rad/s] Of each; within Q16.16's limits with room.
+  /// [m/s, rad/s] The speed and spin of each; within Q16.16's limits with room.
   static constexpr double kSpeed = std::is_same_v<S, Q16_16> ? 40 : 200, kSpin = std::is_same_v<S, Q16_16> ? 30 : 60;
 
   static ShapeId add_shape(World<S>& w, std::uint32_t kind, double size) {

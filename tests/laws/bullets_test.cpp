@@ -71,7 +71,7 @@ TYPED_TEST(BulletScenes, with_the_flag_nothing_passes_plates) { EXPECT_EQ(throug
 template <class S> class BulletRooms : public ::testing::Test {
  protected:
   static constexpr double kHalf = 2;  // [m] of the room
-  /// [m] of walls, and least of bodies: Q16.16 has none less than 1/64.
+  /// [m] The thickness of walls, and the least of bodies: Q16.16 has none less than 1/64.
   static constexpr double kThin = std::is_same_v<S, Q16_16> ? 0.015625 : 0.01;
   static constexpr double kSpeed = std::is_same_v<S, Q16_16> ? 60 : 300, kSpin = std::is_same_v<S, Q16_16> ? 36 : 50;
 
@@ -126,7 +126,7 @@ template <class S> class BulletRooms : public ::testing::Test {
       ASSERT_TRUE(bullets_.back());
     }
   }
-  /// Of the bullets; the room is the world's or that of a body.
+  /// The number of bullets outside; the room is the world's or that of a body.
   int outside(BodyId room = {}) const {
     const Transform<S> frame = Transform<S>::of(room ? world_.pose(room) : Pose<S>::identity());
     int count = 0;

@@ -40,7 +40,7 @@ template <class S> class CharacterTrenches : public Characters<S> {
     return id;
   }
   double height(CharacterId id) { return this->foot(id).y; }
-  /// [m] by which a jump of 6 m/s lifts it.
+  /// [m] The height to which a jump of 6 m/s lifts it.
   double jumps(CharacterId id) {
     const double from = height(id);
     double most = 0;

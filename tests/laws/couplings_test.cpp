@@ -46,7 +46,7 @@ template <class S> class Couplings : public ::testing::Test {
   BodyId body_of(JointId joint) { return {w.joint(joint)->body_b, w.joint(joint)->generation_b}; }
   double spin(JointId joint) { return to_double(w.angular_velocity(body_of(joint)).z); }
   double at(JointId joint) { return to_double(w.joint_position(joint)); }
-  /// [1] of a turn of the sum
+  /// [1] The error of the sum, in turns.
   double off(std::initializer_list<std::pair<double, JointId>> terms) {
     double sum = 0;
     for (const auto& [ratio, joint] : terms) sum += ratio * at(joint) / kTurn;

@@ -8,7 +8,7 @@
 namespace isostep::test {
 namespace {
 
-/// What a car meets, and how.
+/// The meeting of a car and a curb.
 struct Meeting {
   double curb;            // [m] height
   double speed;           // [m/s]
@@ -48,7 +48,7 @@ template <class S> class Curbs : public ::testing::Test {
     }
     return car;
   }
-  /// [m] How far its middle rises, from a tenth of a second before the curb till half a second after it.
+  /// [m] The rise of its middle, from a tenth of a second before the curb till half a second after it.
   static double rise_of(const Meeting& m) {
     World<S> w(settings<S>());
     add_slab(w, 0, -40, 0);

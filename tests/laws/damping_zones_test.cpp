@@ -32,7 +32,7 @@ template <class S> class DampingZones : public ::testing::Test {
     d.allow_sleep = false;
     return w.create(d);
   }
-  /// [1/s] At which a body's speed of 1 m/s fades, by what one step leaves of it.
+  /// [1/s] The rate at which a body's speed of 1 m/s fades, by what one step leaves of it.
   double rate(BodyId body) {
     w.set_velocity(body, vec<S>(1, 0, 0), Vec3<S>::zero());
     w.step();

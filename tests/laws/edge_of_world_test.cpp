@@ -1,5 +1,5 @@
-// What is thrown about at the edge of the world, alone and joined, stays within Limits: a state that a step leaves can
-// be read again.
+// Bodies thrown about at the edge of the world, alone and joined, stay within Limits: a state that a step leaves can be
+// read again.
 // SPDX-License-Identifier: MIT
 
 #include "random/dice.hpp"

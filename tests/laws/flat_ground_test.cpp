@@ -12,14 +12,14 @@ namespace {
 
 enum class Ground { box, mesh, field };
 
-/// What spins, and on what.
+/// The body that spins, and its ground.
 struct Spin {
   Ground ground;
   double cell;  // [m]
   D3 half;      // [m] of a box; of a cylinder, whose z is 0, radius and half height
   double spin;  // [rad/s]
 };
-/// What became of it.
+/// The course of its spin.
 struct Course {
   double rise = 0;    // [m] at most, above where it started
   double drift = 0;   // [m] sideways, at most
@@ -74,7 +74,7 @@ template <class S> class FlatGround : public ::testing::Test {
     }
     return course;
   }
-  /// About an upright axis.
+  /// Spins about an upright axis.
   static Course spin_flat(const Spin& spin) {
     World<S> w(settings<S>());
     add_ground_of(w, spin, 6);

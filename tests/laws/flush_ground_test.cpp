@@ -9,7 +9,7 @@
 namespace isostep::test {
 namespace {
 
-/// How the ground is made of boxes that lie flush.
+/// The way in which the ground is made of boxes that lie flush.
 enum class Tiling { belts, bodies, parts };
 
 struct Slide {

@@ -8,7 +8,7 @@ namespace {
 
 template <class S> class HeavyRope : public ::testing::Test {
  protected:
-  /// [1] of the energy that the fall can give: the most above the start in half a minute.
+  /// [1] The gain of energy, of what the fall can give: the most above the start in half a minute.
   static double gain(SolverName solver, int links, double heavy) {
     Settings<S> s = settings<S>(-10);
     s.solver = solver;

@@ -47,7 +47,8 @@ template <class S> class HeavyTop : public ::testing::Test {
     }
     return seen;
   }
-  /// Where the axis turns back: energy, and momentum about the axis and the vertical, leave a quadratic in the height.
+  /// The height at which the axis turns back: energy, and momentum about the axis and the vertical, leave a quadratic
+  /// in it.
   static double theory(const Top& top) {
     const double momentum = top.about * top.spin, half = momentum * momentum / (4 * (top.across + 1) * 10);
     return half - std::sqrt(half * half + 1);

@@ -21,8 +21,8 @@ template <class S> class JointSprings : public ::testing::Test {
     d.mass = S(1);
     return w.create(d);
   }
-  /// Undamped, without weight: half a metre or radian from its rest. Returns the largest way from it in the last two
-  /// swings of ten seconds over that in the first two.
+  /// Swings undamped and without weight, half a metre or radian from its rest. Returns the largest way from it in the
+  /// last two swings of ten seconds over that in the first two.
   static double kept(SolverName solver, int substeps, JointType type, double frequency) {
     World<S> w(settings_of(solver, substeps));
     const BodyId bob = add_bob(w, {2, 0, 0});

@@ -84,7 +84,7 @@ template <class S> class JointTreeWatch {
     allowed_ += energy;
     moved_by_ += energy;
   }
-  /// What stores nothing only loses: what it has lost it may not have back.
+  /// A tree that stores nothing only loses: what it has lost it may not have back.
   void see_energy() {
     const double excess = energy() - allowed_;
     least_ = stores_ ? 0.0 : std::min(least_, excess);
@@ -108,7 +108,7 @@ template <class S> class JointTreeWatch {
     for (const BodyId id : tree_.bodies) sum += real(tree_.world.velocity(id)) * to_double(tree_.world.mass(id));
     return sum;
   }
-  /// [J] Of motion and height; of what floats, as seen by its centre of mass.
+  /// [J] The energy of motion and height; of what floats, as seen by its centre of mass.
   double energy() const {
     const World<S>& w = tree_.world;
     double sum = 0;

@@ -32,7 +32,7 @@ template <class S> class KindResponses : public ::testing::Test {
     s.solver = solver;
     return World<S>(s);
   }
-  /// Without rolling resistance or friction that anything but a test asks for.
+  /// Creates a body without rolling resistance, and with the friction that the test asks for.
   static BodyId body(World<S>& w, BodyDefinition<S> d, std::uint32_t kind, double mass, double friction = 0) {
     d.material.kind = kind;
     d.material.friction = num<S>(friction);

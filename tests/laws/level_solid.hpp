@@ -1,4 +1,4 @@
-// What is solid in a level, told from its triangles alone: an oracle beside the engine.
+// The solid part of a level, told from its triangles alone: an oracle beside the engine.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace isostep::scenes {
 
-/// Of closed surfaces that may overlap, and of a ground that is open below.
+/// The inside of closed surfaces that may overlap, and of a ground that is open below.
 class LevelSolid {
  public:
   explicit LevelSolid(const Scene& scene) {
@@ -29,7 +29,7 @@ class LevelSolid {
       }
     }
   }
-  /// From inside one leaves once more, straight up, than one enters.
+  /// A point is inside if the way straight up from it leaves once more than it enters.
   bool holds(Vec3<double> p) const {
     p = p + Vec3<double>{1.3e-7, 0, 0.7e-7};  // off the edges, which lie on a lattice
     const auto cell = cells_.find({std::floor(p.x), std::floor(p.z)});

@@ -81,7 +81,7 @@ template <class C> class LevelLaws : public ::testing::Test {
     }
   }
 
-  /// The same of limbs, thinner than what they move in a step: they may dip in and must come out.
+  /// Expects that limbs, thinner than what they move in a step, do not stay inside: they may dip in and must come out.
   void expect_none_stays_inside(int frame) {
     inside_.resize(built_.bodies.size());
     for (std::size_t i = fixed(); i < built_.bodies.size(); ++i) {

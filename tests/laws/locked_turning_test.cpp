@@ -18,7 +18,7 @@ template <class S> class LockedTurning : public ::testing::Test {
     d.allow_sleep = false;
     return w.create(d);
   }
-  /// [kg m^2] of that box about the world's y.
+  /// [kg m^2] The inertia of that box about the world's y.
   static double about_y() {
     const Mat3<double> r = to_matrix(turn<double>({0.6, 0.48, 0.64}, 1));
     const double inertia[3] = {(0.25 + 1) / 3, (4 + 1.0) / 3, (4 + 0.25) / 3};

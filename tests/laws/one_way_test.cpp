@@ -57,7 +57,7 @@ template <class S> std::vector<BodyId> jumpers(World<S>& w, bool with, int count
   return all;
 }
 
-/// By body slot.
+/// The ghosts by body slot.
 template <class S> std::vector<std::uint8_t> ghosts_of(const World<S>& w) {
   std::vector<std::uint8_t> all(w.state().body_slots.entries().size(), 0);
   for (const Ghost<S>& ghost : w.state().records->ghosts.all()) {
@@ -104,7 +104,7 @@ TYPED_TEST(OneWays, a_thousand_jumps_keep_every_bit_while_they_pass_and_land_on_
   for (const std::uint8_t ghost : ghosts_of(with)) EXPECT_EQ(ghost, 0u) << "all are apart";
 }
 
-/// Of twelve boxes side by side, or a height field, without a thickness.
+/// A floor of twelve boxes side by side, or a height field, without a thickness.
 template <class S> ShapeId wide_floor(World<S>& w, bool field) {
   if (field) {
     constexpr std::uint32_t kPlaces = 9;

@@ -21,7 +21,7 @@ ParticleSettings<S> solved_by(ParticleSolver solver, double gravity = 0, int hz 
   s.solver = solver;
   return s;
 }
-/// In the format that velocities have.
+/// The speed in the format that velocities have.
 template <class S> D3 speed_of(const ParticleWorld<S>& w, ParticleId id) { return real(w.state().velocity[id.slot]); }
 
 // O8. v_a' = ((m_a - e m_b) v_a + (1 + e) m_b v_b) / (m_a + m_b); the energy of the relative motion falls to e^2.

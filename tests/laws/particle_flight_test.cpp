@@ -14,7 +14,7 @@ constexpr int kSteps = 640;  // 10 s
 constexpr Wide kStep = 1.0L / 64;
 const D3 kFrom = {-40.3, 1.7, 20.1}, kSpeed = {9.1, 47.3, -5.7};
 
-/// The same sub-step in one piece a step, and in four.
+/// The rates have one sub-step, in one piece a step or in four.
 struct Rate {
   std::int32_t hz, substeps;
 };
@@ -123,7 +123,7 @@ struct Drag {
   }
 };
 
-/// As its material has it, or as a force of its own.
+/// The drag is in its material, or a force of its own.
 template <class S> ParticleId dragged(ParticleWorld<S>& w, const Drag& drag, bool of_material, D3 velocity) {
   ParticleMaterial<S> m;
   if (of_material) {

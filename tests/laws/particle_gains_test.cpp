@@ -1,5 +1,5 @@
-// Where methods that are stable alone once made energy together: springs beside rods, stiff springs in planes, bounces
-// under a spring's load, overlap at rest.
+// Gains of energy by methods that are stable alone: springs beside rods, stiff springs in planes, bounces under a
+// spring's load, overlap at rest.
 // SPDX-License-Identifier: MIT
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What the laws of particles share: worlds at a rate, particles in one line, references in a wider format.
+// The common part of the laws of particles: worlds at a rate, particles in one line, references in a wider format.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace isostep::test {
 
-/// What references are computed in.
+/// The format in which references are computed.
 using Wide = long double;
 
 /// 64 steps of one sub-step each: h = 2^-6 s is a number of every format.
@@ -52,7 +52,7 @@ template <class S> Collider<S> plane(D3 normal, double offset) {
 template <class S> void run(ParticleWorld<S>& world, int steps) {
   for (int i = 0; i < steps; ++i) ASSERT_TRUE(world.step().clean()) << "step " << i;
 }
-/// What S makes of a number: references begin with the same.
+/// The number as S holds it: references begin with the same.
 template <class S> double held(double value) { return to_double(num<S>(value)); }
 
 }  // namespace isostep::test

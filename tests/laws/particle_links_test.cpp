@@ -43,7 +43,7 @@ template <class S> struct Pendulum {
     const D3 v = real(world.state().velocity[bob.slot]);
     return dot(v, v) / 2 + 10 * place().y;
   }
-  /// Of `swings` whole swings [s], by interpolated crossings of x = 0 to the right.
+  /// [s] The time of `swings` whole swings, by interpolated crossings of x = 0 to the right.
   double period(int swings) {
     double before = place().x, first = -1;
     int crossings = 0;

@@ -14,7 +14,7 @@ TYPED_TEST_SUITE(ParticleSpringLaws, AllScalars);
 
 constexpr Wide kStep = 1.0L / 64;
 
-/// What one sub-step makes of (x, v).
+/// The map of (x, v) by one sub-step.
 struct Propagator {
   Wide xx, xv, vx, vv;
   void apply(Wide& x, Wide& v) const {
@@ -23,7 +23,7 @@ struct Propagator {
     x = next;
   }
 };
-/// Of x'' = -w^2 x over h, by the definition of each method: z' = A z with A = (0 1; -w^2 0), A^2 = -w^2.
+/// The map of x'' = -w^2 x over h, by the definition of each method: z' = A z with A = (0 1; -w^2 0), A^2 = -w^2.
 Propagator propagator(Integrator integrator, Wide w, Wide h) {
   const Wide q = w * w * h * h;  // RK4: the series of e^(A h) as far as h^4
   switch (integrator) {

@@ -16,7 +16,7 @@ namespace {
 
 template <class S> class PlaneFalls : public ::testing::Test {
  protected:
-  /// [1] Of the speed of the fall, what goes out of the plane at worst.
+  /// [1] The speed out of the plane at worst, of the speed of the fall.
   static double out_of_plane(std::uint64_t seed, bool hull) {
     Dice dice(seed);
     World<S> w(settings<S>(-10, 60, 4));

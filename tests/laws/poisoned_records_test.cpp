@@ -8,7 +8,7 @@
 namespace isostep::test {
 namespace {
 
-/// Of a record, its input or state, or an event.
+/// Counts the numbers that are not finite of a record, its input or state, or an event.
 struct NotFinite {
   int* count;
   template <class T> void operator()(const char*, const T& value) const {
@@ -38,7 +38,7 @@ template <class Record, class IdType> int not_finite(const Registry<Record, IdTy
 /// A raft on the ground, of which an air flow makes what is no number; what touches it, hangs on it, drives and walks.
 template <class S> class PoisonedRecords : public ::testing::Test {
  protected:
-  /// [1] of the largest number.
+  /// Builds with an air flow of so much [1] of the largest number.
   void build(double part, JointType type) {
     const ShapeId box = add_box(world, 0.5, 0.25, 0.5);
     ground = add_ground(world);

@@ -50,7 +50,7 @@ template <class S> class RandomCoupledWorld {
           << " springs, " << start_ << " J";
   }
 
-  /// False where a limit was met, or a touch refused.
+  /// Steps. Returns false where a limit was met, or a touch refused.
   bool step() {
     EXPECT_TRUE(coupling_.before_step(bodies_, particles_));
     const ParticleReport moved = particles_.step();
@@ -61,8 +61,9 @@ template <class S> class RandomCoupledWorld {
   }
   int steps(double seconds) const { return static_cast<int>(seconds * hz_); }
   double energy() const { return scenes::measure_energy(bodies_).total() + system_.energy(particles_); }
-  /// [J] what it had at first, counted from the floor and from springs at rest, and half of that, for the reason given
-  /// in random_particle_worlds.hpp; what a grain has at 0.1 m/s; and what a body has as it leaves an overlap.
+  /// [J] The most energy that it may have: what it had at first, counted from the floor and from springs at rest, and
+  /// half of that, for the reason given in random_particle_worlds.hpp; what a grain has at 0.1 m/s; and what a body has
+  /// as it leaves an overlap.
   double most() const {
     return 1.5 * start_ + 0.005 * static_cast<double>(system_.ids.size()) + kLeaveSpeed * kLeaveSpeed / 2 * body_mass_;
   }
@@ -116,7 +117,7 @@ template <class S> class RandomCoupledWorld {
   ParticleMaterialId draw_material() {
     radius_ = chance_.in(0.03, 0.15);
     const bool collides = chance_.one_in(2), joined = family_ == Family::soft || family_ == Family::net;
-    // What springs join begins apart.
+    // Particles that springs join begin apart.
     pitch_ = std::max(chance_.in(0.15, 0.5), joined && collides ? 2.2 * radius_ : 0);
     const double restitution = bounce();
     text_ << ", e " << restitution << ", radius " << radius_;
@@ -157,7 +158,7 @@ template <class S> class RandomCoupledWorld {
       const D3 v = chance_.point(speed);
       add(D3{0, 1 + radius_, 0} + chance_.point(1), v, mass);
     }
-    // What overlaps its like is pushed out of it, against springs.
+    // Particles that overlap are pushed apart, against springs.
     const bool joined = chance_.one_in(2) && !particles_.find(material_)->collides;
     for (std::uint32_t i = 0; joined && i + 1 < count; i += 2) {
       const double share = chance_.in(0.01, 0.3);
@@ -220,7 +221,8 @@ template <class S> class RandomCoupledWorld {
       default: reach = a + b; return bodies_.add_shape(Capsule<S>{num<S>(a), num<S>(b)});
     }
   }
-  /// For a ball about a body: clear of particles where some are joined or pinned, and of other bodies under `pgs`.
+  /// A place for a ball about a body: clear of particles where some are joined or pinned, and of other bodies under
+  /// `pgs`.
   D3 clear_place(double reach) {
     const bool loose = system_.springs.empty() && std::count(system_.masses.begin(), system_.masses.end(), 0) == 0;
     const bool apart = bodies_.settings().solver == SolverName::pgs;

@@ -1,4 +1,4 @@
-// What the generators of worlds with particles share: how methods are drawn, what energy there is, and its law.
+// The common part of the generators of worlds with particles: how methods are drawn, what energy there is, and its law.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -24,7 +24,7 @@ template <class S> void tell_methods(std::ostream& out, const ParticleSettings<S
       << " " << kSteppingNames[static_cast<int>(s.stepping)];
 }
 
-/// Whether a step met no limit.
+/// The step met no limit.
 inline bool keeps_limits(const ParticleReport& report) {
   return report.stopped + report.clamped_speed + report.clamped_position == 0;
 }
@@ -40,9 +40,9 @@ template <class S> struct ParticleSystem {
     EXPECT_TRUE(ids.back());
     masses.push_back(definition.pinned ? 0 : to_double(definition.mass));
   }
-  /// [1/kg] of the particle that was added as the i-th.
+  /// [1/kg] The inverse mass of the particle that was added as the i-th.
   double inverse_mass(std::size_t i) const { return masses[i] > 0 ? 1 / masses[i] : 0; }
-  /// [J] of motion, of height above 0, and in springs.
+  /// [J] The energy of motion, of height above 0, and in springs.
   double energy(const ParticleWorld<S>& w) const {
     const double gravity = to_double(w.settings().gravity.y);
     double sum = 0;

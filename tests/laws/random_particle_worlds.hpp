@@ -37,13 +37,13 @@ template <class S> class RandomParticleWorld {
           << to_double(ball.restitution) << ", radius " << radius_ << ", " << start_ << " J";
   }
 
-  /// False where a limit was met.
+  /// Steps. Returns false where a limit was met.
   bool step() { return keeps_limits(world_.step()); }
   int steps(double seconds) const { return static_cast<int>(seconds * world_.settings().hz); }
   double energy() const { return system_.energy(world_) + energy_of_cohesion(); }
-  /// [J] what it had at first, counted from the floor and from springs at rest, and half of that: a method of first
-  /// order with springs of k h^2 / m = 0.3 swings within 1 / (1 - sqrt(0.3) / 2) = 1.38. And what a grain of a crowd
-  /// has at 0.1 m/s.
+  /// [J] The most energy that it may have: what it had at first, counted from the floor and from springs at rest, and
+  /// half of that: a method of first order with springs of k h^2 / m = 0.3 swings within 1 / (1 - sqrt(0.3) / 2) =
+  /// 1.38. And what a grain of a crowd has at 0.1 m/s.
   double most() const { return 1.5 * start_ + 0.005 * static_cast<double>(system_.ids.size()); }
   double start() const { return start_; }
   std::string telling() const { return text_.str(); }
@@ -53,7 +53,7 @@ template <class S> class RandomParticleWorld {
   static constexpr std::uint64_t kFamilies = 4, kCrowd = 2, kBlob = 3;
   static constexpr double kCohesionShare = 0.1;  // [1] of k h^2 (1/m_a + 1/m_b), all neighbours together
 
-  /// [J] counted from where two of a blob are at peace, between repulsion and attraction: 0 at least.
+  /// [J] The energy counted from where two of a blob are at peace, between repulsion and attraction: 0 at least.
   double energy_of_cohesion() const {
     const double repel = to_double(cohesion_.repel_distance), start = to_double(cohesion_.attract_start);
     const double reach = to_double(cohesion_.attract_end) - start;
@@ -92,7 +92,7 @@ template <class S> class RandomParticleWorld {
     system_.add(world_, d);
     strain_.push_back(0);
   }
-  /// Between two, or from one to an anchor; with what a particle still bears.
+  /// Adds a spring between two, or from one to an anchor; with what a particle still bears.
   void add_spring(SpringType type, std::size_t a, std::size_t b, D3 anchor, double rest) {
     Spring<S> s;
     s.type = type;
@@ -192,7 +192,8 @@ template <class S> class RandomParticleWorld {
     const bool floor = gravity_ != 0 || chance_.one_in(2);
     if (floor) world_.add(plane<S>({0, 1, 0}, 0));
     const auto count = 2 + chance_.below(11);
-    // On a lattice, apart from each other where they collide: to push overlaps apart against attraction takes energy.
+    // Blobs begin on a lattice, apart from each other where they collide: to push overlaps apart against attraction
+    // takes energy.
     const bool collides = world_.find(material_)->collides;
     const double least = collides ? 2.4 * radius_ : 0, pitch = std::max(chance_.in(0, 0.6), least);
     const double astray = collides ? 0.08 * pitch : chance_.in(0, 0.3);

@@ -13,15 +13,16 @@
 namespace isostep::test {
 namespace {
 
-/// [1] of all energy that was ever given. Contacts and limits hold some for a while, and steps are as long as they are:
-/// a sound engine stays below a twentieth.
+/// [1] The bar of energy, of all that was ever given. Contacts and limits hold some for a while, and steps are as long
+/// as they are: a sound engine stays below a twentieth.
 constexpr double kEnergyBar = 0.1;
-/// [1] of the sum of the speeds that movers, falls and throws give: a light body is struck by a heavy one.
+/// [1] The bar of speed, of the sum of the speeds that movers, falls and throws give: a light body is struck by a heavy
+/// one.
 constexpr double kSpeedBar = 3;
-/// [m] between the anchors of a joint. Twice as much where blasts tear at it.
+/// [m] The greatest distance between the anchors of a joint. Twice as much where blasts tear at it.
 constexpr double kApart = 0.5;
-/// [m] What slides farther out may be off by as many times more: a tilt shows the more, and Q16.16 turns its base by
-/// less than such a lever asks for (JointConstraint::reach).
+/// [m] A body that slides farther out than this may be off by as many times more: a tilt shows the more, and Q16.16
+/// turns its base by less than such a lever asks for (JointConstraint::reach).
 constexpr double kFarOut = 2;
 /// Steps of 180 that slow a small body which a blow spins beyond a radian a sub-step. Glancing throws do it often.
 constexpr int kMostCut = 5;
@@ -35,7 +36,7 @@ struct WorldFindings {
   std::uint32_t joints = 0, contacts = 0;
 };
 
-/// [m] How far a joint is apart, for one that slides as seen from kFarOut.
+/// [m] The distance by which a joint is apart, for one that slides as seen from kFarOut.
 template <class S> double apart(const World<S>& w, JointId id) {
   const JointProperties<S>& p = *w.joint(id);
   const double error = to_double(w.joint_error(id));

@@ -6,7 +6,7 @@
 namespace isostep::test {
 namespace {
 
-/// Of 100 kg a cubic metre, which Q16.16 can count too.
+/// Water of `density` [kg/m^3]: some hundred, which Q16.16 can count too.
 template <class S> Water<S> water(double height, double density, std::int32_t priority, D3 at, D3 half) {
   Water<S> w;
   w.surface_height = num<S>(height);
@@ -35,7 +35,7 @@ template <class S> class RankedWaters : public ::testing::Test {
     sea.linear_drag = sea.angular_drag = num<S>(drag);
     ASSERT_TRUE(w.add(sea));
   }
-  /// [m/s^2] what a body that was at rest has got in the step, without drag.
+  /// [m/s^2] The acceleration of a body that was at rest, by one step without drag.
   double rise(BodyId body) {
     w.set_velocity(body, Vec3<S>::zero(), Vec3<S>::zero());
     w.step();

@@ -25,7 +25,7 @@ template <class S> class RankedZones : public ::testing::Test {
     d.filter.category = category;
     return w.create(d);
   }
-  /// [m/s^2] what a body that was at rest has got in a step.
+  /// [m/s^2] The acceleration of a body that was at rest, by one step.
   D3 acceleration(BodyId body) {
     w.set_velocity(body, vec<S>(0, 0, 0), vec<S>(0, 0, 0));
     w.step();

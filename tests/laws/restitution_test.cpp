@@ -27,7 +27,7 @@ template <class S> class Restitution : public ::testing::Test {
     d.material.friction = num<S>(friction);
     return d;
   }
-  /// [J] with a mass of 1 kg, at 10 m/s^2 or none.
+  /// [J] The energy with a mass of 1 kg, at 10 m/s^2 or none.
   static double energy(const World<S>& w, BodyId id, double gravity = 10) {
     const D3 v = real(w.velocity(id));
     return dot(v, v) / 2 + gravity * real(w.center_of_mass(id)).y + turning_energy(w, id);

@@ -28,7 +28,7 @@ inline constexpr const char* kJointKindNames[kJointKinds] = {"hinge, spring",
                                                              "ball, cone and twist",
                                                              "hinge, free"};
 
-/// What holds the joint's other end.
+/// The holder of the joint's other end.
 enum class Hold { world, static_body, kinematic, heavy };
 
 inline constexpr double kFall = 10;  // [m/s^2] gravity
@@ -89,7 +89,7 @@ struct JointTrial {
   int frames;  // at 60 a second
 };
 
-/// What went wrong, counted, with words for the first of each.
+/// The errors of joints, counted, with words for the first of each.
 struct JointFindings {
   int tried = 0, too_fast = 0, past_limit = 0, motor_off = 0;
   int rested = 0, drove = 0;  // that rested on a limit, that had to reach their speed: what the others mean
@@ -203,7 +203,7 @@ template <class S> class JointWatch {
 
  private:
   double speed_of(double energy) const { return std::sqrt(2 * std::max(energy, 0.0) / j_.mass); }
-  /// [m] of the arm across the axis.
+  /// [m] The length of the arm across the axis.
   double radius() const { return length(cross(j_.arm, j_.axis)); }
   /// A motor gives energy only while the body turns more slowly than it: where the other end stands still, never above
   /// that speed at the highest point. Against what moves too, the work that it did.

@@ -1,4 +1,4 @@
-// What falls on thick ground is stopped at its surface, as at a thin wall.
+// Falls on thick ground are stopped at its surface, as at a thin wall.
 // SPDX-License-Identifier: MIT
 
 #include <algorithm>
@@ -25,7 +25,7 @@ template <class S> class FallsOnThickGround : public ::testing::Test {
       }
     }
   }
-  /// [m] of a box with these halves, below y = 0.
+  /// [m] The depth of a box with these halves below y = 0.
   static double depth(const World<S>& w, BodyId box, D3 half) {
     const Pose<S> pose = w.pose(box);
     double low = to_double(pose.position.y);

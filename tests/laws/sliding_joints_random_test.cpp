@@ -22,7 +22,7 @@ constexpr double kOffOfPgs = 0.05;  // it solves once in 1/60 s
 constexpr double kFold = 2.8;       // [rad] a constant velocity joint that bends further lets go of its twist
 constexpr int kFrames = 360, kTogether = 25;
 
-/// How far a joint is off what it holds.
+/// The error of a joint against what it holds.
 struct Off {
   double place;  // [m]
   double angle;  // [rad]

@@ -12,7 +12,7 @@
 namespace isostep::test {
 namespace {
 
-/// What a drop is: from a metre above the ground at 10 m/s, spinning about any axis.
+/// A drop from a metre above the ground at 10 m/s, spinning about any axis.
 struct Drop {
   SolverName solver = SolverName::soft_step;
   int substeps = 8;
@@ -74,8 +74,8 @@ template <class S> class Spinning : public ::testing::Test {
 };
 TYPED_TEST_SUITE(Spinning, AllScalars);
 
-// [1] What overlaps are pushed apart with; what is dropped without a spin gains 0.05. Without friction a rod rattles on
-// its ends for seconds, and gains as much again and again.
+// [1] The gain of energy by the push that parts overlaps; a drop without a spin gains 0.05. Without friction a rod
+// rattles on its ends for seconds, and gains as much again and again.
 constexpr double kBar = 0.1, kFrictionlessBar = 0.5;
 
 TYPED_TEST(Spinning, what_strikes_a_plane_gains_nothing) {

@@ -29,8 +29,8 @@ Line draw_line(std::uint64_t seed, double most_ratio) {
   return line;
 }
 
-/// [1] How far the ball comes from where the line ends, of the line; [m/s] the fastest that moves; [1] energy above the
-/// start's, of what the line can give.
+/// [1] The distance of the ball from where the line ends, of the line; [m/s] the fastest that moves; [1] energy above
+/// the start's, of what the line can give.
 struct LineFindings {
   double stretch = 0, fastest = 0, gain = 0;
 };

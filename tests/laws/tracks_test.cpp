@@ -64,7 +64,7 @@ template <class S> class Tracks : public ::testing::Test {
   D3 place() const { return real(w.center_of_mass(tank)); }
   D3 speed() const { return real(w.velocity(tank)); }
   double yaw_rate() const { return to_double(w.angular_velocity(tank).y); }
-  /// [degrees] From +z towards +x: counter-clockwise seen from above.
+  /// [degrees] The heading from +z towards +x: counter-clockwise seen from above.
   double heading() const {
     const D3 forward = rotated<S>(w.pose(tank).orientation, {0, 0, 1});
     return std::atan2(forward.x, forward.z) * 180 / kPi;

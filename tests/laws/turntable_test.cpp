@@ -21,7 +21,7 @@ template <class S> class Turntable : public ::testing::Test {
     double gravity = -10;           // [m/s^2]
   };
 
-  /// How far a box on the platform has come after it has settled, seen from the platform [m].
+  /// [m] The way of a box on the platform after it has settled, seen from the platform.
   static double drift(const Settings<S>& settings, const Ride& ride, const Material<S>& belt = {}) {
     World<S> w(settings);
     const Quat<Unit<S>> lie = turn<S>(ride.axis, ride.angle);

@@ -89,7 +89,7 @@ template <class S> class Vehicles : public ::testing::Test {
   D3 axis(const Car& car, D3 local) { return rotated<S>(w.pose(car.body).orientation, local); }
   static double dot3(D3 a, D3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-  /// On a circle of that radius of the middle, counter-clockwise about the origin, at rest in its springs.
+  /// Adds a car on a circle of that radius of the middle, counter-clockwise about the origin, at rest in its springs.
   Car add_on_circle(double radius, double speed) {
     const double rear = std::sqrt(radius * radius - kHalfBase * kHalfBase);
     const Car car = add_car({-rear, kHeight, kHalfBase}, speed * rear / radius, speed / radius);
@@ -108,7 +108,7 @@ template <class S> class Vehicles : public ::testing::Test {
     return std::hypot(at.x, at.z) - radius;
   }
 
-  /// In the report that --gtest_output writes.
+  /// Writes a figure into the report that --gtest_output makes.
   static void told(const char* what, double figure) { ::testing::Test::RecordProperty(what, std::to_string(figure)); }
 
   World<S> w{settings<S>()};

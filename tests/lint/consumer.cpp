@@ -15,7 +15,7 @@ template <class T> void keep(const T& value) {
   byte = reinterpret_cast<const unsigned char*>(&value)[0];
   static_cast<void>(byte);
 }
-/// What the compiler may not know.
+/// A value that the compiler may not know.
 template <class T> T unknown(T value) {
   T copy = value;
   std::memcpy(&copy, &value, sizeof copy);
@@ -302,7 +302,7 @@ void use_the_rest() {
 
 }  // namespace
 
-/// Called by the linker trap, so that no linker thinks this file idle.
+/// It is called by the linker trap, so that no linker thinks this file idle.
 int use_everything() {
 #define ISO_USE_ALL_OF(S) use_all_of<S>();
   ISO_FOR_EACH_SCALAR(ISO_USE_ALL_OF)

@@ -72,6 +72,22 @@ const std::map<std::string, int> kFloors = {
     {"tool", 20},  // main and the command line
 };
 
+/// Rooms of a folder in their order; session/README.md says what is in each. A file that is in no room stands beside
+/// them by its own name.
+const std::map<std::string, int> kRooms = {
+    {"session/timeline", 0},  {"session/pace", 1},      {"session/protocol", 2}, {"session/config", 3},
+    {"session/preset", 4},    {"session/agreement", 4}, {"session/peer", 5},     {"session/client", 6},
+    {"session/host", 6},      {"session/solo", 6},      {"session/session", 7},  {"session/make_session", 8},
+    {"session/observers", 8},
+};
+
+/// "" for what is in a folder without rooms.
+std::string room_of(const std::string& path) {
+  static const std::regex room("(?:include|src)/isostep/(session/[a-z_]+)[./].*");
+  std::smatch match;
+  return std::regex_match(path, match, room) ? match[1].str() : "";
+}
+
 /// "" for what has no folder; such files have no floor.
 std::string folder_of(const std::string& path) {
   static const std::regex library("(?:include|scalar/include|src)/isostep/(systems/[a-z]+|[a-z]+)/.*");
@@ -103,11 +119,14 @@ void check_arrow(const File& file, std::size_t line, const std::string& target) 
   if (kFloors.count(to) == 0) return report(file, line, target + " has no floor");
   if (from != to && kFloors.at(to) >= kFloors.at(from))
     report(file, line, from + " may not include " + to + ": that floor is not below");
+  const std::string from_room = room_of(file.path), to_room = room_of(target);
+  if (from == to && from_room != to_room && kRooms.at(to_room) >= kRooms.at(from_room))
+    report(file, line, from_room + " may not include " + to_room + ": that room is not below");
   if (starts_with(target, "include/") && ends_with(file.path, ".hpp") && ends_with(target, ".inl"))
     report(file, line, "a header includes bodies: users would compile them with their own flags");
 }
 
-/// What may include what is an order also inside a folder.
+/// Checks that includes have an order inside a folder also.
 void check_cycles(const Graph& includes) {
   std::map<std::string, int> state;  // 1 open, 2 done
   std::vector<std::pair<std::string, std::size_t>> stack;
@@ -142,6 +161,11 @@ void check_floors(const fs::path& root) {
     if (file.path == "include/isostep/isostep.hpp") continue;  // all of it, for users alone: it has no floor
     if (kFloors.count(folder_of(file.path)) == 0) {
       report(file, 0, "the folder \"" + folder_of(file.path) + "\" has no floor");
+      continue;
+    }
+    const std::string room = room_of(file.path);
+    if (!room.empty() && kRooms.count(room) == 0) {
+      report(file, 0, "the room \"" + room + "\" has no place among the others");
       continue;
     }
     for (std::size_t i = 0; i < file.lines.size(); ++i) {

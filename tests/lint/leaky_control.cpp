@@ -1,4 +1,4 @@
-// What the symbol test must be able to see: inline functions of ours that stay functions at -O0.
+// A control that the symbol test must see: inline functions of ours that stay functions at -O0.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 

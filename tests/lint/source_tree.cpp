@@ -1,4 +1,4 @@
-// Reading source files, and lines without their comments and texts.
+// The reader of source files, and of lines without their comments and texts.
 // SPDX-License-Identifier: MIT
 #include "source_tree.hpp"
 

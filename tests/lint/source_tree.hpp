@@ -20,7 +20,7 @@ std::vector<File> read_tree(const std::filesystem::path& root, const std::vector
 
 /// Prints one line; `line` counts from 0.
 void report(const File& file, std::size_t line, const std::string& what);
-/// How many lines were reported.
+/// The number of lines that were reported.
 int findings();
 
 bool starts_with(const std::string& text, const char* prefix);

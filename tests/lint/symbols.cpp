@@ -70,7 +70,7 @@ std::string scope_before(const std::string& name, std::size_t end) {
   return name.substr(begin, end - begin);
 }
 
-/// In our namespace, or something of the standard library that calls a lambda of ours.
+/// The symbol is in our namespace, or something of the standard library that calls a lambda of ours.
 bool is_ours(const Symbol& symbol) {
   static const std::regex own("^_Z(GV|GR|TV|TI|TS)?Z*N[VKRO]*7isostep.*");
   if (std::regex_match(symbol.raw, own)) return true;

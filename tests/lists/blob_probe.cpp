@@ -101,7 +101,7 @@ void refusals() {
   check(!world.apply(AddShape<float>{{part}, {{wrong->id(), blob}}}), "content of another name");
 }
 
-/// Carried once, or brought by the game.
+/// The blob is carried once, or brought by the game.
 void files() {
   World<float> world;
   Buffer log;

@@ -54,7 +54,7 @@ TEST_F(CommandList, with_both_it_works) {
   add_to_list();
   add_record();
   add_body();
-  EXPECT_EQ(output_of(kProgram), "taken 1 again 0 probe.tick bytes 9 number 2 played 1 tick 3\n");
+  EXPECT_EQ(output_of(kProgram), "taken 1 again 0 probe.tick bytes 2 number 2 played 1 tick 3\n");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace isostep {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Paths are relative to the project.
 class ListProbe : public OwnFolder {
@@ -27,6 +28,13 @@ class ListProbe : public OwnFolder {
     std::filesystem::copy(source(folder), folder_ / folder, std::filesystem::copy_options::recursive);
   }
   void copy(const std::string& from, const std::string& to) { std::filesystem::copy(source(from), folder_ / to); }
+  /// Copies the first piece of C++ on a page.
+  void copy_code(const std::string& page, const std::string& to) {
+    const std::string text = read(source(page)), begin = "```cpp\n";
+    const std::size_t at = text.find(begin), end = text.find("```", at + begin.size());
+    ASSERT_TRUE(at != std::string::npos && end != std::string::npos) << "no code in " << page;
+    std::ofstream(folder_ / to) << text.substr(at + begin.size(), end - at - begin.size());
+  }
   /// `before` has to be there, once.
   void edit(const std::string& file, const std::string& before, const std::string& after) {
     std::string text = read(folder_ / file);
@@ -36,12 +44,12 @@ class ListProbe : public OwnFolder {
     std::ofstream(folder_ / file) << text.replace(at, before.size(), after);
   }
 
-  /// Of a file that includes `header` and goes on with `code`: "" where it compiles.
+  /// The errors of a file that includes `header` and goes on with `code`: "" where it compiles.
   std::string errors_of(const std::string& header, const std::string& code = "") {
     std::ofstream(folder_ / "probe.cpp") << "#include \"" << header << "\"\n" << code << "\n";
     return failure("-fsyntax-only " + quoted(folder_ / "probe.cpp"));
   }
-  /// Of a program of the tests, which takes from the library what no list has a part in.
+  /// The output of a program of the tests, which takes from the library what no list has a part in.
   std::string output_of(const std::string& program) {
     const std::string failed = failure("-O0 -o " + quoted(folder_ / "probe") + " " + quoted(source(program)) + " " +
                                        isostep_lint::quoted(ISOSTEP_LIBRARY) + " " +
@@ -63,8 +71,7 @@ class ListProbe : public OwnFolder {
     text << std::ifstream(path).rdbuf();
     return text.str();
   }
-  /// What the compiler says where it fails. No scalar counts as shipped: templates are instantiated where they are
-  /// used.
+  /// The compiler's words where it fails. No scalar counts as shipped: templates are instantiated where they are used.
   std::string failure(const std::string& arguments) {
     std::string command = quoted(ISOSTEP_CXX) + " -std=c++20 -ffp-contract=off";
     for (const char* scalar : {"FLOAT", "DOUBLE", "Q16_16", "Q32_32"})

@@ -85,7 +85,7 @@ void send_turn(Client& client, Time now) {
   client.process.flush();
 }
 
-/// What it sends, and the frames that are final for it.
+/// Takes what a client sends, and the frames that are final for it.
 void take_turn(Client& client) {
   ClientProcess& from = client.process;
   for (auto left = from.take<std::uint32_t>(); left > 0; --left) {

@@ -18,7 +18,7 @@ struct Push {
   friend bool operator==(Push, Push) = default;
   ISO_FIELDS(way)
 };
-/// What a player does who is asked when `current` is the session's frame.
+/// The input of a player who is asked when `current` is the session's frame.
 inline Push push_of(Frame current, int player) {
   return {static_cast<std::int8_t>(current / (11 + 6 * player) % 3 - 1)};
 }
@@ -36,7 +36,8 @@ template <class S> struct Pucks : Composite<World<S>, Score> {
     engine.create({.shape = engine.add_shape(Box{{20, 1, 20}}), .position = {0, -1, 0}});
     const auto ball = engine.add_shape(Sphere{0.5});
     for (int n = 0; n < players; ++n)
-      pucks.push_back(engine.create({.type = dynamic, .shape = ball, .position = {S(4 * n - 2), 1, 0}}));
+      pucks.push_back(engine.create(
+          {.type = dynamic, .shape = ball, .position = {S(4 * n - 2), 1, 0}, .report_contacts = true}));
   }
   void step(InputView<Input> inputs) {
     for (std::size_t n = 0; n < pucks.size(); ++n) {

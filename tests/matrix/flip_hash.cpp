@@ -35,7 +35,7 @@ bool is_number(const char* word, std::uint64_t& value) {
   return parsed.ec == std::errc() && parsed.ptr == end;
 }
 
-// Closed before it is asked: what is still buffered has not been written.
+// The stream is closed before it is asked: what is still buffered has not been written.
 bool write(const char* path, const std::vector<std::uint8_t>& bytes) {
   std::ofstream out(path, std::ios::binary);
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

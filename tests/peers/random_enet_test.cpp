@@ -1,5 +1,5 @@
-// Drawn matches over ENet in which machines stand still, die, leave and come back: one history, and it goes on. What
-// RandomMatch tries by the thousand in virtual time, tried here with real packets.
+// Drawn matches over ENet in which machines stand still, die, leave and come back: one history, and it goes on.
+// RandomMatch tries these by the thousand in virtual time; here real packets do.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ class RandomEnetMatch {
   /// Perhaps nobody is left who knows what was final: a majority died, or a host that was one alone.
   bool has_lost_memory() const { return 2 * deaths_ >= players_ || has_lost_roster_; }
   bool plays(std::size_t i) const { return !is_dead_[i]; }
-  /// Where a game that has lost the match asks for it: its host, or else who saw most of it.
+  /// The machine at which a game that has lost the match asks for it: its host, or else who saw most of it.
   std::size_t somebody(std::size_t but) const {
     std::size_t found = machines_.size();
     const auto rank = [&](std::size_t i) {

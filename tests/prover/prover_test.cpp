@@ -87,7 +87,7 @@ std::vector<std::vector<std::string>> table(const std::string& text) {
   return rows;
 }
 
-/// The same recording as another would have made it, every checksum right.
+/// The recording as another would have made it, every checksum right.
 Buffer forged(const Buffer& file, const char* behaviour, std::uint64_t bad_frame) {
   const ReplayReader replay(file);
   ReplayHeader header = replay.header();

@@ -36,12 +36,12 @@ def cpp_hashes():
     return {family: [by_frame[i] for i in range(120)] for family, by_frame in hashes.items()}
 
 
-def crate(isostep, scalar):
+def crate(isostep, scalar, **own):
     """The world of hello.cpp and its crate."""
     world = isostep.World(scalar, hz=60, substeps=8, gravity=(0, -10, 0))
     world.create_body(shape=world.add_shape("box", half_extents=(50, 1, 50)), position=(0, -1, 0))
     body = world.create_body(type="dynamic", shape=world.add_shape("box", half_extents=(0.5, 0.5, 0.5)),
-                             position=(0, 2, 0), user_data=42)
+                             position=(0, 2, 0), user_data=42, **own)
     world.apply_impulse(body, (0, 3, 0))
     return world, body
 

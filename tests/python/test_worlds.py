@@ -224,7 +224,7 @@ class Views(unittest.TestCase):
 
     def test_poses_and_events_are_what_was_and_read_only(self):
         for scalar in isostep.SCALARS:
-            world, body = support.crate(isostep, scalar)
+            world, body = support.crate(isostep, scalar, report_contacts=True)
             begun = None
             for _ in range(120):
                 world.step()

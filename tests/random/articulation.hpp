@@ -8,7 +8,7 @@
 
 namespace isostep::test {
 
-/// What a tree may have beside its links.
+/// The things that a tree may have beside its links.
 struct TreeOptions {
   bool free = false, springs = false, limits = false, damping = false, drives = false, gravity = true;
   int most_links = 12;
@@ -87,7 +87,7 @@ class TreeDice {
     if (!options.gravity) d.settings.gravity = Vec3<S>::zero();
     return d;
   }
-  /// Within limits, at speeds up to `fast`.
+  /// Sets joints going within limits, at speeds up to `fast`.
   template <class S> void set_going(Articulation<S>& a, double fast) {
     for (std::uint32_t i = 0; i < a.links(); ++i) {
       const ArticulationLink<S>& l = a.definition().links[i];

@@ -1,4 +1,4 @@
-// How many random worlds a run asks for, where it asks for other than the test's own number.
+// The number of random worlds that a run asks for, where it asks for other than the test's own.
 // SPDX-License-Identifier: MIT
 #pragma once
 

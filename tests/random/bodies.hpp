@@ -1,12 +1,8 @@
-// Random changes of what bodies are and where they are to be, of kinds that pass each other and of zones that hide
-// others: functions of the state and the dice.
+// Random changes of what bodies are and where they are to be: functions of the state and the dice.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "random/change_record.hpp"
 #include "random/dice.hpp"
-#include "random/parts.hpp"
-#include "random/zones.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -17,15 +13,13 @@ template <class S> class RandomBodies {
   RandomBodies(World<S>& world, Dice& dice, double most_speed) : world_(world), dice_(dice), most_speed_(most_speed) {}
 
   void change() {
-    switch (dice_.below(8)) {
+    switch (dice_.below(6)) {
       case 0:
       case 1: return disable_or_enable();
       case 2: return change_type();
       case 3: return change_mass();
       case 4: world_.sleep(any_body()); return;
-      case 5: return move();
-      case 6: return change(world_.state().records->kind_ghosts);
-      default: return change(world_.state().records->force_zones);
+      default: return move();
     }
   }
 
@@ -41,7 +35,7 @@ template <class S> class RandomBodies {
     }
     return false;
   }
-  /// Not the ground, through which others would fall.
+  /// The body is not the ground, through which others would fall, and has no joints.
   bool is_loose(BodyId id) const {
     const D3 size = real(world_.view(id).state->fat.high - world_.view(id).state->fat.low);
     return size.x < 8 && size.z < 8 && !has_joints(id);
@@ -76,21 +70,6 @@ template <class S> class RandomBodies {
     pose.position = pose.position + vec<S>(dice_.arrow(0, way));
     pose.orientation = turn<S>({0, 1, 0}, dice_.in(-way / 4, way / 4)) * pose.orientation;
     world_.move_to(id, pose);
-  }
-
-  template <class Record, class IdType> void change(const Registry<Record, IdType>& registry) {
-    change_record(world_, dice_, registry, [&](const auto& like) { return drawn(like); });
-  }
-  KindGhost<S> drawn(KindGhost<S> ghost) {
-    ghost.kind_a = 1 + dice_.below(kMaterialKinds);
-    ghost.kind_b = 1 + dice_.below(kMaterialKinds);
-    return ghost;
-  }
-  ForceZone<S> drawn(ForceZone<S> zone) {
-    draw_zone(dice_, zone);
-    zone.priority = static_cast<std::int32_t>(dice_.below(5)) - 2;
-    zone.replaces = dice_.below(zone_effect::kAll + 1);
-    return zone;
   }
 
   World<S>& world_;

@@ -1,5 +1,5 @@
-// What becomes of a random world beside its bodies' motion: its ground, forces, vehicles, characters, couplings and
-// rules, each drawn by dice of its own, so that one kind more leaves the others as they were.
+// What becomes of a random world beside its bodies' motion: its ground, records, vehicles, characters and couplings,
+// each drawn by dice of its own.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,13 +8,10 @@
 
 #include "isostep/fracture/breaking.hpp"
 #include "random/bodies.hpp"
-#include "random/change_record.hpp"
-#include "random/forces.hpp"
 #include "random/mechanisms.hpp"
 #include "random/mounts.hpp"
 #include "random/placing.hpp"
-#include "random/responses.hpp"
-#include "random/rules.hpp"
+#include "random/records.hpp"
 #include "random/vehicles.hpp"
 
 namespace isostep::test {
@@ -28,22 +25,20 @@ template <class S> class RandomChanges {
 
   static void change(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
     dig(w, seed, frame);
-    change_forces(w, seed, frame);
+    change_records(w, seed, frame);
     break_some(w, seed, frame);
     walk_some(w, seed, frame);
     drive_some(w, seed, frame);
     couple_some(w, seed, frame);
     change_pairs(w, seed, frame);
-    change_rules(w, seed, frame);
     change_bodies(w, seed, frame);
-    change_responses(w, seed, frame);
     change_mounts(w, seed, frame);
     report_contacts(w, seed, frame);
   }
 
  private:
-  /// Now and then the height field, if there is one, is lower somewhere, or has a hole: never higher, which would lift
-  /// what lies on it. Dice of its own: what is drawn after it is as it was before there was this.
+  /// Lowers the height field somewhere now and then, if there is one, or cuts a hole: it is never higher, which would
+  /// lift what lies on it. It has dice of its own: what is drawn after it is as it was before there was this.
   static void dig(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
     Dice dice(seed * 104729 + frame * 7907 + 3);
     if (!dice.one_in(12)) return;
@@ -70,11 +65,11 @@ template <class S> class RandomChanges {
     if (dice.one_in(4)) patch.materials = holes;
     w.set_heights(shape, 0, patch);
   }
-  /// In worlds whose energy no law bounds. Dice of its own.
-  static void change_forces(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
+  /// Records of most kinds, in worlds whose energy no law bounds. Dice of its own.
+  static void change_records(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
     if (drive_of(seed) != Drive::movers) return;
     Dice dice(seed * 15485863 + frame * 32452843 + 29);
-    if (dice.one_in(6)) RandomForces<S>(w, dice).change();
+    if (dice.one_in(3)) RandomRecords<S>(w, dice).change();
   }
   /// Bodies that may break, in the same worlds, and pieces of those that did. Dice of its own.
   static void break_some(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
@@ -82,19 +77,7 @@ template <class S> class RandomChanges {
     break_bodies(w);
     Dice dice(seed * 86028121 + frame * 122949823 + 17);
     if (!dice.one_in(12) || w.bodies().size() > kMostWhileBreaking) return;
-    Breakable<S> breakable;
-    breakable.body = RandomForces<S>(w, dice).body();
-    if (!breakable.body) return;
-    breakable.break_impulse = num<S>(dice.in(0.5, 8) * to_double(w.mass(breakable.body)));
-    breakable.pattern = static_cast<BreakPattern>(dice.below(4));
-    breakable.most_pieces = 8 + dice.below(5);
-    breakable.depth = 1 + dice.below(2);
-    breakable.seed = seed;
-    breakable.small_mass = num<S>(dice.in(0, 1));
-    breakable.lifetime = dice.below(60);
-    for (const Breakable<S>& other : w.state().records->breakables.all())
-      if (other.body == breakable.body) return;
-    w.add(breakable);
+    w.add(RandomRecords<S>(w, dice).template drawn<Breakable<S>>());
   }
   static constexpr std::size_t kMostWhileBreaking = 60;  // [1] bodies
   /// Up to three characters who wander and jump, in the same worlds. Dice of its own.
@@ -111,19 +94,18 @@ template <class S> class RandomChanges {
       return;
     }
     CharacterInput<S> input;
-    input.move = vec<S>(dice.arrow(0, 4));
-    input.jump = num<S>(dice.one_in(3) ? dice.in(1, 4) : 0);
+    RecordDraw<S> random(w, dice);
+    detail::RecordRules<CharacterSettings<S>>::draw(input, random);
     w.set_input(id, input);
   }
   static void add_character(World<S>& w, Dice& dice) {
     BodyDefinition<S> d = still<S>(w.add_shape(Capsule<S>{num<S>(0.25), num<S>(0.5)}));
     d.type = BodyType::kinematic;
     d.allow_sleep = dice.one_in(2);
-    CharacterSettings<S> character;
-    character.body = place_freely(w, dice, d, 0.75, {-4, 1, -4}, {4, 3, 4}, 0);
-    character.push_force = num<S>(dice.in(0, 200));
-    character.mass = num<S>(dice.in(0, 20));
-    if (character.body) w.add(character);
+    const BodyId body = place_freely(w, dice, d, 0.75, {-4, 1, -4}, {4, 3, 4}, 0);
+    CharacterSettings<S> character = RandomRecords<S>(w, dice).template drawn<CharacterSettings<S>>();
+    character.body = body;
+    if (body) w.add(character);
   }
   /// Vehicles, in the same worlds. Dice of its own.
   static void drive_some(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
@@ -147,41 +129,13 @@ template <class S> class RandomChanges {
   /// A record of two kinds more, or other, or none: whatever they say, contacts take energy. Dice of its own.
   static void change_pairs(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
     Dice dice(seed * 49979687 + frame * 67867967 + 11);
-    if (!dice.one_in(8)) return;
-    MaterialPair<S> pair;
-    pair.kind_a = 1 + dice.below(kMaterialKinds);
-    pair.kind_b = 1 + dice.below(kMaterialKinds);
-    pair.friction = num<S>(dice.in(0, 1.25));
-    pair.static_friction = num<S>(dice.in(0, 2));
-    if (dice.one_in(3)) pair.restitution = num<S>(dice.in(0, 1));
-    if (dice.one_in(3)) pair.rolling_resistance = num<S>(dice.in(0, 0.0625));
-    const auto& pairs = w.state().records->material_pairs;
-    const std::vector<MaterialPairId> ids = pairs.slot_map().template ids<MaterialPairId>();
-    for (const MaterialPairId id : ids) {
-      if (kinds_key(w.find(id)->kind_a, w.find(id)->kind_b) != kinds_key(pair.kind_a, pair.kind_b)) continue;
-      if (dice.one_in(2)) w.remove(id);
-      else w.set(id, pair);
-      return;
-    }
-    w.add(pair);
+    if (dice.one_in(8)) RandomRecords<S>(w, dice).change(w.state().records->material_pairs);
   }
-  /// Belts, ghosts, one-way bodies and reports of hits, where movers are. Dice of its own.
-  static void change_rules(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
-    if (drive_of(seed) != Drive::movers) return;
-    Dice dice(seed * 236887691 + frame * 256203161 + 19);
-    if (dice.one_in(8)) RandomRules<S>(w, dice, kMoverSpeed).change();
-  }
-  /// What bodies are, where movers are. Dice of its own.
+  /// Changes what bodies are, where movers are. It has dice of its own.
   static void change_bodies(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
     if (drive_of(seed) != Drive::movers) return;
     Dice dice(seed * 314606869 + frame * 334214467 + 41);
-    if (dice.one_in(6)) RandomBodies<S>(w, dice, kMoverSpeed).change();
-  }
-  /// How contacts push, what slows, waters by rank, where movers are. Dice of its own.
-  static void change_responses(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
-    if (drive_of(seed) != Drive::movers) return;
-    Dice dice(seed * 353868019 + frame * 373587883 + 43);
-    if (dice.one_in(8)) RandomResponses<S>(w, dice).change();
+    if (dice.one_in(8)) RandomBodies<S>(w, dice, kMoverSpeed).change();
   }
   /// Sensors that go with bodies, in half of the same worlds: the others stay as they were. Dice of its own.
   static void change_mounts(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
@@ -192,12 +146,7 @@ template <class S> class RandomChanges {
   /// Adds and removes reports of contacts in all worlds: they change no motion. Dice of its own.
   static void report_contacts(World<S>& w, std::uint64_t seed, std::uint64_t frame) {
     Dice dice(seed * 433494437 + frame * 452930477 + 53);
-    if (!dice.one_in(12)) return;
-    change_record(w, dice, w.state().records->contact_reports, [&](ContactReport<S> report) {
-      const std::vector<BodyId> all = w.bodies();
-      report.body = dice.one_of(all);
-      return report;
-    });
+    if (dice.one_in(12)) RandomRecords<S>(w, dice).change(w.state().records->contact_reports);
   }
 };
 

@@ -11,6 +11,8 @@
 
 namespace isostep::test {
 
+inline constexpr std::uint32_t kMaterialKinds = 3;  // that random worlds draw
+
 /// Splitmix64. Two draws never stand among the arguments of one call, nor on both sides of an operator of a class:
 /// compilers draw them in different orders.
 class Dice {
@@ -25,7 +27,7 @@ class Dice {
   template <class T> const T& one_of(const std::vector<T>& all) {
     return all[below(static_cast<std::uint32_t>(all.size()))];
   }
-  /// In whole thousandths.
+  /// A number in whole thousandths.
   double in(double low, double high) { return low + (high - low) * below(1000) / 1000; }
   /// Every size as often as another: 0.01 to 0.1 as 0.1 to 1.
   double magnitude(double low, double high) { return low * isostep::exp(in(0, isostep::log(high / low))); }
@@ -33,7 +35,7 @@ class Dice {
     const double x = in(-reach, reach), y = in(-reach, reach), z = in(-reach, reach);
     return {x, y, z};
   }
-  /// Of length 1; towards a cube's corners more often than towards its faces.
+  /// A vector of length 1; towards a cube's corners more often than towards its faces.
   D3 direction() {
     for (;;) {
       const D3 p = point(1);

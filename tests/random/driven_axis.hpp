@@ -10,7 +10,8 @@
 
 namespace isostep::test {
 
-/// [kg m^2] or [kg] Most that a joint's spring without a mass of its own feels: of the lighter body, about its far end.
+/// [kg m^2] or [kg] The most that a joint's spring without a mass of its own feels: of the lighter body, about its far
+/// end.
 template <class S> double most_felt(const World<S>& w, const JointProperties<S>& p, bool turns) {
   const auto of_end = [&](std::uint32_t slot, std::uint32_t generation, const Pose<S>& frame) {
     if (slot == kNoBody || w.type({slot, generation}) != BodyType::dynamic) return 1e30;
@@ -24,7 +25,7 @@ template <class S> double most_felt(const World<S>& w, const JointProperties<S>&
 
 class DrivenAxis {
  public:
-  /// What the joint's own properties ask for: of all kinds but six_axis.
+  /// The axis that the joint's own properties drive: of all kinds but six_axis.
   template <class S> static DrivenAxis of(const World<S>& w, JointId joint) {
     const JointProperties<S>& p = *w.joint(joint);
     DrivenAxis d;
@@ -63,7 +64,7 @@ class DrivenAxis {
     return d;
   }
 
-  /// [J] in its spring.
+  /// [J] The energy in its spring.
   double held() const { return held_at(place_); }
   bool stores() const { return 0 < stiffness_ || yields_; }
   /// [J] that it can have given since it was last asked. A motor gives while the joint moves its way, more slowly than
@@ -79,8 +80,8 @@ class DrivenAxis {
     if (turns_ && !goes_round() && std::fabs(way) > kPi) given += std::max(held_at(place_) - held_at(before), 0.0);
     return given;
   }
-  /// [m] or [rad] past a hard limit. What folds so far that a swing or twist means nothing may be anywhere when it
-  /// comes back.
+  /// [m] or [rad] The way past a hard limit. A joint that folds so far that a swing or twist means nothing may be
+  /// anywhere when it comes back.
   double past(double swing) {
     lost_ = lost_ || (twists_ && kTwistEnds < swing) || (swings_ && kSwingEnds < swing);
     return limited_ && !lost_ ? std::max({place_ - upper_, lower_ - place_, 0.0}) : 0.0;

@@ -1,4 +1,4 @@
-// What energy a world has, and at most can have: what commands put in, forces, motors and springs gave.
+// The energy that a world has, and at most can have: what commands put in, forces, motors and springs gave.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -19,7 +19,7 @@ struct AppliedForce {
 
 template <class S> class EnergyBook {
  public:
-  /// Of motion and height. What springs hold is booked when they come: they can give no more.
+  /// The energy of motion and height. What springs hold is booked when they come: they can give no more.
   static double energy_of(const World<S>& w) { return scenes::measure_energy(w).total(); }
 
   /// Around all that is done to a world between two steps: what it has more for it was put in, what less taken out.
@@ -67,10 +67,10 @@ template <class S> class EnergyBook {
     }
   }
 
-  /// [J] above what it may have: what it began with, and what it was given.
+  /// [J] The energy above what it may have: what it began with, and what it was given.
   double excess(const World<S>& w) const { return energy_of(w) - allowed_; }
-  /// [J] above the least that it ever had, and what it was given since. For worlds without springs alone, which hold
-  /// energy back and give it later.
+  /// [J] The energy above the least that it ever had, and what it was given since. For worlds without springs alone,
+  /// which hold energy back and give it later.
   double rise(const World<S>& w) {
     least_ = std::min(least_, excess(w));
     return excess(w) - least_;

@@ -1,4 +1,4 @@
-// What queries of a world find, by a search of every part of every body: no tree, and nothing is left out early.
+// The results of a world's queries by a search of every part of every body: no tree, and nothing is left out early.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -68,7 +68,7 @@ template <class S> class FullSearch {
     return listed(all, f.per);
   }
 
-  /// Of a shape of one part that lies in its frame as it is.
+  /// Casts a shape of one part that lies in its frame as it is.
   std::vector<ShapeCastHit<S>> cast_shape(const ShapeCast<S>& asked) const {
     std::vector<ShapeCastHit<S>> all;
     visit_shape(view_of(asked.shape), [&](const auto& solid) {
@@ -108,32 +108,34 @@ template <class S> class FullSearch {
 
   std::optional<ClosestBody<S>> closest_point(Vec3<S> point, S most, const QueryFilter& f) const {
     std::optional<ClosestBody<S>> best;
-    visit_parts(f, [&](BodyId id, std::uint32_t, const ShapeView<S>& part, const Transform<S>& at) {
+    visit_parts(f, [&](BodyId id, std::uint32_t child, const ShapeView<S>& part, const Transform<S>& at) {
       const ClosestPoint<S> found = isostep::closest_point(part, at, point);
       const bool nearer =
           !best || found.distance < best->distance || (found.distance == best->distance && id.slot < best->body.slot);
-      if (found.distance <= most && nearer) best = ClosestBody<S>{id, found.point, found.normal, found.distance};
+      if (found.distance <= most && nearer) best = ClosestBody<S>{id, child, found.point, found.normal, found.distance};
     });
     return best;
   }
 
  private:
-  bool sees(const QueryFilter& f, BodyId id) const {
+  bool sees(const QueryFilter& f, BodyId id, const Child<S>& part) const {
     const BodyProperties<S>& body = *world_.view(id).properties;
-    return is_enabled(body) && (body.filter.category & f.mask) != 0 &&
-           (f.sensors || (body.flags & body_flag::kSensor) == 0) && !(f.ignore == id) &&
-           (f.group == 0 || body.filter.group != f.group);
+    const bool own = (part.traits.flags & part_flag::kOwnFilter) != 0;
+    const Filter filter = own ? part.traits.filter : body.filter;
+    const bool sensor = (body.flags & body_flag::kSensor) != 0 || (part.traits.flags & part_flag::kSensor) != 0;
+    return is_enabled(body) && (filter.category & f.mask) != 0 && (f.sensors || !sensor) && !(f.ignore == id) &&
+           (f.group == 0 || filter.group != f.group);
   }
   /// visit(id, child, part, transform) for every part that the filter sees, from an origin.
   template <class Visit> void visit_parts(const QueryFilter& f, const Visit& visit, Vec3<S> origin = {}) const {
     for (const BodyId id : bodies_) {
-      if (!sees(f, id)) continue;
       const BodyView<S> view = world_.view(id);
       Pose<S> pose = view.pose;
       pose.position -= origin;
       const Transform<S> placed = Transform<S>::of(pose);
       for (std::uint32_t i = 0; i < view.children.size(); ++i) {
         const Child<S>& child = view.children[i];
+        if (!sees(f, id, child)) continue;
         visit(id, i, view.contents.view(child.primitive), compose(placed, Transform<S>::of(child.pose)));
       }
     }
@@ -170,7 +172,8 @@ template <class S> class FullSearch {
     });
     return listed(all, f.per);
   }
-  /// In canonical order, by comparison of all that it says; then the first of each body, child or triangle.
+  /// Sorts hits in canonical order, by comparison of all that they say; then takes the first of each body, child or
+  /// triangle.
   template <class Hit> static std::vector<Hit> listed(std::vector<Hit> all, HitPer per) {
     const auto key = [](const Hit& h) { return std::tuple(to_double(h.fraction), h.body.slot, h.child, h.triangle); };
     std::sort(all.begin(), all.end(), [&](const Hit& a, const Hit& b) { return key(a) < key(b); });

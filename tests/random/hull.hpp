@@ -8,8 +8,8 @@
 
 namespace isostep::test {
 
-/// Of up to fifteen points in a box of half extents `half`. Four of them are the corners of a tetrahedron: it is never
-/// flat. `source` has below(n) and point(reach).
+/// Draws a hull of up to fifteen points in a box of half extents `half`. Four of them are the corners of a tetrahedron:
+/// it is never flat. `source` has below(n) and point(reach).
 template <class Source> BlobRef draw_hull(Source& source, D3 half) {
   std::vector<D3> points = {
       {half.x, half.y, half.z}, {-half.x, -half.y, half.z}, {-half.x, half.y, -half.z}, {half.x, -half.y, -half.z}};

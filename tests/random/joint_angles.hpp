@@ -1,4 +1,4 @@
-// How a joint stands, by its stored frames and its bodies' poses, in double: what laws of joints are about.
+// The angles of a joint, by its stored frames and its bodies' poses, in double: what laws of joints are about.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -52,13 +52,13 @@ template <class S> JointAngles angles_of(const World<S>& w, const JointPropertie
   return angles;
 }
 
-/// [rad] or [m] what a motor of the joint moves.
+/// [rad] or [m] The coordinate that a motor of the joint moves.
 template <class S> double driven_place(const World<S>& w, const JointProperties<S>& p) {
   const JointAngles now = angles_of(w, p);
   return measure_of(p.type) == JointMeasure::angle ? now.twist : now.along;
 }
 
-/// [J] of one dynamic body; kappa is mass times inverse inertia about the principal axes.
+/// [J] The kinetic energy of one dynamic body; kappa is mass times inverse inertia about the principal axes.
 template <class S> double kinetic_energy(const BodyView<S>& body) {
   using namespace joint_angles_detail;
   const Mat3<double> axes = to_matrix(wide(body.state->orientation)) * to_matrix(wide(body.properties->principal));
@@ -68,7 +68,7 @@ template <class S> double kinetic_energy(const BodyView<S>& body) {
   for (int i = 0; i < 3; ++i) square += kappa[i] > 0 ? angular_velocity[i] * angular_velocity[i] / kappa[i] : 0.0;
   return to_double(body.properties->mass) * square / 2;
 }
-/// [kg m^2] of one body about an axis through a point, both world.
+/// [kg m^2] The inertia of one body about an axis through a point, both world.
 template <class S> double inertia_about(const BodyView<S>& body, D3 point, D3 axis) {
   using namespace joint_angles_detail;
   const Mat3<double> axes = to_matrix(wide(body.state->orientation)) * to_matrix(wide(body.properties->principal));

@@ -1,4 +1,4 @@
-// How far a joint is off what it holds, and past its limits, by its frames in double.
+// The errors of a joint against what it holds, and past its limits, by its frames in double.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,10 +8,10 @@
 
 namespace isostep::test {
 
-/// [m] What slides farther out may be off by as many times more: a tilt shows the more, and Q16.16 turns its base by
-/// less than such a lever asks for (JointConstraint::reach).
+/// [m] A body that slides farther out than this may be off by as many times more: a tilt shows the more, and Q16.16
+/// turns its base by less than such a lever asks for (JointConstraint::reach).
 inline constexpr double kFarOut = 2;
-/// [rad] of swing: beyond, a twist is not held (kLeastTwistCosine, kWidestSwing less what a step may pass it by).
+/// [rad] The swings beyond which a twist is not held (kLeastTwistCosine, kWidestSwing less what a step may pass it by).
 inline constexpr double kTwistEnds = 2.8, kSwingEnds = 2.0;
 
 struct JointHold {
@@ -25,7 +25,7 @@ namespace joint_hold_detail {
 inline double tilt(const Mat3<double>& a, const Mat3<double>& b, int axis) {
   return std::atan2(length(cross(a.column(axis), b.column(axis))), dot(a.column(axis), b.column(axis)));
 }
-/// Of a six-axis joint, by the rows that stand for its locks.
+/// The error of a six-axis joint, by the rows that stand for its locks.
 inline double off_locks(std::uint32_t flags, const Mat3<double>& a, const Mat3<double>& b, double twist) {
   using namespace joint_flag;
   const bool x = (flags & kLockSwingX) != 0, y = (flags & kLockSwingY) != 0, z = (flags & kLockTwist) != 0;
@@ -63,7 +63,7 @@ template <class S> JointHold hold_of(const World<S>& w, JointId id) {
   return hold;
 }
 
-/// Whether what it locks is a twist between two swings, which is lost as they fold.
+/// The joint locks a twist between two swings, which is lost as they fold.
 template <class S> bool locks_twist_alone(const JointProperties<S>& p) {
   if (p.type == JointType::constant_velocity) return true;
   return p.type == JointType::six_axis && (p.flags & joint_flag::kLockTurns) == joint_flag::kLockTwist;

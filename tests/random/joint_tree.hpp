@@ -12,7 +12,7 @@
 
 namespace isostep::test {
 
-/// How large a tree is and how it is solved.
+/// The size of a tree and its solver.
 struct JointTreeTrial {
   SolverName solver;
   bool single;  // one joint: of one body on the world, or between two bodies; else 3 to 12 bodies
@@ -35,7 +35,7 @@ template <class S> class RandomJointTree {
     for (std::uint32_t i = hangs ? 0 : 1; i < count && made(); ++i)
       join(i, trial.single ? static_cast<std::uint32_t>(seed % kKinds) : dice.below(kKinds));
   }
-  /// Not where a scalar of small range refuses an arm.
+  /// The tree was made; a scalar of small range may refuse an arm.
   bool made() const { return fault == Fault::none; }
   double gravity() const { return !falls ? 0 : hangs ? kGravity : kSlowGravity; }
 
@@ -56,7 +56,7 @@ template <class S> class RandomJointTree {
     s.allow_sleep = false;
     return s;
   }
-  /// Off a body before it, or off the origin, where the world holds the first.
+  /// Adds a body off one before it, or off the origin, where the world holds the first.
   void add_body(double speed) {
     const std::uint32_t count = static_cast<std::uint32_t>(bodies.size());
     parents_.push_back(count == 0 ? 0 : dice.below(count));
@@ -75,7 +75,8 @@ template <class S> class RandomJointTree {
     bodies.push_back(world.create(d));
     if (!bodies.back()) fault = world.fault().fault;
   }
-  /// What nothing stops in gravity would fall for half a kilometre beside the world that holds it.
+  /// The type of a joint: one that stops nothing in gravity would let its body fall for half a kilometre beside the
+  /// world that holds it.
   JointType kind_of(std::uint32_t drawn) const {
     const JointType type = drawn < kJointTypes ? static_cast<JointType>(drawn) : JointType::six_axis;
     const bool endless = type == JointType::planar || type == JointType::angular;
@@ -106,10 +107,10 @@ template <class S> class RandomJointTree {
   }
 
   static bool locked(const JointProperties<S>& p, JointAxis axis) { return (p.flags & lock_of(axis)) != 0; }
-  /// Of every axis that the joint leaves. Lengths always have limits. Swings have both, soft ones and springs too, or
-  /// neither: beyond 120 degrees they let go, and a soft limit that one swing alone comes back to, a radian beyond it,
-  /// pushes with energy that it never took. In a cone both are alike: off an ellipse's axes their rows are of no one
-  /// angle.
+  /// Adds drives to every axis that the joint leaves. Lengths always have limits. Swings have both, soft ones and
+  /// springs too, or neither: beyond 120 degrees they let go, and a soft limit that one swing alone comes back to, a
+  /// radian beyond it, pushes with energy that it never took. In a cone both are alike: off an ellipse's axes their
+  /// rows are of no one angle.
   void add_drives(JointId joint, BodyId b, double arm) {
     const JointProperties<S> p = *world.joint(joint);
     const bool cone = (p.flags & joint_flag::kCone) != 0;
@@ -148,7 +149,7 @@ template <class S> class RandomJointTree {
     d.motor_speed = num<S>(dice.one_in(2) ? 0 : dice.in(-3, 3));
     if (d.motor || dice.one_in(2)) d.force = num<S>(load * dice.magnitude(0.25, 4));
     const bool yields = dice.one_in(3), sprung = dice.one_in(2), made_for = dice.one_in(2);
-    // [1] how much heavier than its own body a spring is made for: it swings by the root of that faster.
+    // [1] The factor by which a spring is made for more than its own body: it swings by the root of that faster.
     const double heavier = dice.magnitude(0.125, 16);
     const double target = dice.in(-0.5, 0.5);
     if (sprung) {

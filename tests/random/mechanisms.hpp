@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/joints/joint_coordinate.hpp"
-#include "random/dice.hpp"
+#include "random/records.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -55,14 +55,7 @@ template <class S> class RandomMechanisms {
     world_.add(c);
   }
   void measure() {
-    JointLoad<S> load;
-    load.joint = any_joint();
-    if (!load.joint) return;
-    load.break_force = num<S>(dice_.one_in(2) ? dice_.in(0, 400) : 0);
-    load.break_torque = num<S>(dice_.one_in(2) ? dice_.in(0, 100) : 0);
-    for (const JointLoad<S>& other : world_.state().records->joint_loads.all())
-      if (other.joint == load.joint) return;
-    world_.add(load);
+    if (const auto load = RandomRecords<S>(world_, dice_).template drawn<JointLoad<S>>(); load.joint) world_.add(load);
   }
 
   World<S>& world_;

@@ -10,7 +10,7 @@
 
 namespace isostep::test {
 
-/// At most three of them, balls and boxes, on whatever there is. A function of the state and the dice.
+/// Mounts at most three of them, balls and boxes, on whatever there is. A function of the state and the dice.
 template <class S> class RandomMounts {
  public:
   RandomMounts(World<S>& world, Dice& dice) : world_(world), dice_(dice) {}

@@ -1,7 +1,7 @@
 // What random worlds are made of: every kind of shape, body and joint, with the bounds within which it is drawn.
 // What is new joins here, once, and is in every random world: a shape in draw_primitive, a joint in draw_joint, a
 // property of bodies in draw_body. A command joins random/changes.hpp, energy that is held or given
-// random/energy_book.hpp, a query random/questions.hpp.
+// random/energy_book.hpp, a query random/questions.hpp. Records follow from their kind's file: random/records.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,7 +14,6 @@
 
 namespace isostep::test {
 
-inline constexpr std::uint32_t kMaterialKinds = 3;
 inline constexpr double kLeast = 0.1, kMost = 0.4;  // [m] sizes: inside every scalar's range with the arms below
 
 /// A shape and the radius of a ball about the body's origin that it is in.
@@ -44,6 +43,26 @@ template <class S> Primitive<S> draw_primitive(Dice& dice, double* reach, std::v
   *reach += radius;
   return primitive_of(Hull<S>{static_cast<std::uint32_t>(blobs.size()), num<S>(radius)});
 }
+/// Static friction, a grain, a kind. By dice of its own: what is drawn after it is as it was before there was this.
+template <class S> void draw_surface(std::uint64_t seed, Material<S>& material);
+
+/// What a part has of its own, by dice of its own. The first of a body's weighs something and rests on the ground; the
+/// others may sense, or pass whatever they meet.
+template <class S> PartTraits<S> draw_traits(Dice own, std::uint32_t part) {
+  PartTraits<S> traits;
+  if (own.one_in(3)) {
+    Material<S> material;
+    material.friction = num<S>(own.in(0, 1.25));
+    if (own.one_in(4)) material.restitution = num<S>(own.in(0, 1));
+    draw_surface(own.next(), material);
+    traits.with(material);
+  }
+  if (own.one_in(4)) traits.with(part_flag::kReportContacts);
+  const Filter passes = {1u << own.below(2), 0, own.below(3)};
+  if (part != 0 && own.one_in(4)) traits.with(passes);
+  if (part != 0 && own.one_in(4)) traits.with(part_flag::kSensor);
+  return traits;
+}
 /// A primitive, or two or three of them in one body.
 template <class S> DrawnShape draw_shape(World<S>& w, Dice& dice) {
   std::vector<Child<S>> children;
@@ -56,6 +75,7 @@ template <class S> DrawnShape draw_shape(World<S>& w, Dice& dice) {
     if (count > 1) {
       const D3 at = dice.point(0.25);
       child.pose = {vec<S>(at), dice.orientation<S>()};
+      child.traits = draw_traits<S>(dice, i);
       own += length(at);
     }
     reach = std::max(reach, own);
@@ -64,7 +84,6 @@ template <class S> DrawnShape draw_shape(World<S>& w, Dice& dice) {
   return {w.add_shape(std::span<const Child<S>>(children), blobs), reach};
 }
 
-/// Static friction, a grain, a kind. By dice of its own: what is drawn after it is as it was before there was this.
 template <class S> void draw_surface(std::uint64_t seed, Material<S>& material) {
   Dice dice(seed);
   if (dice.one_in(3)) material.static_friction = num<S>(dice.in(0, 2));
@@ -92,11 +111,12 @@ template <class S> BodyDefinition<S> draw_body(Dice& dice, ShapeId shape) {
   d.allow_sleep = !dice.one_in(8);
   d.user_data = dice.next();
   d.bullet = d.user_data % 8 == 0;
+  d.report_contacts = d.user_data % 3 != 0;
   draw_surface(d.user_data, d.material);
   return d;
 }
 
-/// What may put energy into a world, so what bounds it: a world has it and those before it.
+/// The drives that may put energy into a world, so what bounds it: a world has its own and those before it.
 enum class Drive {
   commands,
   springs,  // that held some at the start
@@ -154,8 +174,8 @@ template <class S> void draw_joint(const World<S>& w, Dice& dice, Drive drive, J
   }
 }
 
-/// Of the axes that a six-axis joint leaves: limits about where they are, brakes, springs and servos at rest. None of
-/// them gives energy.
+/// Draws drives of the axes that a six-axis joint leaves: limits about where they are, brakes, springs and servos at
+/// rest. None of them gives energy.
 template <class S> void draw_axis_drives(World<S>& w, Dice& dice, Drive drive, JointId joint) {
   for (std::uint32_t i = 0; i < kJointAxes; ++i) {
     const JointAxis axis = static_cast<JointAxis>(i);

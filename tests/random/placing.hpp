@@ -1,4 +1,4 @@
-// Where a random world puts its bodies.
+// The places of a random world's bodies.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,7 +13,7 @@ namespace isostep::test {
 
 inline constexpr double kPlaceTop = 8;  // [m] most that a body is put at
 
-/// Where nothing is, so that nothing is pushed out of anything: a null id where no place was found.
+/// Places a body where nothing is, so that nothing is pushed out of anything: a null id where no place was found.
 template <class S>
 BodyId place_freely(World<S>& w, Dice& dice, BodyDefinition<S> d, double reach, D3 low, D3 high, std::uint32_t group) {
   const Primitive<S> around = primitive_of(Sphere<S>{num<S>(reach + 0.05)});

@@ -28,7 +28,7 @@ template <class S> struct Questions {
   std::vector<Nearest> nearest;
 };
 
-/// What was found at all: equal answers mean little where it is nothing.
+/// The counts of what was found at all: equal answers mean little where it is nothing.
 struct Found {
   std::size_t rays = 0, casts = 0, overlaps = 0, nearest = 0;  // questions with an answer
   std::size_t several = 0, inside = 0, triangles = 0, refused = 0;
@@ -80,7 +80,7 @@ template <class S> class QuestionsOf {
     return !is_surface(type) && type != ShapeType::half_space && part.pose.is_identity();
   }
   BodyId body() { return dice_.one_of(bodies_); }
-  /// In the air, about the ground, or in the middle of a body.
+  /// A place in the air, about the ground, or in the middle of a body.
   D3 place() {
     if (dice_.one_in(3)) return real(world_.view(body()).pose.position);
     const D3 p = dice_.point(5);
@@ -94,7 +94,7 @@ template <class S> class QuestionsOf {
     const D3 to = real(world_.view(body()).pose.position);
     return vec<S>((to - real(from)) * dice_.in(0.5, 1.5));
   }
-  /// Down on a corner or an edge of the terrain, where several triangles are met at once.
+  /// A ray down on a corner or an edge of the terrain, where several triangles are met at once.
   RayCast<S> draw_plumb() {
     const double x = dice_.below(9), z = dice_.below(9), aside = dice_.one_in(2) ? 0 : dice_.in(0, 1);
     const double height = dice_.in(0.5, 4), depth = dice_.in(0.5, 8);

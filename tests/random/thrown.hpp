@@ -21,7 +21,7 @@ template <class S> class ThrownMechanism {
  public:
   static constexpr double kHalf = 3;  // [m] of the room
 
-  /// Into a room.
+  /// Throws a mechanism into a room.
   ThrownMechanism(std::uint64_t seed, SolverName solver)
       : dice(seed * 2654435761u + 11), world(settings_of(solver, -10)) {
     room = static_cast<RoomKind>(dice.below(kRoomKinds));
@@ -157,7 +157,7 @@ template <class S> class ThrownMechanism {
       case ThrownKind::doors: return add_doors(from, group);
     }
   }
-  /// Of capsules along x, on balls or hinges; the last may be heavier.
+  /// Adds a chain of capsules along x, on balls or hinges; the last may be heavier.
   void add_chain(D3 from, std::uint32_t group, double heavier) {
     const std::uint32_t count = 3 + dice.below(6);
     const double radius = dice.magnitude(0.04, 0.1), half = dice.in(0.05, 0.15), pitch = 2 * (half + radius);

@@ -2,20 +2,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "random/dice.hpp"
-#include "unit/world/worlds.hpp"
+#include "random/record_draw.hpp"
 
 namespace isostep::test {
 
-/// Up to two vehicles of two to six wheels, whose engines end at some metres a second. Some have tracks, at the left
-/// and the right or of any wheels, and some a clutch.
+/// Makes up to two vehicles of two to six wheels, whose engines end at some metres a second. Some have tracks, at the
+/// left and the right or of any wheels, and some a clutch.
 template <class S> class RandomVehicles {
  public:
   static constexpr double kFastest = 4;  // [m/s] of a rim
 
   RandomVehicles(World<S>& world, Dice& dice) : world_(world), dice_(dice) {}
 
-  /// Where `placed` is a body for one, that becomes a vehicle; else one is driven, or loses a wheel, or all.
+  /// Makes `placed` a vehicle where it is a body for one; else one is driven, or loses a wheel, or all.
   void change(BodyId placed) {
     if (placed) return build(placed);
     const auto vehicles = world_.state().records->vehicles.slot_map().template ids<VehicleId>();
@@ -86,12 +85,8 @@ template <class S> class RandomVehicles {
   }
   VehicleInput<S> drawn_input() {
     VehicleInput<S> input;
-    input.throttle = num<S>(dice_.in(-1, 1));
-    input.brake = num<S>(dice_.one_in(3) ? dice_.in(0, 1) : 0);
-    input.handbrake = num<S>(dice_.one_in(6) ? dice_.in(0, 1) : 0);
-    input.steer = num<S>(dice_.in(-1, 1));
-    input.gear = dice_.below(3);
-    input.clutch = num<S>(dice_.one_in(2) ? dice_.in(0, 1) : 1);
+    RecordDraw<S> random(world_, dice_);
+    detail::RecordRules<VehicleSettings<S>>::draw(input, random);
     return input;
   }
 

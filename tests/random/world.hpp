@@ -18,7 +18,7 @@ template <class S> Settings<S> random_settings(std::uint64_t seed, SolverName so
   Settings<S> s = settings<S>(-10, rate, substeps);
   s.allow_sleep = !dice.one_in(4);
   s.solver = solver;
-  // Of dice of its own: what else is drawn is as it was before there was this.
+  // It is drawn by dice of its own: what else is drawn is as it was before there was this.
   if (solver == SolverName::worst_first)
     s.projection = static_cast<Projection>(Dice(seed * 179424673 + 11).below(kProjections));
   Dice own(seed * 17 + 3);
@@ -58,7 +58,8 @@ template <class S> class RandomWorld {
     return report;
   }
 
-  /// For worlds that are saved and loaded, where no book is kept: of the state, the seed and the frame alone.
+  /// Gives commands to worlds that are saved and loaded, where no book is kept: a function of the state, the seed and
+  /// the frame alone.
   static void command(World<S>& w, std::uint64_t seed, std::uint64_t frame,
                       std::vector<AppliedForce>* forces = nullptr) {
     RandomChanges<S>::change(w, seed, frame);
@@ -208,7 +209,7 @@ template <class S> class RandomWorld {
     joints.push_back(id);
     if (type == JointType::six_axis) draw_axis_drives(world, own, drive_of(seed_), id);
   }
-  /// Between whatever parts: all of the mechanism together is never easier to move.
+  /// Books a spring between whatever parts: all of the mechanism together is never easier to move.
   void book_spring(const JointProperties<S>& p, const std::vector<BodyId>& bodies) {
     if ((p.flags & joint_flag::kSpring) == 0) return;
     const JointAngles now = angles_of(world, p);

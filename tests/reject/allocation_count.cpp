@@ -17,7 +17,7 @@ void* counted(std::size_t size) {
 }
 }  // namespace
 
-// Not inlined: gcc would take one half of a pair for a mismatch with the other.
+// These are not inlined: gcc would take one half of a pair for a mismatch with the other.
 #define NOT_INLINED __attribute__((noinline))
 NOT_INLINED void* operator new(std::size_t size) { return counted(size); }
 NOT_INLINED void operator delete(void* memory) noexcept { std::free(memory); }

@@ -1,4 +1,5 @@
-// Where hostile peers meet honest ones: a host, an honest client, a seat for the rogue, and what must hold afterwards.
+// The scene in which hostile peers meet honest ones: a host, an honest client, a seat for the rogue, and what must hold
+// afterwards.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,7 +11,7 @@
 
 namespace isostep::hostile {
 
-/// Of the whole program, counted in allocation_count.cpp.
+/// The allocations of the whole program, counted in allocation_count.cpp.
 struct AllocationCount {
   std::size_t times = 0, bytes = 0;
 };

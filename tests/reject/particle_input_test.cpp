@@ -1,5 +1,5 @@
-// What a game may do to a particle world that no game should: numbers at the end of the scalar, springs without length,
-// forces that explode, a million contacts. Each ends in a fault or a report, and never in a NaN or a hang.
+// Inputs to a particle world that no game should give: numbers at the end of the scalar, springs without length, forces
+// that explode, a million contacts. Each ends in a fault or a report, and never in a NaN or a hang.
 // SPDX-License-Identifier: MIT
 #include "unit/particles/particle_worlds.hpp"
 

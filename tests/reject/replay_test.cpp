@@ -76,7 +76,7 @@ TEST(RejectReplay, BytesTakenOutOrPutInAreNeverVerified) {
   }
 }
 
-// From here on every checksum is right: a forger can compute them as well as we can.
+// Every checksum is right from here on: a forger can compute them as well as we can.
 
 std::vector<Part> parts() { return toy::take_apart(small_replay()); }
 VerifyOutcome outcome_of(const std::vector<Part>& forged) { return toy::verify_toy(toy::put_together(forged)).outcome; }
@@ -311,7 +311,7 @@ TEST(ForgedReplay, OtherFormatVersionsAndFlagsAreIncompatible) {
     std::size_t at;
     std::uint8_t value;
     VerifyOutcome outcome;
-  } rows[] = {{8, 2, VerifyOutcome::incompatible},
+  } rows[] = {{8, 1, VerifyOutcome::incompatible},
               {9, 1, VerifyOutcome::incompatible},
               {12, 64, VerifyOutcome::incompatible},
               {16, 1, VerifyOutcome::incompatible},

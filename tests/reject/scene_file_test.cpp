@@ -12,7 +12,7 @@
 namespace isostep::scenes {
 namespace {
 
-/// What reading, then building in S, says; empty for a scene that is accepted.
+/// The error of reading, then building in S; empty for a scene that is accepted.
 template <class S = float> std::string refusal(const std::string& json) {
   try {
     const Scene scene = read_scene(json);

@@ -8,7 +8,7 @@
 namespace isostep::hostile {
 namespace {
 
-/// What a client says within a match, from its first word on.
+/// The words of a client within a match, from its first on.
 std::vector<std::pair<Channel, Buffer>> captured(const SessionConfig& config) {
   Match match = make_match(config);
   match.add(lan());

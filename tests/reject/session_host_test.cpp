@@ -76,6 +76,75 @@ TEST(HostileHost, AWelcomeToAStateThatWeDoNotHaveIsRefused) {
   }
 }
 
+/// A client that is sent the state before frame `frame`, all of it.
+struct Joiner : Victim {
+  explicit Joiner(Frame frame) {
+    Game theirs;
+    for (Frame f = 0; f < frame; ++f) {
+      const Pad pads[3] = {bot(0, f), bot(1, f), bot(2, f)};
+      const InputStatus statuses[3] = {InputStatus::confirmed, InputStatus::confirmed, InputStatus::confirmed};
+      theirs.step({pads, statuses});
+    }
+    Writer writer(state);
+    theirs.write_portable(writer);
+    hash = theirs.hash();
+    Welcome welcome = first_welcome();
+    welcome.start = {frame, 3};
+    welcome.hash = hash;
+    welcome.snapshot_size = size();
+    welcome.opens = kNoFrame;
+    hear_welcome(welcome);
+    for (std::size_t at = 0; at < state.size(); at += 16000) {
+      const std::size_t left = state.size() - at;
+      hear_piece(static_cast<std::uint32_t>(at), Bytes(state).subspan(at, left < 16000 ? left : 16000));
+    }
+  }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(state.size()); }
+  /// How many states the game is to become in this turn.
+  int restores(bool carries_out) {
+    now += kMs;
+    int count = 0;
+    NoObserver observer;
+    for (const Request<Pad>& request : session.advance(now)) {
+      count += request.kind == RequestKind::restore ? 1 : 0;
+      if (carries_out) carry_out(session, game, request, observer);
+    }
+    return count;
+  }
+  Buffer state;
+  std::uint64_t hash = 0;
+};
+
+TEST(HostileHost, AnEmptyPieceIsRefusedWhereverTheSnapshotStands) {
+  for (const Frame frame : {1, 50, 300}) {
+    Joiner joiner(frame);
+    joiner.hear_piece(joiner.size(), {});
+    EXPECT_EQ(joiner.session.stats().refused, 1u) << "all of it is here";
+    EXPECT_EQ(joiner.restores(false), 1);
+    joiner.hear_piece(joiner.size(), {});
+    EXPECT_EQ(joiner.session.stats().refused, 2u) << "the game is to become it";
+    EXPECT_EQ(joiner.restores(true), 1) << "the caller forgot the first";
+    joiner.hear_piece(joiner.size(), {});
+    EXPECT_EQ(joiner.session.stats().refused, 3u) << "the game has become it";
+    EXPECT_EQ(joiner.restores(true), 0);
+    EXPECT_EQ(joiner.game.hash(), joiner.hash);
+    EXPECT_EQ(joiner.session.current(), frame);
+  }
+}
+
+TEST(HostileHost, WhoIsRefusedDoesNotBecomeTheStateThatHasArrived) {
+  for (const Frame frame : {1, 50, 300}) {
+    Joiner joiner(frame);
+    Buffer refusal;
+    write_refusal({"kicked", {}, "away"}, refusal);
+    joiner.hear(refusal);
+    for (int n = 0; n < 3; ++n) EXPECT_EQ(joiner.restores(true), 0);
+    EXPECT_EQ(joiner.session.phase(), SessionPhase::refused);
+    EXPECT_EQ(joiner.session.current(), 0);
+    EXPECT_EQ(joiner.game.hash(), Game{}.hash());
+  }
+}
+
 TEST(HostileHost, PromisesOfSizeCostNoMemory) {
   Victim victim;
   Welcome welcome = Victim::first_welcome();

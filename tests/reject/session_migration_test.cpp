@@ -1,7 +1,7 @@
 // A member of the match that lies when the host is gone: about rosters, support, and inputs that nobody else knows.
 // SPDX-License-Identifier: MIT
 #include "hostile_scene.hpp"
-#include "isostep/session/roster.hpp"
+#include "isostep/session/agreement/roster.hpp"
 
 namespace isostep::hostile {
 namespace {
@@ -198,6 +198,90 @@ TEST(HostileMember, WordsOfACandidateAndOfAHostAreHeardFromNobodyElse) {
   scene.play(kSecond, [&] { caller.listen(); });
   EXPECT_GE(scene.honest->session.stats().refused - there, 5u);
   scene.expect_progress(60);
+}
+
+/// A member whose host and whose candidates are the test.
+struct Elector {
+  Elector() : session(config_of()) {
+    session.connected(0, now);
+    turn();
+    const Welcome welcome = {.match = 9,
+                             .players = 3,
+                             .hosted = 1,
+                             .player = 1,
+                             .token = 1,
+                             .life = 5,
+                             .term = 1,
+                             .start = {0, Game{}.hash()},
+                             .hash = Game{}.hash(),
+                             .opens = 0};
+    Buffer bytes;
+    write_welcome(welcome, bytes);
+    session.receive(0, Channel::reliable, bytes, now);
+    Roster roster;
+    roster.term = 1;
+    roster.version = kVersion;
+    roster.count = 3;
+    for (std::uint8_t m = 0; m < 3; ++m) {
+      Roster::Machine& machine = roster.machines[m];
+      machine = {1u << m, proof_of(m), 4u + m, true, true, {}, 0};
+      machine.address.append_number(m);
+    }
+    write_roster(roster, bytes);
+    session.receive(0, Channel::reliable, bytes, now);
+    turn();
+    session.disconnected(0, now);
+    turn();
+  }
+  static SessionConfig config_of() {
+    SessionConfig config = migrating();
+    config.players = 3;
+    config.local_players = 0;
+    config.address = "1";
+    config.seed = 7;
+    return config;
+  }
+  /// Of the messages to this peer.
+  std::vector<MessageKind> told(PeerId peer) {
+    std::vector<MessageKind> kinds;
+    while (const auto out = session.poll_send(now)) {
+      const bool is_message = out->channel == Channel::reliable && !out->bytes.empty();
+      if (is_message && out->peer == peer) kinds.push_back(message_kind(out->bytes).value());
+    }
+    return kinds;
+  }
+  void turn() {
+    now += kMs;
+    drive(session, game, now);
+    told(0);
+  }
+  static constexpr std::uint32_t kVersion = 3;
+  Time now = 1000;
+  Session<Game> session;
+  Game game;
+};
+
+TEST(HostileMember, WhatACandidateWasToHearIsNotToldToTheNext) {
+  for (const std::uint32_t version : {1u, Elector::kVersion}) {  // it lacks our roster, or has it
+    Elector elector;
+    ASSERT_EQ(elector.session.phase(), SessionPhase::seeking);
+    Buffer asks, redirect;
+    Candidate candidate{.term = 2, .log_term = 1, .roster_term = 1, .version = version};
+    write_candidate(candidate, asks);
+    write_redirect(Address("2"), redirect);
+    elector.session.connected(1, elector.now);
+    EXPECT_EQ(elector.told(1), std::vector{MessageKind::hello});
+    elector.session.receive(1, Channel::reliable, asks, elector.now);
+    EXPECT_EQ(elector.told(1).size(), 1u) << "an answer";
+    // Another candidate, and before it has its answer it sends us on.
+    candidate.term = 3;
+    write_candidate(candidate, asks);
+    elector.session.receive(1, Channel::reliable, asks, elector.now);
+    elector.session.receive(1, Channel::reliable, redirect, elector.now);
+    ASSERT_EQ(elector.session.poll_connect(), Address("2"));
+    elector.session.connected(2, elector.now);
+    EXPECT_EQ(elector.told(2), std::vector{MessageKind::hello});
+  }
 }
 
 }  // namespace

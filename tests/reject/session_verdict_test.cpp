@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "hostile_scene.hpp"
-#include "isostep/session/repair.hpp"
-#include "isostep/session/verdict.hpp"
+#include "isostep/session/agreement/repair.hpp"
+#include "isostep/session/agreement/verdict.hpp"
 
 namespace isostep::hostile {
 namespace {
@@ -118,6 +118,41 @@ TEST(HostileVerdict, RepairsCostTheHostOneSnapshotInTenSeconds) {
   });
   EXPECT_EQ(offered, 3);
   EXPECT_EQ(scene.honest->count(Kind::repaired, scene.rogue.welcome.player), 3);
+  scene.expect_progress(60);
+}
+
+TEST(HostileVerdict, WhoIsKickedWhileItsRepairArrivesIsNoSpectator) {
+  SeatedRogue scene;
+  scene.play(kSecond, [] {});
+  std::uint32_t size = 0, sent = 0;  // [bytes] of the snapshot
+  Peer& host = scene.match.host();
+  host.outgoing = [&](Channel channel, std::vector<std::uint8_t>& bytes) {
+    if (channel != Channel::reliable || bytes.empty()) return;
+    if (const Result<RepairOffer> offer = read_offer(bytes); bytes[0] == static_cast<std::uint8_t>(MessageKind::offer))
+      size = offer.value().snapshot_size;
+    const Result<Piece> piece = read_piece(bytes);
+    const bool is_piece = bytes[0] == static_cast<std::uint8_t>(MessageKind::piece) && piece.ok();
+    if (is_piece) sent = piece.value().offset + static_cast<std::uint32_t>(piece.value().bytes.size());
+  };
+  // Before the word that all has arrived: the kick and the word are of one turn.
+  bool is_kicked = false;
+  host.middle = [&](Channel, std::vector<std::uint8_t>& bytes) {
+    Buffer whole;
+    write_progress(size, whole);
+    if (size == 0 || is_kicked || bytes != whole) return;
+    is_kicked = host.session.kick(scene.rogue.welcome.player, "away");
+  };
+  Buffer words;
+  write_resync(words);
+  scene.rogue.say(Channel::reliable, words);
+  scene.play(3 * kSecond, [&] {
+    write_progress(sent, words);
+    if (sent > 0 && !is_kicked) scene.rogue.say(Channel::reliable, words);
+  });
+  EXPECT_TRUE(is_kicked);
+  EXPECT_TRUE(scene.rogue.is_refused);
+  EXPECT_FALSE(scene.rogue.is_connected);
+  EXPECT_EQ(host.session.stats().peers, 1) << "the honest client alone";
   scene.expect_progress(60);
 }
 

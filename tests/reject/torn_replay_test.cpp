@@ -1,5 +1,5 @@
-// What a power failure leaves of a recording: a beginning, and zeros where bytes were not written yet. It is cut, not
-// damaged: whole blocks before the zeros play.
+// A recording after a power failure: a beginning, and zeros where bytes were not written yet. It is cut, not damaged:
+// whole blocks before the zeros play.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ Buffer long_replay(std::uint64_t frames, std::size_t size, bool finish) {
   return file;
 }
 
-/// TRUNCATED, with the frames of the blocks that are whole before `intact`.
+/// Expects TRUNCATED, with the frames of the blocks that are whole before `intact`.
 void expect_torn(const Buffer& file, std::size_t intact, const char* what, std::size_t at) {
   const ReplayReader whole(Bytes(file).first(intact < file.size() ? intact : file.size()));
   const ReplayReader torn(file);

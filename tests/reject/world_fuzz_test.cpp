@@ -70,7 +70,7 @@ template <class S> class WorldFuzz : public ::testing::Test {
     j.spring_frequency = edges.near(S(240));
     return static_cast<bool>(world.create(j));
   }
-  /// Of one that is kinematic and a sensor, where there is one.
+  /// Mounts a body that is kinematic and a sensor, where there is one.
   bool mount() {
     BodyId sensor = edges.one_of(bodies);
     for (const BodyId id : world.bodies()) {

@@ -32,7 +32,7 @@ struct OpenMatch {
     return player;
   }
   Player& come() { return come(client); }
-  /// With the seat of a former process, and nothing else of it.
+  /// The configuration with the seat of a former process, and nothing else of it.
   SessionConfig with_token(std::uint64_t token) const {
     SessionConfig its = client;
     its.token = token;
@@ -54,7 +54,7 @@ struct OpenMatch {
   bool plays(const Player& player, Time within) {
     return match.run(within, [&] { return player.session.phase() == SessionPhase::playing; });
   }
-  /// What it is refused for, as "seats: reserved"; "" when it is not.
+  /// The reason of a refusal, as "seats: reserved"; "" when there is none.
   std::string refusal_of(const Player& player, Time within = kSecond) {
     match.run(within, [&] { return player.heard(Kind::refused); });
     const Refusal& field = player.last(Kind::refused).field;

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "isostep/session/input_codec.hpp"
-#include "isostep/session/packet.hpp"
+#include "isostep/session/protocol/packet.hpp"
+#include "isostep/session/timeline/input_codec.hpp"
 
 namespace isostep::test {
 

@@ -1,4 +1,4 @@
-// What callers do otherwise than the examples: slow loops, clocks that waver, requests that are dropped, wrong numbers.
+// Callers that do otherwise than the examples: slow loops, clocks that waver, requests that are dropped, wrong numbers.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ TEST(Caller, AClockThatStepsBackChangesNothing) {
   expect_one_history(match);
 }
 
-/// What one machine alone confirmed.
+/// The frames that one machine alone confirmed.
 struct Diary {
   const Session<Toy>& session;
   std::vector<ToyInput> inputs;

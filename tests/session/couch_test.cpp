@@ -11,7 +11,7 @@ using Kind = SessionEvent::Kind;
 constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
 constexpr std::uint32_t kHosts = 0b00011, kCouch = 0b01100, kSingle = 0b10000;
 
-/// Who it is, and when: no two players say the same.
+/// The player's number and the frame: no two players say the same.
 ToyInput word_of(int player, Frame frame) {
   return {static_cast<std::int8_t>(player + 1), 0, static_cast<std::uint16_t>(frame)};
 }

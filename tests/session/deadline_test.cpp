@@ -93,7 +93,7 @@ struct HandMatch : VirtualMatch<Toy> {
   void pass(Time time) {
     run(time, [] { return false; });
   }
-  /// [%] of the frames from `first` on, in which the player played, in which it beat the host's.
+  /// [%] The frames in which the player beat the host's inputs, of those from `first` on in which it played.
   int beaten(int player, Frame first) {
     Frame played = 0, beat = 0;
     for (Frame frame = first; frame < host().end(); ++frame) {

@@ -18,8 +18,8 @@ namespace {
 
 using Kind = SessionEvent::Kind;
 constexpr Frame kFault = 300;
-/// [frames] between the last state known to be equal and the one known to differ: a machine's hash is passed on with
-/// every datagram that is its turn, of which the line loses some.
+/// [frames] The distance between the last state known to be equal and the one known to differ: a machine's hash is
+/// passed on with every datagram that is its turn, of which the line loses some.
 constexpr Frame kDetectionWindow = 16;
 
 struct Match : VirtualMatch<Toy> {

@@ -1,6 +1,6 @@
 // Nobody pays for another's hitch, line or lies: whose fault a late input is decides whose inputs wait longer.
 // SPDX-License-Identifier: MIT
-#include "isostep/session/input_delay.hpp"
+#include "isostep/session/pace/input_delay.hpp"
 #include "session/altered_packet.hpp"
 #include "session/pace_watch.hpp"
 
@@ -11,7 +11,7 @@ constexpr Time kMs = 1000;  // [us]
 constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
 constexpr std::size_t kMachines = 4;
 
-/// How much longer than before inputs of machine `i` waited at most.
+/// The growth of the longest wait of machine `i`'s inputs.
 Frame growth(const PaceWatch<Toy>& watch, const std::vector<Frame>& before, std::size_t i) {
   return watch[i].most_delay - before[i];
 }

@@ -13,7 +13,7 @@ constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
 constexpr auto kNoInput = [](int, Frame, std::vector<std::uint8_t>&) {};
 using Datagram = std::vector<std::uint8_t>;
 
-/// How one client keeps step: by how much it is before the host at most, and how far away it takes it to be.
+/// The step of one client: by how much it is before the host at most, and how far away it takes it to be.
 struct Step {
   Frame most_ahead = -1000;
   Time round_trip = 0;  // [us] on average

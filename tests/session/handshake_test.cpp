@@ -3,14 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "isostep/replay/recorder.hpp"
-#include "isostep/session/message.hpp"
+#include "isostep/session/protocol/message.hpp"
 #include "session/match_checks.hpp"
 #include "session/toy_game.hpp"
 
 namespace isostep::test {
 namespace {
 
-/// What both sides heard after some seconds on a line without delay.
+/// The words that both sides heard after some seconds on a line without delay.
 struct Meeting {
   SessionPhase host = SessionPhase::waiting, client = SessionPhase::waiting;
   Refusal told_host, told_client;
@@ -141,7 +141,7 @@ TEST(Handshake, RefusesAnotherRateOfFrames) {
   expect_refused(meet(host, client, Toy(), Toy(), kAsItIs), "session_hz");
 }
 
-/// The same bytes, another meaning.
+/// An input of the same bytes with another meaning.
 struct RenamedInput {
   std::int8_t push = 0, pull = 0;
   std::uint16_t buttons = 0;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "isostep/session/message.hpp"
+#include "isostep/session/protocol/message.hpp"
 #include "scenes/match.hpp"
 #include "session/altered_packet.hpp"
 #include "session/match_checks.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <map>
 
-#include "isostep/session/large_order.hpp"
+#include "isostep/session/observers/large_order.hpp"
 #include "isostep/state/composite.hpp"
 #include "session/pace_watch.hpp"
 #include "session/recorded_play.hpp"
@@ -16,7 +16,7 @@ struct Unit {
   ISO_FIELDS(command)
 };
 
-/// What became of all orders.
+/// The fate of all orders.
 struct CommandState {
   std::uint64_t digest = 0;
   std::uint32_t tick = 0, orders = 0, out_of_turn = 0;
@@ -140,7 +140,7 @@ TEST_P(LargeOrders, OfEightKilobytesEveryTwoSecondsAreNotNoticed) {
   EXPECT_GE(state.orders, static_cast<std::uint32_t>(players) * 12);
 }
 
-/// What may befall an order on its way.
+/// A trouble of an order on its way.
 struct Trouble {
   const char* name;
   const char* line;

@@ -1,4 +1,4 @@
-// What holds after every match: all peers confirmed what one process computes from the same inputs.
+// Checks that hold after every match: all peers confirmed what one process computes from the same inputs.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -26,14 +26,14 @@ inline std::vector<std::size_t> matrix_sizes() {
   return {transport::named_profiles().size(), std::size(kMatrixPlayers), std::size(kMatrixModes), kMatrixScalars};
 }
 
-/// What happened in the rows of one scalar.
+/// The counts of the rows of one scalar.
 struct MatrixTally {
   std::uint64_t depths[9] = {};
   std::uint64_t returns = 0, spawned = 0, contacts = 0;
   int rows = 0;
 };
 
-/// [kB/s] of what all clients send, and are sent, per client. At two players that is one player's link.
+/// [kB/s] The bandwidth of what all clients send, and are sent, per client. At two players that is one player's link.
 template <class Game> void check_bandwidth(VirtualMatch<Game>& match, const char* name) {
   double up = 0, down = 0;
   for (std::size_t i = 1; i < match.size(); ++i) {
@@ -98,7 +98,7 @@ template <class S> void run_matrix_row(const Row& row, MatrixTally& tally) {
   check_bandwidth(match, name.c_str());
 }
 
-/// In a sample the largest match is played in one mode.
+/// A sample plays the largest match in one mode.
 inline bool is_sampled(const Row& row) {
   return kMatrixPlayers[row[1]] < 8 || kMatrixModes[row[2]] == SessionMode::rollback;
 }

@@ -34,7 +34,7 @@ constexpr std::size_t kAlignment = alignof(std::max_align_t);
 
 }  // namespace
 
-// Not inlined: gcc would take one half of a pair for a mismatch with the other.
+// These are not inlined: gcc would take one half of a pair for a mismatch with the other.
 #define NOT_INLINED __attribute__((noinline))
 NOT_INLINED void* operator new(std::size_t size) { return counted(size, kAlignment); }
 NOT_INLINED void* operator new(std::size_t size, std::align_val_t alignment) {

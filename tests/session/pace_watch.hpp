@@ -39,7 +39,7 @@ inline SessionConfig config_of(int players, SessionMode mode) {
   return config;
 }
 
-/// What one machine did since the watch began.
+/// The record of one machine since the watch began.
 struct PaceRecord {
   Frame last = 0, first = 0;
   Time since = 0;               // [us] when it stepped last
@@ -91,7 +91,7 @@ template <class Game> class PaceWatch {
   }
   const PaceRecord& operator[](std::size_t i) const { return records_[i]; }
   std::size_t size() const { return records_.size(); }
-  /// [frames/100 s] of one machine.
+  /// [frames/100 s] The pace of one machine.
   Frame hundred_seconds(std::size_t i) const {
     const Time time = match_.now() - began_;
     return static_cast<Frame>(static_cast<Time>(records_[i].last - records_[i].first) * 100 * kSecond / time);

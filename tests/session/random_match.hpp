@@ -107,7 +107,7 @@ class RandomMatch {
     }
     return found;
   }
-  /// Where a game that knows none asks for the match: its host, or else who saw most of it.
+  /// The machine at which a game that knows none asks for the match: its host, or else who saw most of it.
   std::size_t somebody() {
     std::size_t found = machine_with_host();
     if (found < match_.size()) return found;

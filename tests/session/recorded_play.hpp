@@ -1,10 +1,10 @@
-// What replays of matches are tested with: a recorder on a machine of a VirtualMatch, and a session that plays a file.
+// Replays of matches, tested: a recorder on a machine of a VirtualMatch, and a session that plays a file.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <vector>
 
-#include "isostep/session/match_recorder.hpp"
+#include "isostep/session/observers/match_recorder.hpp"
 #include "session/virtual_match.hpp"
 
 namespace isostep::test {

@@ -27,7 +27,7 @@ struct JoinedMatch {
     match->host().session.start(match->now());
     EXPECT_TRUE(match->run_to(400, 60 * kSecond));
   }
-  /// Played again from where it begins, all of it is what the host had.
+  /// Expects that the file, played again from where it begins, is all what the host had.
   void expect_verified(const std::vector<std::uint8_t>& file, Frame first, Frame frames) const {
     const Played<Toy> played = play(config, file, Toy(100));
     EXPECT_TRUE(played.events.empty());
@@ -40,7 +40,7 @@ struct JoinedMatch {
   }
 };
 
-/// What a minute of a match takes on disk, its first state and header left out.
+/// The size of a minute of a match on disk, its first state and header left out.
 struct Size {
   Genre genre;
   int players;

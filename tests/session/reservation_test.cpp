@@ -1,6 +1,6 @@
 // A player's seat is its own: by a token that nobody can compute, for as long as it is kept, whoever else wants it.
 // SPDX-License-Identifier: MIT
-#include "isostep/session/siphash.hpp"
+#include "isostep/session/protocol/siphash.hpp"
 #include "session/admission_scene.hpp"
 
 namespace isostep::test {

@@ -91,7 +91,7 @@ TEST(VerdictOfAMatch, IsNotEscapedByTwoWords) {
 
 // --- the repair ---
 
-/// What the repair of one machine cost it and the others.
+/// The cost of one machine's repair to it and the others.
 struct Cost {
   Time takes = 0;          // [us] from the wrong frame until it steps the same frames as the others again, and right
   Time worst_gap = 0;      // [us] between two frames of another machine
@@ -119,7 +119,8 @@ template <class Game> Cost cost_of_repair(VirtualMatch<Game>& match, std::size_t
   return cost;
 }
 
-/// After its repair a machine has the states of one process that plays all inputs; the others have them throughout.
+/// Expects that a machine has, after its repair, the states of one process that plays all inputs; the others have them
+/// throughout.
 template <class Game> void expect_repaired(VirtualMatch<Game>& match, std::size_t culprit) {
   const std::vector<std::uint64_t> straight = match.straight(match.host().end());
   for (std::size_t i = 0; i < match.size(); ++i) {
@@ -164,6 +165,23 @@ TEST_P(RepairOf, AMachineTakesLessThanASecondAndNobodyNotices) {
   EXPECT_LE(cost.takes, kAgain);
   EXPECT_LE(cost.worst_gap, kNoGap);
   EXPECT_LE(cost.delay_change, kSameDelay);
+  expect_repaired(match, 2);
+}
+
+TEST_P(RepairOf, AMachineGoesOnWhenTheHostsCallerForgetsTheSnapshot) {
+  const auto [mode, players] = GetParam();
+  ToyMatch match(repairing(players, mode), kGoodLine);
+  damage(match.machine(2));
+  bool has_forgotten = false;
+  match.host().forgets = [&](std::span<const Request<ToyInput>> requests) {
+    const auto captures = [](const Request<ToyInput>& request) { return request.kind == RequestKind::capture; };
+    if (has_forgotten || std::none_of(requests.begin(), requests.end(), captures)) return false;
+    return has_forgotten = true;
+  };
+  EXPECT_GT(cost_of_repair(match, 2).takes, 0u);
+  EXPECT_TRUE(has_forgotten);
+  EXPECT_EQ(match.host().count(Kind::misuse), 1);
+  EXPECT_FALSE(match.machine(2).heard(Kind::bad_snapshot));
   expect_repaired(match, 2);
 }
 

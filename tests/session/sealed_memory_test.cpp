@@ -15,7 +15,7 @@ std::size_t allocations = 0;
 
 }  // namespace
 
-// Not inlined: gcc would take one half of a pair for a mismatch with the other.
+// These are not inlined: gcc would take one half of a pair for a mismatch with the other.
 #define NOT_INLINED __attribute__((noinline))
 NOT_INLINED void* operator new(std::size_t size) {
   if (counting) ++allocations;

@@ -5,7 +5,7 @@
 #include <deque>
 #include <string>
 
-#include "isostep/session/message.hpp"
+#include "isostep/session/protocol/message.hpp"
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
 
-/// What a silent spectator sends beside its greeting.
+/// The chatter of a silent spectator beside its greeting.
 enum class Chatter { headers, rubbish, one_frame };
 
 /// Greets, sends one small datagram a second, and acknowledges nothing. It comes again as soon as it is put out.

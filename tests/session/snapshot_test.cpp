@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "isostep/session/message.hpp"
+#include "isostep/session/protocol/message.hpp"
 #include "session/bulky_game.hpp"
 #include "session/pace_watch.hpp"
 
@@ -93,7 +93,7 @@ TEST(Snapshot, TellsBothSidesHowFarItIs) {
 
 // --- a line that is cut ---
 
-/// [bytes] of messages that a joiner got until it plays, cut off so often, each time for so long.
+/// [bytes] The messages that a joiner got until it plays, cut off so often, each time for so long.
 std::uint64_t bytes_until_playing(Slow& match, Machine<Bulky>& joiner, int cuts, Time away) {
   joiner.returns = true;
   std::uint64_t bytes = 0;

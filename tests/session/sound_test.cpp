@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "isostep/session/event_log.hpp"
+#include "isostep/session/observers/event_log.hpp"
 #include "scenes/match.hpp"
 #include "session/match_checks.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 using Game = scenes::Match<Q16_16>;
 using scenes::MatchEvent;
 
-/// What one machine's user heard.
+/// The events that one machine's user heard.
 struct Heard {
   EventLog<MatchEvent> log;
   std::vector<std::pair<Frame, MatchEvent>> confirmed;

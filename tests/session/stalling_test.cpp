@@ -27,7 +27,7 @@ class Stalling : public testing::TestWithParam<std::tuple<SessionMode, Way>> {
     if (std::get<1>(GetParam()) == Way::silent) match.network().set_silent(match.machine(kStaller).endpoint, on);
     else is_holding = on;
   }
-  /// [us] during which machine 1 stood for more than a twentieth of a second.
+  /// [us] The time during which machine 1 stood for more than a twentieth of a second.
   Time lost(const PaceWatch<Toy>& watch) const {
     Time sum = 0;
     for (const Time interval : watch[1].intervals) sum += interval > 50 * kMs ? interval : 0;

@@ -72,7 +72,7 @@ class Strangers : public testing::TestWithParam<SessionMode> {
 };
 INSTANTIATE_TEST_SUITE_P(Modes, Strangers, testing::Values(SessionMode::lockstep, SessionMode::rollback));
 
-/// [us] from the moment at which its line is there again to its first frame.
+/// [us] The time from the moment at which its line is there again to its first frame.
 Time time_to_come_back(CrowdedMatch& scene, bool as_another_process) {
   Player& owner = scene.player(2);
   scene.drop(owner);

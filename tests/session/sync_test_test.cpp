@@ -24,7 +24,7 @@ SessionConfig config_of(Frame depth, int players = 2) {
   return config;
 }
 
-/// What the frames looked like when they were stepped first, and when they were stepped last.
+/// The states of frames when they were stepped first, and when they were stepped last.
 struct Watcher {
   struct Seen {
     int times = 0;
@@ -204,7 +204,7 @@ template <bool kForgets> struct CountingGame : Composite<World<Q16_16>, Pushes> 
   }
 };
 
-/// What the session says is wrong.
+/// The flaws that the session tells.
 template <class Game>
 std::vector<SessionEvent> flaws_of(Frame depth, Frame frames, SessionEvent::Kind kind = SessionEvent::Kind::desync) {
   Session<Game> session(config_of(depth));

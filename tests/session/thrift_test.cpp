@@ -24,7 +24,7 @@ struct DearMatch : ToyMatch {
       return false;
     });
   }
-  /// [frames/100 s] of the next half minute.
+  /// [frames/100 s] The pace of the next half minute.
   Frame pace() {
     const Frame first = host().session.confirmed();
     pass(30 * kSecond);

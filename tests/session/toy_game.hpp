@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "isostep/core/random.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "isostep/state/archive.hpp"
 #include "isostep/state/concepts.hpp"
 #include "isostep/state/hash.hpp"
@@ -71,7 +71,7 @@ class Toy {
     return combiner.value();
   }
   void write_portable(Writer& writer) const {
-    // Of who plays, and not of the many that could: snapshots are as short as in a small game.
+    // Writes the seats that play, and not the many that could: snapshots are as short as in a small game.
     const auto seats = static_cast<std::uint8_t>(seats_);
     writer.write(state.tick);
     writer.write(seats);

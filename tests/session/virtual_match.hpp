@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@
 
 namespace isostep::test {
 
-/// What a player does in a frame; a pure function.
+/// The input of a player in a frame; a pure function.
 template <class Game> using Bot = std::function<typename Game::Input(int player, Frame frame)>;
 template <class Game> using Maker = std::function<std::unique_ptr<Game>()>;
 
@@ -86,7 +87,8 @@ template <class Game> struct Machine {
       seat = p;
       session.add_local_input(p, bot(p, session.current()));
     }
-    drive(session, *game, now, *this);
+    if (forgets) play_by_hand(now);
+    else drive(session, *game, now, *this);
     if (const std::optional<Address> address = session.poll_connect()) connects_to = address->view();
     while (const std::optional<Outgoing> out = session.poll_send(now)) {
       if (muted) continue;
@@ -102,7 +104,22 @@ template <class Game> struct Machine {
     while (const std::optional<SessionEvent> event = session.poll_event()) events.push_back(*event);
     if (after_turn) after_turn();
   }
-  /// Of one player, or of any.
+  /// What drive() does, but in turns that the caller forgets.
+  void play_by_hand(Time now) {
+    const auto requests = session.advance(now);
+    if (forgets(requests)) return;
+    for (const Request<typename Game::Input>& request : requests) {
+      if (request.kind != RequestKind::step) {
+        carry_out(session, *game, request, *this);
+        continue;
+      }
+      before_step(request.frame);
+      game->step(request.inputs);
+      after_step(request.frame);
+    }
+    while (const auto final_frame = session.poll_confirmed()) confirmed(final_frame->frame, final_frame->hash);
+  }
+  /// Counts the events of one player, or of any.
   int count(SessionEvent::Kind kind, int player = -1) const {
     int count = 0;
     for (const SessionEvent& event : events)
@@ -136,13 +153,14 @@ template <class Game> struct Machine {
   std::unique_ptr<Game> game;
   std::function<void(Game&, Frame)> tamper;                                   // before a step: a fault to be found
   std::function<void(Channel, std::vector<std::uint8_t>&)> middle, outgoing;  // alter what arrives, and what is sent
-  // What the observer sees, and the end of every turn.
+  // The callbacks of what the observer sees, and of the end of every turn.
   std::function<void(Frame)> will_step;
   std::function<void(const Game&, Frame)> stepped;
   std::function<void(Frame)> went_back;
   std::function<void(Frame)> restarts_at;
   std::function<void(Frame, std::uint64_t)> was_confirmed;
   std::function<void()> after_turn;
+  std::function<bool(std::span<const Request<typename Game::Input>>)> forgets;  // requests that are not carried out
   std::string connects_to;  // an address that its session asked for, and that the network has not been given yet
   bool muted = false;
   bool is_offline = false;                      // the transport's last word
@@ -234,7 +252,7 @@ template <class Game> class VirtualMatch {
     }
     return false;
   }
-  /// Until every machine has confirmed so many frames.
+  /// Runs until every machine has confirmed so many frames.
   bool run_to(Frame frames, Time limit) {
     return run(limit, [&] {
       for (const auto& machine : machines_) {
@@ -244,7 +262,7 @@ template <class Game> class VirtualMatch {
     });
   }
 
-  /// The same inputs, played straight through by one process: the hashes that all peers must have.
+  /// Plays the same inputs straight through by one process: the hashes that all peers must have.
   std::vector<std::uint64_t> straight(Frame frames, std::size_t of = 0) {
     std::unique_ptr<Game> game = maker_();
     std::vector<std::uint64_t> hashes;

@@ -11,7 +11,7 @@ template <class S> S less_dots(S a, Vec3<S> b, Vec3<S> c, Vec3<S> d, Vec3<S> e) 
   return round_with_headroom<S>(widen<Sum<S>>(a) - dot_sum(b, c) - dot_sum(d, e));
 }
 
-/// What spins and loads do to a link by themselves.
+/// Computes the accelerations and forces that spins and loads alone give a link.
 template <class S>
 void ArticulatedDynamics<S>::load(const ArticulatedTree<S>& tree, const std::vector<S>& speeds, std::size_t link) {
   const PreparedLink<S>& l = tree.links[link];
@@ -88,7 +88,7 @@ template <class S> void ArticulatedDynamics<S>::answer_ball(LinkWork<S>& w) {
   w.acceleration.angular = held_sum(w.acceleration.angular, x);
 }
 
-/// By blocks: (A - H M^-1 H^T) a = t - H M^-1 f,  M l = f - H^T a, for t, f against the bias.
+/// Solves by blocks: (A - H M^-1 H^T) a = t - H M^-1 f,  M l = f - H^T a, for t, f against the bias.
 template <class S> void ArticulatedDynamics<S>::answer_free(LinkWork<S>& w) {
   const Vec3<S> before = w.acceleration.linear;
   const Vec3<S> fall = w.pivots.solve(-w.bias.force);

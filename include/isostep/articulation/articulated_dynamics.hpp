@@ -9,10 +9,10 @@
 
 namespace isostep::detail {
 
-/// What is worked out of one link. Vectors are along the world's axes; lengths in the tree's units, masses over the
-/// tree's. Moments and accelerations are of the anchor, the origin of frame b.
+/// The quantities of one link in a sub-step. Vectors are along the world's axes; lengths in the tree's units, masses
+/// over the tree's. Moments and accelerations are of the anchor, the origin of frame b.
 template <class S> struct LinkWork {
-  // Where it is.
+  // Its pose.
   Quat<Unit<S>> orientation;  // of the link
   Mat3<Unit<S>> turn, frame;  // of the link and of frame a, to the world
   Vec3<Unit<S>> axis;         // [1]
@@ -20,11 +20,11 @@ template <class S> struct LinkWork {
   Vec3<S> place;              // from the base, or from the free link's own anchor
   Vec3<S> centre;             // of mass, from the anchor
   Mat3<S> inertia;            // about the centre of mass
-  // How it moves.
+  // Its motion.
   Vec3<S> spin;    // [rad/s]
   Vec3<S> moving;  // [1/s] of the anchor, against the base or the free link's own anchor
   Wrench<S> load;  // from outside, about the centre of mass
-  // What it resists: I^A, and what of it passes the joint.
+  // Its resistance: I^A, and the part of it that passes the joint.
   ArticulatedInertia<S> whole, passed;
   Wrench<S> column;           // U of a hinge or slider
   S pivot;                    // D of it; 0: nothing resists, and the joint does not move
@@ -52,34 +52,34 @@ template <class S> struct LinkWork {
 /// Order:   links in their order outwards, against it inwards.
 template <class S> class ArticulatedDynamics {
  public:
-  /// Scratch for a tree: this allocates, nothing else does.
+  /// Makes scratch for a tree: this allocates, nothing else does.
   void reset(const ArticulatedTree<S>& tree);
 
   const LinkWork<S>& of(std::size_t link) const { return work_[link + 1]; }
   LinkWork<S>& of(std::size_t link) { return work_[link + 1]; }
 
-  /// Poses, from coordinates.
+  /// Finds poses from coordinates.
   void place(const ArticulatedTree<S>& tree, const ArticulationState<S>& state);
-  /// Spins, from speeds; these are scaled down where a link would be faster than it may, and the answer is false.
+  /// Finds spins from speeds; these are scaled down where a link would be faster than it may, and false is returned.
   bool spin(const ArticulatedTree<S>& tree, std::vector<S>& speeds);
   /// [rad/s] The largest of those spins along an axis of the world.
   S fastest() const { return fastest_; }
-  /// Speeds of anchors, after spins.
+  /// Finds speeds of anchors, after `spin`.
   void follow(const ArticulatedTree<S>& tree, const std::vector<S>& speeds);
 
-  /// For a step: drives and loads.
+  /// Prepares a step: drives and loads.
   void prepare(const ArticulatedTree<S>& tree, const ArticulationState<S>& state);
-  /// For a sub-step, after `place`: where joints are; no stop holds.
+  /// Begins a sub-step, after `place`: joints are measured, and no stop holds.
   void begin(const ArticulatedTree<S>& tree, const ArticulationState<S>& state);
-  /// Inertias, under the laws and stops of joints.
+  /// Finds inertias under the laws and stops of joints.
   void factor(const ArticulatedTree<S>& tree);
-  /// Accelerations, after `spin`.
+  /// Finds accelerations, after `spin`.
   void accelerate(const ArticulatedTree<S>& tree, const std::vector<S>& speeds);
-  /// Whether stops or drives changed: then `factor` has to come again.
+  /// Stops or drives changed: then `factor` has to come again.
   bool choose(const ArticulatedTree<S>& tree, bool may_release);
-  /// to = from + share h acceleration. False where a joint would be faster than any may, and was held.
+  /// Computes to = from + share h acceleration. False: a joint would be faster than any may, and was held.
   bool quicken(const ArticulatedTree<S>& tree, const std::vector<S>& from, S share, std::vector<S>& to) const;
-  /// Speeds that limits do not allow are brought to what they do.
+  /// Brings speeds of hinges and sliders that limits do not allow to what they do.
   void hold_limits(const ArticulatedTree<S>& tree, std::vector<S>& speeds) const;
 
  private:

@@ -50,11 +50,12 @@ template <class S> struct ArticulatedTree {
   /// x h^`times` over the tree's mass, in units: of a hinge's [kg m^2] or a torque, `lengths` is 2, of a force 1, of a
   /// mass 0. Held within half of the format.
   S over_mass(S x, int lengths, int times = 0) const;
-  /// What resists a joint, `over_mass` so: beyond kMostCoefficient it counts as that, which is as good as rigid.
+  /// The coefficient of a spring, damper or rotor in a joint, `over_mass` so: beyond kMostCoefficient it counts as
+  /// that, which is as good as rigid.
   S coefficient(S x, ArticulationJoint type, int times) const;
 };
 
-/// What a joint's coordinates are measured by: powers of the unit of length in its inertia.
+/// The unit of a joint's coordinates: the power of the unit of length in its inertia.
 ISO_INLINE constexpr int lengths_of(ArticulationJoint type) { return type == ArticulationJoint::slider ? 0 : 2; }
 ISO_INLINE constexpr bool is_scalar(ArticulationJoint type) {
   return type == ArticulationJoint::hinge || type == ArticulationJoint::slider;
@@ -63,7 +64,7 @@ ISO_INLINE constexpr bool has_rotation(ArticulationJoint type) {
   return type == ArticulationJoint::ball || type == ArticulationJoint::free;
 }
 
-/// Of length 1, as poses of shapes are.
+/// The quaternion has length 1, as poses of shapes have.
 template <class S> ISO_INLINE bool is_rotation(const Quat<Unit<S>>& q) {
   const Pose<S> pose = {Vec3<S>::zero(), q};
   return validate(pose) == ShapeFault::none;
@@ -72,7 +73,7 @@ template <class S> ISO_INLINE bool is_rotation(const Quat<Unit<S>>& q) {
 /// The tree, or what is wrong with the definition, by field: "links[3].mass.mass".
 template <class S>
 Result<std::shared_ptr<const ArticulatedTree<S>>> make_tree(const ArticulationDefinition<S>& definition);
-/// Of one drive of a link of that type; `place` is empty.
+/// Checks one drive of a link of that type; `place` is empty.
 template <class S>
 Result<void> check_drive(const ArticulatedTree<S>& tree, std::uint32_t link, const ArticulationDrive<S>& drive);
 

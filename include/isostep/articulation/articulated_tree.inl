@@ -14,13 +14,13 @@ namespace isostep::detail {
 class DefinitionCheck {
  public:
   void link(std::uint32_t index) { link_ = index; }
-  /// Whether all was well so far.
+  /// Keeps the error unless it holds. Returns whether all was well so far.
   bool ask(bool holds, const char* field, const char* expected, ErrorCode code = ErrorCode::invalid) {
     if (holds || !ok_) return ok_;
     also({code, expected, field});
     return false;
   }
-  /// Of the same link, by another check.
+  /// Keeps an error that another check found in the same link.
   void also(const Error& error) {
     if (!ok_) return;
     ok_ = false;
@@ -124,7 +124,7 @@ template <class S> S ArticulatedTree<S>::over_mass(S x, int lengths, int times) 
     for (int i = 0; i < times; ++i) y = y * h;
     return y;
   };
-  // What is small grows before it is divided, what is large after it.
+  // A small x grows before it is divided, a large one after it.
   const bool large = S(0x1p12) < abs(x);
   if (large) return grown(with_headroom(divide_to<S>(stepped(x), mass)));
   return stepped(with_headroom(divide_to<S>(grown(x), mass)));
@@ -152,14 +152,14 @@ Result<void> check_drive(const ArticulatedTree<S>& tree, std::uint32_t link, con
   return checks.result();
 }
 
-/// [m] How far the farthest mass may be from the anchors of the links before it.
+/// [m] The greatest distance of a mass from the anchors of the links before it.
 template <class S> S reach_of(const ArticulationDefinition<S>& d) {
   std::vector<S> ways(d.links.size());
   S reach = S(0);
   for (std::size_t i = 0; i < d.links.size(); ++i) {
     const ArticulationLink<S>& l = d.links[i];
     const bool rooted = l.parent == kArticulationBase;
-    // From the base on nothing is shifted further, so a first arm does not count.
+    // Nothing is shifted further from the base on, so a first arm does not count.
     const Vec3<S> from = rooted ? l.frame_a.position : d.links[l.parent].frame_b.position;
     const bool slides = l.type == ArticulationJoint::slider && l.limited && !rooted;
     const S travel = slides ? max(abs(l.lower), abs(l.upper)) : S(0);

@@ -15,13 +15,13 @@
 
 namespace isostep {
 
-/// How a link moves.
+/// The velocity of a link.
 template <class S> struct LinkVelocity {
   Vec3<S> linear;   // [m/s] world, of the origin of its frame
   Vec3<S> angular;  // [rad/s] world
 };
 
-/// What the last step was.
+/// The counts of the last step.
 struct ArticulationReport {
   std::uint32_t stopped = 0;  // joints that a limit held in the last sub-step
   std::uint32_t clamped = 0;  // sub-steps at whose end links would have been faster than they may
@@ -56,7 +56,7 @@ template <class S> class Articulation {
  public:
   class Snapshot;
 
-  /// Without links, until one is built.
+  /// An articulation has no links until one is built.
   Articulation();
   ~Articulation();
   /// The other is as good as new.
@@ -69,13 +69,14 @@ template <class S> class Articulation {
   std::uint32_t links() const;
   std::uint64_t tick() const;
 
-  // Between steps. False: refused, and fault() tells why.
-  /// Position and speed of a joint; a hinge without limits is taken by whole turns between -pi and pi.
+  // Setters for the time between steps. False: refused, and fault() tells why.
+  /// Sets position and speed of a joint; a hinge without limits is taken by whole turns between -pi and pi.
   bool set_coordinates(std::uint32_t link, const JointCoordinates<S>& coordinates);
   bool set_drive(std::uint32_t link, const ArticulationDrive<S>& drive);
-  /// For the next step [N], at a point of the world [m]; it acts at that place of the link while it moves.
+  /// Applies a force [N] for the next step at a point of the world [m]; it acts at that place of the link while it
+  /// moves.
   bool apply_force(std::uint32_t link, Vec3<S> force, Vec3<S> point);
-  /// For the next step [N m], world.
+  /// Applies a torque [N m], world, for the next step.
   bool apply_torque(std::uint32_t link, Vec3<S> torque);
   /// These are World's.
   const FaultReport& fault() const;
@@ -85,7 +86,7 @@ template <class S> class Articulation {
 
   ArticulationReport step();
 
-  // Of a link that is not there: the identity and zeros.
+  // Getters give the identity and zeros for a link that is not there.
   JointCoordinates<S> coordinates(std::uint32_t link) const;
   ArticulationDrive<S> drive(std::uint32_t link) const;
   /// [m] world.
@@ -99,10 +100,10 @@ template <class S> class Articulation {
 
   /// The definition is shared, not copied.
   void save(Snapshot& to) const;
-  /// False, no change and a fault where `from` was never saved to or was moved from.
+  /// Loads a saved state. Returns false, with no change and a fault, where `from` was never saved to or was moved from.
   bool load(const Snapshot& from);
   std::uint64_t hash() const;
-  /// With the definition: whoever reads it needs nothing else.
+  /// Writes the definition as well: whoever reads it needs nothing else.
   void write_portable(Writer& writer) const;
   Result<void> read_portable(Reader& reader);
   const ArticulationState<S>& state() const;
@@ -125,8 +126,7 @@ template <class S> class Articulation<S>::Snapshot {
   std::unique_ptr<Kept> kept_;
 };
 
-#define ISO_EXTERN(S) extern template class Articulation<S>;
-ISO_IF_FLOAT(ISO_EXTERN) ISO_IF_DOUBLE(ISO_EXTERN) ISO_IF_Q32_32(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_ARTICULATION_OF(extern, S) extern template class Articulation<S>;
+ISO_EXTERN_FLOAT(ISO_ARTICULATION_OF) ISO_EXTERN_DOUBLE(ISO_ARTICULATION_OF) ISO_EXTERN_Q32_32(ISO_ARTICULATION_OF)
 
 }  // namespace isostep

@@ -17,7 +17,7 @@
 namespace isostep {
 
 namespace detail {
-/// In the first word of a portable articulation, beside the scalar's id.
+/// This bit stands in the first word of a portable articulation, beside the scalar's id.
 inline constexpr std::uint32_t kArticulationBit = 0x40000000u;
 }  // namespace detail
 

@@ -1,4 +1,4 @@
-// What an articulation is built of.
+// The definition of an articulation.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// How often an articulation steps, where it hangs and what pulls at it.
+/// The step rate of an articulation, the place where it hangs, and gravity.
 template <class S> struct ArticulationSettings {
   std::int32_t hz = 60;                    // [1/s] steps, 10..1000
   std::int32_t substeps = 8;               // per step, 1..64, hz * substeps <= kMaxRate

@@ -26,7 +26,7 @@ template <class S> struct Articulation<S>::Engine {
   detail::ArticulatedDynamics<S> links;
   detail::FreeMotion<S> free;
   std::vector<S> middle;           // speeds half a change later
-  ArticulationState<S> before;     // where a sub-step began
+  ArticulationState<S> before;     // the state at the start of a sub-step
   std::vector<LinkLoad<S>> loads;  // of joints, in the last sub-step
   FaultLog faults;
 

@@ -23,7 +23,7 @@ template <class S> inline constexpr S kMostLoad = S(0x1p29);         // [N] [N m
 template <class S> inline constexpr S kLeastCone = S(0.05);  // [rad]
 template <class S> inline constexpr S kMostCone = S(2.8);    // [rad] beyond, a cone's axis is hard to tell
 
-/// [rad/s], [m/s] At most this fast what is beyond a limit comes back, a quarter of the way a sub-step.
+/// [rad/s], [m/s] The greatest speed at which a joint beyond a limit comes back, a quarter of the way a sub-step.
 template <class S> inline constexpr S kReturnSpeed = S(2);
 
 template <class S> inline constexpr S kHalfTurn = S(3.14159265358979323846);  // [rad]

@@ -1,4 +1,4 @@
-// What a user says of one link of an articulation: the joint it hangs on, its mass, and what drives it.
+// One link of an articulation: the joint it hangs on, its mass, and what drives it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// How a link moves against its parent. The place is the number in files.
+/// The type of the joint between a link and its parent. The place is the number in files.
 ///   fixed   not at all
 ///   hinge   turns about `axis`                              1 coordinate [rad]
 ///   slider  moves along `axis`                              1 coordinate [m]
@@ -29,7 +29,7 @@ template <class S> struct LinkMass {
   Vec3<S> inertia = {S(0), S(0), S(0)};                 // [kg m^2] about the centre, along the principal axes
   Quat<Unit<S>> principal = Quat<Unit<S>>::identity();  // from the principal axes to the link's frame
 
-  /// Of shapes, by mass_properties().
+  /// The mass of shapes, by mass_properties().
   static ISO_INLINE constexpr LinkMass of(const MassProperties<S>& p) {
     return {p.mass,
             p.centre,
@@ -53,7 +53,7 @@ template <class S> struct ArticulationDrive {
   ISO_FIELDS(target, pose, speed, stiffness, damping, max_force)
 };
 
-/// At coordinate 0 frame a, in the parent, and frame b, in the link, are one.
+/// Frame a, in the parent, and frame b, in the link, are one at coordinate 0.
 template <class S> struct ArticulationLink {
   std::uint32_t parent = kArticulationBase;  // an earlier link
   ArticulationJoint type = ArticulationJoint::hinge;
@@ -73,7 +73,7 @@ template <class S> struct ArticulationLink {
              drive)
 };
 
-/// Where a joint is and how it moves. What its kind has not is 0, and the identity.
+/// The position and velocity of a joint. What its type has not is 0, and the identity.
 template <class S> struct JointCoordinates {
   Vec3<S> position = {S(0), S(0), S(0)};               // x: [rad] hinge, [m] slider; free: [m] along frame a
   Quat<Unit<S>> rotation = Quat<Unit<S>>::identity();  // ball, free: frame b in frame a

@@ -1,4 +1,4 @@
-// What shapes an articulation's future, beside its definition: what is saved, hashed, written and compared.
+// The state of an articulation, beside its definition: what is saved, hashed, written and compared.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -19,8 +19,8 @@ template <class S> struct LinkLoad {
 };
 static_assert(kHasNoPadding<LinkLoad<float>> && kHasNoPadding<LinkLoad<double>>);
 
-/// By joint, in the order of links: a hinge and a slider have one coordinate and one speed, a ball a rotation and three
-/// speeds, a free link three coordinates, a rotation and six speeds, the linear ones first.
+/// The arrays go by joint, in the order of links: a hinge and a slider have one coordinate and one speed, a ball a
+/// rotation and three speeds, a free link three coordinates, a rotation and six speeds, the linear ones first.
 template <class S> struct ArticulationState {
   std::uint64_t tick = 0;                    // steps taken
   std::vector<S> coordinates;                // q: [rad], [m]

@@ -1,4 +1,4 @@
-// Whether coordinates, speeds and forces could be an articulation's own: for commands and for states from files.
+// Checks of an articulation's coordinates, speeds and forces: for commands and for states from files.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,13 +12,13 @@ namespace isostep::detail {
 
 inline constexpr char kMostLoadText[] = "a size up to 2^29 along each axis";
 
-/// Where a joint may be.
+/// The position is one that the joint may have.
 template <class S> bool fits_position(const ArticulationLink<S>& l, Vec3<S> position) {
   if (!is_finite(position)) return false;
   if (l.type == ArticulationJoint::hinge) return within(position.x, S(0x1p15));
   return within(position, l.type == ArticulationJoint::slider ? Limits<S>::extent() * S(2) : Limits<S>::position());
 }
-/// And how it may move: within a step the tree as a whole is held within its limits.
+/// The velocity is one that a joint may have: within a step the tree as a whole is held within its limits.
 template <class S> bool fits_velocity(const JointCoordinates<S>& m) {
   return is_finite(m.velocity) && is_finite(m.angular_velocity) && within(m.velocity, Limits<S>::speed()) &&
          within(m.angular_velocity, S(1024));

@@ -12,15 +12,15 @@ namespace isostep::detail {
 /// Units: the tree's, see PreparedLink; angular momentum about the centre of mass, along the world's axes.
 template <class S> class FreeMotion {
  public:
-  /// At the beginning of a step, after the dynamics' place, spin and follow.
+  /// Begins a step, after the dynamics' place, spin and follow.
   void begin(const ArticulatedTree<S>& tree, const ArticulatedDynamics<S>& links, const ArticulationState<S>& state);
-  /// What acts within a sub-step, where its middle is.
+  /// Adds what acts within a sub-step, where its middle is.
   void push(const ArticulatedTree<S>& tree, const ArticulatedDynamics<S>& links);
-  /// At its end, after place, spin and follow: the free link's motion.
+  /// Sets the free link's motion at the end of a sub-step, after place, spin and follow.
   void finish(const ArticulatedTree<S>& tree, const ArticulatedDynamics<S>& links, ArticulationState<S>& state);
 
  private:
-  /// Against the anchor of the free link and its velocity.
+  /// The motion of the whole tree against the anchor of the free link and its velocity.
   struct Measured {
     Vec3<S> centre, velocity, angular;
   };

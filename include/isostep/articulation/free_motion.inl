@@ -22,7 +22,7 @@ auto FreeMotion<S>::measured(const ArticulatedTree<S>& tree, const ArticulatedDy
     const Vec3<S> moving = held_sum(w.moving, held_cross(w.spin, w.centre));
     const Vec3<S> momentum = moving * tree.links[i].mass;
     m.velocity = held_sum(m.velocity, momentum);
-    // About the centre: the arms add up to nothing, so the velocity of the whole adds nothing either.
+    // The moment is about the centre: the arms add up to nothing, so the velocity of the whole adds nothing either.
     const Vec3<S> arm = w.place + w.centre - m.centre;
     m.angular = held_sum(m.angular, held_sum(held_times(w.inertia, w.spin), held_cross(arm, momentum)));
   }

@@ -1,4 +1,4 @@
-// What one joint of an articulation does within a sub-step: springs, dampers, drives and limits, linear in its answer.
+// One joint of an articulation within a sub-step: springs, dampers, drives and limits, linear in its answer.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,12 +11,12 @@
 
 namespace isostep::detail {
 
-/// Which bound holds a joint, and what its drive gives.
+/// The bound that holds a joint, and the limit of its drive.
 enum class Stop : std::uint8_t { none, lower, upper };
 enum class Drive : std::uint8_t { none, within, most };
 
-/// Of a hinge or slider all vectors' x, in [rad] or the tree's units of length; of a ball along the axes of frame a.
-/// Forces are over the tree's mass.
+/// Vectors have their x alone for a hinge or slider, in [rad] or the tree's units of length; for a ball they are along
+/// the axes of frame a. Forces are over the tree's mass.
 ///
 /// A sub-step moves the joint half its way with the speed v it has (to q), changes v by h a, and moves it the other
 /// half with the new speed. What depends on q and v is taken where the step leads to: for weak springs half-way, so
@@ -48,14 +48,14 @@ template <class S> struct JointWork {
   Stop stop;
   Drive drive;
 
-  /// For a step: the drive's coefficients.
+  /// Prepares a step: the drive's coefficients.
   void prepare(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, const ArticulationDrive<S>& drive_of_it);
-  /// For a sub-step: where the joint is, how it moves, and no stop holds.
+  /// Begins a sub-step: the joint's position and velocity are measured, and no stop holds.
   void begin(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, const ArticulationState<S>& state,
              const ArticulationDrive<S>& drive_of_it);
-  /// Under inertia D of the tree at the joint, armature included.
+  /// Linearises the joint under inertia D of the tree at it, armature included.
   void linearise(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, S inertia);
-  /// Whether another stop holds or the drive changes, after `answer`. `may_release`: else what holds, holds on.
+  /// Another stop holds or the drive changes, after `answer`. `may_release`: else what holds, holds on.
   bool choose(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, bool may_release);
   /// The speed nearest to `v` that the limits allow; of a cone, along its axis.
   S allowed(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, S v) const;

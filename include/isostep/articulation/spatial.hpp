@@ -46,7 +46,7 @@ template <class S> ISO_INLINE Vec3<S> held_sum(Vec3<S> a, Vec3<S> b) { return wi
 template <class S> ISO_INLINE Wrench<S> operator+(const Wrench<S>& a, const Wrench<S>& b) {
   return {held_sum(a.torque, b.torque), held_sum(a.force, b.force)};
 }
-/// About a point from which the wrench's own is `arm` away.
+/// The wrench about a point from which its own is `arm` away.
 template <class S> ISO_INLINE Wrench<S> shifted(const Wrench<S>& w, Vec3<S> arm) {
   return {held_sum(w.torque, held_cross(arm, w.force)), w.force};
 }
@@ -87,7 +87,7 @@ template <class S> ISO_INLINE Mat3<S> plus_diagonal(Mat3<S> m, S d) {
   return m;
 }
 
-/// About a point from which the inertia's own is `arm` away.
+/// The inertia about a point from which its own is `arm` away.
 /// Source:  Featherstone 2008, table 2.9 (transformation of an inertia) without its rotation.
 ///          coupling' = coupling + [arm] linear,  angular' = angular + [arm] coupling^T - coupling' [arm].
 template <class S> ISO_INLINE ArticulatedInertia<S> shifted(const ArticulatedInertia<S>& i, Vec3<S> arm) {
@@ -106,7 +106,7 @@ template <class S> ISO_INLINE void add(ArticulatedInertia<S>& to, const Articula
   to.linear = to.linear + i.linear;
 }
 
-/// Of one body: `inertia` about its centre of mass, which is `centre` away from the place of reference.
+/// The inertia of one body: `inertia` is about its centre of mass, which is `centre` away from the place of reference.
 template <class S> ISO_INLINE ArticulatedInertia<S> inertia_of_body(S m, Vec3<S> centre, const Mat3<S>& inertia) {
   return shifted(ArticulatedInertia<S>{inertia, zero_matrix<S>(), Mat3<S>::diagonal({m, m, m})}, centre);
 }

@@ -28,7 +28,7 @@ template <class S> struct BoxCells {
     return {{number(box.low.x), number(box.low.y), number(box.low.z)},
             {number(box.high.x), number(box.high.y), number(box.high.z)}};
   }
-  /// Of the finest level.
+  /// The number of a cell of the finest level.
   static ISO_INLINE constexpr std::uint64_t number(S x) {
     const int top = top_level();
     const std::uint64_t origin = 0x5555555555555555u & ((std::uint64_t{1} << top) - 1u);
@@ -42,8 +42,8 @@ template <class S> struct BoxCells {
   }
 
  private:
-  /// [m] With E = exponent_above(edge()) + kFineness numbers from the origin lie within 2^(E-1), and the origin, which
-  /// has E + 1 digits 0101... or 1010..., between 2^(E-1) and 3 2^(E-1): sums are positive and below 2^(E+1).
+  /// [m] Numbers from the origin, with E = exponent_above(edge()) + kFineness, lie within 2^(E-1), and the origin,
+  /// which has E + 1 digits 0101... or 1010..., between 2^(E-1) and 3 2^(E-1): sums are positive and below 2^(E+1).
   static ISO_INLINE constexpr S edge() { return Limits<S>::position() * S(4); }
 };
 

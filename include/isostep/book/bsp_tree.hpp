@@ -79,7 +79,7 @@ template <class S> class BspTree {
   std::vector<Range> ranges_;
 };
 
-/// Behind a plane are boxes with high < plane; one of them overlaps only what begins before the plane.
+/// Boxes with high < plane are behind a plane; one of them overlaps only what begins before the plane.
 template <class S> template <class Visit> ISO_INLINE void BspTree<S>::query(const Aabb<S>& box, Visit&& visit) const {
   if (size() == 0) return;
   std::uint32_t stack[kMaxDepth + 1u];
@@ -141,8 +141,7 @@ ISO_INLINE bool BspTree<S>::overlapping_pairs_of(std::span<const std::uint32_t> 
   return detail::query_pairs_of(*this, slot_list, most, visit);
 }
 
-#define ISO_EXTERN(S) extern template class BspTree<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_BSP_TREE_OF(extern, S) extern template class BspTree<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BSP_TREE_OF)
 
 }  // namespace isostep

@@ -58,8 +58,8 @@ template <class S, bool kManySizes> class CellGrid {
   static constexpr std::uint32_t kNewCells = 8;  // that a piece of a sweep looks into, or thereabouts
   using Cells = BoxCells<S>;
 
-  /// Of one level, low 32 bits: cells that share them share lists, and what is in a list passes by its box. A question
-  /// looks at fewer cells than there are boxes, so it meets no list twice.
+  /// A cell of one level, low 32 bits: cells that share them share lists, and what is in a list passes by its box. A
+  /// question looks at fewer cells than there are boxes, so it meets no list twice.
   struct Cell {
     std::uint32_t x, y, z, level;
     friend ISO_INLINE bool operator==(const Cell& a, const Cell& b) {
@@ -75,14 +75,14 @@ template <class S, bool kManySizes> class CellGrid {
   struct Block {
     std::int64_t low[3], high[3];
 
-    /// Where boxes that overlap one have their low corners.
+    /// The cells in which boxes that overlap this one have their low corners.
     ISO_INLINE Block(const Cells& cells, std::uint32_t level) {
       for (int axis = 0; axis < 3; ++axis) {
         low[axis] = static_cast<std::int64_t>(cells.low[axis] >> level) - 1;
         high[axis] = static_cast<std::int64_t>(cells.high[axis] >> level);
       }
     }
-    /// Whether there are no more than `most` cells.
+    /// The block has no more than `most` cells.
     ISO_INLINE bool is_within(std::uint64_t most) const {
       for (int axis = 0; axis < 3; ++axis) {
         const auto side = static_cast<std::uint64_t>(high[axis] - low[axis]) + 1u;
@@ -109,7 +109,7 @@ template <class S, bool kManySizes> class CellGrid {
   /// visit(slot) -> bool for the boxes of a cell; false ends it, and is returned.
   template <class Visit> ISO_INLINE bool look_into(const Cell& cell, const Visit& visit) const;
   template <class Visit> ISO_INLINE bool look_into(const Block& block, std::uint32_t level, const Visit& visit) const;
-  /// The same for the boxes of all levels in `levels`.
+  /// Visits the boxes of all levels in `levels`.
   template <class Visit> ISO_INLINE bool look_at_all(std::uint64_t levels, const Visit& visit) const;
   /// The boxes in cells that follow the box's own, and in its own those of higher slots.
   template <class Visit> ISO_INLINE bool look_ahead(std::uint32_t slot, const Cells& cells, const Visit& visit) const;
@@ -288,10 +288,9 @@ ISO_INLINE bool CellGrid<S, kManySizes>::overlapping_pairs_of(std::span<const st
   return detail::query_pairs_of(*this, slot_list, most, visit);
 }
 
-#define ISO_EXTERN(S)                       \
+#define ISO_CELL_GRID_OF(extern, S)         \
   extern template class CellGrid<S, false>; \
   extern template class CellGrid<S, true>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CELL_GRID_OF)
 
 }  // namespace isostep

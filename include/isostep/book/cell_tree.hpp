@@ -163,8 +163,8 @@ ISO_INLINE void CellTree<S, kAxes>::sweep(const Sweep<S>& sweep, Visit&& visit) 
   }
 }
 
-/// Each box with what stands behind it: in its cell's list, in cells below, in later siblings of its cell and of those
-/// above it.
+/// Visits each box with what stands behind it: in its cell's list, in cells below, in later siblings of its cell and of
+/// those above it.
 template <class S, int kAxes>
 template <class Visit>
 ISO_INLINE bool CellTree<S, kAxes>::overlapping_pairs(Matches&, std::uint64_t most, Visit&& visit) const {
@@ -198,10 +198,9 @@ ISO_INLINE bool CellTree<S, kAxes>::overlapping_pairs_of(std::span<const std::ui
   return detail::query_pairs_of(*this, slot_list, most, visit);
 }
 
-#define ISO_EXTERN(S)                   \
+#define ISO_CELL_TREE_OF(extern, S)     \
   extern template class CellTree<S, 2>; \
   extern template class CellTree<S, 3>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CELL_TREE_OF)
 
 }  // namespace isostep

@@ -6,13 +6,13 @@
 
 namespace isostep {
 
-/// Whether a box is wide enough for no more than two cells of a level along each axis.
+/// The box is narrow enough to lie in no more than two cells of a level along each axis.
 template <class S, int kAxes> bool CellTree<S, kAxes>::fits(const Cells& cells, int level) {
   bool fits = level >= 0;
   for (int i = 0; i < kAxes && fits; ++i) fits = (cells.high[axis(i)] - cells.low[axis(i)]) >> level == 0;
   return fits;
 }
-/// Of a cell one level above, the one that holds the low corner.
+/// The child, of a cell one level above, that holds the low corner.
 template <class S, int kAxes> std::uint32_t CellTree<S, kAxes>::child_of(const Cells& cells, int level) {
   std::uint32_t number = 0;
   for (int i = 0; i < kAxes; ++i) number |= static_cast<std::uint32_t>(cells.low[axis(i)] >> level & 1u) << i;
@@ -60,7 +60,7 @@ template <class S, int kAxes> std::uint32_t CellTree<S, kAxes>::place_of(const C
     at = nodes_[at].child + child_of(cells, nodes_[at].level - 1);
   return at;
 }
-/// The same, dividing cells that have become full.
+/// The place of a box, for which cells that have become full are divided.
 template <class S, int kAxes> std::uint32_t CellTree<S, kAxes>::make_place(const Cells& cells) {
   std::uint32_t at = place_of(cells);
   while (nodes_[at].own >= kMost && nodes_[at].child == kNone && fits(cells, nodes_[at].level - 1)) {
@@ -124,7 +124,7 @@ template <class S, int kAxes> void CellTree<S, kAxes>::divide(std::uint32_t node
   }
 }
 
-/// What is left in the children comes up. They are not divided: what is has more than kFew boxes below it.
+/// Moves up the boxes left in the children. They are not divided: a node that is has more than kFew boxes below it.
 template <class S, int kAxes> void CellTree<S, kAxes>::join(std::uint32_t node) {
   for (std::uint32_t i = 0; i < kChildren; ++i) {
     const std::uint32_t child = nodes_[node].child + i;

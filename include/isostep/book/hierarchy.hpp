@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// How a tree is built of leaves that are all known.
+/// The way in which a tree is built of leaves that are all known.
 enum class HierarchyBuild : std::uint8_t {
   top_down,   // split in two at the middle of the longest side, O(n log n)
   bottom_up,  // merge the two whose common volume is least, again and again: the better tree, O(n^2) as a rule
@@ -41,7 +41,7 @@ template <class S, class Volume> class Hierarchy {
   /// The slot is in the tree of this root.
   void move(std::uint32_t root, std::uint32_t slot, const Volume& volume);
   void remove(std::uint32_t slot);
-  /// Into an empty tree: slots[i] with volume_of(slots[i]) was staged before, for each of them.
+  /// These build an empty tree: slots[i] with volume_of(slots[i]) is staged before, for each of them.
   void stage(std::uint32_t slot, const Volume& volume);
   void build(std::uint32_t root, HierarchyBuild how);
 
@@ -79,7 +79,7 @@ template <class S, class Volume> class Hierarchy {
   struct Range {
     std::uint32_t begin, end, node, depth;
   };
-  /// Of the bottom-up build: whom a subtree is best merged with, and what the surface of both is.
+  /// The best subtree for a merge in the bottom-up build, and the surface of both.
   struct Partner {
     Sum<S> surface;
     std::uint32_t index;
@@ -210,10 +210,9 @@ ISO_INLINE bool Hierarchy<S, Volume>::resolve(Matches& matches, std::uint32_t co
   return true;
 }
 
-#define ISO_EXTERN(S)                                    \
+#define ISO_HIERARCHY_OF(extern, S)                      \
   extern template class Hierarchy<S, BoundingSphere<S>>; \
   extern template class Hierarchy<S, Aabb<S>>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_HIERARCHY_OF)
 
 }  // namespace isostep

@@ -111,8 +111,8 @@ template <class S, class Volume> void Hierarchy<S, Volume>::remove(std::uint32_t
   refit_from(nodes_[parent].parent);
 }
 
-/// What stays within its parent stays its child. What does not is inserted anew below the next node above that holds
-/// it: a way of few nodes, and into no larger volume elsewhere that happens to hold it too.
+/// A leaf within its parent stays its child. Another is inserted anew below the next node above that holds it: a way of
+/// few nodes, and into no larger volume elsewhere that happens to hold it too.
 template <class S, class Volume>
 void Hierarchy<S, Volume>::move(std::uint32_t root, std::uint32_t slot, const Volume& volume) {
   const std::uint32_t leaf = leaf_of_[slot];
@@ -189,7 +189,7 @@ template <class S, class Volume> std::uint32_t Hierarchy<S, Volume>::partition(s
   return split == begin || split == end ? begin + (end - begin) / 2u : split;
 }
 
-/// Of two that are as good the earlier one.
+/// The earlier one wins of two that are as good.
 template <class S, class Volume>
 typename Hierarchy<S, Volume>::Partner Hierarchy<S, Volume>::best_partner(std::uint32_t of) const {
   Partner best = {Sum<S>{}, kNone};

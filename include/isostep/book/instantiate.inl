@@ -11,16 +11,13 @@
 #include "isostep/book/v_clip.inl"
 #include "isostep/book/worst_first.inl"
 
-#define ISO_COARSE_STRUCTURES_OF(S)               \
-  template class Hierarchy<S, BoundingSphere<S>>; \
-  template class Hierarchy<S, Aabb<S>>;           \
-  template class SphereTree<S>;                   \
-  template class BspTree<S>;                      \
-  template class CellTree<S, 2>;                  \
-  template class CellTree<S, 3>;                  \
-  template class CellGrid<S, false>;              \
-  template class CellGrid<S, true>;               \
-  template class SweepAndPrune<S>;
+#define ISO_COARSE_STRUCTURES_OF(S) \
+  ISO_HIERARCHY_OF(, S)             \
+  ISO_SPHERE_TREE_OF(, S)           \
+  ISO_BSP_TREE_OF(, S)              \
+  ISO_CELL_TREE_OF(, S)             \
+  ISO_CELL_GRID_OF(, S)             \
+  ISO_SWEEP_AND_PRUNE_OF(, S)
 #define ISO_BOOK_OF(S)        \
   ISO_COARSE_STRUCTURES_OF(S) \
   ISO_V_CLIP_OF(, S)          \

@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// As TournamentTree, which it can stand for. Here `before` may leave some in any order, if it is transitive in that.
+/// A search that can stand for TournamentTree. Here `before` may leave some in any order, if it is transitive in that.
 /// Source: Millington 2007, pp. 338-346.
 /// Cost:   O(n) when the first gives way, O(1) of any other change.
 class LinearSearch {
@@ -26,7 +26,7 @@ class LinearSearch {
     if (index == first_) plant(count_, before);
     else if (before(index, first_)) first_ = index;
   }
-  /// Of at least one.
+  /// The index of the first. There is at least one.
   ISO_INLINE std::uint32_t first() const { return first_; }
 
  private:

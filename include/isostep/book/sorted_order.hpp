@@ -10,7 +10,8 @@
 
 namespace isostep {
 
-/// As TournamentTree, which it can stand for. Here `before` may leave some in any order, if it is transitive in that.
+/// A sorted list that can stand for TournamentTree. Here `before` may leave some in any order, if it is transitive in
+/// that.
 /// Source: Millington 2007, pp. 346-349: contacts kept in a sorted list, from which one that changes moves on.
 /// Cost:   O(n log n) to plant; of a change as many swaps as it passes others, O(n) at worst.
 class SortedOrder {
@@ -34,7 +35,7 @@ class SortedOrder {
     for (; at + 1 < order_.size() && before(order_[at + 1], index); ++at) put(at, order_[at + 1]);
     put(at, index);
   }
-  /// Of at least one.
+  /// The index of the first. There is at least one.
   ISO_INLINE std::uint32_t first() const { return order_[0]; }
 
  private:

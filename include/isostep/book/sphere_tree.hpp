@@ -94,8 +94,7 @@ ISO_INLINE bool SphereTree<S>::overlapping_pairs_of(std::span<const std::uint32_
   });
 }
 
-#define ISO_EXTERN(S) extern template class SphereTree<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SPHERE_TREE_OF(extern, S) extern template class SphereTree<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SPHERE_TREE_OF)
 
 }  // namespace isostep

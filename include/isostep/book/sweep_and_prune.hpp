@@ -158,8 +158,7 @@ ISO_INLINE bool SweepAndPrune<S>::overlapping_pairs_of(std::span<const std::uint
   return detail::query_pairs_of(*this, slot_list, most, visit);
 }
 
-#define ISO_EXTERN(S) extern template class SweepAndPrune<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SWEEP_AND_PRUNE_OF(extern, S) extern template class SweepAndPrune<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SWEEP_AND_PRUNE_OF)
 
 }  // namespace isostep

@@ -10,7 +10,7 @@ namespace isostep {
 template <class S> typename SweepAndPrune<S>::Item SweepAndPrune<S>::item_of(std::uint32_t slot) const {
   return {Cells::number(boxes_[slot].low[axis_]), Cells::number(boxes_[slot].high[axis_]), slot, boxes_[slot]};
 }
-/// Into the list.
+/// Puts an item into the list.
 template <class S> void SweepAndPrune<S>::put(std::uint32_t at, const Item& item) {
   items_[at] = item;
   if (item.slot != kNone) place_[item.slot] = at;
@@ -47,7 +47,7 @@ template <class S> void SweepAndPrune<S>::remove(std::uint32_t slot) {
   items_.pop_back();
 }
 
-/// Where what is at `at` belongs once it begins at `low`; kNone: farther than kMostPlaces away.
+/// The place of the item at `at` once it begins at `low`; kNone: farther than kMostPlaces away.
 template <class S> std::uint32_t SweepAndPrune<S>::place_for(std::uint32_t at, std::uint64_t low) const {
   std::uint32_t to = at, left = kMostPlaces;
   if (at > 0 && low < items_[at - 1u].low) {

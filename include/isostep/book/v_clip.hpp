@@ -20,7 +20,8 @@ struct PolyhedronFeature {
     return a.kind == b.kind && a.index == b.index;
   }
 };
-/// What the walk starts from and ends at: kept from one call to the next, it makes the next one short.
+/// The features from which the walk starts and at which it ends: kept from one call to the next, they make the next one
+/// short.
 struct FeaturePair {
   PolyhedronFeature a, b;
 };
@@ -52,8 +53,6 @@ VClipDistance<S> v_clip_distance(const Polyhedron<S>& a, const Transform<S>& ta,
 #define ISO_V_CLIP_OF(extern, S)                                                                                       \
   extern template VClipDistance<S> v_clip_distance<S>(const Polyhedron<S>&, const Transform<S>&, const Polyhedron<S>&, \
                                                       const Transform<S>&, FeaturePair);
-#define ISO_EXTERN(S) ISO_V_CLIP_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_V_CLIP_OF)
 
 }  // namespace isostep

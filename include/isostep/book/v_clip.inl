@@ -24,7 +24,7 @@ ISO_INLINE PolyhedronFeature feature_of(PolyhedronFeature::Kind kind, std::uint3
   return {kind, static_cast<std::uint8_t>(index)};
 }
 
-/// Between a vertex and its edges.
+/// Visits the planes between a vertex and its edges.
 template <class S, class Visit>
 ISO_INLINE void planes_of_vertex(const Polyhedron<S>& solid, std::uint32_t v, const Visit& visit) {
   for (std::uint32_t e = 0; e < solid.half_edges.size(); ++e) {
@@ -32,7 +32,7 @@ ISO_INLINE void planes_of_vertex(const Polyhedron<S>& solid, std::uint32_t v, co
     visit(VoronoiPlane<S>{-way_along(solid, e), solid.vertices[v], feature_of(PolyhedronFeature::edge, e / 2)});
   }
 }
-/// Between an edge and its ends.
+/// Visits the planes between an edge and its ends.
 template <class S, class Visit>
 ISO_INLINE void end_planes(const Polyhedron<S>& solid, std::uint32_t k, const Visit& visit) {
   for (std::uint32_t e = 2 * k; e < 2 * k + 2; ++e) {
@@ -40,7 +40,7 @@ ISO_INLINE void end_planes(const Polyhedron<S>& solid, std::uint32_t k, const Vi
     visit(VoronoiPlane<S>{way_along(solid, e), solid.vertices[v], feature_of(PolyhedronFeature::vertex, v)});
   }
 }
-/// Between an edge and its faces.
+/// Visits the planes between an edge and its faces.
 template <class S, class Visit>
 ISO_INLINE void side_planes(const Polyhedron<S>& solid, std::uint32_t k, const Visit& visit) {
   for (std::uint32_t e = 2 * k; e < 2 * k + 2; ++e) {
@@ -49,7 +49,7 @@ ISO_INLINE void side_planes(const Polyhedron<S>& solid, std::uint32_t k, const V
                           feature_of(PolyhedronFeature::face, f)});
   }
 }
-/// Between a face and its edges.
+/// Visits the planes between a face and its edges.
 template <class S, class Visit>
 ISO_INLINE void planes_of_face(const Polyhedron<S>& solid, std::uint32_t f, const Visit& visit) {
   std::uint32_t e = solid.faces[f];
@@ -185,7 +185,7 @@ template <class S> class VClip {
                  dot(direction_across(j), cut.at(cut.out) - v) < -slack_);
   }
 
-  /// To the neighbour where the clipped edge comes in, if it is nearer there and before; or where it goes out.
+  /// Goes to the neighbour where the clipped edge comes in, if it is nearer there and before; or where it goes out.
   ISO_INLINE Walk leave(int i, const EdgeClip<S>& cut, bool rises_at_in, bool falls_at_out) {
     if (cut.all_beyond) return go(i, cut.at_in);
     if (cut.has_in && rises_at_in) return go(i, cut.at_in);
@@ -214,7 +214,7 @@ template <class S> class VClip {
   ISO_INLINE S height(int i, std::uint32_t face, Vec3<S> p) const {
     return dot(solid(i).normals[face], p) - solid(i).offsets[face];
   }
-  /// [1] How fast what goes along d from p leaves the plane of a face of i.
+  /// [1] The rate at which a point that goes along d from p leaves the plane of a face of i.
   ISO_INLINE U climb_over(int i, std::uint32_t face, Vec3<U> d, Vec3<S> p) const {
     return negate_if(height(i, face, p) < S(0), dot(solid(i).normals[face], d));
   }
@@ -232,7 +232,8 @@ template <class S> class VClip {
     }
     return below ? climb_out(p, j) : Walk::ended;
   }
-  /// From a face of j that p is behind of, to the face that it is furthest above; or it is inside.
+  /// Goes from a face of j, behind which p is, to the face that p is furthest above; where it is above none, the two
+  /// overlap.
   ISO_INLINE Walk climb_out(Vec3<S> p, int j) {
     std::uint32_t best = 0;
     for (std::uint32_t f = 1; f < solid(j).faces.size(); ++f) {
@@ -252,7 +253,7 @@ template <class S> class VClip {
       return cut.has_in ? go(j, cut.at_in) : go(i, feature_of(Feature::vertex, solid(i).origin(2 * index(i))));
     return cut.has_out ? go(j, cut.at_out) : go(i, feature_of(Feature::vertex, solid(i).origin(2 * index(i) + 1)));
   }
-  /// Of the edges around j's face, the one nearest to i's edge.
+  /// The edge around j's face that is nearest to i's edge.
   ISO_INLINE std::uint32_t nearest_side(int i, int j) const {
     const Segment<S> edge = segment_across(i);
     std::uint32_t e = solid(j).faces[index(j)], nearest = e / 2;

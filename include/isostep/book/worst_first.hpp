@@ -17,7 +17,7 @@
 
 namespace isostep {
 
-/// Each sub-step: what meets fast bounces (impacts.hpp), velocities are integrated and resolved, then positions.
+/// Every sub-step: what meets fast bounces (impacts.hpp), velocities are integrated and resolved, then positions.
 /// Source:  Millington 2007, ch. 14-15: impulses (306-321), nonlinear projection, relaxation, rotation limit (322-330),
 ///          worst first (338-346), micro-collisions (351-358), friction (359-361).
 /// Symbols: v = speed of b against a along the normal, C = separation.
@@ -60,7 +60,7 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
   void prepare(const StepContext<S>& context);
   void solve_substeps(const StepContext<S>& context);
   void store_impulses(const StepContext<S>& context);
-  /// As often as a pass left them.
+  /// The number of islands that passes of this step left unsolved, counted at every pass.
   ISO_INLINE std::uint32_t unsolved() const { return islands_left_; }
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context);
 
@@ -73,7 +73,7 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
     ISO_FIELDS(a, b)
   };
 
-  /// Of a contact's bodies, as it sees them turn.
+  /// The masses of a contact's two bodies, with their inertia as the contact sees them turn.
   struct Masses {
     SolverMass<S> a, b;
   };

@@ -109,8 +109,8 @@ void WorstFirstResolver<S, Queue>::load_impulses(const Contact<S>& contact, std:
   }
 }
 
-/// As soft step has it: the rows' radius is the distance from the contact to the centre that rolls, which keeps the
-/// coefficients near one.
+/// Rolling rows are those of soft step: their radius is the distance from the contact to the centre that rolls, which
+/// keeps the coefficients near one.
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::add_rolling(const ContactGeometry<S>& g, std::uint32_t point, const SolverMass<S>& a,
                                                const SolverMass<S>& b, Point& row) {
@@ -135,7 +135,7 @@ void WorstFirstResolver<S, Queue>::add_rolling(const ContactGeometry<S>& g, std:
   rolling_.push_back(pair);
 }
 
-/// As soft step has it: friction at the radius of the least patch, in a row of the radius of gyration.
+/// Spinning rows are those of soft step: friction at the radius of the least patch, in a row of the radius of gyration.
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::add_spinning(const ContactGeometry<S>& g, const SolverMass<S>& a,
                                                 const SolverMass<S>& b, Point& row) {
@@ -156,7 +156,7 @@ void WorstFirstResolver<S, Queue>::add_spinning(const ContactGeometry<S>& g, con
   rolling_.push_back(pair);
 }
 
-/// As contact_follow.hpp has it.
+/// Renews rows of bodies whose turn contacts follow: contact_follow.hpp.
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::follow(const StepContext<S>& context) {
   for (Point& row : points_) {
     const bool by_a = bodies_.is_followed(context, row.a), by_b = bodies_.is_followed(context, row.b);
@@ -180,7 +180,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::follow(const 
   }
 }
 
-/// Only rows that a resolved one can change: a thousand contacts with one floor are no neighbours.
+/// Lists only rows that a resolved one can change: a thousand contacts with one floor are no neighbours.
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::list_neighbours() {
   const std::size_t bodies = bodies_.rows().mass.size();
   first_.assign(bodies + 2, 0);  // counted two places on: filling leaves each list's start where it is looked for

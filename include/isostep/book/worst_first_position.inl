@@ -12,12 +12,14 @@ namespace detail {
 
 /// [m] Overlap that is left, so that what rests keeps touching.
 template <class S> inline constexpr Velocity<S> kRestingOverlap = Velocity<S>(0x1p-11);
-/// [1] of an overlap that a sub-step takes away: all of it at once makes stacks jump (relaxation, pp. 324-325).
+/// [1] The part of an overlap that a sub-step takes away: all of it at once makes stacks jump (relaxation, pp.
+/// 324-325).
 template <class S> inline constexpr S kRelaxation = S(0.25);
-/// [1] of what a contact lacks that a resolution of `relaxed` takes away: two contacts that press on one body get an
-/// equal say.
+/// [1] The part of what a contact lacks that a resolution of `relaxed` takes away: two contacts that press on one body
+/// get an equal say.
 template <class S> inline constexpr S kRelaxedPart = S(0.5);
-/// As many turns of `relaxed`: halvings that bring what a sub-step takes at most, 3 m/s for 1/200 s, to the tolerance.
+/// The number of turns of `relaxed`: halvings that bring what a sub-step takes at most, 3 m/s for 1/200 s, to the
+/// tolerance.
 inline constexpr std::uint32_t kRelaxedTurns = 8;
 /// [m/s] A contact with less than that to what it bears gives way: half of what motion_tolerance() leaves.
 template <class S> inline constexpr Velocity<S> kLeftToBear = Velocity<S>(0x1p-15);
@@ -26,7 +28,7 @@ template <class S> inline constexpr Velocity<S> kProjectionTolerance = Velocity<
 /// [rad] No projection turns a body further: the rest is moved instead (pp. 328-330).
 template <class S> inline constexpr Velocity<S> kMostProjectedTurn = Velocity<S>(0.2);
 
-/// [m] What a drive's position lacks to be within its limits.
+/// [m] The distance of a drive's position from its limits; 0 within them.
 template <class S> ISO_INLINE Velocity<S> shortfall(const JointDrive<S>& drive, Step<S> h) {
   if (drive.bounded_below && drive.position < drive.lower) return bounded_error(drive.lower - drive.position, h);
   if (drive.bounded_above && drive.upper < drive.position) return bounded_error(drive.upper - drive.position, h);
@@ -35,14 +37,14 @@ template <class S> ISO_INLINE Velocity<S> shortfall(const JointDrive<S>& drive, 
 
 }  // namespace detail
 
-/// From the two displacements each time, so that it does not gather the roundings of every move.
+/// The gap follows from the two displacements each time, so that it does not gather the roundings of every move.
 template <class S, class Queue> Velocity<S> WorstFirstResolver<S, Queue>::gap(const Point& row) const {
   const SolverBodies<S>& bodies = bodies_.rows();
   return saturating_add(row.separation,
                         detail::along(row.normal, bodies.displacement[row.a], bodies.displacement[row.b]));
 }
 
-/// What a contact does not bear sinks in.
+/// A contact that bears all that it may gives way: the body sinks in.
 template <class S, class Queue> bool WorstFirstResolver<S, Queue>::gives_way(const Point& row) const {
   return row.most < highest<V>() && !(saturating_add(row.impulse, detail::kLeftToBear<S>) < most_of(row));
 }
@@ -120,7 +122,8 @@ void WorstFirstResolver<S, Queue>::project(const StepContext<S>& context, const 
   move(context, row.b, part(row.b, row.share.b, row.normal.angular_b, row.normal.turn_b, amount));
 }
 
-/// As solve_joint() has it, of positions: a limit that is passed is a row, a drive within its limits none.
+/// Projects positions as solve_joint() solves velocities: a limit that is passed is a row, a drive within its limits
+/// none.
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::project(const StepContext<S>& context, const JointConstraint<S>& joint,
                                            const JointStep<S>& step) {

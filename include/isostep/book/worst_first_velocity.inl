@@ -106,7 +106,8 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::forget_impuls
   }
 }
 
-/// [m/s] What a point at a place of points_ may bear: of what all of its contact may, as much as the others leave.
+/// [m/s] The impulse that a point at a place of points_ may bear: as much as the others leave of what all of its
+/// contact may.
 template <class S, class Queue>
 Velocity<S> WorstFirstResolver<S, Queue>::most_beside(std::size_t index, const Point& row) const {
   if (row.most == highest<V>()) return row.most;

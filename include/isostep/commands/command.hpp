@@ -52,7 +52,7 @@ struct WakeBody {
   BodyId body;
   ISO_FIELDS(body)
 };
-/// Teleports; velocity stays.
+/// The body is elsewhere at once; its velocity stays.
 template <class S> struct SetPose {
   BodyId body;
   Pose<S> pose;  // of the body's origin
@@ -64,14 +64,14 @@ template <class S> struct SetVelocity {
   Vec3<S> angular;  // [rad/s] world
   ISO_FIELDS(body, linear, angular)
 };
-/// Acts over the next step.
+/// The force acts over the next step.
 template <class S> struct ApplyForce {
   BodyId body;
   Vec3<S> force;   // [N] at the centre of mass
   Vec3<S> torque;  // [N m]
   ISO_FIELDS(body, force, torque)
 };
-/// Acts at once.
+/// The impulse acts at once.
 template <class S> struct ApplyImpulse {
   BodyId body;
   Vec3<S> linear;   // [kg m/s] at the centre of mass
@@ -155,7 +155,7 @@ template <class S> struct SetWheelSpin {
   ISO_FIELDS(wheel, spin)
 };
 
-/// Other heights and materials for a rectangle of a height field: HeightPatch as a record. The shape's field becomes
+/// A rectangle of a height field gets other heights and materials: HeightPatch as a record. The shape's field becomes
 /// another one, with a name of its own, for all bodies of the shape; what is near wakes, and what it buries rises.
 struct SetHeights {
   static constexpr std::uint32_t kMost = 1u << 26;  // heights in a file; fields have fewer places
@@ -200,7 +200,7 @@ template <class S> struct SetMass {
   BodyMass<S> mass;
   ISO_FIELDS(body, mass)
 };
-/// Another shape for a body that exists; its origin stays where it is.
+/// A body that exists gets another shape; its origin stays where it is.
 template <class S> struct SetShape {
   BodyId body;
   ShapeId shape;

@@ -48,7 +48,7 @@ template <class S> class CommandExecutor {
 #define ISO_EXECUTE(name, Type, Result, S) Result execute(const Type& command);
   ISO_FOR_EACH_COMMAND(ISO_EXECUTE, S)
 #undef ISO_EXECUTE
-  /// As many DestroyBody; a stale id is a fault, and the others go on. Returns how many were destroyed.
+  /// Does what as many DestroyBody do; a stale id is a fault, and the others go on. Returns how many were destroyed.
   std::size_t destroy_all(std::span<const BodyId> bodies);
 
  private:
@@ -61,10 +61,11 @@ template <class S> class CommandExecutor {
   bool may_change(BodyId body);
   bool may_push(BodyId body);
   bool mark_for_destruction(BodyId body);
+  bool accept_traits(std::span<const Child<S>> children);
   bool find_blobs(const AddShape<S>& command, std::vector<BlobRef>& blobs);
   bool accept_patch(const Result<BakedHeightField>& changed);
   void replace_blob(std::uint32_t shape, std::uint32_t child, const BlobRef& blob);
-  /// Of a height field, in its frame.
+  /// A change of a height field, in its frame.
   struct FieldChange {
     Aabb<S> about;  // [m] old and new heights
     ShapeView<S> before, after;

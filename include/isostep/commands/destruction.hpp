@@ -21,14 +21,14 @@ template <class S> class Destruction {
   ISO_INLINE Destruction(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies, IslandWake<S>& wake)
       : state_(state), map_(map), proxies_(proxies), wake_(wake) {}
 
-  /// All of destroying a body but what takes a pass over the world: its id, its records and its joints stay until
+  /// Destroys a body but for what takes a pass over the world: its id, its records and its joints stay until
   /// `erase_marked`.
   void mark(std::uint32_t slot);
   ISO_INLINE bool is_marked(std::uint32_t slot) const { return is_marked_.test(slot); }
   ISO_INLINE std::size_t marked() const { return marked_.size(); }
-  /// Of those, the ones that leave the awake.
+  /// How many marked bodies leave the awake ones.
   ISO_INLINE std::size_t marked_awake() const { return marked_awake_; }
-  /// One pass over each array, whatever the number of bodies and of their joints.
+  /// Takes one pass over each array, whatever the number of bodies and of their joints.
   void erase_marked();
   void destroy_joint(std::uint32_t slot);
   /// Ends the contacts and overlaps of a body, and the forces that were asked for it: the body itself stays. What it
@@ -71,8 +71,7 @@ template <class S> class Destruction {
   std::vector<SensorEvent> sensor_end_scratch_;
 };
 
-#define ISO_EXTERN(S) extern template class Destruction<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_DESTRUCTION_OF(extern, S) extern template class Destruction<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_DESTRUCTION_OF)
 
 }  // namespace isostep

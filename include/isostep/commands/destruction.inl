@@ -59,20 +59,22 @@ template <class S> void Destruction<S>::tell_ends() {
   const auto ends = [&](std::uint32_t a, std::uint32_t b) { return is_marked(a) || is_marked(b); };
   std::uint64_t told = ~std::uint64_t{0};  // the last pair: its contacts stand side by side
   for (const Contact<S>& contact : state_.contacts) {
+    constexpr std::uint32_t kBoth = contact_flag::kReported | contact_flag::kTouching;
     const std::uint32_t a = contact.key.body_a, b = contact.key.body_b;
-    if ((contact.flags & contact_flag::kTouching) == 0 || pair_key(a, b) == told || !ends(a, b)) continue;
+    if ((contact.flags & kBoth) != kBoth || pair_key(a, b) == told || !ends(a, b)) continue;
     told = pair_key(a, b);
-    state_.untold.contact_end.push_back({id(a), id(b)});
+    state_.untold.contact_end.push_back(map_.named(contact.key));
   }
   for (const SensorOverlap overlap : state_.overlaps) {
     if (ends(overlap.sensor, overlap.other))
-      state_.untold.sensor_end.push_back({id(overlap.sensor), id(overlap.other)});
+      state_.untold.sensor_end.push_back(
+          {id(overlap.sensor), id(overlap.other), overlap.sensor_child, overlap.other_child});
   }
   detail::sort_ends(state_.untold.contact_end, contact_end_scratch_);
   detail::sort_ends(state_.untold.sensor_end, sensor_end_scratch_);
 }
 
-/// What names a marked body.
+/// Erases contacts and overlaps that name a marked body.
 template <class S> void Destruction<S>::erase_what_names_them() {
   std::erase_if(state_.contacts,
                 [&](const Contact<S>& c) { return is_marked(c.key.body_a) || is_marked(c.key.body_b); });
@@ -122,7 +124,7 @@ template <class S> auto Destruction<S>::turn_of_joint(JointId joint) const -> Tu
   return joint && joint.slot < turns_.size() ? turns_[joint.slot] : kStays;
 }
 
-/// Those of the marked bodies. They are awake: what sleeps and names such a body has been woken.
+/// Erases the joints of marked bodies. They are awake: what sleeps and names such a body has been woken.
 template <class S> void Destruction<S>::erase_joints() {
   joints_.clear();
   turns_.resize(state_.joint_slots.entries().size(), kStays);

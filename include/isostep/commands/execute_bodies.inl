@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// Everything about a definition that needs no mass.
+/// Checks everything about a definition that needs no mass.
 template <class S> bool CommandExecutor<S>::accepts(const BodyDefinition<S>& d) {
   const Vec3<S> zero = Vec3<S>::zero();
   const bool still = d.type == BodyType::static_;
@@ -35,7 +35,7 @@ template <class S> bool CommandExecutor<S>::accepts(const BodyDefinition<S>& d) 
                  .report());
 }
 
-/// Of a dynamic body; `shape` at that density.
+/// Checks the mass of a dynamic body; `shape` is at that density.
 template <class S> bool CommandExecutor<S>::check_mass(const BodyMass<S>& d, const MassProperties<S>& shape) {
   const S zero = S(0);
   return faults_.accept(
@@ -47,7 +47,7 @@ template <class S> bool CommandExecutor<S>::check_mass(const BodyMass<S>& d, con
           .report());
 }
 
-/// By its type and shape, as for the first time.
+/// Gives a body the mass that follows from its type and shape, as for the first time.
 template <class S> bool CommandExecutor<S>::give_mass(const BodyMass<S>& d, BodyProperties<S>& body) {
   const S zero = S(0);
   const std::span<const Child<S>> children = map_.children_of(body.shape);
@@ -70,12 +70,13 @@ template <class S> bool CommandExecutor<S>::give_mass(const BodyMass<S>& d, Body
   return true;
 }
 
-/// All but its mass.
+/// Properties of a body without its mass.
 template <class S> BodyProperties<S> CommandExecutor<S>::properties_of(const BodyDefinition<S>& d) {
   BodyProperties<S> body = {};
   body.type = d.type;
   body.flags = d.locks | (d.sensor ? body_flag::kSensor : 0u) | (d.allow_sleep ? body_flag::kAllowSleep : 0u) |
-               (d.collide ? body_flag::kCollide : 0u) | (d.bullet ? body_flag::kBullet : 0u);
+               (d.collide ? body_flag::kCollide : 0u) | (d.bullet ? body_flag::kBullet : 0u) |
+               (d.report_contacts ? body_flag::kReportContacts : 0u);
   body.shape = d.shape.slot;
   body.filter = d.filter;
   body.user_data = d.user_data;
@@ -186,7 +187,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetPose<S>& command) {
   return true;
 }
 
-/// A velocity of zero. What sleeps has no other, and who rests goes on resting, so that a game may say so every frame.
+/// Sets a velocity of zero: what sleeps has no other, and what rests rests on, so that a game may say so every frame.
 template <class S> void CommandExecutor<S>::halt(std::uint32_t slot) {
   if (map_.location(slot).set != Location::kAwake) return;
   BodyState<S>& state = state_.awake.states[map_.location(slot).index];

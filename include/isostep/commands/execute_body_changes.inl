@@ -32,7 +32,7 @@ template <class S> bool CommandExecutor<S>::give_mass_anew(const BodyMass<S>& ma
 template <class S>
 template <class Record>
 bool CommandExecutor<S>::check_tie(const Record& record, std::uint32_t slot, const BodyProperties<S>& next) {
-  const detail::NamedBodies<S> bodies = detail::RecordRules<Record>::bodies(record);
+  const detail::NamedBodies<S> bodies = detail::bodies_of(record);
   for (int i = 0; i < bodies.count; ++i) {
     const detail::NamedBody<S>& named = bodies.all[i];
     if (!named.body || named.body.slot != slot) continue;
@@ -82,7 +82,7 @@ template <class S> bool CommandExecutor<S>::check_ties(std::uint32_t slot, const
 
 // ---- the changes
 
-/// What couples the body's joints with others is awake as a whole.
+/// Wakes what couplings tie to the body's joints: a coupling is awake as a whole.
 template <class S> void CommandExecutor<S>::wake_coupled(std::uint32_t slot) {
   for (const Coupling<S>& coupling : state_.records->couplings.all()) {
     const detail::NamedJoints joints = detail::joints_of(coupling);
@@ -97,7 +97,7 @@ template <class S> void CommandExecutor<S>::wake_coupled(std::uint32_t slot) {
   }
 }
 
-/// Of a character whose body was away, or was put elsewhere `from` there: the ground has carried it so far, and no
+/// Ends the footing of a character whose body was away, or was put elsewhere `from` there: the ground carries it no
 /// further. One that is only turned stands where it stood.
 template <class S> void CommandExecutor<S>::leave_ground(std::uint32_t slot, const Pose<S>* from) {
   if (map_.properties_at(map_.location(slot)).type != BodyType::kinematic) return;
@@ -110,7 +110,7 @@ template <class S> void CommandExecutor<S>::leave_ground(std::uint32_t slot, con
   state_.parts.character_states[id.slot].ground = {};
 }
 
-/// Another body in place of one, in its slot: all that it touched has ended, joints begin without impulses.
+/// Puts another body in place of one, in its slot: all that it touched has ended, joints begin without impulses.
 template <class S>
 void CommandExecutor<S>::replace(std::uint32_t slot, BodyState<S> state, const BodyProperties<S>& next) {
   destruction_.part(slot);
@@ -201,7 +201,7 @@ template <class S> void CommandExecutor<S>::forget_move(std::uint32_t slot) {
   std::erase_if(state_.moves, [slot](const PendingMove<S>& move) { return move.slot == slot; });
 }
 
-/// In place of the move that the body was told before. What rests where it is told to be goes on resting, so that a
+/// Replaces the move that the body was told before. What rests where it is told to be goes on resting, so that a
 /// game may say so every frame.
 template <class S> bool CommandExecutor<S>::execute(const MoveTo<S>& command) {
   if (!known(command.body)) return false;

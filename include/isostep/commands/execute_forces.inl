@@ -24,7 +24,7 @@ template <class S> bool CommandExecutor<S>::execute(const ApplyForce<S>& command
   BodyState<S>& state = wake_.wake_for_change(command.body.slot);
   const BodyProperties<S>& body = state_.awake.properties[map_.location(state.slot).index];
   const Mat3<S> kappa = detail::world_kappa(body, detail::world_axes(state.orientation, body));
-  // From rest to the limit in one step: velocities then stay within their format.
+  // It leads from rest to the limit in one step: velocities then stay within their format.
   const std::int32_t hz = state_.settings.hz;
   const S most = detail::most_acceleration(hz, Limits<S>::speed());
   const S most_turning = detail::most_acceleration(hz, detail::most_angular_speed(state.fat));
@@ -59,7 +59,7 @@ template <class S> bool CommandExecutor<S>::execute(const ApplyImpulse<S>& comma
   return true;
 }
 
-/// What is asked of a body until the next step.
+/// The force that is asked of a body until the next step.
 template <class S> PendingForce<S>& CommandExecutor<S>::pending_force(std::uint32_t slot) {
   return find_or_insert(state_.forces, PendingForce<S>{slot, 0, Vec3<S>::zero(), Vec3<S>::zero()});
 }

@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// Whether a joint may tie these two bodies.
+/// Checks that a joint may tie these two bodies.
 template <class S> bool CommandExecutor<S>::check_ends(const JointProperties<S>& joint) {
   const BodyId ends[2] = {{joint.body_a, joint.generation_a}, {joint.body_b, joint.generation_b}};
   const Vec3<S> arms[2] = {joint.frame_a.position, joint.frame_b.position};
@@ -49,7 +49,7 @@ template <class S> bool CommandExecutor<S>::execute(const DestroyJoint& command)
   return true;
 }
 
-/// Whether its AxisDrives fit what the joint is to be.
+/// Checks that the joint's AxisDrives fit its next properties.
 template <class S> bool CommandExecutor<S>::check_drives(JointId joint, const JointProperties<S>& next) {
   const std::int32_t rate = substep_rate(state_.settings);
   const auto& drives = state_.records->axis_drives;
@@ -72,8 +72,8 @@ template <class S> bool CommandExecutor<S>::execute(const SetJoint<S>& command) 
   return true;
 }
 
-/// Executes SetJoint with what change(properties, set_flag) makes of the joint's; set_flag(flag, on) turns a joint_flag
-/// on or off.
+/// Executes SetJoint with the joint's properties after change(properties, set_flag); set_flag(flag, on) turns a
+/// joint_flag on or off.
 template <class S> template <class Change> bool CommandExecutor<S>::change_joint(JointId joint, const Change& change) {
   if (!known(state_.joint_slots, joint, "joint")) return false;
   JointProperties<S> next = *map_.properties_of(joint);

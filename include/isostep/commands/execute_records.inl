@@ -10,7 +10,7 @@ namespace isostep {
 template <class S> template <class Record> bool CommandExecutor<S>::check_record(const Record& record) {
   using Rules = detail::RecordRules<Record>;
   if (!faults_.accept(Rules::fault(record))) return false;
-  const detail::NamedBodies<S> bodies = Rules::bodies(record);
+  const detail::NamedBodies<S> bodies = detail::bodies_of(record);
   for (int i = 0; i < bodies.count; ++i) {
     const detail::NamedBody<S>& named = bodies.all[i];
     if (!named.body && named.may_be_null) continue;
@@ -62,7 +62,7 @@ bool CommandExecutor<S>::check_alone(const Record& record, std::uint32_t slot) {
       return faults_.refuse({Fault::bad_argument, "", rule.field, rule.expected});
   }
   if constexpr (requires { Rules::kNoCarrier; }) {
-    const detail::NamedBodies<S> named = Rules::bodies(record);
+    const detail::NamedBodies<S> named = detail::bodies_of(record);
     const BodyId first = named.all[0].body, second = named.all[1].body;
     if (another([&](const Record& other) { return detail::second_body_of(other) == first; }))
       return faults_.refuse({Fault::bad_argument, "", named.all[0].field, Rules::kNoCarrier[0]});

@@ -22,6 +22,7 @@ template <class S> ShapeId CommandExecutor<S>::execute(const AddShape<S>& comman
     faults_.refuse(detail::report_of(wrong));
     return {};
   }
+  if (!accept_traits(command.children)) return {};
   const ShapeId id = state_.shape_slots.template take<ShapeId>(state_.settings.id_space);
   std::vector<Child<S>> children;
   children.reserve(command.children.size());
@@ -35,6 +36,16 @@ template <class S> ShapeId CommandExecutor<S>::execute(const AddShape<S>& comman
   }
   map_.put_shape(id.slot, std::move(children));
   return id;
+}
+
+template <class S> bool CommandExecutor<S>::accept_traits(std::span<const Child<S>> children) {
+  for (std::uint32_t i = 0; i < children.size(); ++i) {
+    FaultReport wrong = detail::fault_of(children[i].traits);
+    if (wrong == Fault::none) continue;
+    wrong.child = i;
+    return faults_.refuse(wrong);
+  }
+  return true;
 }
 
 /// The content of what a command names, each of which a part must name.
@@ -146,11 +157,11 @@ void CommandExecutor<S>::renew_ground(std::uint32_t body, const Pose<S>& field, 
 template <class S>
 void CommandExecutor<S>::lift_buried(std::uint32_t ground, const Transform<S>& placed, const Aabb<S>& there,
                                      const FieldChange& change) {
-  const Filter filter = map_.properties_at(map_.location(ground)).filter;
+  const Filter filter = map_.filter_of(map_.properties_at(map_.location(ground)));
   std::vector<std::uint32_t> met;
   proxies_.boxes().query(there, [&](std::uint32_t slot) {
     const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
-    const bool collides = (body.flags & body_flag::kCollide) != 0 && should_collide(filter, body.filter);
+    const bool collides = (body.flags & body_flag::kCollide) != 0 && should_collide(filter, map_.filter_of(body));
     if (body.type == BodyType::dynamic && collides) met.push_back(slot);
     return true;
   });

@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// What std::span does, for kernels: its functions are weak symbols at -O0, which code for one instruction set must not
+/// A span for kernels. The functions of std::span are weak symbols at -O0, which code for one instruction set must not
 /// have.
 template <class T> struct ArrayView {
   const T* elements = nullptr;

@@ -20,7 +20,7 @@
 
 namespace isostep {
 
-/// Null, or why the build lacks `method`, by name. An overload of `expected_instead_of` knows its list.
+/// Returns null, or why the build lacks `method`, by name. An overload of `expected_instead_of` knows its list.
 template <class Name> ISO_INLINE constexpr const char* left_out(Name method) {
   const char* const expected = expected_instead_of(method);
   return expected == nullptr ? nullptr : expected + sizeof "another: " - 1;

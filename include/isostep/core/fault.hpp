@@ -24,7 +24,7 @@ enum class Fault : std::uint32_t {
   null_id,        // the id was never given: what should have given it was refused, as a rule
   foreign_id,     // the id was given by a world with another Settings::id_space
   bad_snapshot,   // nothing was saved there, or by a world with other settings
-  called_in_step  // by an observer of stages, while the world steps
+  called_in_step  // an observer of stages called, while the world steps
 };
 inline constexpr std::uint32_t kFaults = 13;
 const char* fault_text(Fault fault);
@@ -36,7 +36,7 @@ struct FaultReport {
   const char* field = "";     // material.friction; empty: no field alone
   const char* expected = "";  // 0 to 16
   static constexpr std::uint32_t kNoChild = 0xffffffffu;
-  std::uint32_t child = kNoChild;  // of a shape that is refused: the part that the field is of
+  std::uint32_t child = kNoChild;  // the part that the field is of, in a shape that is refused
 
   friend ISO_INLINE constexpr bool operator==(const FaultReport& report, Fault name) { return report.fault == name; }
   friend ISO_INLINE constexpr bool operator!=(const FaultReport& report, Fault name) { return report.fault != name; }

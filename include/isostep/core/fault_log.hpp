@@ -9,7 +9,7 @@ namespace isostep {
 /// Each world has one. It is no part of the state: it is not saved, loaded or hashed.
 class FaultLog {
  public:
-  // While a command executes. Returns false, for the command to return it.
+  // Keeps the fault of a command while it executes. Returns false, for the command to return it.
   ISO_INLINE bool refuse(const FaultReport& report) {
     last_ = report;
     return false;
@@ -30,8 +30,8 @@ class FaultLog {
     is_handling_ = false;
   }
 
-  // For calls that are no commands. A query that is accepted leaves the fault as it is, so that any number of threads
-  // may query at once.
+  // Keeps and signs the fault of a call that is no command. A query that is accepted leaves the fault as it is, so that
+  // any number of threads may query at once.
   ISO_INLINE bool refuse_call(const char* name, const FaultReport& report) {
     refuse(report);
     sign(name);

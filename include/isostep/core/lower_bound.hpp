@@ -21,7 +21,7 @@ template <class Before> ISO_INLINE constexpr std::size_t lower_bound(std::size_t
   return low;
 }
 
-/// Where the record of a slot stands or belongs. `records` ascend by their field `slot`.
+/// The index at which the record of a slot stands or belongs. `records` ascend by their field `slot`.
 template <class Records> ISO_INLINE std::size_t place_of_slot(const Records& records, std::uint32_t slot) {
   return lower_bound(records.size(), [&](std::size_t i) ISO_INLINE_LAMBDA { return records[i].slot < slot; });
 }

@@ -8,11 +8,11 @@
 
 namespace isostep {
 
-/// Not null, and another one in each thread that runs.
+/// The running thread's own address: never null, different in each thread that runs.
 const void* this_thread();
 
-/// Whoever is inside twice is a callback that changes what calls it, and is reported. In builds with ISOSTEP_ASSERTS a
-/// second thread ends the program; in others it may go unseen.
+/// Entry reports a call inside another: a callback that changes what calls it. In builds with ISOSTEP_ASSERTS a second
+/// thread ends the program; in others it may go unseen.
 class OneAtATime {
  public:
   class Entry {

@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// Reading is that of an array. A page is changed in place while one array alone has it, else copied first; a page that
+/// One reads it as an array. A page is changed in place while one array alone has it, else copied first; a page that
 /// two arrays share is never written, so arrays that share pages may live on different threads. Two arrays with the
 /// same page at the same place have equal items there.
 template <class T, std::uint32_t kPageSize> class PagedArray {
@@ -86,7 +86,7 @@ template <class T, std::uint32_t kPageSize> class PagedArray {
   ISO_INLINE std::size_t page_size(std::size_t p) const {
     return p + 1 < pages_.size() ? kPageSize : size_ - p * kPageSize;
   }
-  /// What was computed of a page's items.
+  /// The number computed of a page's items.
   ISO_INLINE const Remembered& remembered(std::size_t p) const { return pages_[p]->remembered; }
   ISO_INLINE bool shares_page(std::size_t p, const PagedArray& other) const {
     return p < pages_.size() && p < other.pages_.size() && pages_[p] == other.pages_[p];

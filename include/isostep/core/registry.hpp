@@ -31,27 +31,27 @@ template <class Record, class IdType> class Registry {
     remove_at(id.slot);
     return true;
   }
-  /// Of a slot that is taken.
+  /// Removes the record of a slot that is taken.
   ISO_INLINE void remove_at(std::uint32_t slot) {
     records_.change()[slot] = Record{};
     slots_.give_back(slot);
   }
   ISO_INLINE bool holds(IdType id) const { return slots_.holds(id); }
-  /// Null for a stale id.
+  /// Returns null for a stale id.
   ISO_INLINE const Record* find(IdType id) const { return slots_.holds(id) ? &(*records_)[id.slot] : nullptr; }
-  /// Of the first record, by slot, that matches; null where none does.
+  /// The id of the first record, by slot, that matches; null where none does.
   template <class Match> ISO_INLINE IdType id_where(const Match& match) const {
     for (std::uint32_t slot = 0; slot < records_->size(); ++slot) {
       if (slots_.is_taken(slot) && match((*records_)[slot])) return slots_.template id_of<IdType>(slot);
     }
     return {};
   }
-  /// Of an id that is held.
+  /// The record of an id that is held, to be written.
   ISO_INLINE Record& change(IdType id) { return records_.change()[id.slot]; }
 
   ISO_INLINE const SlotMap& slot_map() const { return slots_; }
   ISO_INLINE SlotMap& slot_map() { return slots_; }
-  /// By slot.
+  /// All records by slot, free slots included.
   ISO_INLINE const std::vector<Record>& all() const { return *records_; }
   ISO_INLINE std::vector<Record>& change_all() { return records_.change(); }
   ISO_INLINE const Remembered& remembered() const { return records_.remembered(); }

@@ -1,4 +1,4 @@
-// Remembered: a number computed of something that rarely changes.
+// Remembered: a number computed from something that rarely changes.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -27,7 +27,7 @@ struct Error {
   ShortText<64> place;
 };
 
-/// Reading the side that is not there is the caller's bug and stops the program.
+/// A read of the side that is not there is the caller's bug and stops the program.
 template <class T> class [[nodiscard]] Result {
  public:
   ISO_INLINE Result(T value) : value_(std::move(value)), error_{} {}

@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// In their order.
+/// The names of the scalars of this build, in the order of ISOSTEP_SCALARS.
 ISO_INLINE std::vector<std::string> scalar_names() {
   std::vector<std::string> names;
   any_scalar([&](auto tag) ISO_INLINE_LAMBDA {

@@ -1,4 +1,4 @@
-// Shared: a value that copies have in common until one of them changes it.
+// Shared<T>: a value that copies have in common until one of them changes it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace isostep {
 
-/// For large values that rarely change. Changed in place while one copy is left, else copied first; a value that two
-/// share is never written, so they may live on different threads. Never empty.
+/// It holds large values that rarely change. A change is made in place while one copy is left, else in a copy; a value
+/// that two share is never written, so they may live on different threads. It is never empty.
 template <class T> class Shared {
  public:
   ISO_INLINE Shared() : node_(new Node) {}
@@ -26,14 +26,14 @@ template <class T> class Shared {
 
   ISO_INLINE const T& operator*() const { return node_->value; }
   ISO_INLINE const T* operator->() const { return &node_->value; }
-  /// To be written; the reference holds until the next copy.
+  /// The value to be written; the reference holds until the next copy.
   ISO_INLINE T& change() {
     if (node_->owners.load(std::memory_order_acquire) != 1) release(std::exchange(node_, new Node(node_->value)));
     for (Remembered& remembered : node_->remembered) remembered.forget();
     return node_->value;
   }
   ISO_INLINE bool is_same(const Shared& other) const { return node_ == other.node_; }
-  /// What was computed of the value: three things, 0 to 2. Hashes take 0 and 1.
+  /// A number computed of the value: there are three, 0 to 2. Hashes take 0 and 1.
   ISO_INLINE const Remembered& remembered(int which = 0) const { return node_->remembered[which]; }
 
  private:

@@ -10,7 +10,8 @@
 
 namespace isostep {
 
-/// Copied as plain bytes. What does not fit is cut off: it is text for people, or its length was checked before.
+/// It is copied as plain bytes. Text beyond the capacity is cut off: it is text for people, or its length was checked
+/// before.
 template <std::size_t Capacity> class ShortText {
  public:
   static constexpr std::size_t kCapacity = Capacity;
@@ -33,7 +34,7 @@ template <std::size_t Capacity> class ShortText {
     while (count > 0 && size_ < Capacity) chars_[size_++] = digits[--count];
     return *this;
   }
-  /// Always 16 digits, so that hashes line up and compare as text.
+  /// Appends always 16 digits, so that hashes line up and compare as text.
   ISO_INLINE constexpr ShortText& append_hex(std::uint64_t number) {
     for (int shift = 60; shift >= 0 && size_ < Capacity; shift -= 4) {
       chars_[size_++] = "0123456789abcdef"[(number >> shift) & 15u];

@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// Which lanes a step takes. Never changes a bit. `scalar` is one lane, the reference, on any machine; sse2 has
+/// The lanes that a step takes. They never change a bit. `scalar` is one lane, the reference, on any machine; sse2 has
 /// four lanes of float or two of double, avx2 eight of 32 bits or four of 64, avx512 twice as many; neon (64-bit Arm)
 /// and wasm (WebAssembly's SIMD128) have four of 32 bits or two of double. `best` is the widest there is.
 #define ISO_ENUMERATOR(name, unused) name,
@@ -25,7 +25,7 @@ inline constexpr const char* kSimdNames[] = {"best", ISO_FOR_EACH_SIMD(ISO_NAME,
 #undef ISO_NAME
 inline constexpr std::uint32_t kSimds = sizeof kSimdNames / sizeof kSimdNames[0];
 
-/// Whether the processor, as its operating system runs it, has what kernels for `simd` use.
+/// The processor, as its operating system runs it, has the instructions that kernels for `simd` use.
 bool processor_has(Simd simd);
 
 namespace detail {
@@ -60,7 +60,7 @@ template <class Kernels> ISO_INLINE const Kernels* choose_kernels(Simd simd) {
 
 #define ISO_DECLARE_KERNEL_TABLE(name, KERNELS) template <> const KERNELS* detail::kernel_table<KERNELS, Simd::name>();
 #define ISO_DECLARE_KERNEL_TABLES(KERNELS) ISO_FOR_EACH_SIMD(ISO_DECLARE_KERNEL_TABLE, KERNELS)
-/// For the files of one instruction set: the table, or that there is none.
+/// These define the kernel table in the file of one instruction set, or that there is none.
 #define ISO_DEFINE_KERNEL_TABLE(KERNELS, SIMD, ...)                  \
   template <> const KERNELS* detail::kernel_table<KERNELS, SIMD>() { \
     static constexpr KERNELS kTable = __VA_ARGS__;                   \

@@ -31,7 +31,7 @@ class SlotMap {
   static constexpr std::uint32_t kPageSize = 512;
   using Entries = PagedArray<SlotEntry, kPageSize>;
 
-  // In words, for what a compiler writes for itself is a symbol that two object files may share.
+  // These are written out: functions that a compiler writes itself are symbols that two object files may share.
   ISO_INLINE SlotMap() : first_free_(SlotEntry::kEnd) {}
   ISO_INLINE SlotMap(const SlotMap& other)
       : hash_(other.hash_), entries_(other.entries_), first_free_(other.first_free_) {}
@@ -76,7 +76,7 @@ class SlotMap {
   ISO_INLINE bool is_taken(std::uint32_t slot) const { return entries_[slot].next_free == SlotEntry::kTaken; }
   template <class AnyId> ISO_INLINE AnyId id_of(std::uint32_t slot) const { return {slot, entries_[slot].generation}; }
 
-  /// Ascending by slot.
+  /// The ids of all taken slots, ascending by slot.
   template <class AnyId> ISO_INLINE std::vector<AnyId> ids() const {
     std::vector<AnyId> ids;
     for (std::uint32_t slot = 0; slot < entries_.size(); ++slot) {
@@ -92,9 +92,9 @@ class SlotMap {
 
   ISO_INLINE const Entries& entries() const { return entries_; }
   ISO_INLINE std::uint32_t first_free() const { return first_free_; }
-  /// What was computed of the whole table.
+  /// The hash computed of the whole table.
   ISO_INLINE const Remembered& remembered_hash() const { return hash_; }
-  /// From a file: false when the free list is not one list of just the free slots.
+  /// Takes the entries of a file. False: the free list is not one list of just the free slots.
   ISO_INLINE bool restore(const std::vector<SlotEntry>& entries, std::uint32_t first_free) {
     std::size_t free = 0, met = 0;
     for (const SlotEntry& entry : entries) {

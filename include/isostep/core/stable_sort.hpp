@@ -9,10 +9,10 @@
 
 namespace isostep {
 
-/// Below this many records insertion beats counting: a counting pass costs its table, whatever the number of records.
+/// Insertion beats counting below this many records: a counting pass costs its table, whatever their number.
 inline constexpr std::uint32_t kInsertionSortLimit = 32;
 
-/// Ascending by key(record); equal keys keep their order. For a few records, or for many that are nearly sorted.
+/// Sorts ascending by key(record); equal keys keep their order. It is for few records, or many that are nearly sorted.
 /// `key` is a function object; write it as a struct with an ISO_INLINE call operator, as a lambda leaves a weak symbol.
 template <class Record, class Key>
 ISO_INLINE constexpr void insertion_sort(Record* records, std::uint32_t count, const Key& key) {
@@ -48,8 +48,8 @@ ISO_INLINE constexpr void counting_pass(const Record* from, Record* to, std::uin
 }
 }  // namespace detail
 
-/// Ascending by key(record); equal keys keep their order. `scratch` holds `count` records and must not overlap.
-/// Radix sort from the lowest bits. A digit starts at the lowest bit, not yet sorted, in which the keys differ, so bits
+/// Sorts ascending by key(record); equal keys keep their order. `scratch` holds `count` records and must not overlap. A
+/// radix sort from the lowest bits: a digit starts at the lowest bit, not yet sorted, in which the keys differ, so bits
 /// that all keys share cost nothing: pairs of slots below 2048 take two passes of 11 bits.
 template <class Record, class Key>
 ISO_INLINE constexpr void stable_sort(Record* records, Record* scratch, std::uint32_t count, const Key& key) {

@@ -33,7 +33,7 @@ class TournamentTree {
       winner_[n] = best;
     }
   }
-  /// Of at least one.
+  /// The index of the winner. There is at least one.
   ISO_INLINE std::uint32_t first() const { return winner_[1]; }
 
  private:

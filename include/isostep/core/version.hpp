@@ -17,7 +17,8 @@ inline constexpr char kVersionText[] = "0.1.0";
 /// promise each other's frame hashes, whatever else differs.
 std::uint64_t behaviour_version();
 
-/// Of the library, not of the file that includes this header. Informative: nothing is ever refused because of them.
+/// The library's compiler and architecture, not those of the file that includes this header. They are informative:
+/// nothing is ever refused because of them.
 const char* compiler_name();
 const char* architecture_name();
 

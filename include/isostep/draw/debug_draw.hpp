@@ -37,6 +37,7 @@ struct DrawnBody {
 struct DrawnPart {
   ShapeType type;
   std::uint32_t child;  // its place in the shape
+  bool sensor;          // reports overlaps, is not solved: its own or its body's
   DrawnPose pose;   // of its centre; round ones lie along its y; of a half-space: its point nearest the body's origin;
                     // of a part with content: of the frame that its points are in
   float half[3];    // [m] of a box; of a capsule, cylinder or cone y alone
@@ -66,7 +67,7 @@ struct DrawnMass {
   float inertia[3];  // [kg m^2] about those axes; 0: does not turn
 };
 
-/// What the broad phase keeps of a body: its bounds and a margin.
+/// The broad phase's box of a body: its bounds and a margin.
 struct DrawnBox {
   BodyId body;
   float low[3], high[3];  // [m]
@@ -141,7 +142,7 @@ struct DrawnParticle {
   float velocity[3];  // [m/s]
   float radius;       // [m] for contacts, may be 0
 };
-/// Between two particles, or a particle and a fixed point.
+/// A spring between two particles, or a particle and a fixed point.
 struct DrawnSpring {
   SpringId spring;
   SpringType type;
@@ -164,7 +165,7 @@ struct DrawnCollider {
   float end[3], radius;  // [m] of a line
 };
 
-/// What is wanted: each calls the function of its name, bodies and particles first.
+/// The kinds that are drawn: each calls the function of its name, bodies and particles first.
 struct DrawOptions {
   bool bodies = true;  // and their parts
   bool lines = false;  // of the parts: for who draws no solids
@@ -202,7 +203,7 @@ class DebugDraw {
   virtual void link(const DrawnLink& link);
   virtual void collider(const DrawnCollider& collider);
 
-  /// Called after `part`, of each part with content: whether calls of `triangle` follow with its surface. A surface
+  /// Asked after `part`, for each part with content: true has calls of `triangle` follow with its surface. A surface
   /// depends on the content alone, so a game says yes once for each content. False unless overridden.
   virtual bool wants_triangles(const DrawnPart& part);
   virtual void triangle(const DrawnTriangle& triangle);
@@ -216,10 +217,9 @@ class DebugDraw {
 template <class S> void draw(const World<S>& world, DebugDraw& to, const DrawOptions& options = {});
 template <class S> void draw(const ParticleWorld<S>& world, DebugDraw& to, const DrawOptions& options = {});
 
-#define ISO_EXTERN(S)                                                            \
+#define ISO_DEBUG_DRAW_OF(extern, S)                                             \
   extern template void draw<S>(const World<S>&, DebugDraw&, const DrawOptions&); \
   extern template void draw<S>(const ParticleWorld<S>&, DebugDraw&, const DrawOptions&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_DEBUG_DRAW_OF)
 
 }  // namespace isostep

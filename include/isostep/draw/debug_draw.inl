@@ -16,7 +16,7 @@ namespace isostep {
 
 namespace detail {
 
-/// Of a blob that is drawn with a radius around it; 0: its own name.
+/// The content of a blob that is drawn with a radius around it; 0: its own name.
 ISO_INLINE ContentId drawn_content(ContentId blob, float radius) {
   constexpr std::uint64_t kSpread = 0x9e3779b97f4a7c15u;
   if (radius != 0) blob.low ^= std::bit_cast<std::uint32_t>(radius) * kSpread;
@@ -98,6 +98,7 @@ template <class S> class BodySketch {
     DrawnPart part = {};
     part.type = primitive.type;
     part.child = index;
+    part.sensor = body.sensor || child.traits.has(part_flag::kSensor);
     part.pose = sketch_.pose(
         visit_shape(shape_view, [&](const auto& shape) ISO_INLINE_LAMBDA { return shape.drawn_at(view.pose, pose); }));
     sketch_.vector(primitive.half, part.half);

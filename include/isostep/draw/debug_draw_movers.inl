@@ -9,7 +9,8 @@
 
 namespace isostep::detail {
 
-/// What moves a body and is none: drawn from the records alone, as the last step or command left them.
+/// Wheels and the like, which move a body and are none: drawn from the records alone, as the last step or command left
+/// them.
 template <class S> class MoverSketch {
   using D = Vec3<double>;
 

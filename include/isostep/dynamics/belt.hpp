@@ -16,7 +16,7 @@
 
 namespace isostep {
 
-/// Where the surface of a record is, as a step begins.
+/// The place of a record's surface as a step begins.
 template <class S> struct BeltPlace {
   Quat<Unit<S>> orientation;  // of the body
   Vec3<S> centre;             // [m] of mass, in its frame
@@ -36,7 +36,7 @@ template <class S> struct Belt {
 
   ISO_INLINE std::uint64_t key() const { return std::uint64_t{body} << 32 | first_leaf; }
   ISO_INLINE bool turns() const { return !(angular == Vec3<S>::zero()); }
-  /// [m/s] at the end of an arm [m] from the centre of mass.
+  /// [m/s] The velocity at the end of an arm [m] from the centre of mass.
   ISO_INLINE Vec3<S> velocity_at(Vec3<S> arm) const {
     const Vec3<S> at = arm + from_origin, w = angular;
     const auto part = [&](int i, int j)
@@ -46,7 +46,7 @@ template <class S> struct Belt {
   }
 };
 
-/// Ascending by the body's slot, then by the part, the whole body's last. Keeps nothing from step to step but memory.
+/// Belts ascend by slot of the body, then by part, the whole body's last. Nothing but memory stays from step to step.
 template <class S> class Belts {
  public:
   /// place_of(record): a BeltPlace. `fastest` [rad/s].
@@ -74,7 +74,7 @@ template <class S> class Belts {
     }
     return false;
   }
-  /// Of a leaf as a ContactKey has it: its part's own, else the body's. Null: the surface does not run there.
+  /// The belt of a leaf as a ContactKey has it: its part's own, else the body's. Null: the surface does not run there.
   ISO_INLINE const Belt<S>* find(std::uint32_t body, std::uint32_t leaf) const {
     const std::uint64_t key = std::uint64_t{body} << 32 | leaf, whole = std::uint64_t{body} << 32 | kEveryPart;
     const std::size_t next = first_not([&](std::uint64_t other) ISO_INLINE_LAMBDA { return other <= key; });
@@ -96,7 +96,7 @@ template <class S> class Belts {
   std::vector<Belt<S>> all_, scratch_;
 };
 
-/// What the belts of a contact's parts add to its surface velocity.
+/// Adds the belts of a contact's parts to its surface velocity.
 template <class S>
 ISO_INLINE void add_belts(const Belts<S>& belts, const ContactKey& key, std::uint32_t count, ContactGeometry<S>& g) {
   const Belt<S>*a = belts.find(key.body_a, key.child_a), *b = belts.find(key.body_b, key.child_b);

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "isostep/core/fields.hpp"
+#include "isostep/geometry/part_traits.hpp"
 #include "isostep/math/aabb.hpp"
 #include "isostep/math/transform.hpp"
 
@@ -26,6 +27,7 @@ inline constexpr std::uint32_t kCollide = 1u << 2;   // has contacts at all
 inline constexpr std::uint32_t kSpins = 1u << 3;     // inertia differs between axes: the gyroscopic term matters
 inline constexpr std::uint32_t kBullet = 1u << 4;    // continuous collision with what moves, too
 inline constexpr std::uint32_t kDisabled = 1u << 5;  // takes no part until it is enabled again
+inline constexpr std::uint32_t kReportContacts = 1u << 6;  // its contacts tell when they begin and end
 inline constexpr std::uint32_t kLockX = 1u << 8;     // no motion along world x; then y, z, and turning about x, y, z
 inline constexpr std::uint32_t kLockAngularX = 1u << 11;
 inline constexpr std::uint32_t kAngularLocks = 7u * kLockAngularX;
@@ -44,42 +46,6 @@ template <class S> struct BodyState {
 
   ISO_FIELDS(slot, sleep_clock, centre, orientation, velocity, angular_velocity, fat)
 };
-
-/// What a surface is like. Two surfaces mix: friction and spin resistance by the root of the product, the rest by the
-/// larger; two kinds
-/// that stand in the world's table of pairs (material_pair.hpp) have what the table says. contact_friction.hpp: which
-/// coefficient of friction a contact has in a step.
-template <class S> struct Material {
-  S friction = S(0.6);          // [1] Coulomb, of what slides: the dynamic coefficient
-  S restitution = S(0);         // [1] 0..1, of what meets at Settings::restitution_threshold or more
-  S rolling_resistance = S(0);  // [m] lever arm of the normal force that resists rolling
-  /// [m] Radius of the least patch: friction resists spinning about a contact's normal as if it acted so far from the
-  /// middle of its points, or as far as these lie. It slows balls of 1 m and 10 cm in radius by 0.1 and 12 rad/s^2.
-  S spin_resistance = S(1.0 / 128);
-  Vec3<S> surface_velocity = {S(0), S(0), S(0)};  // [m/s] world, a conveyor belt's
-  S static_friction = S(0);                       // [1] of what does not slide; below friction: the same as friction
-  /// [1] 1/64..1: the part of friction that is left along the body's own x, y and z axes. Between the axes the force at
-  /// its limit ends on an ellipsoid with these radii, so that runners {1/16, 1, 1} along x hold across.
-  Vec3<S> anisotropy = {S(1), S(1), S(1)};
-  std::uint32_t kind = 0;      // of material, for the table of pairs; 0: none
-  std::uint32_t reserved = 0;  // 0: keeps records of 8-byte scalars without padding
-
-  ISO_FIELDS(friction, restitution, rolling_resistance, spin_resistance, surface_velocity, static_friction, anisotropy,
-             kind, reserved)
-};
-
-/// Two bodies collide when each one's mask has a bit of the other's category, unless they share a non-zero group.
-struct Filter {
-  std::uint32_t category = 1;
-  std::uint32_t mask = 0xffffffffu;
-  std::uint32_t group = 0;
-
-  ISO_FIELDS(category, mask, group)
-};
-ISO_INLINE constexpr bool should_collide(const Filter& a, const Filter& b) {
-  if (a.group != 0 && a.group == b.group) return false;
-  return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
-}
 
 /// The part of a body that only commands change.
 template <class S> struct BodyProperties {

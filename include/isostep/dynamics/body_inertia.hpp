@@ -1,4 +1,4 @@
-// How hard a body is to turn in the world: its axes, its inverse inertia, and what locks leave of it.
+// The inertia of a body in the world: its axes, its inverse inertia, and what locks leave of it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,13 +10,13 @@
 
 namespace isostep::detail {
 
-/// From a body's principal axes to the world. Those of most shapes are the body's own.
+/// The rotation from a body's principal axes to the world. The principal axes of most shapes are the body's own.
 template <class S> ISO_INLINE Mat3<Unit<S>> world_axes(Quat<Unit<S>> orientation, const BodyProperties<S>& body) {
   const bool own = body.principal == Quat<Unit<S>>::identity();
   return to_matrix(own ? orientation : orientation * body.principal);
 }
 
-/// Whether free turning changes its angular velocity. What may not turn about each axis is held by what locks it: a
+/// Free turning changes the body's angular velocity. A body that may not turn about each axis is held by its locks: a
 /// change of the free body's angular velocity, cut down to the free axes, would drive it like a motor.
 template <class S> ISO_INLINE bool turns_freely(const BodyProperties<S>& body) {
   return (body.flags & (body_flag::kSpins | body_flag::kAngularLocks)) == body_flag::kSpins;

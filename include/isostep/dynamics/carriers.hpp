@@ -37,8 +37,7 @@ template <class S> class Carriers {
   std::vector<Carried<S>> carried_;
 };
 
-#define ISO_EXTERN(S) extern template class Carriers<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CARRIERS_OF(extern, S) extern template class Carriers<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CARRIERS_OF)
 
 }  // namespace isostep

@@ -48,7 +48,7 @@ template <class S> bool Carriers<S>::add_on_carrier(std::uint32_t contact, const
   return false;
 }
 
-/// Of two belts on each other the first leads along its arc.
+/// The first of two belts on each other leads along its arc.
 template <class S>
 void Carriers<S>::add_on_belt(std::uint32_t contact, const ContactKey& key, const ContactGeometry<S>& g,
                               std::int32_t rate) {

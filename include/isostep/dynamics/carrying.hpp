@@ -24,7 +24,7 @@ template <class S> struct Carrier {
   Vec3<V> angular_velocity;  // [rad/s]
   Mat3<V> added;             // [1/s] (R - 1) / h - [w]x
 
-  /// `turn` [rad] as BodyRows::integrate_positions has it at 1 / `rate` seconds.
+  /// Makes the carrier of a row; `turn` [rad] is that of BodyRows::integrate_positions at 1 / `rate` seconds.
   static ISO_INLINE Carrier of(std::uint32_t row, Vec3<V> angular_velocity, Vec3<Unit<S>> turn, std::int32_t rate) {
     const Quat<Unit<S>> q = integrate(Quat<Unit<S>>::identity(), turn);
     const auto part = [](Unit<S> a, S b) { return round_to<V>(product(a, b)); };
@@ -52,7 +52,7 @@ template <class S> struct Carried {
   Vec3<V> spin = Vec3<V>::zero();  // [rad/s] of b's surface against a's, besides the bodies' own
 
   ISO_INLINE bool spins() const { return !(spin == Vec3<V>::zero()); }
-  /// [m/s] by which the surface's speed `arm` [m] away from the middle of the contact differs from that in the middle.
+  /// [m/s] The surface's speed `arm` [m] away from the middle of the contact, less that in the middle.
   ISO_INLINE Vec3<V> spun(Vec3<S> arm) const {
     const auto part = [&](int i, int j) ISO_INLINE_LAMBDA {
       return saturate_to<V>(product(spin[i], arm[j]) - product(spin[j], arm[i]));

@@ -98,6 +98,18 @@ template <class S> FaultReport fault_of(const Material<S>& m) {
       .proper(m.reserved == 0, "material.reserved", "0")
       .report();
 }
+/// Of a part of a shape. What no flag names is zeros or what a new record has.
+template <class S> FaultReport fault_of(const PartTraits<S>& t) {
+  const PartTraits<S> none = {};
+  const bool has_material = t.has(part_flag::kOwnMaterial), has_filter = t.has(part_flag::kOwnFilter);
+  return Checklist()
+      .proper((t.flags & ~part_flag::kAll) == 0, "traits.flags", "bits of part_flag")
+      .proper(has_filter || t.filter == none.filter || t.filter == Filter{}, "traits.filter", "0 without kOwnFilter")
+      .proper(has_material || t.material == none.material || t.material == Material<S>{}, "traits.material",
+              "0 without kOwnMaterial")
+      .also(has_material ? fault_of(t.material) : FaultReport{})
+      .report();
+}
 
 /// A factor of gravity: the product of two numbers up to the speed limit fits.
 template <class S>

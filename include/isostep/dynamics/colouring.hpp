@@ -11,8 +11,8 @@
 
 namespace isostep {
 
-/// Greedy, in canonical order: the first colour that neither body has met. What finds none is kUncoloured and is solved
-/// alone. The result depends on the constraints' order and bodies, nothing else.
+/// Colours greedily, in canonical order: a constraint gets the first colour that neither body has met. One that finds
+/// none is kUncoloured and is solved alone. The result depends on the constraints' order and bodies, nothing else.
 class Colouring {
  public:
   static constexpr std::uint32_t kColours = 32;

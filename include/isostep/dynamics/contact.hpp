@@ -32,7 +32,8 @@ struct ContactKey {
 
 /// Bits of Contact::flags.
 namespace contact_flag {
-inline constexpr std::uint32_t kTouching = 1u << 0;  // carried an impulse in the last step: what events speak of
+inline constexpr std::uint32_t kTouching = 1u << 0;   // carried an impulse in the last step: what events speak of
+inline constexpr std::uint32_t kReported = 1u << 1;   // of a body or part with kReportContacts: events tell of it
 }
 
 /// State: a contact that has points. Impulses are velocity changes of the pair's reduced mass, m = ma mb / (ma + mb).

@@ -1,4 +1,4 @@
-// Which coefficient of friction a contact has in a step: static or dynamic, and along which direction of a grain.
+// The coefficient of friction of a contact in a step: static or dynamic, and along which direction of a grain.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// Whether the contacts of a material are what mix() makes of it, in every step.
+/// The contacts of a material are what mix() makes of it, in every step.
 template <class S> ISO_INLINE bool mixes_alone(const Material<S>& m) {
   return m.kind == 0 && !(m.friction < m.static_friction) && m.anisotropy == Vec3<S>{S(1), S(1), S(1)};
 }
@@ -55,8 +55,8 @@ template <class S> struct Grain {
   }
 };
 
-/// Of two grains that of which less is left counts, so that the cone is the common part of two ellipses and convex. The
-/// root of the product would not be: of a grain of 1 : 6 or more on a plain surface it has dents.
+/// The lesser factor of two grains counts, so that the cone is the common part of two ellipses and convex. The root of
+/// the product would not be: it has dents for a grain of 1 : 6 or more on a plain surface.
 template <class S> ISO_INLINE S factor_along(const Grain<S>& a, const Grain<S>& b, Vec3<Unit<S>> d) {
   return min(a.factor_along(d), b.factor_along(d));
 }
@@ -70,7 +70,7 @@ ISO_INLINE Vec3<Unit<S>> friction_line(const Grain<S>& a, const Grain<S>& b, Vec
   return left_a < left_b ? of_a : left_b < left_a ? of_b : slip;
 }
 
-/// What a contact's two surfaces are, and how they slip.
+/// The two surfaces of a contact, and their slip.
 template <class S> struct SurfaceContact {
   S friction, static_friction;  // [1] of both together
   Grain<S> a, b;

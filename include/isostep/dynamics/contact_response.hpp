@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// Of one contact, its sides as the contact has them.
+/// The response of one contact, its sides as the contact has them.
 template <class S> struct ContactResponse {
   std::uint32_t contact;   // of the step's
   S mass_a, mass_b;        // [1] scales of the inverse masses; one of them may be 0
@@ -31,8 +31,8 @@ template <class S> struct ContactResponse {
     const S a = divide_to<S>(scaled_a, scaled_a + scaled_b);
     return {a, S(1) - a};
   }
-  /// [kg] What the contact's impulses are velocity changes of, for the side with the larger scale: reduced_mass() of
-  /// masses over their scales, times that scale.
+  /// [kg] The mass whose velocity changes the contact's impulses are, for the side with the larger scale:
+  /// reduced_mass() of masses over their scales, times that scale.
   ISO_INLINE S reduced(S of_a, S of_b) const {
     if (!(of_a > S(0)) || !(of_b > S(0)) || mass_a == mass_b) return reduced_mass(of_a, of_b);
     const MassShare<S> part = share(of_a, of_b);
@@ -60,7 +60,7 @@ template <class S> struct ContactResponse {
   }
 };
 
-/// Of a contact; null for one that answers as any.
+/// The response of a contact; null for one that answers as any.
 template <class S>
 ISO_INLINE const ContactResponse<S>* response_of(std::span<const ContactResponse<S>> all, std::size_t contact) {
   const std::size_t at =

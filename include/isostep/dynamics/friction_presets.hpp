@@ -6,11 +6,11 @@
 
 namespace isostep {
 
-/// Of two surfaces together, not of one.
+/// The coefficients of two surfaces together, not of one.
 template <class S> struct FrictionPreset {
   S static_friction, friction;  // [1] of what rests; of what slides
 
-  /// For kinds that a game gives to its materials.
+  /// The record for kinds that a game gives to its materials.
   ISO_INLINE constexpr MaterialPair<S> between(std::uint32_t kind_a, std::uint32_t kind_b) const {
     MaterialPair<S> pair;
     pair.kind_a = kind_a;
@@ -19,7 +19,7 @@ template <class S> struct FrictionPreset {
     pair.static_friction = static_friction;
     return pair;
   }
-  /// For both bodies: of two equal materials the mixture is the same.
+  /// The material for both bodies: the mixture of two equal materials is the same.
   ISO_INLINE constexpr Material<S> material() const {
     Material<S> material;
     material.friction = friction;

@@ -7,14 +7,14 @@
 
 namespace isostep {
 
-/// How far a body turns that is not slow: fast, by more than an eighth of a radian in a time step of integration.
+/// The pace of a body that is not slow: fast, by more than an eighth of a radian in a time step of integration.
 enum class Pace { brisk, fast };
 
 /// A slow solid after a free turn: its angular velocity, and that in the principal frame [rad/s].
 template <class V> struct SlowTurn { Vec3<V> angular_velocity, known; };
 
 namespace detail {
-/// What Euler's equations add to the angular velocity w, in the principal frame, over h.
+/// The change of the angular velocity w by Euler's equations, in the principal frame, over h.
 template <class S, class V, class H> ISO_INLINE Vec3<V> explicit_change(Vec3<S> euler, Vec3<V> w, H h) {
   const auto times = [](auto a, V b) ISO_INLINE_LAMBDA { return round_to<V>(product(a, b)); };
   const Vec3<V> hw = {times(h, w.x), times(h, w.y), times(h, w.z)};
@@ -22,8 +22,8 @@ template <class S, class V, class H> ISO_INLINE Vec3<V> explicit_change(Vec3<S> 
 }
 }  // namespace detail
 
-/// Torque-free turning of a slow solid over h, by a sixteenth of a radian in a step of the world or less: FreeTurn says
-/// why in this form. Of numbers or of lanes; `half` is one half in each lane.
+/// Turns a slow solid freely over h, by a sixteenth of a radian in a step of the world or less: FreeTurn says why in
+/// this form. It takes numbers or lanes; `half` is one half in each lane.
 template <class U, class S, class V, class H>
 ISO_INLINE SlowTurn<V> slow_turn(const Mat3<U>& axes, Vec3<S> euler, Vec3<V> angular_velocity, H h, S half) {
   const auto halved = [half](V x) ISO_INLINE_LAMBDA { return round_to<V>(product(half, x)); };
@@ -61,11 +61,11 @@ template <class S> struct FreeTurn {
     const auto ratio = [](S over, S under) { return S(0) < under ? divide_to<S>(over, under) : S(0); };
     return {ratio(i.y - i.z, i.x), ratio(i.z - i.x, i.y), ratio(i.x - i.y, i.z)};
   }
-  /// A solid has none beyond 1, rounding aside. Moments that a user gives may be those of none.
+  /// A solid's ratios are 1 at most, rounding aside. Moments that a user gives may be those of no solid.
   static ISO_INLINE bool is_solid(Vec3<S> euler) { return held_within(euler, S(2)) == euler; }
 
-  /// Turns. Pushes since the last step first lose what they did too much. What the axes round is no push: taken for one
-  /// it feeds on itself.
+  /// Turns a step. Pushes since the last step first lose what they did too much. Rounding by the axes is no push: taken
+  /// for one it feeds on itself.
   ISO_INLINE Vec3<V> turn(Vec3<V> angular_velocity, Vec3<V>& known, Pace pace) const {
     const Vec3<V> w = local(angular_velocity);
     Vec3<V> change = implicit_change(w, known);
@@ -130,7 +130,7 @@ template <class S> struct FreeTurn {
     const auto part = [&](Vec3<S> n) { return divide_to<V>(round_to<V>(dot_sum(n, f)), convert<V>(determinant)); };
     return {part(n12), part(n20), part(n01)};
   }
-  /// Only changes go through the axes, which are not quite of unit length: all of the velocity would grow with them.
+  /// The axes are not quite of unit length, so changes alone go through them: all of the velocity would grow with them.
   ISO_INLINE Vec3<V> world(Vec3<V> change) const { return axes * change; }
 };
 

@@ -29,7 +29,7 @@ template <class Record, class IdType> class KindTable {
     stable_sort(rows_.data(), scratch_.data(), static_cast<std::uint32_t>(rows_.size()), Key{});
   }
   ISO_INLINE bool empty() const { return rows_.empty(); }
-  /// Null where there is none, and for kind 0.
+  /// The record of two kinds. Null where there is none, and for kind 0.
   ISO_INLINE const Record* find(std::uint32_t kind_a, std::uint32_t kind_b) const {
     if (rows_.empty() || kind_a == 0 || kind_b == 0) return nullptr;
     const std::uint64_t key = kinds_key(kind_a, kind_b);

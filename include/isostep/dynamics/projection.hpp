@@ -1,4 +1,4 @@
-// How the solver worst_first ends overlaps, by name: the closed list that settings, scene files and the tool speak of.
+// The ways in which worst_first ends overlaps: the closed list that settings, scene files and the tool speak of.
 // SPDX-License-Identifier: MIT
 #pragma once
 

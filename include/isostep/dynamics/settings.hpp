@@ -1,4 +1,4 @@
-// What a world is made with.
+// The settings that a world is made with.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -32,15 +32,15 @@ template <class S> struct Settings {
   /// StepReport::crowded (crowd.hpp). Twice as many pairs of compounds' parts are collided, StepReport::cut_compounds.
   std::int32_t most_pairs = 1 << 19;
   Projection projection = Projection::nonlinear;  // of worst_first; other solvers take any and use none
-  /// [m/s] 0..Limits::speed(): what meets more slowly does not bounce. Rest is a rain of small bounces without it;
-  /// of what nothing presses together all bounces above a sixteenth of it.
+  /// [m/s] 0..Limits::speed(): bodies that meet more slowly do not bounce. Rest is a rain of small bounces without it;
+  /// bodies that nothing presses together bounce above a sixteenth of it.
   S restitution_threshold = S(0.25);
 
   friend bool operator==(const Settings&, const Settings&) = default;
   ISO_FIELDS(hz, substeps, gravity, allow_sleep, solver, id_space, most_pairs, projection, restitution_threshold)
 };
 
-/// [1/s] Sub-steps, or passes of pgs: what the frequencies of springs are measured by.
+/// [1/s] The rate of sub-steps, or of passes of pgs: the frequencies of springs are measured by it.
 template <class S> ISO_INLINE constexpr std::int32_t substep_rate(const Settings<S>& settings) {
   return settings.hz * settings.substeps;
 }

@@ -30,28 +30,28 @@ template <class S> struct Acceleration {
   ISO_FIELDS(linear, angular)
 };
 
-/// What turns faster about an axis counts as spinning [rad/s]: the orientation in which a step finds a body does not do
-/// for the whole of it. A sixteenth of a radian a step: less misdirects a torque by three hundredths on average.
+/// The angular speed [rad/s] above which a body spins about an axis: its orientation as a step begins does not do for
+/// the whole step. A sixteenth of a radian a step: less misdirects a torque by three hundredths on average.
 template <class S> ISO_INLINE Velocity<S> rapid_angular_speed(std::int32_t hz) {
   return convert<Velocity<S>>(S(hz) * S(1.0 / 16));
 }
 
-/// What turns faster [rad/s], an eighth of a radian a sub-step, keeps the inertia about the world's axes that it has,
-/// and its arms count as straight. Contacts are prepared once a step: beside joints that follow, a limb in a pinch is
-/// spun up to the limit of angular speeds. Light links of a rope under load whip so fast, and what bends their arms
-/// drives them.
+/// The angular speed [rad/s], an eighth of a radian a sub-step, above which a body keeps the inertia about the world's
+/// axes that it has, and its arms count as straight. Contacts are prepared once a step: beside joints that follow, a
+/// limb in a pinch is spun up to the limit of angular speeds. Light links of a rope under load whip so fast, and what
+/// bends their arms drives them.
 template <class S> ISO_INLINE Velocity<S> angular_speed_to_follow(std::int32_t rate) {
   return saturate_to<Velocity<S>>(product(S(rate), S(1.0 / 8)));
 }
 
-/// What turns faster [rad/s] has its inertia about the world's axes renewed in every sub-step, and contacts follow
+/// The angular speed [rad/s] above which a body's inertia is renewed in every sub-step, and contacts follow
 /// (contact_follow.hpp): seven eighths of a radian a step, and a quarter where one axis is sixteen times easier to turn
-/// about than another. Old inertia is wrong by the turn times that ratio; of slower bodies contacts take more energy.
+/// about than another. Old inertia is wrong by the turn times that ratio; contacts take more energy from slower bodies.
 template <class S> ISO_INLINE Velocity<S> angular_speed_to_renew(std::int32_t hz, bool slender) {
   return convert<Velocity<S>>(min(Limits<S>::angular_speed(), S(hz)) * (slender ? S(0.25) : S(0.875)));
 }
 
-/// What turns an impulse into a change of velocity.
+/// The mass that turns an impulse into a change of velocity.
 template <class S> struct SolverMass {
   S mass;         // [kg]; 0: immovable
   Mat3<S> kappa;  // [1/m^2] mass times inverse inertia, world axes; 0: does not turn
@@ -68,8 +68,8 @@ template <class S> struct SolverBodies {
   ISO_INLINE bool moves(std::uint32_t row) const { return mass[row].mass > S(0); }
 };
 
-/// How a unit of impulse, counted as velocity change of the reduced mass, divides between two bodies: a + b = 1 unless
-/// neither moves. Ratios instead of inverse masses, so that grams and tons are equally exact in fixed point.
+/// The shares of two bodies in a unit of impulse, counted as velocity change of the reduced mass: a + b = 1 unless
+/// neither moves. Ratios stand for inverse masses, so that grams and tons are equally exact in fixed point.
 template <class S> struct MassShare {
   S a, b;  // [1]
 

@@ -38,14 +38,14 @@ ISO_INLINE std::optional<SolverName> solver_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// Null for a solver that this build holds, and for what is none: core/book.hpp.
+/// The expectation of a fault, for a solver that the build leaves out; null for any other value: core/book.hpp.
 ISO_INLINE constexpr const char* expected_instead_of(SolverName solver) {
   constexpr const char* kExpected[] = {ISO_SOLVERS(ISO_NOT_LEFT_OUT, ISO_LEFT_OUT)};
   const auto index = static_cast<std::uint32_t>(solver);
   return index < kSolvers ? kExpected[index] : nullptr;
 }
 
-/// Whether `substeps` are passes over one step of integration.
+/// The solver's `substeps` are passes over one step of integration.
 ISO_INLINE constexpr bool counts_passes(SolverName solver) { return solver == SolverName::pgs; }
 /// Steps of integration a second, for `substeps` of a world's `hz`.
 ISO_INLINE constexpr std::int32_t integration_rate(SolverName solver, std::int32_t hz, std::int32_t substeps) {

@@ -1,4 +1,4 @@
-// What the wheels of a body solve in a sub-step: rows along the suspension and of the tyre, and the tyre's ellipse.
+// The rows that wheels of a body solve in a sub-step, along the suspension and of the tyre, and the tyre's ellipse.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,7 +16,7 @@ template <class S> struct WheelRow {
   S share;                    // [1] the ground's change of velocity, to the body's
   S give;                     // [1] change of `speed` by a unit of impulse: 1 or more
 
-  /// On a ground that stands still; what is said of its motion is not read.
+  /// Sets the row on a ground that stands still; its fields of the ground's motion are not read.
   ISO_INLINE void set(Vec3<U> direction, const SolverMass<S>& body, Vec3<S> arm) {
     way = direction;
     turn = cross(arm, direction);
@@ -35,11 +35,11 @@ template <class S> struct WheelRow {
     const S ground_give = S(1) + saturate_to<S>(dot_sum(ground_turn, ground_spun));
     give = saturating_add(give, saturate_to<S>(product(share, ground_give)));
   }
-  /// [m/s] Of the body's point.
+  /// [m/s] The speed of the body's point.
   ISO_INLINE V speed(const MotionRow<V>& body) const {
     return saturating_add(saturate_to<V>(dot_sum(body.linear, way)), saturate_to<V>(dot_sum(body.angular, turn)));
   }
-  /// [m/s] Of the body's point against the ground's.
+  /// [m/s] The speed of the body's point against the ground's.
   ISO_INLINE V speed(const MotionRow<V>& body, const MotionRow<V>& ground) const {
     const V linear = saturate_to<V>(dot_sum(saturating_subtract(body.linear, ground.linear), way));
     const V turning = saturate_to<V>(dot_sum(body.angular, turn));
@@ -61,7 +61,7 @@ template <class S> struct WheelRow {
   }
 };
 
-/// What spring, damper, bar and stop make of a sub-step, as far as its motion does not change that.
+/// The forces of spring, damper, bar and stop in a sub-step, as far as its motion does not change them.
 template <class S> struct Strut {
   S spring;          // [m/s^2] of the body along the suspension
   S damping;         // [1/s] with what the spring gains in the sub-step
@@ -70,7 +70,7 @@ template <class S> struct Strut {
   Velocity<S> stop;  // [m/s] along the normal, at least: for the end of travel
 };
 
-/// What is left of a tyre's grip at a slip, or what it gains: WheelSettings::peak_slip and the others [1].
+/// The part of a tyre's grip that is left at a slip, or gained: WheelSettings::peak_slip and the others [1].
 template <class S> struct SlipCurve {
   S peak_slip, peak_grip, slide_slip, slide_grip;
 
@@ -96,7 +96,7 @@ template <class S> struct WheelSpin {
   S give;   // [1] rim_give()
   V brake;  // [m/s] the most that brakes change it by
 
-  /// With an impulse of the tyre on the body.
+  /// [m/s] The rim's speed with brake and an impulse of the tyre on the body.
   ISO_INLINE V after(V along) const {
     const V driven = saturating_subtract(rim, saturate_to<V>(product(give, along)));
     return driven - clamp(driven, -brake, brake);
@@ -110,7 +110,7 @@ template <class V> struct TyreImpulse {
   V along, across;  // [m/s]
 };
 
-/// Whether the ellipse with those radii holds it.
+/// The ellipse with those radii holds the impulse.
 template <class V> ISO_INLINE bool is_within(const TyreImpulse<V>& impulse, V most_along, V most_across) {
   constexpr V kSurely = V(0.6875);  // of both radii: twice its square is below 1
   const V along = abs(impulse.along), across = abs(impulse.across);
@@ -120,13 +120,13 @@ template <class V> ISO_INLINE bool is_within(const TyreImpulse<V>& impulse, V mo
   return a * a + b * b <= V(1);
 }
 
-/// What gives way to a tyre, and by what it slips without its impulse.
+/// The slip of a tyre without its impulse, and how far it gives way to one.
 template <class S> struct TyreSlip {
   Velocity<S> along, across;  // [m/s] of the body's point against the ground, less the rim's speed
   S give_along, give_across;  // [1]
 };
 
-/// Of the ellipse with those radii, against the slip that it leaves; what ends the slip is beyond the ellipse.
+/// The impulse on the ellipse with those radii, against the slip that it leaves; to end the slip takes more.
 /// Method:  scaled to a circle of radius R, the impulse is -s_i / (K_i + g), with s the slip, K what gives way and g
 ///          such that its length is R: by steps of Hebden's formula, as of trust regions (More, Sorensen 1983, SIAM J.
 ///          Sci. Stat. Comput. 4(3), eq. 3.5).

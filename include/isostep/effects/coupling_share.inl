@@ -1,4 +1,4 @@
-// ParticleCoupling: what each touch is told of its body.
+// ParticleCoupling: each touch gets its share of its body.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,12 +13,12 @@ namespace detail {
 inline constexpr int kShareRounds = 6;
 /// [m/s] errors below are left to the particles.
 template <class S> inline constexpr S kGoodSpeed = S(0.001);
-/// [1] of the number of touches on a body: see share.
+/// [1] The part that counts of the number of touches on a body: see share.
 template <class S> inline constexpr S kCrowdShare = S(0.6);
-/// [1] of gravity, at most, that a touch is told its body falls with.
+/// [1] The share of gravity, at most, with which a touch is told that its body falls.
 template <class S> inline constexpr S kMostAhead = S(4);
-/// [1] of an overlap deeper than kOverlapSlop that a body leaves in a step, at no more than kLeaveSpeed: slower than
-/// what bounces.
+/// [1] The share of an overlap deeper than kOverlapSlop that a body leaves in a step, at no more than kLeaveSpeed:
+/// slower than what bounces.
 template <class S> inline constexpr S kOverlapShare = S(0.125);
 template <class S> inline constexpr S kOverlapSlop = S(0.001);
 template <class S> inline constexpr S kLeaveSpeed = S(0.25);
@@ -38,8 +38,9 @@ template <class S> ISO_INLINE Vec3<S> unlocked(Vec3<S> v, std::uint32_t locks, s
 }
 }  // namespace detail
 
-/// In principal axes I^-1 = kappa / m. With impulses over the body's mass, j = J / m [m/s], a touch moves the body by
-/// n j and turns it by (kappa c) j, where c = arm x n, and it answers at the touch with a = n.n + c.(kappa c).
+/// The inverse inertia in principal axes is I^-1 = kappa / m. With impulses over the body's mass, j = J / m [m/s], a
+/// touch moves the body by n j and turns it by (kappa c) j, where c = arm x n, and it answers at the touch with a = n.n
+/// + c.(kappa c).
 template <class S> void ParticleCoupling<S>::weigh(const Met& met, Touching& touching, Vec3<S> surface, S speed) {
   const auto times = [](S a, S b) ISO_INLINE_LAMBDA { return saturate_to<S>(product(a, b)); };
   const auto look_along = [&](Vec3<U> axis, Along& along) ISO_INLINE_LAMBDA {
@@ -65,7 +66,8 @@ template <class S> void ParticleCoupling<S>::weigh(const Met& met, Touching& tou
   const S overlap = -gap - detail::kOverlapSlop<S>;
   touching.least_speed = S(0);
   if (S(0) < gap) {
-    // What meets within the step as it goes now is stopped in it, what does not may come as near as it likes.
+    // A particle that meets the body within the step as it goes now is stopped in it; others may come as near as they
+    // like.
     const S least = -times(gap, S(hz_));
     touching.least_speed = saturating_add(dot(touching.touch.normal, surface), -speed) < least ? S(0) : least;
   } else if (S(0) < overlap) {
@@ -77,7 +79,7 @@ template <class S> void ParticleCoupling<S>::weigh(const Met& met, Touching& tou
     touching.least_speed = leave <= times(touching.touch.restitution, closing) ? S(0) : leave * share;
   }
 }
-/// What a touch feels of a push and a turning lever of another, in mass-scaled units.
+/// The speed that a push and a turning lever of another touch give at this one, in mass-scaled units.
 template <class S> ISO_INLINE S ParticleCoupling<S>::response(const Along& along, Vec3<S> push, Vec3<S> lever) {
   return saturating_add(saturate_to<S>(dot_sum(along.push, push)), saturate_to<S>(dot_sum(along.turn, lever)));
 }
@@ -105,8 +107,8 @@ template <class S> ISO_INLINE void ParticleCoupling<S>::count(Met& met, const Al
   met.press.push = saturating_add(met.press.push, along.push);
   met.press.lever = saturating_add(met.press.lever, along.lever);
 }
-/// To all that meet at once an even start, for what bears a body is more than it takes, and who comes first would get
-/// all; then projected Gauss-Seidel.
+/// Gives all that meet at once an even start, for what bears a body is more than it takes, and who comes first would
+/// get all; then projected Gauss-Seidel.
 template <class S> void ParticleCoupling<S>::solve(Met& met, Motion& motion, bool gives) {
   met.pressing = 0;
   met.press = {Vec3<S>::zero(), Vec3<S>::zero()};

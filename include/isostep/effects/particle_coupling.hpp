@@ -14,12 +14,12 @@ namespace isostep {
 
 template <class S> struct CouplingSettings {
   Filter filter = {};  // of all particles, as if they were bodies
-  /// [1] of a body's weight: what rests bears pushes up to this share as if it were fixed, and may sleep under them.
-  /// Such pushes are lost to momentum. 0: every push counts, and what particles press on stays awake.
+  /// [1] The share of a body's weight up to which a resting body bears pushes as if it were fixed; it may sleep under
+  /// them. Such pushes are lost to momentum. 0: every push counts, and what particles press on stays awake.
   S unfelt = S(0);
 };
 
-/// What the last frame was.
+/// The counts of the last frame.
 struct CouplingReport {
   std::uint32_t touches = 0;  // handed to the particles
   std::uint32_t bodies = 0;   // near particles, whether these touch them or not
@@ -38,9 +38,9 @@ struct CouplingReport {
 /// commands, touches one way, forces and impulses the other, so each world's recording replays without the other.
 /// Nothing is remembered from frame to frame: composite(bodies, particles) is the state.
 ///
-/// Any particle meets any body with collisions whose filter agrees, pinned ones too; sensors meet none. A particle is
-/// a ball of its material's radius. Friction and restitution mix as two bodies' do, so without friction of its own a
-/// particle slides. Fast particles are traced to the shape they hit.
+/// Any particle meets any part of a body with collisions whose filter agrees, pinned ones too; sensors meet none. A
+/// particle is a ball of its material's radius. Friction and restitution mix as two bodies' do, so without friction of
+/// its own a particle slides. Fast particles are traced to the shape they hit.
 ///
 /// Particles solve each touch for itself; they know neither the body nor its other touches. Each therefore meets a body
 /// that already moves as the others are foreseen to move it, at a mass that stands for its share, and the sum of what
@@ -101,7 +101,6 @@ template <class S> class ParticleCoupling {
     S mass;                              // [kg]
     Vec3<S> kappa;                       // [1/m^2]
     std::uint32_t locks;                 // body_flag
-    Material<S> material;
     std::uint32_t first_touch, last_touch;
     std::uint32_t pressing;   // touches that may press
     Press press;              // of those
@@ -110,6 +109,7 @@ template <class S> class ParticleCoupling {
   struct Part {
     Transform<S> at;  // to world
     ShapeView<S> shape;
+    Material<S> material;
   };
   /// A particle on its way.
   struct Flier {
@@ -142,12 +142,12 @@ template <class S> class ParticleCoupling {
     S impulse, blow;              // [m/s] over the body's mass, foreseen: all, and that without its gravity
     std::uint32_t next;           // touch of the same body
   };
-  /// Of a body, foreseen.
+  /// The foreseen motion of a body.
   struct Motion {
     Vec3<S> velocity;          // [m/s]
     Vec3<S> angular_velocity;  // [rad/s] in principal axes
   };
-  /// Where a flier meets a part.
+  /// The place where a flier meets a part.
   struct Meeting {
     Vec3<S> point;    // [m] on the part
     Vec3<U> outward;  // [1]
@@ -159,7 +159,7 @@ template <class S> class ParticleCoupling {
   void find_bodies(const World<S>& bodies, const Flier& flier);
   std::uint32_t meet(const World<S>& bodies, BodyId body);
   bool find_meeting(const Met& met, const Part& part, const Flier& flier, Meeting& meeting) const;
-  void add_touch(std::uint32_t met, const Flier& flier, const Meeting& meeting);
+  void add_touch(std::uint32_t met, const Material<S>& material, const Flier& flier, const Meeting& meeting);
   Vec3<S> velocity_at(const Met& met, Vec3<S> arm) const;
   void weigh(const Met& met, Touching& touching, Vec3<S> surface, S speed);
   static S response(const Along& along, Vec3<S> push, Vec3<S> lever);
@@ -190,8 +190,7 @@ template <class S> class ParticleCoupling {
   std::vector<Touching> touching_;
 };
 
-#define ISO_EXTERN(S) extern template class ParticleCoupling<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_COUPLING_OF(extern, S) extern template class ParticleCoupling<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_COUPLING_OF)
 
 }  // namespace isostep

@@ -14,9 +14,9 @@
 namespace isostep {
 
 namespace detail {
-/// [m/s] what forces may do to a particle within a step, more or less; what it meets sooner is found before.
+/// [m/s] The speed that forces may give a particle within a step, more or less; what it meets sooner is found before.
 template <class S> inline constexpr S kStraySpeed = S(2);
-/// [1] of that way: nearer than this is as good as touching.
+/// [1] The share of that way within which a particle is as good as touching.
 template <class S> inline constexpr S kTouchShare = S(0.125);
 /// Steps of tracing a way to a surface; each ends at the nearest point's distance.
 inline constexpr int kTraceSteps = 16;
@@ -79,7 +79,7 @@ template <class S> void ParticleCoupling<S>::find_touches(const World<S>& bodies
   report_.bodies = static_cast<std::uint32_t>(met_.size());
 }
 
-/// By how much the boxes of the awake are too small for the coming step: their own way and that of their corners.
+/// The way by which the boxes of the awake are too small for the coming step: their own and that of their corners.
 template <class S> S ParticleCoupling<S>::farthest_way(const World<S>& bodies) const {
   S most = S(0);
   for (const BodyState<S>& body : bodies.state().awake.states) {
@@ -100,7 +100,8 @@ template <class S> void ParticleCoupling<S>::find_bodies(const World<S>& bodies,
     if (!met.collides || (!met.moves && flier.inverse_mass == InverseMass<S>(0))) continue;
     for (std::uint32_t i = 0; i < met.part_count; ++i) {
       Meeting meeting;
-      if (find_meeting(met, parts_[met.first_part + i], flier, meeting)) add_touch(place, flier, meeting);
+      const Part& part = parts_[met.first_part + i];
+      if (find_meeting(met, part, flier, meeting)) add_touch(place, part.material, flier, meeting);
     }
   }
 }
@@ -114,7 +115,6 @@ template <class S> std::uint32_t ParticleCoupling<S>::meet(const World<S>& bodie
   const bool awake = bodies.is_awake(body);
   Met met = {};
   met.body = body;
-  met.collides = (properties.flags & body_flag::kCollide) != 0 && should_collide(settings_.filter, properties.filter);
   met.moves = properties.type == BodyType::dynamic;
   met.rests = !awake || view.state->sleep_clock > 0;
   met.centre = view.state->centre;
@@ -126,13 +126,15 @@ template <class S> std::uint32_t ParticleCoupling<S>::meet(const World<S>& bodie
   met.kappa = properties.kappa;
   met.first_touch = met.last_touch = kNone;
   met.locks = properties.flags & body_flag::kAllLocks;
-  met.material = properties.material;
   met.first_part = static_cast<std::uint32_t>(parts_.size());
-  met.part_count = static_cast<std::uint32_t>(view.children.size());
   const Transform<S> placed = Transform<S>::of(view.pose);
-  for (const Child<S>& child : view.children)
+  for (const Child<S>& child : view.children) {
+    if (!parts_collide(PartTraits<S>{}, settings_.filter, child.traits, properties.filter)) continue;
     parts_.push_back({child.pose.is_identity() ? placed : compose(placed, Transform<S>::of(child.pose)),
-                      view.contents.view(child.primitive)});
+                      view.contents.view(child.primitive), child.traits.material_or(properties.material)});
+  }
+  met.part_count = static_cast<std::uint32_t>(parts_.size()) - met.first_part;
+  met.collides = (properties.flags & body_flag::kCollide) != 0 && met.part_count != 0;
   met_.push_back(met);
   met_of_slot_[body.slot] = static_cast<std::uint32_t>(met_.size());
   return met_of_slot_[body.slot] - 1;
@@ -159,30 +161,31 @@ bool ParticleCoupling<S>::find_meeting(const Met& met, const Part& part, const F
       gap = nearest.distance - radius;
       if (gone == along.length && gap <= margin_) break;
     }
-    // Where the way has passed the nearest place, the plane there has the start behind it; yet it overlaps nothing.
+    // The plane at the nearest place has the start behind it where the way has passed it; yet it overlaps nothing.
     gap = max(dot(nearest.normal, flier.position - nearest.point) - radius, S(0));
   }
   meeting = {nearest.point, nearest.normal, gap};
   return true;
 }
 
-/// [m/s] of the body's matter.
+/// [m/s] The velocity of the body's matter.
 template <class S> ISO_INLINE Vec3<S> ParticleCoupling<S>::velocity_at(const Met& met, Vec3<S> arm) const {
   return saturating_add(met.velocity, detail::saturating_moment(met.angular_velocity, arm));
 }
 
 template <class S>
-void ParticleCoupling<S>::add_touch(std::uint32_t place, const Flier& flier, const Meeting& meeting) {
+void ParticleCoupling<S>::add_touch(std::uint32_t place, const Material<S>& material, const Flier& flier,
+                                    const Meeting& meeting) {
   Met& met = met_[place];
   const Vec3<U> normal = -meeting.outward;
   const Vec3<S> arm = meeting.point - met.centre;
   // A belt runs along the surface, whatever it was told.
-  const Vec3<S> belt = met.material.surface_velocity;
+  const Vec3<S> belt = material.surface_velocity;
   const Vec3<S> surface = saturating_add(velocity_at(met, arm), belt - meeting.outward * dot(meeting.outward, belt));
   Material<S> own;
   own.friction = flier.material->friction;
   own.restitution = flier.material->restitution;
-  const MixedMaterial<S> mixed = mix(own, met.material);
+  const MixedMaterial<S> mixed = mix(own, material);
   // All fields at once: empty braces would call a constructor, a weak function that other objects have too.
   const Vec3<S> none = Vec3<S>::zero();
   const ParticleTouch<S> touch = {flier.id,       normal,
@@ -220,7 +223,8 @@ template <class S> void ParticleCoupling<S>::push_bodies(World<S>& bodies, const
       ++report_.unfelt;
       continue;
     }
-    // What bears its weight acts over the step, as weight does, and rest is rest at every instant; the rest is a blow.
+    // The impulse that bears its weight acts over the step, as weight does, and rest is rest at every instant; the
+    // remainder is a blow.
     const U share = bearing_share(met);
     const Vec3<S> borne = met.impulse * share, borne_moment = met.moment * share;
     const Vec3<S> blow = met.impulse - borne, blow_moment = met.moment - borne_moment;
@@ -235,7 +239,7 @@ template <class S> void ParticleCoupling<S>::push_bodies(World<S>& bodies, const
   }
 }
 
-/// [1] of what a body got: as much as its weight is within a step, where that is upwards.
+/// [1] The share of a body's impulse that is its weight within a step, where the impulse is upwards.
 template <class S> Unit<S> ParticleCoupling<S>::bearing_share(const Met& met) const {
   if (!(dot(met.impulse, met.gravity) < S(0))) return U(0);
   const S weight = saturate_to<S>(product(max_abs(met.gravity) * step_, met.mass));
@@ -243,7 +247,8 @@ template <class S> Unit<S> ParticleCoupling<S>::bearing_share(const Met& met) co
   return got <= weight ? U(1) : divide_to<U>(weight, got);
 }
 
-/// By what a body's weight is within a step: a body that particles bear gets all of that.
+/// The body rests and its impulse is below the share of its weight within a step: a body that particles bear gets all
+/// of that.
 template <class S> bool ParticleCoupling<S>::is_unfelt(const World<S>& bodies, const Met& met) const {
   if (!met.rests || !(S(0) < settings_.unfelt)) return false;
   const S gained = max_abs(bodies.settings().gravity) * step_;  // [m/s]

@@ -21,7 +21,7 @@ template <class S> struct RagdollBone {
   S lower = S(0), upper = S(0);         // [rad] of the twist, or of the hinge's angle
 };
 
-/// What is alike for all of its joints.
+/// The settings that all joints of a ragdoll share.
 template <class S> struct RagdollSettings {
   S friction = S(0);         // [N m] each axis resists; 0 where servos hold the pose
   JointServo<S> pose = {};   // holds the rest pose where its `force` [N m] is above 0; its target is 0
@@ -46,9 +46,8 @@ template <class S> struct Ragdoll {
 template <class S>
 Ragdoll<S> add_ragdoll(World<S>& world, std::span<const RagdollBone<S>> bones, const RagdollSettings<S>& settings = {});
 
-#define ISO_EXTERN(S) \
+#define ISO_RAGDOLL_OF(extern, S) \
   extern template Ragdoll<S> add_ragdoll<S>(World<S>&, std::span<const RagdollBone<S>>, const RagdollSettings<S>&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_RAGDOLL_OF)
 
 }  // namespace isostep

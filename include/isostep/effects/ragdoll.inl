@@ -15,7 +15,7 @@ template <class S> class RagdollBuilder {
   RagdollBuilder(World<S>& world, std::span<const RagdollBone<S>> bones, const RagdollSettings<S>& settings)
       : world_(world), bones_(bones), settings_(settings) {}
 
-  /// False: a setting or a bone was refused.
+  /// Returns false where a setting or a bone was refused.
   bool build() {
     const FaultReport fault = fault_of_plan();
     if (fault != Fault::none) return world_.refuse("add_ragdoll", fault);
@@ -35,7 +35,7 @@ template <class S> class RagdollBuilder {
   }
 
  private:
-  /// Of what the world is not asked.
+  /// Checks what the world is not asked.
   FaultReport fault_of_plan() const {
     const S friction = settings_.friction, force = settings_.pose.force;
     Checklist list;
@@ -85,8 +85,8 @@ template <class S> class RagdollBuilder {
     made_.joints.push_back(world_.create(joint));
     return static_cast<bool>(made_.joints.back());
   }
-  /// [kg m^2] Of the bone and all that hangs on it, about an axis through its joint. Where the format does not hold it,
-  /// its highest.
+  /// [kg m^2] The inertia of the bone and all that hangs on it, about an axis through its joint; at most
+  /// Limits<S>::mass().
   S inertia_behind(std::size_t index, Vec3<Unit<S>> axis) const {
     S sum = S(0);
     std::vector<bool> behind(bones_.size(), false);
@@ -133,7 +133,7 @@ template <class S> class RagdollBuilder {
     }
     return drive;
   }
-  /// What overlaps where it rests would be pushed against what its joints hold.
+  /// Ghosts of bodies that overlap at rest: else they would be pushed against what their joints hold.
   void part_overlaps() {
     std::vector<BodyId> there;
     for (std::size_t i = 0; i < bones_.size(); ++i) {

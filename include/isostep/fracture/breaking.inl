@@ -19,7 +19,7 @@ namespace detail {
 template <class U> GridVector grid_direction(const Vec3<U>& v) {
   return {nearest_scaled(v.x, 15), nearest_scaled(v.y, 15), nearest_scaled(v.z, 15)};
 }
-/// With as many pieces as the record allows, or a few less.
+/// The pattern with as many pieces as the record allows, or a few less.
 template <class S> FracturePattern pattern_of(const Breakable<S>& b) {
   const std::uint32_t n = b.most_pieces;
   switch (b.pattern) {
@@ -70,7 +70,7 @@ template <class S> class Breaking {
     if (!pieces.ok()) return {};
     return pieces.value();
   }
-  /// [1] As a vector of S, which has digits enough for a direction.
+  /// [1] The blow's direction as a vector of S, which has digits enough for a direction.
   Vec3<S> blow_in(const Transform<S>& frame) const {
     return transposed_times(frame.rotation, convert<S>(blow_.direction));
   }
@@ -116,7 +116,7 @@ template <class S> class Breaking {
   Blow<S> blow_;
 };
 
-/// And its shape, if it has one of its own.
+/// Destroys an expired body, and its shape if it has one of its own.
 template <class S> void remove_expired(World<S>& world, const Breakable<S>& record) {
   const BodyView<S> view = world.view(record.body);
   const ShapeId shape = world.state().shape_slots.template id_of<ShapeId>(view.properties->shape);

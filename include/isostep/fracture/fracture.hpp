@@ -20,7 +20,7 @@ struct FracturePiece {
   std::int64_t volume6;    // [steps^3] six times its volume, exact
   std::int64_t centre[3];  // [2^-16 steps] of mass, in its frame
 
-  // As the compiler makes them, but no weak functions in each of the files that hold pieces.
+  // These are what the compiler would make, but without weak functions in each of the files that hold pieces.
   ISO_INLINE FracturePiece() : origin{0, 0, 0}, half_extents{0, 0, 0}, volume6(0), centre{0, 0, 0} {}
   ISO_INLINE FracturePiece(const FracturePiece&) = default;
   ISO_INLINE FracturePiece(FracturePiece&&) = default;

@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// Where the solid is hit, in the frame of its grid.
+/// The place and direction of the blow, in the frame of the solid's grid.
 struct FractureImpact {
   GridPoint point = {0, 0, 0};       // [steps] may lie outside of the solid
   GridVector direction = {0, 0, 0};  // [1] of the blow, of any length; 0: none, where the pattern needs none

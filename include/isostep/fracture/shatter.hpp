@@ -42,12 +42,10 @@ template <class S> ISO_INLINE Box<S> piece_box(const FracturePiece& piece, int e
 /// tells the fault.
 template <class S> std::vector<ShapeId> add_piece_shapes(World<S>& world, const Fracture& pieces);
 
-#define ISO_SHATTER(KEYWORD, S)                                                                        \
-  KEYWORD template Result<std::vector<BodyDefinition<S>>> shatter(const Fracture&, const BodyView<S>&, \
-                                                                  std::span<const ShapeId>);           \
-  KEYWORD template std::vector<ShapeId> add_piece_shapes(World<S>&, const Fracture&);
-#define ISO_EXTERN(S) ISO_SHATTER(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SHATTER_OF(extern, S)                                                                     \
+  extern template Result<std::vector<BodyDefinition<S>>> shatter(const Fracture&, const BodyView<S>&, \
+                                                                 std::span<const ShapeId>);           \
+  extern template std::vector<ShapeId> add_piece_shapes(World<S>&, const Fracture&);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SHATTER_OF)
 
 }  // namespace isostep

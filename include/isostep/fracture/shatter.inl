@@ -35,7 +35,7 @@ template <class S> class Shattering {
   ISO_INLINE Shattering(const Shattering&) = default;
   ISO_INLINE ~Shattering() = default;
 
-  /// False: error() tells.
+  /// Returns false for pieces that are refused: error() tells.
   ISO_INLINE bool take(const Fracture& fracture) {
     S before = S(0);
     std::int64_t volume = 0;
@@ -100,7 +100,7 @@ template <class S> class Shattering {
     pieces_.push_back(made);
     return true;
   }
-  /// By the masses that the pieces have.
+  /// Finds the centre of mass of all pieces by the masses that they have.
   ISO_INLINE void find_centre() {
     const Vec3<S> first = pieces_[0].centre;
     const SumOf<S, U> zero = product(S(0), U(0));
@@ -182,6 +182,7 @@ template <class S> ISO_INLINE BodyDefinition<S> likeness_of(const BodyProperties
   d.allow_sleep = (p.flags & body_flag::kAllowSleep) != 0;
   d.collide = (p.flags & body_flag::kCollide) != 0;
   d.bullet = (p.flags & body_flag::kBullet) != 0;
+  d.report_contacts = (p.flags & body_flag::kReportContacts) != 0;
   return d;
 }
 

@@ -16,7 +16,7 @@ namespace isostep {
 
 inline constexpr std::uint32_t kMaxBlobBytes = 1u << 28;  // of one blob in a file
 
-/// Where those find a blob who read a state or a recording that names it.
+/// The place where readers of a state or a recording find a blob that it names.
 enum class BlobHome : std::uint8_t {
   carried,  // in it
   asset     // with the game, which brings it: a level's mesh in a replay of ten seconds
@@ -25,13 +25,13 @@ enum class BlobHome : std::uint8_t {
 class Blob;
 using BlobRef = std::shared_ptr<const Blob>;
 
-/// Makes of a blob's bytes what a shape needs of them; whatever the bytes are, for what is wrong with them is content
-/// too. One function for each scalar.
+/// Makes a shape's content from a blob's bytes, whatever they are: their fault is content too. There is one function
+/// for each scalar.
 using ContentMaker = std::shared_ptr<const void> (*)(const Blob&);
 
-/// Immutable, and shared by all that name it: worlds, snapshots, commands. Its name is the hash of its type and its
-/// bytes, so equal content has one name on every machine. The bytes are little-endian integers; what they mean, the
-/// shape's file says.
+/// An immutable content, shared by all that name it: worlds, snapshots, commands. Its name is the hash of its type and
+/// its bytes, so equal content has one name on every machine. The bytes are little-endian integers; the shape's file
+/// says what they mean.
 class Blob {
  public:
   static BlobRef make(ShapeType type, std::vector<std::uint8_t> bytes, BlobHome home = BlobHome::carried);
@@ -40,7 +40,7 @@ class Blob {
   ISO_INLINE ShapeType type() const { return type_; }
   ISO_INLINE BlobHome home() const { return home_; }
   ISO_INLINE Bytes bytes() const { return bytes_; }
-  /// What `make` makes of it: when it is first asked for, from any thread, and kept as long as the blob.
+  /// The content that `make` makes of it: when it is first asked for, from any thread, and kept as long as the blob.
   const void* content(ContentMaker make) const;
 
   Blob(const Blob&) = delete;
@@ -48,7 +48,7 @@ class Blob {
   ~Blob();
 
   void write(Writer& writer) const;
-  /// What `write` wrote of a blob with that name; null, and a reader that has failed, for anything else.
+  /// Reads what `write` wrote of a blob with that name. Returns null, and fails the reader, for anything else.
   static BlobRef read(Reader& reader, const ContentId& id);
 
  private:
@@ -67,9 +67,9 @@ class Blob {
   mutable std::atomic<const Made*> made_ = nullptr;  // a list that only grows
 };
 
-/// Whether a blob is carried, and its content if so; null is not carried.
+/// Writes whether a blob is carried, and its content if so; null is not carried.
 void write_carried(Writer& writer, const BlobRef& blob);
-/// Null: it is not carried, or the reader has failed.
+/// Reads what write_carried wrote. Returns null when the blob is not carried, or the reader has failed.
 BlobRef read_carried(Reader& reader, const ContentId& id);
 
 /// The game's blobs by their names: called while a state is read or a command executed, returns null for a name that it
@@ -86,7 +86,7 @@ struct BlobMention {
   ContentId id;
   BlobRef content;  // or null
 
-  // As the compiler makes them, but no weak functions in each of the files that hold commands.
+  // These are what the compiler would make, but without weak functions in each of the files that hold commands.
   ISO_INLINE BlobMention() = default;
   ISO_INLINE BlobMention(const ContentId& name, BlobRef blob) : id(name), content(std::move(blob)) {}
   ISO_INLINE BlobMention(const BlobMention&) = default;

@@ -21,8 +21,8 @@ template <class S> ISO_INLINE constexpr Aabb<S> bounds(const Primitive<S>& primi
   return bounds(ShapeView<S>(primitive), t);
 }
 
-/// The box around a child of the body at `body`. Composed within the visit: what a shape does not use, as a sphere its
-/// rotation, is not computed.
+/// The box around a child of the body at `body`. Its transform is composed within the visit: the part that a shape does
+/// not use, like a sphere's rotation, is not computed.
 template <class S>
 ISO_INLINE constexpr Aabb<S> bounds(const Child<S>& child, const Transform<S>& body, Contents<S> contents = {}) {
   return visit_shape(contents.view(child.primitive), [&](const auto& shape) ISO_INLINE_LAMBDA {

@@ -14,12 +14,13 @@ template <class S> struct ClosestPoint {
 };
 
 namespace detail {
-/// A gap between cores up to this has no direction worth the name: rounding where shapes are `extent` apart or long.
+/// [m] The gap between cores up to which its direction is rounding alone, where shapes are `extent` [m] apart or long.
 template <class S> ISO_INLINE constexpr S gap_noise(S extent) {
   return extent * resolution<Unit<S>>() * S(8) + resolution<S>() * S(16);
 }
 
-/// Of a core box thickened by a radius, in its own frame; the core of a sphere is a point, of a capsule a segment.
+/// Finds the closest point of a core box thickened by a radius, in its own frame; the core of a sphere is a point, of a
+/// capsule a segment.
 template <class S> ISO_INLINE ClosestPoint<S> closest_on_core(Vec3<S> half, S radius, Vec3<S> q) {
   using U = Unit<S>;
   Vec3<S> core = max(min(q, half), -half);

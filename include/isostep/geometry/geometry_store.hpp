@@ -13,7 +13,7 @@ namespace isostep {
 
 inline constexpr std::uint32_t kMaxBlobs = 1u << 16;  // of one store: names are searched one by one
 
-/// A blob's name, and how many parts of shapes name it. Unused: all 0.
+/// A blob's name, and the number of parts of shapes that name it. All is 0 where unused.
 struct BlobName {
   ContentId id;
   std::uint64_t uses;
@@ -22,7 +22,7 @@ struct BlobName {
 };
 static_assert(kHasNoPadding<BlobName>);
 
-/// The names are state; the content stands outside it, shared by reference count: what a world, a snapshot or a
+/// The names are state; the content stands outside it, shared by reference count: a blob that a world, a snapshot or a
 /// recorded command still names is kept. Parts of shapes name a blob by its place here, which follows from the commands
 /// alone: the lowest that is free.
 class GeometryStore {
@@ -32,25 +32,25 @@ class GeometryStore {
   ISO_INLINE bool empty() const { return names_.empty(); }
   ISO_INLINE const std::vector<BlobName>& names() const { return names_; }
   ISO_INLINE bool is_taken(std::uint32_t place) const { return place < names_.size() && names_[place].uses != 0; }
-  /// Of a place that is taken.
+  /// The content of a place that is taken.
   ISO_INLINE const BlobRef& content(std::uint32_t place) const { return contents_[place]; }
-  /// By place; null where none is taken.
+  /// All contents by place; null where none is taken.
   ISO_INLINE std::span<const BlobRef> contents() const { return contents_; }
-  /// kNone: the store does not have it.
+  /// The place of a blob; kNone when the store does not have it.
   std::uint32_t find(const ContentId& id) const;
-  /// The blob of that name: the store's own, so that one content stands in memory once and an asset stays one; else
-  /// the one that is carried; else the assets'. Null: none of them has it.
+  /// The blob of that name: the store's own, so that one content stands in memory once and an asset stays one; else the
+  /// one that is carried; else the assets'. Null when none of them has it.
   BlobRef find(const BlobMention& mention, const AssetSource& assets) const;
 
-  /// One use more of a blob, whose place it returns.
+  /// Adds a use of a blob and returns its place.
   std::uint32_t take(const BlobRef& blob);
-  /// One use less; a blob without any leaves the store.
+  /// Removes a use; a blob without any leaves the store.
   void give_back(std::uint32_t place);
 
-  /// Names, and of each what is carried.
+  /// Writes the names, and for each the content that is carried.
   void write(Writer& writer) const;
-  /// Content that the file does not carry comes from `known`, another store, or from the assets. What no one has is
-  /// ErrorCode::incompatible.
+  /// Reads names and contents. Content that the file does not carry comes from `known`, another store, or from the
+  /// assets. Content that no one has is ErrorCode::incompatible.
   void read(Reader& reader, const GeometryStore& known, const AssetSource& assets);
 
  private:

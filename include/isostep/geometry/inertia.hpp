@@ -8,8 +8,8 @@
 namespace isostep {
 
 // Principal moments [kg m^2] about the centre of mass, unless a name says otherwise, of a mass [kg] spread evenly. Axes
-// and sizes are those of shapes: what has an axis has it along local y, and half heights, half lengths and radii [m]
-// are given. What mass_properties() gives of shapes by their density is kappa, the mass over these.
+// and sizes are those of shapes: a solid with an axis has it along local y, and half heights, half lengths and radii
+// [m] are given. mass_properties() gives kappa of shapes by their density: the mass over these.
 // Source:  Millington 2007, Game Physics Engine Development, appendix A (p. 431-433), in full sizes there.
 // Error:   one rounding to S, beside a few of Finer<S>: 1e-6 (float), 1e-12 (double), 1e-3 (Q16.16) and 1e-8 (Q32.32)
 //          of the largest moment, for 0.5 m to 3 m and 1 kg to 20 kg. Measured in tests/unit/geometry/inertia_test.cpp.
@@ -28,12 +28,12 @@ template <class S> ISO_INLINE Vec3<S> inertia_of_sphere(S mass, S radius) {
   const S i = detail::moment<S>(mass, Finer<S>(0.4), radius, Finer<S>(0), S(0));
   return {i, i, i};
 }
-/// All of the mass at the radius.
+/// A shell with all of the mass at the radius.
 template <class S> ISO_INLINE Vec3<S> inertia_of_spherical_shell(S mass, S radius) {
   const S i = detail::moment<S>(mass, Finer<S>(2.0 / 3), radius, Finer<S>(0), S(0));
   return {i, i, i};
 }
-/// `half`: the semi-axes.
+/// A solid ellipsoid; `half` are its semi-axes.
 template <class S> ISO_INLINE Vec3<S> inertia_of_ellipsoid(S mass, Vec3<S> half) {
   const Finer<S> fifth = Finer<S>(0.2);
   return {detail::moment<S>(mass, fifth, half.y, fifth, half.z), detail::moment<S>(mass, fifth, half.z, fifth, half.x),
@@ -49,17 +49,17 @@ template <class S> ISO_INLINE Vec3<S> inertia_of_rod(S mass, S half_length) {
   const S across = detail::moment<S>(mass, Finer<S>(1.0 / 3), half_length, Finer<S>(0), S(0));
   return {across, S(0), across};
 }
-/// About its end.
+/// The moments about the rod's end.
 template <class S> ISO_INLINE Vec3<S> inertia_of_rod_at_end(S mass, S half_length) {
   const S across = detail::moment<S>(mass, Finer<S>(4.0 / 3), half_length, Finer<S>(0), S(0));
   return {across, S(0), across};
 }
-/// half_height 0: a disc.
+/// A cylinder; half_height 0 makes a disc.
 template <class S> ISO_INLINE Vec3<S> inertia_of_cylinder(S mass, S radius, S half_height) {
   const S across = detail::moment<S>(mass, Finer<S>(0.25), radius, Finer<S>(1.0 / 3), half_height);
   return {across, detail::moment<S>(mass, Finer<S>(0.5), radius, Finer<S>(0), S(0)), across};
 }
-/// A cylinder with a hole along its axis. Both radii alike: a thin pipe, and with half_height 0 a hoop.
+/// A cylinder with a hole along its axis. Equal radii make a thin pipe, and with half_height 0 a hoop.
 template <class S> ISO_INLINE Vec3<S> inertia_of_tube(S mass, S inner_radius, S outer_radius, S half_height) {
   using F = Finer<S>;
   const F i = finer<F>(inner_radius), o = finer<F>(outer_radius), h = finer<F>(half_height), m = finer<F>(mass);
@@ -67,7 +67,8 @@ template <class S> ISO_INLINE Vec3<S> inertia_of_tube(S mass, S inner_radius, S 
   const S across = coarser<S>(m * (squares * F(0.25) + (h * h) * F(1.0 / 3)));
   return {across, coarser<S>(m * (squares * F(0.5))), across};
 }
-/// About the centre of mass, which is half of half_height below the middle of the height: base below, apex above.
+/// The moments about the centre of mass, which is half of half_height below the middle of the height: base below, apex
+/// above.
 template <class S> ISO_INLINE Vec3<S> inertia_of_cone(S mass, S radius, S half_height) {
   const S across = detail::moment<S>(mass, Finer<S>(0.15), radius, Finer<S>(0.15), half_height);
   return {across, detail::moment<S>(mass, Finer<S>(0.3), radius, Finer<S>(0), S(0)), across};

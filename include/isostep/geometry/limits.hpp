@@ -6,7 +6,7 @@
 
 namespace isostep {
 
-/// Published range of a scalar. All are powers of two, so that they are exact in every format.
+/// The published range of a scalar. All are powers of two, so that they are exact in every format.
 ///   extent()        [m]      largest coordinate of a shape in its body's frame
 ///   minimum_size()  [m]      smallest radius, half extent or half height; four boxes stand on each other from 1/64 m
 ///   position()      [m]      largest coordinate of a body
@@ -18,7 +18,7 @@ namespace isostep {
 ///   surface_speed() [m/s]    largest speed of a point of a body against its centre
 template <class S> struct Limits;
 
-/// Fixed point with W = bits - 1 - F whole bits, so |value| < 2^W:
+/// The limits of fixed point with W = bits - 1 - F whole bits, so |value| < 2^W:
 ///   extent <= 2^((W-1)/2)    a product of two extents, 2^(W-1), fits.
 ///   speed  <= 2^((W-3)/2)    its square, 2^(W-3), fits with room for an energy's other terms.
 ///   angular_speed <= 2^((W-3)/2)    two points at arms of sqrt(3) extent move against each other with at most
@@ -54,7 +54,7 @@ template <class Rep, int F, Overflow P> struct Limits<Fixed<Rep, F, P>> {
   static ISO_INLINE constexpr int least(int a, int b) { return a < b ? a : b; }
 };
 
-/// Nothing overflows at these sizes (mass position^4 < 2^108); what they bound is the spacing of numbers: 2^-8 m at the
+/// Nothing overflows at these sizes (mass position^4 < 2^108); they bound the spacing of numbers: 2^-8 m at the
 /// position limit, still less than the overlap a contact rests with. The ratio is half the mantissa.
 template <> struct Limits<float> {
   static ISO_INLINE constexpr float extent() { return 0x1p13f; }
@@ -67,7 +67,7 @@ template <> struct Limits<float> {
   static ISO_INLINE constexpr float leverage() { return 0x1p30f; }
   static ISO_INLINE constexpr float surface_speed() { return 0x1p30f; }
 };
-/// Spacing at the position limit: 2^-23 m.
+/// The spacing at the position limit is 2^-23 m.
 template <> struct Limits<double> {
   static ISO_INLINE constexpr double extent() { return 0x1p20; }
   static ISO_INLINE constexpr double minimum_size() { return 0x1p-10; }

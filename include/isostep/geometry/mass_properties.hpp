@@ -18,10 +18,10 @@ template <class S> struct MassProperties {
   Quat<Unit<S>> principal;  // rotates from the principal frame to the body frame; w >= 0 for several children
 };
 
-/// Properties of homogeneous children; overlaps count twice. One child whose frame is its own principal one keeps it:
-/// centre and principal are its pose, kappa its closed form. Others are added by the parallel-axis theorem and
-/// diagonalised by rotations from the body axes, none above 45 degrees, so a compound that is already principal keeps
-/// them.
+/// Returns the properties of homogeneous children; overlaps count twice. One child whose frame is its own principal one
+/// keeps it: centre and principal are its pose, kappa its closed form. Others are added by the parallel-axis theorem
+/// and diagonalised by rotations from the body axes, none above 45 degrees, so a compound that is already principal
+/// keeps them.
 /// Units:  density [kg/m^3] > 0.
 /// Limits: shapes pass validate(). Mass saturates at Limits<S>::mass() and is at least one resolution step. No
 ///         children, or a half-space among them: mass 0 and kappa 0, a body that nothing moves.
@@ -37,8 +37,8 @@ template <class S> ISO_INLINE constexpr S kappa_of_axis(S mass, S inertia) {
 }
 }  // namespace detail
 
-/// A user's own numbers: inertia [kg m^2] about the centre along the body axes. A component that is not positive means
-/// a body that does not turn about that axis (kappa 0).
+/// Takes a user's own numbers: inertia [kg m^2] about the centre along the body axes. A component that is not positive
+/// means a body that does not turn about that axis (kappa 0).
 template <class S>
 ISO_INLINE constexpr MassProperties<S> from_mass_and_inertia(S mass, Vec3<S> inertia, Vec3<S> centre) {
   const Vec3<S> kappa = {detail::kappa_of_axis(mass, inertia.x), detail::kappa_of_axis(mass, inertia.y),
@@ -46,14 +46,14 @@ ISO_INLINE constexpr MassProperties<S> from_mass_and_inertia(S mass, Vec3<S> ine
   return {mass, centre, kappa, Quat<Unit<S>>::identity()};
 }
 
-/// The same shape with a user's own mass [kg]: inertia scales along, so kappa stays.
+/// Gives the shape a user's own mass [kg]: inertia scales along, so kappa stays.
 template <class S> ISO_INLINE constexpr MassProperties<S> with_mass(MassProperties<S> properties, S mass) {
   properties.mass = mass;
   return properties;
 }
 
-#define ISO_EXTERN(S) extern template MassProperties<S> mass_properties<S>(std::span<const Child<S>>, S, Contents<S>);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_MASS_PROPERTIES_OF(extern, S) \
+  extern template MassProperties<S> mass_properties<S>(std::span<const Child<S>>, S, Contents<S>);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_MASS_PROPERTIES_OF)
 
 }  // namespace isostep

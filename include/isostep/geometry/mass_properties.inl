@@ -3,6 +3,7 @@
 #pragma once
 
 #include <type_traits>
+#include <vector>
 
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/geometry/limits.hpp"
@@ -187,16 +188,30 @@ template <class S> ISO_INLINE MassProperties<S> combined(const Parts<S>& parts, 
           axes};
 }
 
+/// All of them, or in `solid` those that are no sensors.
+template <class S>
+std::span<const Child<S>> what_weighs(std::span<const Child<S>> children, std::vector<Child<S>>& solid) {
+  bool senses = false;
+  for (const Child<S>& child : children) senses = senses || child.traits.has(part_flag::kSensor);
+  if (!senses) return children;
+  for (const Child<S>& child : children) {
+    if (!child.traits.has(part_flag::kSensor)) solid.push_back(child);
+  }
+  return solid;
+}
+
 }  // namespace detail
 
 template <class S>
-MassProperties<S> mass_properties(std::span<const Child<S>> children, S density, Contents<S> contents) {
+MassProperties<S> mass_properties(std::span<const Child<S>> all, S density, Contents<S> contents) {
   return detail::pinned([&]() -> MassProperties<S> {
+    std::vector<Child<S>> solid;
+    const std::span<const Child<S>> children = detail::what_weighs(all, solid);
     const detail::Parts<S> parts(children, contents);
     S mass = S(0);
     bool immovable = children.empty();
+    for (const Child<S>& child : all) immovable = immovable || !is_bounded(child.primitive.type);
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      immovable = immovable || !is_bounded(children[i].primitive.type);
       const S part = parts.ask(i, [&](const auto& shape) { return shape.mass(density); });
       mass = min(mass + part, Limits<S>::mass());
     }

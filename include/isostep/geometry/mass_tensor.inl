@@ -15,13 +15,13 @@ template <class S> Vec3<Finer<S>> finer_vector(Vec3<S> v) {
 template <class S> Mat3<Finer<S>> finer_matrix(const Mat3<S>& m) {
   return {{finer_vector(m.rows[0]), finer_vector(m.rows[1]), finer_vector(m.rows[2])}};
 }
-/// The upper half, so that the result is symmetric bit for bit.
+/// The upper half of `m` on both sides, so that the result is symmetric bit for bit.
 template <class S> Mat3<S> coarser_symmetric(const Mat3<Finer<S>>& m) {
   const auto at = [&](int i, int j) { return coarser<S>(m.rows[i][j]); };
   const S xy = at(0, 1), xz = at(0, 2), yz = at(1, 2);
   return {{{at(0, 0), xy, xz}, {xy, at(1, 1), yz}, {xz, yz, at(2, 2)}}};
 }
-/// d^2 1 - d d^T, of a unit mass at d.
+/// The moment d^2 1 - d d^T of a unit mass at d.
 template <class F> Mat3<F> moment_of_arm(Vec3<F> d) {
   const F xx = d.x * d.x, yy = d.y * d.y, zz = d.z * d.z;
   const F xy = -(d.x * d.y), xz = -(d.x * d.z), yz = -(d.y * d.z);
@@ -30,7 +30,7 @@ template <class F> Mat3<F> moment_of_arm(Vec3<F> d) {
 template <class F> Mat3<F> times(const Mat3<F>& m, F s) { return {{m.rows[0] * s, m.rows[1] * s, m.rows[2] * s}}; }
 }  // namespace detail
 
-/// About the centroid the vertices add up to nothing; moments are a fifth of those of a quarter of the mass at each.
+/// The vertices add up to nothing about the centroid; moments are a fifth of those of a quarter of the mass at each.
 template <class S> MassTensor<S> MassTensor<S>::tetrahedron(S mass, Vec3<S> a, Vec3<S> b, Vec3<S> c, Vec3<S> d) {
   return detail::pinned([&]() -> MassTensor<S> {
     using F = Finer<S>;
@@ -67,7 +67,7 @@ template <class S> Mat3<S> MassTensor<S>::about(Vec3<S> point) const {
   });
 }
 
-/// With d between the centres, both tensors and d's moment of the reduced mass: nothing is subtracted.
+/// Joins by both tensors and the moment of the reduced mass at d between the centres: nothing is subtracted.
 template <class S> MassTensor<S> MassTensor<S>::joined(const MassTensor& other) const {
   return detail::pinned([&]() -> MassTensor<S> {
     using F = Finer<S>;
@@ -93,7 +93,7 @@ template <class S> MassProperties<S> MassTensor<S>::properties() const {
       largest = max(largest, max_abs(row));
     }
     if (!(F(0) < largest)) return immovable;
-    // Entries of less than a half, as principal_axes() wants them.
+    // Entries are less than a half, as principal_axes() wants them.
     const F scale = sqrt(largest + largest + largest);
     Mat3<Unit<F>> relative;
     for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// What closed forms of mass and inertia share: products that saturate, quotients that keep their digits.
+// The common terms of closed forms of mass and inertia: products that saturate, quotients that keep their digits.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,9 +7,9 @@
 
 namespace isostep::detail {
 
-/// f[0] ... f[4], all positive, saturated at Limits<S>::mass(). Starts with the largest factor, then takes the smallest
-/// while the product is large and the largest while it is small: no intermediate overflows before the result does, and
-/// none is so small that its rounding shows.
+/// The product of f[0] ... f[4], all positive, saturated at Limits<S>::mass(). It starts with the largest factor, then
+/// takes the smallest while the product is large and the largest while it is small: no intermediate overflows before
+/// the result does, and none is so small that its rounding shows.
 template <class S> ISO_INLINE S saturating_product(const S (&factors)[5]) {
   S f[5];
   for (int i = 0; i < 5; ++i) {
@@ -29,7 +29,8 @@ template <class S> ISO_INLINE S saturating_product(const S (&factors)[5]) {
   return result;
 }
 
-/// n / (d x^2), division by division: every quotient lies between n / d, which is near one, and the result.
+/// The quotient n / (d x^2), division by division: every quotient lies between n / d, which is near one, and the
+/// result.
 template <class S> ISO_INLINE S quotient(Unit<S> n, Unit<S> d, S x) { return divide_to<S>(n, d) / x / x; }
 
 }  // namespace isostep::detail

@@ -9,7 +9,8 @@
 namespace isostep {
 
 /// A core box (of spheres a point, of capsules a segment along y, of hulls a blob's) thickened by a radius; or a plane,
-/// cylinder or cone. No padding: 2 x 4 bytes and eight numbers of one width. Fields that the type does not use are 0.
+/// cylinder or cone. It has no padding: 2 x 4 bytes and eight numbers of one width. Fields that the type does not use
+/// are 0.
 template <class S> struct Primitive {
   ShapeType type;
   std::uint32_t blob;    // 1 + the place of its blob, for shapes that have one; else 0

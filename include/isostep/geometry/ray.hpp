@@ -1,4 +1,4 @@
-// What shapes need to be met by a ray. Distances along it are lengths [m]; one last division makes a fraction of them.
+// A ray in a shape's frame. Distances along it are lengths [m]; one last division makes a fraction of them.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace isostep::detail {
 
-/// Where a ray first meets a shape; `normal` is outward, in the shape's frame.
+/// The point where a ray first meets a shape; `normal` is outward, in the shape's frame.
 template <class S> struct LocalHit {
   enum Kind { missed, inside, entered } kind;
   S fraction;  // [1] of the translation
@@ -34,7 +34,7 @@ template <class S> struct LocalRay {
   }
 };
 
-/// Distance to the sphere |p| = r from m outside it along u, if the ray comes nearer at all.
+/// Finds the distance to the sphere |p| = r from m outside it along u, if the ray comes nearer at all.
 /// Symbols: b = distance to the point closest to the centre, p = that point. r^2 - p^2 is taken as (r - |p|) (r + |p|),
 ///          since squares of small radii have no digits left in Q16.16.
 template <class S> ISO_INLINE bool enter_sphere(Vec3<S> m, Vec3<Unit<S>> u, S r, S& distance) {

@@ -5,6 +5,7 @@
 #include <concepts>
 
 #include "isostep/core/fields.hpp"
+#include "isostep/geometry/part_traits.hpp"
 #include "isostep/geometry/shape_view.hpp"
 #include "isostep/geometry/shapes/box.hpp"
 #include "isostep/geometry/shapes/capsule.hpp"
@@ -131,12 +132,15 @@ ISO_FOR_EACH_SHAPE(ISO_PRIMITIVE_OF)
 
 inline constexpr std::uint32_t kMaxChildren = 1u << 16;  // parts of one shape
 
-/// One part of a body's shape: a primitive at a pose in the body's frame.
+/// One part of a body's shape: a primitive at a pose in the body's frame, and what it has of its own.
 template <class S> struct Child {
   Primitive<S> primitive;
   Pose<S> pose;
+  PartTraits<S> traits = {};
+  std::uint64_t user_data = 0;  // the game's, for whom events and hits name the part
 
-  ISO_FIELDS(primitive, pose)
+  ISO_FIELDS(primitive, pose, traits, user_data)
 };
+static_assert(kHasNoPadding<Child<float>> && kHasNoPadding<Child<double>>);
 
 }  // namespace isostep

@@ -50,7 +50,7 @@ ISO_INLINE constexpr const char* describe(ShapeFault fault) {
   return "unknown fault";
 }
 
-/// What the field that is wrong should be.
+/// The value that the faulty field should have.
 ISO_INLINE constexpr const char* expected_of(ShapeFault fault) {
   switch (fault) {
     case ShapeFault::none: break;
@@ -73,7 +73,7 @@ ISO_INLINE constexpr const char* expected_of(ShapeFault fault) {
   return "";
 }
 
-/// What is wrong with which part of a shape.
+/// The fault of a shape, and the part and the field that have it.
 struct ShapeFaultPlace {
   ShapeFault fault = ShapeFault::none;
   std::uint32_t child = 0;

@@ -6,8 +6,8 @@
 
 namespace isostep {
 
-/// What functions of shapes take. A Primitive without a blob is one by itself; one with a blob that comes without its
-/// content must not be asked for its geometry.
+/// The view that functions of shapes take. A Primitive without a blob is one by itself; one with a blob that comes
+/// without its content must not be asked for its geometry.
 template <class S> struct ShapeView {
   const Primitive<S>& primitive;
   const void* content;  // a Shape<S>::Content, see shape.hpp; null for shapes without a blob

@@ -1,4 +1,4 @@
-// How much of a solid lies below a plane, and where that part's middle is: what buoyancy needs to know.
+// Submersion<S>: the part of a solid below a plane and its middle, as buoyancy needs them.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,13 +7,14 @@
 
 namespace isostep {
 
-/// Of a homogeneous solid.
+/// The submerged part of a homogeneous solid.
 template <class S> struct Submersion {
   Unit<S> share;   // [1] 0 to 1, of its volume
   Vec3<S> centre;  // [m] of the volume of that part, in the solid's frame; of nothing: of the solid
 };
 
-/// The part of a solid where dot(up, x) < level, all in the solid's frame: `up` [1] of unit length, `level` [m].
+/// Returns the part of a solid where dot(up, x) < level, all in the solid's frame: `up` [1] of unit length, `level`
+/// [m].
 /// Method:  what has flat faces by the tetrahedra between its faces, cut at the plane, and a point of the plane, which
 ///          the cut itself adds nothing to (Catto 2006, Exact Buoyancy for Polyhedra, Game Programming Gems 6, 2.5); a
 ///          sphere in closed form; cylinders, cones and capsules by ten slices across the axis between every two
@@ -28,8 +29,7 @@ template <class S> struct Submersion {
 template <class S>
 Submersion<S> submersion(std::type_identity_t<ShapeView<S>> solid, Vec3<Unit<S>> up, std::type_identity_t<S> level);
 
-#define ISO_EXTERN(S) extern template Submersion<S> submersion<S>(ShapeView<S>, Vec3<Unit<S>>, S);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SUBMERSION_OF(extern, S) extern template Submersion<S> submersion<S>(ShapeView<S>, Vec3<Unit<S>>, S);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SUBMERSION_OF)
 
 }  // namespace isostep

@@ -8,8 +8,8 @@
 namespace isostep {
 namespace detail {
 
-/// A plane seen from a middle c in half widths h along each axis: dot(up, x) < level where dot(normal, u) < offset, x =
-/// c + h u. The normal is a unit vector again.
+/// A plane as seen from a middle c in half widths h along each axis: dot(up, x) < level where dot(normal, u) < offset,
+/// x = c + h u. The normal is a unit vector again.
 template <class S> struct ScaledPlane {
   enum Side { above, below, across };  // where the solid is
   Side side;
@@ -34,8 +34,8 @@ template <class U> struct ScaledPart {
 
 // ---- flat faces
 
-/// Tetrahedra of the faces below a plane with a point of it. Coordinates are eighths of half widths, so that products
-/// of differences fit Unit<S>.
+/// The tetrahedra of the faces below a plane with a point of it. Coordinates are eighths of half widths, so that
+/// products of differences fit Unit<S>.
 template <class U> class CutFaces {
  public:
   ISO_INLINE CutFaces(Vec3<U> normal, U offset) : normal_(normal), apex_(normal * offset) {}
@@ -53,12 +53,12 @@ template <class U> class CutFaces {
     }
     for (int i = 2; i < count; ++i) add_tetrahedron(kept[0], kept[i - 1], kept[i]);
   }
-  /// Of a solid of six times that volume, in eighths as well.
+  /// The part of a solid of six times that volume, in eighths as well.
   ISO_INLINE ScaledPart<U> part(U six_volumes) const {
     if (!(U(0) < volume_)) return {U(0), Vec3<U>::zero()};
     const U share = min(divide_to<U>(volume_, six_volumes), U(1)), most = U(0.25);
     if (!(U(0) < share)) return {U(0), Vec3<U>::zero()};
-    // What is thinner than its own rounding has its middle somewhere: it stays within the solid's reach.
+    // A part thinner than its own rounding has its middle anywhere: it is held within the solid's reach.
     const auto mean = [&](U moment) ISO_INLINE_LAMBDA {
       return abs(moment) < volume_ ? divide_to<U>(moment, volume_) : moment < U(0) ? U(-1) : U(1);
     };
@@ -82,7 +82,8 @@ template <class U> class CutFaces {
   Vec3<U> moment_ = Vec3<U>::zero();
 };
 
-/// `half`: of the box that the middle is seen in; `filled`: the share of that box that the solid takes.
+/// The part of a polyhedron below a plane. `half`: of the box that the middle is seen in; `filled`: the share of that
+/// box that the solid takes.
 template <class S>
 ScaledPart<Unit<S>> part_below(const Polyhedron<S>& solid, Vec3<S> middle, Vec3<S> half, Unit<S> filled,
                                const ScaledPlane<S>& plane) {
@@ -103,7 +104,7 @@ ScaledPart<Unit<S>> part_below(const Polyhedron<S>& solid, Vec3<S> middle, Vec3<
 // ---- round solids
 
 /// Half of ten nodes of Gauss-Legendre over the angle from 0 to pi whose cosine leads from one end of a piece to the
-/// other; the other half mirrors them. Ends where a slice just touches the plane are smooth in that angle.
+/// other; the other half mirrors them. Ends at which a slice just touches the plane are smooth in that angle.
 template <class U> struct SliceNode { U place, weight; };  // [1] of half the piece's length; of its length
 template <class U>
 inline constexpr SliceNode<U> kSliceNodes[5] = {{U(0.00083987118299022612), U(0.0021456516964593734)},
@@ -117,11 +118,11 @@ template <class S> class CutSlices {
   using U = Unit<S>;
 
  public:
-  /// Keeps halves: their sums fit Unit<S>.
+  /// It keeps halves: their sums fit Unit<S>.
   ISO_INLINE CutSlices(U sine, U cosine, U offset)
       : sine_(sine * U(0.5)), cosine_(cosine * U(0.5)), offset_(offset * U(0.5)) {}
 
-  /// From z0 to z1 with the radius at_0 + slope z.
+  /// Adds a piece from z0 to z1 with the radius at_0 + slope z.
   void add_straight(U z0, U z1, U at_0, U slope) {
     const auto radius = [&](U z) ISO_INLINE_LAMBDA { return at_0 + slope * z; };
     Places places = {{z0, z1, z1, z1}, 1};
@@ -131,14 +132,14 @@ template <class S> class CutSlices {
     }
     add(places, radius);
   }
-  /// From z0 to z1, half of an ellipsoid about z = middle, of radius 1 there and `height` along z.
+  /// Adds a piece from z0 to z1, half of an ellipsoid about z = middle, of radius 1 there and `height` along z.
   void add_cap(U z0, U z1, U middle, U height) {
     const auto radius = [&](U z) ISO_INLINE_LAMBDA {
       const U up = clamp(divide_to<U>(z - middle, height), U(-1), U(1));
       return root(U(1) - up * up);
     };
     Places places = {{z0, z1, z1, z1}, 1};
-    // Stretched to a ball: the circle in which the plane cuts it ends at these heights.
+    // The cap is stretched to a ball: the circle in which the plane cuts it ends at these heights.
     const Direction<U> stretched = direction_of(sine_, cosine_ * height, U(0));
     const U distance = offset_ - cosine_ * middle;
     if (abs(distance) < stretched.length) {
@@ -148,7 +149,7 @@ template <class S> class CutSlices {
     }
     add(places, radius);
   }
-  /// Of a solid that fills such a share of the cylinder around it: the middle is (x, z, 0).
+  /// The part of a solid that fills such a share of the cylinder around it: the middle is (x, z, 0).
   ISO_INLINE ScaledPart<U> part(U filled) const {
     if (!(U(0) < volume_)) return {U(0), Vec3<U>::zero()};
     const auto mean = [&](U moment) ISO_INLINE_LAMBDA {
@@ -158,7 +159,7 @@ template <class S> class CutSlices {
   }
 
  private:
-  /// Ends of pieces, ascending.
+  /// The ends of pieces, ascending.
   struct Places {
     U at[4];
     int pieces;
@@ -182,8 +183,8 @@ template <class S> class CutSlices {
       }
     }
   }
-  /// A disc of that radius where x < d, over pi: with u = d / radius and v^2 = 1 - u^2 the area pi/2 + asin(u) + u v,
-  /// the moment along x -2/3 v^3.
+  /// Adds the part of a disc of that radius where x < d, over pi: with u = d / radius and v^2 = 1 - u^2 the area pi/2 +
+  /// asin(u) + u v, the moment along x -2/3 v^3.
   template <class Radius> void add_slice(U z, U weight, const Radius& radius_at) {
     const U radius = radius_at(z), d = offset_ - cosine_ * z, reach = sine_ * radius;
     if (d <= -reach) return;
@@ -203,7 +204,8 @@ template <class S> class CutSlices {
   U volume_ = U(0), along_ = U(0), across_ = U(0);  // over that of the cylinder around the solid
 };
 
-/// A solid of revolution about y: `fill` adds its pieces and returns the share of the cylinder that it takes.
+/// The part of a solid of revolution about y: `fill` adds its pieces and returns the share of the cylinder that it
+/// takes.
 template <class S, class Fill>
 Submersion<S> revolved_below(S radius, S half_height, Vec3<S> whole_centre, Vec3<Unit<S>> up, S level,
                              const Fill& fill) {
@@ -226,8 +228,8 @@ template <class S> Submersion<S> submersion_of(const Sphere<S>& sphere, Vec3<Uni
   using U = Unit<S>;
   if (level <= -sphere.radius) return {U(0), Vec3<S>::zero()};
   if (level >= sphere.radius) return {U(1), Vec3<S>::zero()};
-  // x: half of the depth of the lowest point in radii. Of a cap: x^2 (3 - 2 x), its middle 3 (1 - x)^2 / (3 - 2 x)
-  // radii below the sphere's.
+  // x is half of the depth of the lowest point in radii. A cap has the share x^2 (3 - 2 x) and its middle 3 (1 - x)^2 /
+  // (3 - 2 x) radii below the sphere's.
   const U x = divide_to<U>(level, sphere.radius) * U(0.5) + U(0.5), wide = U(1.5) - x;
   const U below = divide_to<U>((U(1) - x) * (U(1) - x) * U(1.5), wide);
   const U half_share = x * x * wide;
@@ -280,7 +282,7 @@ template <class S> Submersion<S> submersion_of(const Capsule<S>& c, Vec3<Unit<S>
     return straight + cap * U(2.0 / 3);
   });
 }
-/// What does not move.
+/// A shape that does not move has no share.
 template <class S, class Shape>
 requires(!Shape::kBounded) Submersion<S> submersion_of(const Shape&, Vec3<Unit<S>>, S) {
   return {Unit<S>(0), Vec3<S>::zero()};

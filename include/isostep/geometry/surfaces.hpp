@@ -13,20 +13,21 @@ ISO_INLINE constexpr bool is_surface(ShapeType type) {
 }
 
 namespace detail {
-/// visit(surface), a TriangleGeometry.
+/// Calls visit(surface), a TriangleGeometry.
 template <class S, class Visit> ISO_INLINE decltype(auto) visit_surface(ShapeView<S> view, Visit&& visit) {
   if (view.primitive.type == ShapeType::mesh) return visit(shape_as<Mesh>(view).surface());
   return visit(shape_as<HeightField>(view).surface());
 }
 }  // namespace detail
 
-/// Parts of a body's shape as contacts name them: a convex child is one leaf, a surface one for each of its triangles.
+/// The number of parts that contacts name of a body's shape: a convex child is one leaf, a surface has one for each
+/// triangle.
 template <class S> ISO_INLINE std::uint32_t leaves_of(ShapeView<S> view) {
   if (!is_surface(view.primitive.type)) return 1;
   return detail::visit_surface(view, [](const auto& surface) ISO_INLINE_LAMBDA { return surface.triangle_count(); });
 }
 
-/// What a triangle's number stands for; null: for the material of the body, as what is no surface does.
+/// The material that a triangle's number stands for; null where it is the body's, as of a shape that is no surface.
 template <class S> ISO_INLINE const SurfaceMaterial* listed_material(ShapeView<S> view, std::uint32_t triangle) {
   if (!is_surface(view.primitive.type)) return nullptr;
   return detail::visit_surface(view, [&](const auto& surface) ISO_INLINE_LAMBDA -> const SurfaceMaterial* {
@@ -44,7 +45,7 @@ struct Leaf {
 struct LeafRange {
   std::uint32_t first, count;
 };
-/// Of all children of a body, `index` in range.
+/// The leaf of that number among all children of a body, `index` in range.
 template <class S>
 ISO_INLINE Leaf leaf_at(std::span<const Child<S>> children, Contents<S> contents, std::uint32_t index) {
   for (std::uint32_t i = 0; i < children.size(); ++i) {

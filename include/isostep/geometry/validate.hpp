@@ -19,16 +19,16 @@ template <class S> ShapeFault validate(std::span<const Child<S>> children, std::
 /// The same with its place.
 template <class S> ShapeFaultPlace find_fault(std::span<const Child<S>> children, std::span<const BlobRef> blobs = {});
 
-/// A valid child with its normal and orientation scaled to unit length; what already is stays bit for bit.
+/// A valid child with its normal and orientation scaled to unit length, and nothing in traits that no flag names; what
+/// already is so stays bit for bit.
 template <class S> Child<S> normalised(const Child<S>& child);
 
-#define ISO_EXTERN(S)                                                                                 \
+#define ISO_VALIDATE_OF(extern, S)                                                                    \
   extern template ShapeFault validate<S>(const Primitive<S>&);                                        \
   extern template ShapeFault validate<S>(const Pose<S>&);                                             \
   extern template ShapeFault validate<S>(std::span<const Child<S>>, std::span<const BlobRef>);        \
   extern template ShapeFaultPlace find_fault<S>(std::span<const Child<S>>, std::span<const BlobRef>); \
   extern template Child<S> normalised<S>(const Child<S>&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_VALIDATE_OF)
 
 }  // namespace isostep

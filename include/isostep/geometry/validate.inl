@@ -126,6 +126,7 @@ template <class S> Child<S> normalised(const Child<S>& child) {
   result.primitive = visit_shape(child.primitive, [](const auto& shape) { return shape.normalised().primitive(); });
   const Quat<Unit<S>> q = child.pose.orientation;
   if (!detail::is_unit(q.x, q.y, q.z, q.w)) result.pose.orientation = normalise(q);
+  result.traits = child.traits.normalised();
   return result;
 }
 

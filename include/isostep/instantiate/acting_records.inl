@@ -14,14 +14,14 @@
 #include "isostep/systems/vehicle/wheel_forces.inl"
 
 #define ISO_INSTANTIATE_ACTING_RECORDS(S) \
-  template class WheelForces<S>;          \
-  template class CouplingForces<S>;       \
-  template class SubstepBodies<S>;        \
-  template class ForceSums<S>;            \
-  template class Zones<S>;                \
-  template class Resistance<S>;           \
-  template class WetBodies<S>;            \
-  template class BlastShields<S>;         \
-  template class BodyForces<S>;           \
-  template class Surroundings<S>;         \
-  template class Characters<S>;
+  ISO_WHEEL_FORCES_OF(, S)                \
+  ISO_COUPLING_FORCES_OF(, S)             \
+  ISO_SUBSTEP_BODIES_OF(, S)              \
+  ISO_FORCE_SUMS_OF(, S)                  \
+  ISO_ZONES_OF(, S)                       \
+  ISO_RESISTANCE_OF(, S)                  \
+  ISO_WET_BODIES_OF(, S)                  \
+  ISO_BLAST_SHIELDS_OF(, S)               \
+  ISO_BODY_FORCES_OF(, S)                 \
+  ISO_SURROUNDINGS_OF(, S)                \
+  ISO_CHARACTERS_OF(, S)

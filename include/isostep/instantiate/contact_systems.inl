@@ -11,9 +11,9 @@
 
 #define ISO_INSTANTIATE_CONTACT_SYSTEMS(S) \
   ISO_BODY_FRAMES_OF(, S)                  \
-  template class Proxies<S>;               \
-  template class PairRules<S>;             \
-  template class PartPairs<S>;             \
-  template class FlushContacts<S>;         \
-  template class NarrowPhase<S>;           \
-  template class ContactResponses<S>;
+  ISO_PROXIES_OF(, S)                      \
+  ISO_PAIR_RULES_OF(, S)                   \
+  ISO_PART_PAIRS_OF(, S)                   \
+  ISO_FLUSH_CONTACTS_OF(, S)               \
+  ISO_NARROW_PHASE_OF(, S)                 \
+  ISO_CONTACT_RESPONSES_OF(, S)

@@ -54,85 +54,78 @@
 /// One file a scalar; isostep_add_scalar in CMake writes such a file and gives it the flags that exactness needs.
 /// Contacts are solved by the kernels of one lane: wider ones need files with flags of their own. Functions of Unit<S>
 /// are in the library.
-#define ISO_INSTANTIATE_ENGINE(...)                                                                             \
-  namespace isostep {                                                                                           \
-  using OwnScalar = __VA_ARGS__;                                                                                \
-  static_assert(Scalar<OwnScalar> && kIsFixed<OwnScalar>, "the engine needs a fixed-point format");             \
-  ISO_SCALAR_MATH_OF(, OwnScalar)                                                                               \
-  ISO_SCALAR_MATH_BETWEEN(, OwnScalar)                                                                          \
-  ISO_MATH_OF(, OwnScalar)                                                                                      \
-  template struct HullContent<OwnScalar>;                                                                       \
-  ISO_CONTENT_OF(, OwnScalar)                                                                                   \
-  template MassProperties<OwnScalar> mass_properties<OwnScalar>(std::span<const Child<OwnScalar>>, OwnScalar,   \
-                                                                Contents<OwnScalar>);                           \
-  template struct MassTensor<OwnScalar>;                                                                        \
-  template Submersion<OwnScalar> submersion<OwnScalar>(ShapeView<OwnScalar>, Vec3<Unit<OwnScalar>>, OwnScalar); \
-  template ShapeFault validate<OwnScalar>(const Primitive<OwnScalar>&);                                         \
-  template ShapeFault validate<OwnScalar>(const Pose<OwnScalar>&);                                              \
-  template ShapeFault validate<OwnScalar>(std::span<const Child<OwnScalar>>, std::span<const BlobRef>);         \
-  template ShapeFaultPlace find_fault<OwnScalar>(std::span<const Child<OwnScalar>>, std::span<const BlobRef>);  \
-  template Child<OwnScalar> normalised<OwnScalar>(const Child<OwnScalar>&);                                     \
-  ISO_COLLIDE_OF(, OwnScalar)                                                                                   \
-  ISO_HULL_PAIRS_OF(, OwnScalar)                                                                                \
-  ISO_SURFACE_PAIRS_OF(, OwnScalar)                                                                             \
-  ISO_SURFACE_QUERIES_OF(, OwnScalar)                                                                           \
-  ISO_ROUND_TRIANGLE_OF(, OwnScalar)                                                                            \
-  ISO_POLYHEDRON_TRIANGLE_OF(, OwnScalar)                                                                       \
-  ISO_RAY_CAST_OF(, OwnScalar)                                                                                  \
-  ISO_SOLID_CAST_OF(, OwnScalar)                                                                                \
-  template ClosestPoint<OwnScalar> closest_point<OwnScalar>(ShapeView<OwnScalar>, const Transform<OwnScalar>&,  \
-                                                            Vec3<OwnScalar>);                                   \
-  template class HullSolid<OwnScalar>;                                                                          \
-  ISO_POLYHEDRON_SURFACE_OF(, OwnScalar)                                                                        \
-  ISO_ROUNDED_POLYHEDRON_OF(, OwnScalar)                                                                        \
-  ISO_POLYHEDRA_OF(, OwnScalar)                                                                                 \
-  ISO_ROUNDED_POLYHEDRA_OF(, OwnScalar)                                                                         \
-  ISO_ROUNDED_REVOLVED_OF(, OwnScalar)                                                                          \
-  ISO_GJK_OF(, OwnScalar)                                                                                       \
-  ISO_ROUND_POLYHEDRON_OF(, OwnScalar)                                                                          \
-  ISO_EPA_OF(, OwnScalar)                                                                                       \
-  ISO_SHAPE_CAST_OF(, OwnScalar)                                                                                \
-  ISO_TIME_OF_IMPACT_OF(, OwnScalar)                                                                            \
-  ISO_PLANE_IMPACT_OF(, OwnScalar)                                                                              \
-  ISO_SHAPE_IMPACT_OF(, OwnScalar)                                                                              \
-  ISO_BOX_TREES_OF(OwnScalar)                                                                                   \
-  template class ChosenBroadPhase<OwnScalar>;                                                                   \
-  ISO_DECLARE_CONTACT_KERNELS(OwnScalar)                                                                        \
-  ISO_DEFINE_SCALAR_CONTACT_KERNELS(OwnScalar)                                                                  \
-  template <> const ContactKernels<OwnScalar>* contact_kernels<OwnScalar>(Simd simd) {                          \
-    const bool here = simd == Simd::best || simd == Simd::scalar;                                               \
-    return here ? detail::kernel_table<ContactKernels<OwnScalar>, Simd::scalar>() : nullptr;                    \
-  }                                                                                                             \
-  ISO_DECLARE_BODY_KERNELS(OwnScalar)                                                                           \
-  ISO_DEFINE_SCALAR_BODY_KERNELS(OwnScalar)                                                                     \
-  template <> const BodyKernels<OwnScalar>* body_kernels<OwnScalar>(Simd) {                                     \
-    return detail::kernel_table<BodyKernels<OwnScalar>, Simd::scalar>();                                        \
-  }                                                                                                             \
-  ISO_DECLARE_PAIR_KERNELS(OwnScalar)                                                                           \
-  ISO_DEFINE_SCALAR_PAIR_KERNELS(OwnScalar)                                                                     \
-  template <> const PairKernels<OwnScalar>* pair_kernels<OwnScalar>(Simd) {                                     \
-    return detail::kernel_table<PairKernels<OwnScalar>, Simd::scalar>();                                        \
-  }                                                                                                             \
-  ISO_DECLARE_TREE_KERNELS(OwnScalar)                                                                           \
-  ISO_DEFINE_SCALAR_TREE_KERNELS(OwnScalar)                                                                     \
-  template <> const TreeKernels<OwnScalar>* tree_kernels<OwnScalar>(Simd simd) {                                \
-    const bool here = simd == Simd::best || simd == Simd::scalar;                                               \
-    return here ? detail::kernel_table<TreeKernels<OwnScalar>, Simd::scalar>() : nullptr;                       \
-  }                                                                                                             \
-  template class JointTrees<OwnScalar>;                                                                         \
-  ISO_IF_BOOK(ISO_BOOK_OF(OwnScalar))                                                                           \
-  template class DirectSolver<OwnScalar>;                                                                       \
-  ISO_INSTANTIATE_PARTICLES(OwnScalar)                                                                          \
-  ISO_INSTANTIATE_WORLD_QUERIES(OwnScalar)                                                                      \
-  ISO_INSTANTIATE_ACTING_RECORDS(OwnScalar)                                                                     \
-  ISO_INSTANTIATE_CONTACT_SYSTEMS(OwnScalar)                                                                    \
-  ISO_INSTANTIATE_ISLAND_SYSTEMS(OwnScalar)                                                                     \
-  ISO_INSTANTIATE_MOTION_SYSTEMS(OwnScalar)                                                                     \
-  ISO_INSTANTIATE_EVENT_SYSTEMS(OwnScalar)                                                                      \
-  ISO_INSTANTIATE_WORLD_STEP(OwnScalar)                                                                         \
-  ISO_INSTANTIATE_RECORD_STORE(OwnScalar)                                                                       \
-  ISO_INSTANTIATE_COMMANDS(OwnScalar)                                                                           \
-  ISO_INSTANTIATE_WORLD(OwnScalar)                                                                              \
-  template void draw<OwnScalar>(const World<OwnScalar>&, DebugDraw&, const DrawOptions&);                       \
-  template void draw<OwnScalar>(const ParticleWorld<OwnScalar>&, DebugDraw&, const DrawOptions&);               \
+#define ISO_INSTANTIATE_ENGINE(...)                                                                 \
+  namespace isostep {                                                                               \
+  using OwnScalar = __VA_ARGS__;                                                                    \
+  static_assert(Scalar<OwnScalar> && kIsFixed<OwnScalar>, "the engine needs a fixed-point format"); \
+  ISO_SCALAR_MATH_OF(, OwnScalar)                                                                   \
+  ISO_SCALAR_MATH_BETWEEN(, OwnScalar)                                                              \
+  ISO_MATH_OF(, OwnScalar)                                                                          \
+  ISO_HULL_CONTENT_OF(, OwnScalar)                                                                  \
+  ISO_CONTENT_OF(, OwnScalar)                                                                       \
+  ISO_MASS_PROPERTIES_OF(, OwnScalar)                                                               \
+  ISO_MASS_TENSOR_OF(, OwnScalar)                                                                   \
+  ISO_SUBMERSION_OF(, OwnScalar)                                                                    \
+  ISO_VALIDATE_OF(, OwnScalar)                                                                      \
+  ISO_COLLIDE_OF(, OwnScalar)                                                                       \
+  ISO_HULL_PAIRS_OF(, OwnScalar)                                                                    \
+  ISO_SURFACE_PAIRS_OF(, OwnScalar)                                                                 \
+  ISO_SURFACE_QUERIES_OF(, OwnScalar)                                                               \
+  ISO_ROUND_TRIANGLE_OF(, OwnScalar)                                                                \
+  ISO_POLYHEDRON_TRIANGLE_OF(, OwnScalar)                                                           \
+  ISO_RAY_CAST_OF(, OwnScalar)                                                                      \
+  ISO_SOLID_CAST_OF(, OwnScalar)                                                                    \
+  ISO_CLOSEST_POINT_OF(, OwnScalar)                                                                 \
+  ISO_HULL_SOLID_OF(, OwnScalar)                                                                    \
+  ISO_POLYHEDRON_SURFACE_OF(, OwnScalar)                                                            \
+  ISO_ROUNDED_POLYHEDRON_OF(, OwnScalar)                                                            \
+  ISO_POLYHEDRA_OF(, OwnScalar)                                                                     \
+  ISO_ROUNDED_POLYHEDRA_OF(, OwnScalar)                                                             \
+  ISO_ROUNDED_REVOLVED_OF(, OwnScalar)                                                              \
+  ISO_GJK_OF(, OwnScalar)                                                                           \
+  ISO_ROUND_POLYHEDRON_OF(, OwnScalar)                                                              \
+  ISO_EPA_OF(, OwnScalar)                                                                           \
+  ISO_SHAPE_CAST_OF(, OwnScalar)                                                                    \
+  ISO_TIME_OF_IMPACT_OF(, OwnScalar)                                                                \
+  ISO_PLANE_IMPACT_OF(, OwnScalar)                                                                  \
+  ISO_SHAPE_IMPACT_OF(, OwnScalar)                                                                  \
+  ISO_BOX_TREES_OF(OwnScalar)                                                                       \
+  ISO_CHOSEN_BROAD_PHASE_OF(, OwnScalar)                                                            \
+  ISO_DECLARE_CONTACT_KERNELS(OwnScalar)                                                            \
+  ISO_DEFINE_SCALAR_CONTACT_KERNELS(OwnScalar)                                                      \
+  template <> const ContactKernels<OwnScalar>* contact_kernels<OwnScalar>(Simd simd) {              \
+    const bool here = simd == Simd::best || simd == Simd::scalar;                                   \
+    return here ? detail::kernel_table<ContactKernels<OwnScalar>, Simd::scalar>() : nullptr;        \
+  }                                                                                                 \
+  ISO_DECLARE_BODY_KERNELS(OwnScalar)                                                               \
+  ISO_DEFINE_SCALAR_BODY_KERNELS(OwnScalar)                                                         \
+  template <> const BodyKernels<OwnScalar>* body_kernels<OwnScalar>(Simd) {                         \
+    return detail::kernel_table<BodyKernels<OwnScalar>, Simd::scalar>();                            \
+  }                                                                                                 \
+  ISO_DECLARE_PAIR_KERNELS(OwnScalar)                                                               \
+  ISO_DEFINE_SCALAR_PAIR_KERNELS(OwnScalar)                                                         \
+  template <> const PairKernels<OwnScalar>* pair_kernels<OwnScalar>(Simd) {                         \
+    return detail::kernel_table<PairKernels<OwnScalar>, Simd::scalar>();                            \
+  }                                                                                                 \
+  ISO_DECLARE_TREE_KERNELS(OwnScalar)                                                               \
+  ISO_DEFINE_SCALAR_TREE_KERNELS(OwnScalar)                                                         \
+  template <> const TreeKernels<OwnScalar>* tree_kernels<OwnScalar>(Simd simd) {                    \
+    const bool here = simd == Simd::best || simd == Simd::scalar;                                   \
+    return here ? detail::kernel_table<TreeKernels<OwnScalar>, Simd::scalar>() : nullptr;           \
+  }                                                                                                 \
+  template class JointTrees<OwnScalar>;                                                             \
+  ISO_IF_BOOK(ISO_BOOK_OF(OwnScalar))                                                               \
+  template class DirectSolver<OwnScalar>;                                                           \
+  ISO_INSTANTIATE_PARTICLES(OwnScalar)                                                              \
+  ISO_INSTANTIATE_WORLD_QUERIES(OwnScalar)                                                          \
+  ISO_INSTANTIATE_ACTING_RECORDS(OwnScalar)                                                         \
+  ISO_INSTANTIATE_CONTACT_SYSTEMS(OwnScalar)                                                        \
+  ISO_INSTANTIATE_ISLAND_SYSTEMS(OwnScalar)                                                         \
+  ISO_INSTANTIATE_MOTION_SYSTEMS(OwnScalar)                                                         \
+  ISO_INSTANTIATE_EVENT_SYSTEMS(OwnScalar)                                                          \
+  ISO_INSTANTIATE_WORLD_STEP(OwnScalar)                                                             \
+  ISO_INSTANTIATE_RECORD_STORE(OwnScalar)                                                           \
+  ISO_INSTANTIATE_COMMANDS(OwnScalar)                                                               \
+  ISO_INSTANTIATE_WORLD(OwnScalar)                                                                  \
+  ISO_DEBUG_DRAW_OF(, OwnScalar)                                                                    \
   }

@@ -10,9 +10,9 @@
 #include "isostep/systems/events/sensor_overlaps.inl"
 
 #define ISO_INSTANTIATE_EVENT_SYSTEMS(S) \
-  template class SensorOverlaps<S>;      \
-  template class ContactEvents<S>;       \
-  template class BreakEvents<S>;         \
-  template class JointLoads<S>;          \
-  template class ContactPoints<S>;       \
-  template class HitEvents<S>;
+  ISO_SENSOR_OVERLAPS_OF(, S)            \
+  ISO_CONTACT_EVENTS_OF(, S)             \
+  ISO_BREAK_EVENTS_OF(, S)               \
+  ISO_JOINT_LOADS_OF(, S)                \
+  ISO_CONTACT_POINTS_OF(, S)             \
+  ISO_HIT_EVENTS_OF(, S)

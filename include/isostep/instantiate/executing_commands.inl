@@ -12,6 +12,6 @@
 
 #define ISO_INSTANTIATE_EXECUTE(name, Type, Result, S) template Result CommandExecutor<S>::execute(const Type&);
 #define ISO_INSTANTIATE_COMMANDS(S)                                              \
-  template class Destruction<S>;                                                 \
+  ISO_DESTRUCTION_OF(, S)                                                        \
   template std::size_t CommandExecutor<S>::destroy_all(std::span<const BodyId>); \
   ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, S)

@@ -8,6 +8,6 @@
 #include "isostep/systems/sleep/island_wake.inl"
 
 #define ISO_INSTANTIATE_ISLAND_SYSTEMS(S) \
-  template class BodyMap<S>;              \
-  template class IslandWake<S>;           \
-  template class IslandSleep<S>;
+  ISO_BODY_MAP_OF(, S)                    \
+  ISO_ISLAND_WAKE_OF(, S)                 \
+  ISO_ISLAND_SLEEP_OF(, S)

@@ -14,12 +14,12 @@
 #include "isostep/systems/motion/render_poses.inl"
 #include "isostep/systems/motion/sensor_mounts.inl"
 
-#define ISO_INSTANTIATE_MOTION_SYSTEMS(S)                                                                   \
-  template void detail::renew_fat_box<S>(const BodyMap<S>&, BodyState<S>&, const BodyProperties<S>&, bool); \
-  template class Carriers<S>;                                                                               \
-  template class BodyFinisher<S>;                                                                           \
-  template class ContinuousCollision<S>;                                                                    \
-  template class JoinedBodies<S>;                                                                           \
-  template class MoveTargets<S>;                                                                            \
-  template class SensorMounts<S>;                                                                           \
-  template class RenderPoses<S>;
+#define ISO_INSTANTIATE_MOTION_SYSTEMS(S) \
+  ISO_FAT_BOX_OF(, S)                     \
+  ISO_CARRIERS_OF(, S)                    \
+  ISO_BODY_FINISHER_OF(, S)               \
+  ISO_CONTINUOUS_COLLISION_OF(, S)        \
+  ISO_JOINED_BODIES_OF(, S)               \
+  ISO_MOVE_TARGETS_OF(, S)                \
+  ISO_SENSOR_MOUNTS_OF(, S)               \
+  ISO_RENDER_POSES_OF(, S)

@@ -18,7 +18,7 @@ template <class S> struct Aabb {
   ISO_FIELDS(low, high)
 };
 
-/// Touching counts as overlap.
+/// Boxes that touch overlap.
 template <class S> ISO_INLINE constexpr bool overlap(const Aabb<S>& a, const Aabb<S>& b) {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
          a.low.z <= b.high.z && b.low.z <= a.high.z;

@@ -14,7 +14,7 @@ template <class S> ISO_INLINE Unit<S> least_determinant() {
   using U = Unit<S>;
   return max(parallel_sine<U>(), divide_to<U>(S(1), highest<S>()) + resolution<U>());
 }
-/// Whether a / b fits.
+/// a / b fits.
 template <class S> ISO_INLINE bool divides(S a, S b) {
   return product(abs(a), S(1)) < product(abs(b), highest<S>()) && is_finite(a / b);
 }

@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// At most kMost vectors. What lanes read beyond the last repeats it.
+/// It holds at most kMost vectors. Lanes that read beyond the last get the last again.
 template <class T, int kMost> struct Columns {
   static_assert(kMost % 16 == 0, "blocks of lanes of any width fill it");
   alignas(64) T x[std::size_t{kMost}];
@@ -38,7 +38,7 @@ template <class T, int kMost> struct Columns {
   }
 };
 
-/// Vectors that live elsewhere, in blocks of 16. What lanes read beyond the last repeats it.
+/// Vectors that live elsewhere, in blocks of 16. Lanes that read beyond the last get the last again.
 template <class T> struct ColumnsView {
   using Block = Columns<T, 16>;
 
@@ -47,7 +47,7 @@ template <class T> struct ColumnsView {
 
   ISO_INLINE std::uint32_t size() const { return count; }
   ISO_INLINE Vec3<T> operator[](std::uint32_t i) const { return blocks[i / 16].at(i % 16); }
-  /// From a multiple of the lanes' width.
+  /// Loads from a multiple of the lanes' width.
   template <class L> ISO_INLINE Vec3<L> load(std::uint32_t first) const {
     return blocks[first / 16].template load<L>(first % 16);
   }

@@ -9,12 +9,12 @@
 
 namespace isostep {
 
-// Where a t is not said to be clamped, it lies within [0, 1].
+// A parameter t lies within [0, 1] unless its function says that it clamps it.
 
 /// a + (b - a) t, rounded once where S is fixed: a and b themselves at the ends, and no difference that could overflow.
 template <class S> S lerp(S a, S b, Unit<S> t);
 template <class S> Vec3<S> lerp(Vec3<S> a, Vec3<S> b, Unit<S> t);
-/// Where x lies from a (0) to b (1), clamped; 0 where a is b.
+/// The place of x from a (0) to b (1), clamped; 0 where a is b.
 template <class S> Unit<S> inverse_lerp(S a, S b, S x);
 /// 3 t^2 - 2 t^3: level at both ends.
 template <class U> U smooth_step(U t);
@@ -30,11 +30,12 @@ template <class S> Vec3<S> hermite(Vec3<S> a, Vec3<S> a_slope, Vec3<S> b, Vec3<S
 /// Its slope at t.
 template <class S> S hermite_slope(S a, S a_slope, S b, S b_slope, Unit<S> t);
 template <class S> Vec3<S> hermite_slope(Vec3<S> a, Vec3<S> a_slope, Vec3<S> b, Vec3<S> b_slope, Unit<S> t);
-/// Through b (t = 0) and c (t = 1), with the slopes (c - a) / 2 and (d - b) / 2: pieces of a row of points join.
+/// A cubic through b (t = 0) and c (t = 1), with the slopes (c - a) / 2 and (d - b) / 2: pieces of a row of points
+/// join.
 /// Source:  Catmull, Rom 1974, A class of local interpolating splines.
 template <class S> S catmull_rom(S a, S b, S c, S d, Unit<S> t);
 template <class S> Vec3<S> catmull_rom(Vec3<S> a, Vec3<S> b, Vec3<S> c, Vec3<S> d, Unit<S> t);
-/// From a towards b, from c into d.
+/// A cubic that leaves a (t = 0) towards b and reaches d (t = 1) from c.
 template <class S> S bezier(S a, S b, S c, S d, Unit<S> t);
 template <class S> Vec3<S> bezier(Vec3<S> a, Vec3<S> b, Vec3<S> c, Vec3<S> d, Unit<S> t);
 

@@ -8,7 +8,7 @@
 namespace isostep {
 namespace detail {
 
-/// What each of four points counts at t. Every weight fits Unit<S>.
+/// The weights of four points at t. Every weight fits Unit<S>.
 template <class U> struct CubicWeights { U a, b, c, d; };
 
 template <class S> ISO_INLINE S mixed(S a, S b, S c, S d, CubicWeights<Unit<S>> w) {

@@ -13,16 +13,17 @@ namespace isostep {
 /// Normally distributed, of mean 0 and deviation 1, within +-5.8. Two draws; one more in 2^24 times.
 /// Source:  Box, Muller 1958, A Note on the Generation of Random Normal Deviates.
 template <class S, class R> S random_normal(R& random);
-/// Each direction as likely as another. Two draws. Source: Archimedes: heights on a sphere are uniform.
+/// A unit vector, each direction as likely as another. Two draws. Source: Archimedes: heights on a sphere are uniform.
 template <class S, class R> Vec3<Unit<S>> random_direction(R& random);
-/// In a ball about the origin, each volume as likely as another. Five draws: of three uniform numbers the largest is
-/// distributed as the cube root of one.
+/// A point in a ball about the origin, each volume as likely as another. Five draws: of three uniform numbers the
+/// largest is distributed as the cube root of one.
 template <class S, class R> Vec3<S> random_in_ball(R& random, S radius);
-/// In the disc across y about the origin. Three draws.
+/// A point in the disc across y about the origin. Three draws.
 template <class S, class R> Vec3<S> random_in_disc(R& random, S radius);
 /// Components between those of low and high. Three draws.
 template <class S, class R> Vec3<S> random_in_box(R& random, Vec3<S> low, Vec3<S> high);
-/// Each rotation as likely as another. Three draws. Source: Shoemake 1992, Uniform Random Rotations, Graphics Gems III.
+/// A rotation, each as likely as another. Three draws. Source: Shoemake 1992, Uniform Random Rotations, Graphics Gems
+/// III.
 template <class S, class R> Quat<Unit<S>> random_rotation(R& random);
 
 /// Puts count things in any order, each as likely as another (Fisher, Yates): count - 1 draws, rarely more.

@@ -13,7 +13,7 @@ namespace detail {
 template <class S, class R> ISO_INLINE SinCos<Unit<S>> random_turn(R& random) {
   return sin_cos_to<Unit<S>>(S(6.28318530717958647693) * unit_interval<S>(random.next_u24()));
 }
-/// In [0, 1).
+/// A number in [0, 1).
 template <class S, class R> ISO_INLINE Unit<S> random_part(R& random) {
   return convert<Unit<S>>(unit_interval<S>(random.next_u24()));
 }

@@ -27,7 +27,8 @@ template <class T> ISO_INLINE constexpr T native(Exact<T> x) { return x.value();
 template <class T> using EigenScalar = typename detail::EigenOf<T>::Type;
 template <class E> using NativeScalar = typename detail::NativeOf<E>::Type;
 
-// Never aligned more than their numbers: Eigen's own choice depends on the compiler's flags, and so would layouts.
+// Eigen's types are never aligned more than their numbers: its own choice depends on the compiler's flags, and so would
+// layouts.
 template <class T> using EigenVec3 = Eigen::Matrix<EigenScalar<T>, 3, 1, Eigen::DontAlign>;
 template <class T> using EigenMat3 = Eigen::Matrix<EigenScalar<T>, 3, 3, Eigen::DontAlign | Eigen::RowMajor>;
 template <class T> using EigenQuat = Eigen::Quaternion<EigenScalar<T>, Eigen::DontAlign>;
@@ -40,7 +41,8 @@ template <class T> ISO_INLINE EigenMat3<T> to_eigen(const Mat3<T>& m) {
   }
   return result;
 }
-/// Over the unit format, in which 2 does not fit: Eigen's toRotationMatrix needs a cast to a wider format first.
+/// The quaternion keeps the unit format, in which 2 does not fit: Eigen's toRotationMatrix needs a cast to a wider
+/// format first.
 template <class U> ISO_INLINE EigenQuat<U> to_eigen(Quat<U> q) { return {q.w, q.x, q.y, q.z}; }
 
 template <class D> ISO_INLINE auto vec3_from(const Eigen::MatrixBase<D>& v) -> Vec3<NativeScalar<typename D::Scalar>> {

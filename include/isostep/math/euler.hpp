@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// Which axis is turned about first, second, third, each in the frame that the turn before has made. `yxz` is yaw,
-/// pitch and roll. About fixed axes the same rotation has the letters from right to left.
+/// The axes of the first, second and third turn, each in the frame that the turn before has made. `yxz` is yaw, pitch
+/// and roll. About fixed axes the same rotation has the letters from right to left.
 enum class EulerOrder : std::uint8_t { xyz, xzy, yxz, yzx, zxy, zyx };
 
 /// Angles [rad]: first and third in (-pi, pi], second in [-pi/2, pi/2].

@@ -27,7 +27,7 @@ template <class S> Mat3<S> change_of_basis(const Mat3<Unit<S>>& r, const Mat3<S>
 // turns negates the rest. The same function leads both ways, exactly, but for a component that has no negative.
 
 template <class T> ISO_INLINE constexpr Vec3<T> other_hand(Vec3<T> v) { return {v.x, v.y, -v.z}; }
-/// Of angular velocities, torques and other products of two vectors.
+/// Mirrors an axial vector: an angular velocity, a torque or another product of two vectors.
 template <class T> ISO_INLINE constexpr Vec3<T> other_hand_axial(Vec3<T> v) { return {-v.x, -v.y, v.z}; }
 template <class U> ISO_INLINE constexpr Quat<U> other_hand(Quat<U> q) { return {-q.x, -q.y, q.z, q.w}; }
 template <class T> ISO_INLINE constexpr Mat3<T> other_hand(const Mat3<T>& m) {

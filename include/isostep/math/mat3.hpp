@@ -32,7 +32,7 @@ template <class A, class B>
 ISO_INLINE constexpr auto operator*(const Mat3<A>& m, Vec3<B> v) -> Vec3<decltype(A{} * B{})> {
   return {dot(m.rows[0], v), dot(m.rows[1], v), dot(m.rows[2], v)};
 }
-/// Transposed m times v: a rotation matrix undone.
+/// Multiplies v by m transposed: a rotation matrix undone.
 template <class A, class B>
 ISO_INLINE constexpr auto transposed_times(const Mat3<A>& m, Vec3<B> v) -> Vec3<decltype(A{} * B{})> {
   return {dot(m.column(0), v), dot(m.column(1), v), dot(m.column(2), v)};

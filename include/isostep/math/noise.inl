@@ -20,7 +20,7 @@ ISO_INLINE constexpr std::uint32_t mixed_bits(std::uint32_t x) {
   x *= 0x846ca68bu;
   return x ^ (x >> 16);
 }
-/// Where a point lies among cells with edges of 2^-octave.
+/// The place of a point among cells with edges of 2^-octave.
 template <class U> struct NoiseCell {
   std::uint32_t corner[3];  // the lowest, modulo 2^32
   Vec3<U> within;           // [0, 1)
@@ -41,7 +41,7 @@ template <class S> ISO_INLINE NoiseCell<Unit<S>> cell_of(Vec3<S> p, int octave) 
   }
   return cell;
 }
-/// Of eight values at a cell's corners, x fastest.
+/// Blends eight values at a cell's corners, x fastest.
 template <class U> ISO_INLINE U blended(const U (&corners)[8], Vec3<U> within) {
   U values[8];
   for (int i = 0; i < 8; ++i) values[i] = corners[i];

@@ -1,4 +1,4 @@
-// What games do with rotations beyond the step's own: axes and angles, turns between vectors, interpolation.
+// Rotations for games, beyond the step's own: axes and angles, turns between vectors, interpolation.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -33,10 +33,11 @@ template <class S> Quat<Unit<S>> look_rotation(Vec3<S> forward, Vec3<S> up);
 
 /// The angle [rad] of the turn that leads from a to b, 0 to pi.
 template <class S> S angle_between(Quat<Unit<S>> a, Quat<Unit<S>> b);
-/// From a (t = 0) to b (t = 1) along the shorter arc at an even rate. Source: Shoemake 1985, Animating Rotation with
-/// Quaternion Curves, sec. 3.3; as a (a^-1 b)^t, which needs no case for small angles.
+/// Leads from a (t = 0) to b (t = 1) along the shorter arc at an even rate. Source: Shoemake 1985, Animating Rotation
+/// with Quaternion Curves, sec. 3.3; as a (a^-1 b)^t, which needs no case for small angles.
 template <class U> Quat<U> slerp(Quat<U> a, Quat<U> b, U t);
-/// The same arc at a rate that is up to 14 % faster in the middle of a half turn: for animation, five times as quick.
+/// Follows the arc of slerp at a rate that is up to 14 % faster in the middle of a half turn: for animation, five times
+/// as quick.
 template <class U> Quat<U> nlerp(Quat<U> a, Quat<U> b, U t);
 
 /// q = swing twist: the twist is about the unit vector `axis` of the local frame, the swing about a vector across it.

@@ -10,7 +10,7 @@ namespace detail {
 
 template <class U> ISO_INLINE Quat<U> negated(Quat<U> q) { return {-q.x, -q.y, -q.z, -q.w}; }
 template <class U> ISO_INLINE Vec3<U> vector_of(Quat<U> q) { return {q.x, q.y, q.z}; }
-/// The same rotation with w >= 0.
+/// Returns the quaternion of the same rotation with w >= 0.
 template <class U> ISO_INLINE Quat<U> shorter(Quat<U> q) { return q.w < U(0) ? negated(q) : q; }
 template <class U> ISO_INLINE U dot4(Quat<U> a, Quat<U> b) {
   return round_to<U>(product(a.x, b.x) + product(a.y, b.y) + product(a.z, b.z) + product(a.w, b.w));

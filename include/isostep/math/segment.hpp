@@ -13,7 +13,7 @@ template <class S> struct Segment {
   S half;                   // [m]
 
   ISO_INLINE constexpr Vec3<S> at(S along) const { return centre + direction * along; }
-  /// Where the segment is closest to p, as a distance from the centre [m].
+  /// The place on the segment that is nearest to p, as a distance along it from the centre [m].
   ISO_INLINE constexpr S nearest(Vec3<S> p) const { return clamp(dot(p - centre, direction), -half, half); }
 };
 

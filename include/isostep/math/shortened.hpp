@@ -6,7 +6,7 @@
 
 namespace isostep::detail {
 
-/// From -limit to limit. By comparison on both sides: the lowest fixed-point number has no magnitude.
+/// x lies from -limit to limit. Both sides are compared: the lowest fixed-point number has no magnitude.
 template <class S> ISO_INLINE bool within(S x, S limit) { return -limit <= x && x <= limit; }
 template <class S> ISO_INLINE bool within(Vec3<S> v, S limit) {
   return within(v.x, limit) && within(v.y, limit) && within(v.z, limit);
@@ -16,7 +16,7 @@ template <class S> ISO_INLINE bool within(Vec3<S> v, S limit) {
 template <class V> ISO_INLINE bool is_longer(Vec3<V> v, V limit) {
   return !within(v, limit * V(0.5)) && limit < length(v);
 }
-/// To `limit`, or to 2^-12 less where rounding leads beyond.
+/// Shortens v to `limit`, or to 2^-12 less where rounding leads beyond.
 template <class V> ISO_INLINE Vec3<V> shortened(Vec3<V> v, V limit) {
   if (!is_longer(v, limit)) return v;
   const auto way = direction_of(v.x, v.y, v.z);

@@ -37,7 +37,7 @@ template <class N> class SparseCholesky {
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
-  /// What it remembers is scratch: a copy has yet to be analysed.
+  /// A copy has yet to be analysed: what is remembered is scratch.
   SparseCholesky(const SparseCholesky&);
   SparseCholesky& operator=(const SparseCholesky&);
 
@@ -52,10 +52,10 @@ template <class N> class SparseCholesky {
   void add_pair(std::uint32_t pair, const SymmetricBlock<N>& block);
   /// Adds to block (first, second) of a pair, and its transpose to (second, first).
   void add_pair(std::uint32_t pair, const GeneralBlock<N>& block);
-  /// False: A is not positive definite.
+  /// Factorises A. Returns false where A is not positive definite.
   bool factorise();
-  /// Of A with some unknowns held at zero: their rows and columns become the identity's, until A is factorised again.
-  /// Bit c of held[i]: component c of vector i. Where one is held, b has to be zero.
+  /// Factorises A with some unknowns held at zero: their rows and columns become the identity's, until A is factorised
+  /// again. Bit c of held[i]: component c of vector i. Where one is held, b has to be zero.
   bool factorise(const std::vector<std::uint8_t>& held);
   /// x 2^exponent = A^-1 b 2^b_exponent. `loss`: A's eigenvalues are at least 2^-loss.
   /// False: no convergence, or (floating point) a result that is not finite.

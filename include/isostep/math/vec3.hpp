@@ -41,7 +41,7 @@ template <class A, Factor B> ISO_INLINE constexpr auto operator*(Vec3<A> v, B s)
 template <class A, Factor B> ISO_INLINE constexpr auto operator*(B s, Vec3<A> v) -> Vec3<decltype(B{} * A{})> {
   return {s * v.x, s * v.y, s * v.z};
 }
-/// Each component divided by s. Fixed point: a quotient that does not fit wraps, as that of numbers does.
+/// Divides each component by s. Fixed point: a quotient that does not fit wraps, as that of numbers does.
 template <class A, Factor B> ISO_INLINE constexpr auto operator/(Vec3<A> v, B s) -> Vec3<decltype(A{} / B{})> {
   return {v.x / s, v.y / s, v.z / s};
 }
@@ -71,11 +71,11 @@ template <class T> ISO_INLINE constexpr Vec3<T> min(Vec3<T> a, Vec3<T> b) {
 template <class T> ISO_INLINE constexpr Vec3<T> max(Vec3<T> a, Vec3<T> b) {
   return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
 }
-/// Each component within [-limit, limit].
+/// Clamps each component to [-limit, limit].
 template <class T> ISO_INLINE constexpr Vec3<T> held_within(Vec3<T> v, T limit) {
   return {clamp(v.x, -limit, limit), clamp(v.y, -limit, limit), clamp(v.z, -limit, limit)};
 }
-/// Each component within half of the format: two such vectors can be added.
+/// Clamps each component to half of the format: two such vectors can be added.
 template <class T> ISO_INLINE constexpr Vec3<T> with_headroom(Vec3<T> v) {
   return {with_headroom(v.x), with_headroom(v.y), with_headroom(v.z)};
 }
@@ -120,7 +120,7 @@ template <class U> struct Tangents { Vec3<U> t, u; };
 /// Differs: x and z trade places, so that the seam lies at n.z = 0 rather than along a floor's normal.
 template <class U> ISO_INLINE constexpr Tangents<U> tangents_of(Vec3<U> n) {
   const bool negative = n.z < U(0);
-  // Halved above and below: 1 + n.z may be 2, which U cannot hold.
+  // Both sides are halved: 1 + n.z may be 2, which U cannot hold.
   const U half_z = n.z * U(0.5);
   const U divisor = negative ? U(-0.5) + half_z : U(0.5) + half_z;
   const U a = -divide_to<U>(U(0.5), divisor);

@@ -12,7 +12,7 @@ namespace isostep {
 template <class T> struct Axes {
   std::vector<T> x, y, z;
 
-  // As the compiler makes them, but no weak functions in each of the files that copy them.
+  // These are what the compiler would make, but without weak functions in each of the files that copy them.
   ISO_INLINE Axes() = default;
   ISO_INLINE Axes(const Axes&) = default;
   ISO_INLINE Axes(Axes&&) = default;

@@ -1,4 +1,4 @@
-// What numbers a particle world takes: the same rules for commands and for states read from files.
+// Rules for the numbers of a particle world: the same for commands and for states read from files.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -30,7 +30,7 @@ template <class S> ISO_INLINE bool none_negative(std::initializer_list<S> number
   }
   return true;
 }
-/// By comparison on both sides: the lowest fixed-point number has no magnitude.
+/// x lies from -limit to limit. Both sides are compared: the lowest fixed-point number has no magnitude.
 template <class S> ISO_INLINE bool lies_within(S x, S limit) { return -limit <= x && x <= limit; }
 template <class S> ISO_INLINE bool lies_within(Vec3<S> v, S limit) {
   return lies_within(v.x, limit) && lies_within(v.y, limit) && lies_within(v.z, limit);

@@ -1,4 +1,4 @@
-// What holds a blob together: particles of one material push each other away when near and pull when a little apart.
+// Cohesion: particles of one material, as in a blob, push each other away when near and pull when a little apart.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -84,7 +84,7 @@ template <class S> bool ParticleCommands<S>::execute(const PushParticle<S>& comm
   if (!detail::lies_within(more, most) || !detail::lies_within(asked, most)) push.cut = 1;
   return true;
 }
-/// What is asked of a particle until the next step.
+/// The force and impulse that the game asks for on a particle until the next step.
 template <class S> ParticlePush<S>& ParticleCommands<S>::pending_push(std::uint32_t slot) {
   return find_or_insert(state_.pushes, ParticlePush<S>{slot, 0, Vec3<S>::zero()});
 }

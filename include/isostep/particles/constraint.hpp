@@ -1,4 +1,4 @@
-// What solvers see: contacts and links as rows on the relative velocity of two particles.
+// Constraints for solvers: contacts and links as rows on the relative velocity of two particles.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -43,7 +43,7 @@ template <class S> struct ParticleConstraint {
   Velocity<S> shift;                   // [m/s] along n, by which the sub-step pushes an overlap apart
   Velocity<S> impulse_seen;            // [m/s] largest of the step
   Velocity<S> approach;                // [m/s] lowest n.(v_b - v_a) at which they met in the step, <= 0
-  SumOf<Velocity<S>, Velocity<S>> work;  // [m^2/s^2] by which impulses of the step changed the square of its speed
+  SumOf<Velocity<S>, Velocity<S>> work;  // [m^2/s^2] change of the square of its speed by the step's impulses
 
   ISO_FIELDS(kind, a, b, normal, separation, radius, other, share_a, share_b, friction, restitution, surface_velocity,
              surface_gain, surface_moved, total, impulse, friction_impulse, meets, closing, shift, impulse_seen,

@@ -77,15 +77,15 @@ template <class S> void ParticleEngine<S>::solve_substeps() {
 
 /// The step and the systems that it calls.
 #define ISO_INSTANTIATE_PARTICLE_STEP(S) \
-  template class FreeFlight<S>;          \
-  template class PairSearch<S>;          \
-  template class ParticleRows<S>;        \
-  template class ParticleContacts<S>;    \
-  template class ParticleSprings<S>;     \
-  template class StiffSprings<S>;        \
-  template class ParticleForces<S>;      \
-  template class ParticleIntegration<S>; \
-  template class ParticleSoftStep<S>;    \
-  template class WorstFirstStep<S>;      \
-  template class ParticleFinish<S>;      \
-  template ParticleReport ParticleEngine<S>::step(const ParticleStageObserver&);
+  ISO_FREE_FLIGHT_OF(, S)                \
+  ISO_PAIR_SEARCH_OF(, S)                \
+  ISO_PARTICLE_ROWS_OF(, S)              \
+  ISO_PARTICLE_CONTACTS_OF(, S)          \
+  ISO_PARTICLE_SPRINGS_OF(, S)           \
+  ISO_STIFF_SPRINGS_OF(, S)              \
+  ISO_PARTICLE_FORCES_OF(, S)            \
+  ISO_PARTICLE_INTEGRATION_OF(, S)       \
+  ISO_PARTICLE_SOFT_STEP_OF(, S)         \
+  ISO_WORST_FIRST_STEP_OF(, S)           \
+  ISO_PARTICLE_FINISH_OF(, S)            \
+  ISO_PARTICLE_ENGINE_OF(, S)

@@ -77,7 +77,7 @@ template <class S, int W, class Isa> struct FlightKernel {
       const Vec3<L> v = {convert<L>(velocity.x), convert<L>(velocity.y), convert<L>(velocity.z)};
       const L drag = drag_rate(rows, v, w, rate);
       const S most = ParticleLimits<S>::acceleration();
-      // Of what has no drag not even the sign of a zero may change because a neighbour has.
+      // A particle without drag keeps even the sign of a zero, whether or not a neighbour in its lanes has drag.
       a = {select(dragged, a.x - round_within<L>(product(v.x, drag), most), a.x),
            select(dragged, a.y - round_within<L>(product(v.y, drag), most), a.y),
            select(dragged, a.z - round_within<L>(product(v.z, drag), most), a.z)};
@@ -179,7 +179,7 @@ template <class S, int W, class Isa> struct FlightKernel {
   }
 };
 
-/// What no block is left for goes one by one.
+/// Particles that fill no block go one by one.
 #define ISO_FLIGHT_LOOP(NAME)                                                        \
   template <class S, int W, class Isa> void NAME##_flight(const FlightRun<S>& run) { \
     std::uint32_t i = run.first;                                                     \

@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// Not state: it remembers nothing from call to call but its memory, so no allocation once warm.
+/// This is no state: it remembers nothing from call to call but its memory, so no allocation once warm.
 ///
 /// Particles of reach within a factor of two make a class. The coarsest class and all finer particles are counted into
 /// cells as wide as two of its largest reach, sorted by cell, and a class meets itself in its own cell and the 13
@@ -29,7 +29,7 @@ template <class S> class ParticleGrid {
   bool find_pairs(const Axes<S>& position, const std::uint32_t* slot_list, const S* reach, std::uint32_t count,
                   std::vector<std::uint64_t>& pairs, std::uint32_t max_pairs);
 
-  /// Of the last call: how many distances were compared.
+  /// The number of distances compared by the last call.
   ISO_INLINE std::uint64_t distance_tests() const { return tests_; }
 
  private:
@@ -64,7 +64,7 @@ template <class S> class ParticleGrid {
     std::uint64_t offset;  // from a cell to the first of the three, modulo 2^64
     std::uint32_t begin = 0, end = 0;
   };
-  /// Where cells lie: position -> integer lattice -> cell -> rank among occupied cells, where cells are too many.
+  /// The layout of cells: position -> integer lattice -> cell -> rank among occupied cells, where cells are too many.
   struct Lattice {
     int exponent;            // lattice units are 2^-exponent m ...
     int shift;               // ... times 2^shift, counted from origin

@@ -46,7 +46,7 @@ template <class S> class ImplicitSprings {
   struct Edge {
     std::uint32_t spring, a, b;
   };
-  /// What a spring is just now.
+  /// A spring's direction and coefficients in this sub-step.
   struct Tension {
     Vec3<Number> n;      // [1] towards a
     Number across;       // [1] s
@@ -83,8 +83,7 @@ template <class S> class ImplicitSprings {
   std::vector<Vec3<Number>> right_, answer_;
 };
 
-#define ISO_EXTERN(S) extern template class ImplicitSprings<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_IMPLICIT_SPRINGS_OF(extern, S) extern template class ImplicitSprings<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_IMPLICIT_SPRINGS_OF)
 
 }  // namespace isostep

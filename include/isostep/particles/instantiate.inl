@@ -22,8 +22,8 @@
   }                                                                                 \
   template class ParticleGrid<S>;                                                   \
   template class WorstFirst<S>;                                                     \
-  template class ImplicitSprings<S>;                                                \
-  template OscillatorStep<S> oscillator_step<S>(S, S, InverseMass<S>, S);           \
+  ISO_IMPLICIT_SPRINGS_OF(, S)                                                      \
+  ISO_STIFF_SPRING_OF(, S)                                                          \
   ISO_INSTANTIATE_PARTICLE_STEP(S)                                                  \
   ISO_INSTANTIATE_PARTICLE_WORLD(S)                                                 \
   ISO_INSTANTIATE_PARTICLE_BODIES(S)

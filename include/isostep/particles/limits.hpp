@@ -15,7 +15,7 @@ namespace isostep {
 ///   mass()         [kg]    largest mass
 template <class S> struct ParticleLimits;
 
-/// Fixed point with W = bits - 1 - F whole bits, so |value| < 2^W:
+/// These are of fixed point with W = bits - 1 - F whole bits, so |value| < 2^W:
 ///   position <= 2^(W-6)      differences, spring extensions and margins fit.
 ///   speed                    a quarter of what Velocity<S> holds: within a sub-step a component stays below 3/2 of it
 ///                            and a push below twice it, and the two add up.
@@ -42,7 +42,7 @@ template <class Rep, int F, Overflow P> struct ParticleLimits<Fixed<Rep, F, P>> 
   static ISO_INLINE constexpr int least(int a, int b) { return a < b ? a : b; }
 };
 
-/// What bounds the position is the spacing of numbers, as for bodies: 2^-8 m and 2^-23 m.
+/// The spacing of numbers bounds the position, as for bodies: 2^-8 m and 2^-23 m.
 template <> struct ParticleLimits<float> {
   static ISO_INLINE constexpr float position() { return 0x1p16f; }
   static ISO_INLINE constexpr float speed() { return 0x1p14f; }
@@ -61,14 +61,15 @@ template <> struct ParticleLimits<double> {
 /// [m/s] Slower than this nothing bounces (Millington, p. 358): rest would be a rain of small bounces.
 template <class S> inline constexpr Velocity<S> kLeastBounce = Velocity<S>(0.25);
 
-/// What rounding alone may leave of a speed [m/s]: a resolved row is within 4 units of Velocity<S> of its aim by the
-/// roundings of two particles, three axes and the normal; for float, units of what was added.
+/// [m/s] The error that rounding alone may leave of a speed: a resolved row is within 4 units of Velocity<S> of its aim
+/// by the roundings of two particles, three axes and the normal; for float, units of what was added.
 template <class S> ISO_INLINE constexpr Velocity<S> speed_tolerance(Velocity<S> fastest) {
   using V = Velocity<S>;
   return V(16) * (resolution<V>() + round_to<V>(product(resolution<Unit<S>>(), fastest)));
 }
 
-/// [m/s] and [m], of a component: beyond these nothing goes while a step lasts, whatever forces and impulses ask for.
+/// [m/s] and [m] The bounds of a component: nothing goes beyond them while a step lasts, whatever forces and impulses
+/// ask for.
 template <class S> ISO_INLINE constexpr Velocity<S> passing_speed() {
   const Velocity<S> speed = convert<Velocity<S>>(ParticleLimits<S>::speed());
   return speed + speed * Velocity<S>(0.5);

@@ -1,4 +1,4 @@
-// What a particle is: ids, the numbers that particles of one material share, and what one is told at birth.
+// Particles: their ids, the numbers that particles of one material share, and what one is told at birth.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -24,7 +24,7 @@ template <class Rep, int F, Overflow P> struct InverseMassOf<Fixed<Rep, F, P>> {
 };
 template <class S> using InverseMass = typename InverseMassOf<S>::Type;
 
-/// What particles of one kind have in common: a table of these is what keeps a particle small.
+/// The numbers that particles of one kind have in common: a table of these is what keeps a particle small.
 template <class S> struct ParticleMaterial {
   S gravity_scale = S(1);   // [1] of the world's gravity
   S damping = S(1);         // [1] share of the velocity that is kept for a second, in 0..1: the book's d

@@ -83,7 +83,7 @@ template <class S> struct SetParticleGravity {
   R(cohesion, Cohesion<S>, CohesionId, S)                 \
   R(link, Link<S>, LinkId, S)                             \
   R(collider, Collider<S>, ColliderId, S)
-/// Where one of the two is not wanted.
+/// ISO_SKIP takes the place of one of the two that is not wanted.
 #define ISO_SKIP(name, Type, Result, S)
 
 #define ISO_TYPE(name, Type, Result, S) , Type

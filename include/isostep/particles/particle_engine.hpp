@@ -65,8 +65,8 @@ template <class S> class ParticleEngine {
 };
 
 /// The step is compiled apart from what is called between steps: instantiate/particle_step.cpp.
-#define ISO_EXTERN(S) extern template ParticleReport ParticleEngine<S>::step(const ParticleStageObserver&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_ENGINE_OF(extern, S) \
+  extern template ParticleReport ParticleEngine<S>::step(const ParticleStageObserver&);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_ENGINE_OF)
 
 }  // namespace isostep

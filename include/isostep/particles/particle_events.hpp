@@ -1,4 +1,4 @@
-// What a step of particles reports to the game: output of one step, in canonical order, never state.
+// Events and reports of a step of particles for the game: output of one step, in canonical order, never state.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -44,7 +44,7 @@ template <class S> struct ParticleEvents {
   }
 };
 
-/// What a step had to mend. Identical on every peer.
+/// The repairs of a step. They are identical on every peer.
 struct ParticleReport {
   std::uint32_t clamped_speed = 0;     // particles whose speed was cut to ParticleLimits<S>
   std::uint32_t clamped_force = 0;     // particles pushed harder than limits.hpp allows, or than the format does

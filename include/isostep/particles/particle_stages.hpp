@@ -24,7 +24,8 @@ inline constexpr const char* kParticleStageNames[kParticleStages] = {
 
 class StageView;  // state/fields.hpp
 
-/// Called after each stage of a step; sees the world and what the stage left for the next ones, changes nothing.
+/// An observer of stages. `after` is called after each stage of a step; it sees the world and what the stage left for
+/// the next ones, and changes nothing.
 struct ParticleStageObserver {
   void (*after)(void* user, ParticleStage stage, const StageView& left) = nullptr;
   void* user = nullptr;

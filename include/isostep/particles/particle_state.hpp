@@ -18,10 +18,11 @@
 
 namespace isostep {
 
-/// In the first word of a portable particle world, beside the scalar's id: a rigid world's has not got it.
+/// This bit stands in the first word of a portable particle world, beside the scalar's id; a rigid world's has not got
+/// it.
 inline constexpr std::uint32_t kParticleWorldBit = 0x80000000u;
 
-/// What a contact remembers from step to step. Ascending by (a, b).
+/// The impulses of a contact, kept from step to step. Ascending by (a, b).
 template <class S> struct ParticleContact {
   static constexpr std::uint32_t kCollider = 0x80000000u;  // in b: the rest is a collider's slot, not a particle's
 
@@ -30,7 +31,7 @@ template <class S> struct ParticleContact {
   Vec3<Velocity<S>> friction_impulse;  // [m/s] across it
 
   ISO_INLINE std::uint64_t key() const { return std::uint64_t{a} << 32 | b; }
-  /// Whether b is a collider, and the slot of what it is.
+  /// b is a collider, or else a particle; other_slot() is its slot.
   ISO_INLINE bool with_collider() const { return (b & kCollider) != 0; }
   ISO_INLINE std::uint32_t other_slot() const { return b & ~kCollider; }
   ISO_FIELDS(a, b, impulse, friction_impulse)
@@ -47,7 +48,7 @@ template <class S> struct ParticlePush {
 };
 static_assert(kHasNoPadding<ParticlePush<float>> && kHasNoPadding<ParticlePush<double>>);
 
-/// When a particle expires. Ascending by slot; those that live for ever have none.
+/// The tick at which a particle expires. Ascending by slot; those that live for ever have none.
 struct ParticleLifetime {
   std::uint64_t last_tick;  // the particle is gone after this step
   std::uint32_t slot;
@@ -66,7 +67,7 @@ template <class S> struct ParticleState {
   Axes<Velocity<S>> velocity;                // [m/s]
   std::vector<InverseMass<S>> inverse_mass;  // [1/kg] 0: pinned
   std::vector<std::uint32_t> material;       // slot
-  // What commands alone change, but for springs that yield.
+  // Commands alone change these, but for springs that yield.
   Registry<ParticleMaterial<S>, ParticleMaterialId> materials;
   Registry<Spring<S>, SpringId> springs;
   Registry<ParticleForce<S>, ForceId> forces;

@@ -1,4 +1,4 @@
-// Whether a state from a file could be a particle world's own: every rule that commands and steps keep.
+// Checks of a state from a file: it must keep every rule that commands and steps of a particle world keep.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -58,7 +58,7 @@ template <class S> class ParticleWorld final : public WorldBase<ParticleWorld<S>
   bool use_simd(Simd simd);
   const char* simd_name() const;
 
-  // What is registered: materials, springs, forces, cohesions, links, colliders, each by an id of its type.
+  // Records: materials, springs, forces, cohesions, links, colliders, each by an id of its type.
 #define ISO_RECORD(name, Record, Id, S)  \
   Id add(const Record& record);          \
   bool set(Id id, const Record& record); \
@@ -71,7 +71,7 @@ template <class S> class ParticleWorld final : public WorldBase<ParticleWorld<S>
 
   // Particles.
   ParticleId create(const ParticleDefinition<S>& definition);
-  /// With it go the springs, forces and links that name it.
+  /// Destroys the springs, forces and links that name it as well.
   bool destroy(ParticleId particle);
   bool place(ParticleId particle, Vec3<S> position, Vec3<S> velocity);
   /// A pinned particle goes on at the velocity that it has, whatever acts on it, until `place` gives it another.
@@ -94,7 +94,7 @@ template <class S> class ParticleWorld final : public WorldBase<ParticleWorld<S>
   /// Any of them, as recorded ones are.
   bool apply(const ParticleCommand<S>& command);
 
-  // What particles are like. A stale id gives the zero of the type that is returned.
+  // Getters of particles. A stale id gives the zero of the type that is returned.
   bool contains(ParticleId particle) const;
   Vec3<S> position(ParticleId particle) const;
   Vec3<S> velocity(ParticleId particle) const;
@@ -112,10 +112,9 @@ template <class S> class ParticleWorld final : public WorldBase<ParticleWorld<S>
   using Base::engine_;
 };
 
-#define ISO_EXTERN(S)                                \
+#define ISO_PARTICLE_WORLD_OF(extern, S)             \
   extern template class WorldBase<ParticleWorld<S>>; \
   extern template class ParticleWorld<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_WORLD_OF)
 
 }  // namespace isostep

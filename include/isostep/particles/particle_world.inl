@@ -135,8 +135,7 @@ template <class S> const ParticleEvents<S>& ParticleWorld<S>::events() const { r
   template bool ParticleCommands<S>::execute(const SetRecord<Record, Id>&); \
   template bool ParticleCommands<S>::execute(const RemoveRecord<Id>&);
 #define ISO_INSTANTIATE_PARTICLE_WORLD(S)                                                             \
-  template class ParticleRemoval<S>;                                                                  \
+  ISO_PARTICLE_REMOVAL_OF(, S)                                                                        \
   ISO_FOR_EACH_PARTICLE_COMMAND(ISO_INSTANTIATE_PARTICLE_EXECUTE, ISO_INSTANTIATE_PARTICLE_RECORD, S) \
   template std::uint64_t ParticleEngine<S>::hash() const;                                             \
-  template class WorldBase<ParticleWorld<S>>;                                                         \
-  template class ParticleWorld<S>;
+  ISO_PARTICLE_WORLD_OF(, S)

@@ -12,10 +12,10 @@
 
 namespace isostep {
 
-/// What particle worlds are called in a replay's header.
+/// The name of particle worlds in a replay's header.
 inline constexpr char kParticleWorldName[] = "particles";
 
-/// What must be equal where a recording of such a world is replayed. `scene` is kept by reference.
+/// The identity that must be equal where a recording of such a world is replayed. `scene` is kept by reference.
 template <class S>
 ISO_INLINE ReplayIdentity identity_of_world(const ParticleSettings<S>& settings, std::string_view scene) {
   ReplayIdentity identity{};

@@ -31,7 +31,7 @@ template <class S> class ParticleRemoval {
 
   void remove_leaving();
   template <class Id, class Registry, class Names> void remove_naming(const Registry& registry, const Names& names);
-  /// What the state remembers of a record beside it.
+  /// Forgets what the state remembers of a record beside it.
   template <class Id> ISO_INLINE void forget(Id) {}
   void forget(LinkId link);
   void forget(ColliderId collider);
@@ -42,8 +42,7 @@ template <class S> class ParticleRemoval {
   std::vector<std::uint8_t> is_leaving_;  // by slot: 1 while they are being removed
 };
 
-#define ISO_EXTERN(S) extern template class ParticleRemoval<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_REMOVAL_OF(extern, S) extern template class ParticleRemoval<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_REMOVAL_OF)
 
 }  // namespace isostep

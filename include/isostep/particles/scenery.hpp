@@ -1,4 +1,4 @@
-// How far a point is from scenery, and in which direction.
+// The distance of a point from scenery, and its direction.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,7 +12,7 @@ template <class S> struct SceneryDistance {
   Vec3<Unit<S>> normal;  // [1] out of the scenery
 };
 
-/// On a line's very axis up counts as outward.
+/// The axis of a line has up as its outward direction.
 template <class S> ISO_INLINE SceneryDistance<S> distance_to(const Collider<S>& collider, Vec3<S> p) {
   if (collider.type == ColliderType::plane) return {dot(p, collider.normal) - collider.offset, collider.normal};
   const Vec3<S> span = collider.end - collider.start;

@@ -1,4 +1,4 @@
-// What a particle world is made with, and the names of its methods.
+// The settings of a particle world, and the names of its methods.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,17 +9,17 @@
 
 namespace isostep {
 
-/// How velocities and positions follow from forces. One order of updates everywhere: forces, then velocities, then
-/// positions, then constraints; explicit Euler alone moves first and then accelerates (the book's order).
-/// A warm step asks for no memory but with implicit_euler, where a large network makes Eigen ask for its working rows
-/// in every sub-step, and where a spring yields or a particle expires while a snapshot shares its list: that is copied
-/// first.
+/// The method by which velocities and positions follow from forces. One order of updates everywhere: forces, then
+/// velocities, then positions, then constraints; explicit Euler alone moves first and then accelerates (the book's
+/// order). A warm step asks for no memory but with implicit_euler, where a large network makes Eigen ask for its
+/// working rows in every sub-step, and where a spring yields or a particle expires while a snapshot shares its list:
+/// that is copied first.
 enum class Integrator : std::uint32_t { explicit_euler, semi_implicit_euler, velocity_verlet, rk4, implicit_euler };
 inline constexpr const char* kIntegratorNames[] = {"explicit_euler", "semi_implicit_euler", "velocity_verlet", "rk4",
                                                    "implicit_euler"};
 inline constexpr std::uint32_t kIntegrators = 5;
 
-/// How contacts, cables and rods are held.
+/// The method that holds contacts, cables and rods.
 ///   soft_step    impulses over sub-steps as damped springs, then relaxed (the rigid world's method)
 ///   worst_first  after the integration, the fastest closing first (Millington, ch. 7)
 enum class ParticleSolver : std::uint32_t { soft_step, worst_first };
@@ -48,7 +48,7 @@ template <class S> struct ParticleSettings {
   ParticleSolver solver = ParticleSolver::soft_step;
   Stepping stepping = Stepping::fixed;
   std::uint32_t iterations = 0;  // of worst_first a sub-step, of all; 0: two a constraint, each island its own
-  // What a crowd may cost; ParticleReport says what was over, and it is over alike everywhere.
+  // Bounds of what a crowd may cost; ParticleReport says what was over, and it is over alike everywhere.
   std::uint32_t pairs = 0;  // that a step's search may find, up to kMostParticlePairs; 0: 64 a particle, at least 2^21
   std::uint32_t looks = 0;  // at constraints, of worst_first a step; 0: 2^22 and 2048 a particle
 

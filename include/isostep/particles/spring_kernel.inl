@@ -16,7 +16,7 @@ template <class S, int W, class Isa> struct SpringKernel {
   using V = Lanes<Velocity<S>, W, Isa>;
   using M = Lanes<InverseMass<S>, W, Isa>;
 
-  /// Between arrays of axes and rows of four, particle by particle.
+  /// These move between arrays of axes and rows of four, particle by particle.
   template <class T> static ISO_INLINE void gather(AxesView<T> from, T* to, std::uint32_t i) {
     T* rows[W];
     for (int k = 0; k < W; ++k) rows[k] = to + 4u * (i + static_cast<std::uint32_t>(k));
@@ -36,7 +36,7 @@ template <class S, int W, class Isa> struct SpringKernel {
     scatter(run.pulls, run.acceleration, i);
   }
 
-  /// Of a from b.
+  /// The vector from b to a.
   template <class T>
   static ISO_INLINE Vec3<Lanes<T, W, Isa>> difference(const T* ends, const std::uint32_t* a, const std::uint32_t* b) {
     const T *of_a[W], *of_b[W];
@@ -54,7 +54,7 @@ template <class S, int W, class Isa> struct SpringKernel {
     sum[2] = saturating_add(sum[2], *z);
   }
 
-  /// Nothing, whatever the force, where it is pinned.
+  /// The acceleration by a force; 0 where the particle is pinned.
   static ISO_INLINE L accelerated(L force, M inverse_mass) {
     return select(less(M::zero(), inverse_mass), round_saturated<L>(product(force, inverse_mass)), L::zero());
   }
@@ -92,7 +92,7 @@ template <class S, int W, class Isa> struct SpringKernel {
   }
 };
 
-/// What no block is left for goes one by one.
+/// Springs that fill no block go one by one.
 template <class S, int W, class Isa> void pull_springs(const SpringRun<S>& run) {
   using Wide = SpringKernel<S, W, Isa>;
   using Single = SpringKernel<S, 1, Isa>;

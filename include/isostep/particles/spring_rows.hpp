@@ -24,7 +24,7 @@ template <class S> struct SpringRows {
   std::uint32_t count = 0;
   bool damped = false;
 
-  /// Empty, with room for `most`.
+  /// Empties the rows, with room for `most`.
   ISO_INLINE void begin(std::size_t most) {
     count = 0;
     damped = false;
@@ -73,8 +73,8 @@ template <class S> struct SpringRows {
   }
 };
 
-/// What the springs' kernel reads, and the accelerations to which it adds. Bare arrays: a kernel's object has no weak
-/// symbol, not even the standard library's.
+/// The inputs of the springs' kernel, and the accelerations to which it adds. They are bare arrays: a kernel's object
+/// has no weak symbol, not even the standard library's.
 template <class S> struct SpringRun {
   const std::uint32_t *a, *b;  // as SpringRows has them, by row
   const S *stiffness, *damping, *rest_length, *least_extension;

@@ -27,7 +27,7 @@ template <class S> ISO_INLINE NearZero<S> near_zero(S q) {
   return {sinc, cos};
 }
 
-/// The same in a scalar that is fine enough; vd comes times h.
+/// The exact step in a scalar that is fine enough; vd comes times h.
 template <class S> ISO_INLINE OscillatorStep<S> oscillator_of(S kappa, S delta) {
   using U = Unit<S>;
   const S q = kappa - delta * delta;
@@ -60,7 +60,7 @@ template <class S> ISO_INLINE Oscillator<Finer<S>> oscillator(S stiffness, S dam
   return {saturate_to<F>(product(finer<F>(stiffness), mass_inverse)) / fine_rate / fine_rate,
           saturate_to<F>(product(finer<F>(damping), mass_inverse)) / (fine_rate + fine_rate)};
 }
-/// Rounded to the scalar; vd comes times h.
+/// Rounds a step to the scalar; vd comes times h.
 template <class S, class F> ISO_INLINE OscillatorStep<S> coarse_step(const OscillatorStep<F>& step, S rate) {
   const F vd = saturate_to<F>(product(step.vd, finer<F>(rate)));
   return {coarser<Unit<S>>(step.dd), coarser<Unit<S>>(step.dv), coarser<Unit<S>>(step.vv), coarser<S>(vd)};

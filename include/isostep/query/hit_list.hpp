@@ -19,14 +19,14 @@ ISO_INLINE bool comes_before(const QueryHit<S, Fraction>& a, const QueryHit<S, F
   return a.child != b.child ? a.child < b.child : a.triangle < b.triangle;
 }
 
-/// The first hits that there is room for, in the memory of the caller.
+/// A list of the first hits that there is room for, in the memory of the caller.
 template <class S, class Fraction> class NearestHits {
   using Hit = QueryHit<S, Fraction>;
 
  public:
   ISO_INLINE explicit NearestHits(std::span<Hit> room) : room_(room) {}
   ISO_INLINE std::size_t count() const { return count_; }
-  /// [1] A hit after this is not among them.
+  /// [1] The latest fraction of interest: a hit after it is not among them.
   ISO_INLINE Fraction latest() const {
     return count_ < room_.size() ? Fraction(1) : room_.empty() ? Fraction(0) : room_[count_ - 1].fraction;
   }
@@ -46,7 +46,7 @@ template <class S, class Fraction> class NearestHits {
   std::size_t count_ = 0;
 };
 
-/// All of them, appended to a vector.
+/// A list of all hits, appended to a vector.
 template <class S, class Fraction> class EveryHit {
   using Hit = QueryHit<S, Fraction>;
   struct ByPart {

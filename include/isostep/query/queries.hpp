@@ -35,12 +35,13 @@ template <class S> class Queries {
   void cast_shape_all(const ShapeCast<S>& cast, std::vector<ShapeCastHit<S>>& out) const;
   std::size_t cast_shape_all(const ShapeCast<S>& cast, std::span<ShapeCastHit<S>> out) const;
   // For who asks often about one place, and asks nothing that is refused: appends the slots of all that the filter sees
-  // whose fat box meets a box, in no order; what a cast or ray meets of those, where its way lies in `box`.
+  // whose fat box meets a box, in no order; what a cast or ray meets of those, where its way lies in `box`, by parts
+  // that collide with `own`.
   void find_near(const Aabb<S>& box, const QueryFilter& filter, std::vector<std::uint32_t>& out) const;
-  std::size_t cast_among(std::span<const std::uint32_t> slot_list, const Aabb<S>& box, const ShapeCast<S>& cast,
-                         std::span<ShapeCastHit<S>> out) const;
-  std::size_t ray_among(std::span<const std::uint32_t> slot_list, const Aabb<S>& box, const RayCast<S>& ray,
-                        std::span<RayCastHit<S>> out) const;
+  std::size_t cast_among(std::span<const std::uint32_t> slot_list, const Aabb<S>& box, const Filter& own,
+                         const ShapeCast<S>& cast, std::span<ShapeCastHit<S>> out) const;
+  std::size_t ray_among(std::span<const std::uint32_t> slot_list, const Aabb<S>& box, const Filter& own,
+                        const RayCast<S>& ray, std::span<RayCastHit<S>> out) const;
   bool cast_rays(std::span<const RayCast<S>> rays, std::span<RayCastHit<S>> hits, const TaskRunner& runner) const;
   bool cast_shapes(std::span<const ShapeCast<S>> casts, std::span<ShapeCastHit<S>> hits,
                    const TaskRunner& runner) const;
@@ -52,7 +53,8 @@ template <class S> class Queries {
                      const QueryFilter& filter) const;
   std::optional<OverlapHit> overlap_first(const QueryShape<S>& shape, const Pose<S>& pose,
                                           const QueryFilter& filter) const;
-  bool sees(const QueryFilter& filter, std::uint32_t slot) const;  // whether the filter takes that body
+  bool sees(const QueryFilter& filter, std::uint32_t slot) const;  // whether the filter takes a part of that body
+  bool sees_part(const QueryFilter& filter, const BodyProperties<S>& body, const PartTraits<S>& part) const;
   /// [m] how far a shape of the world reaches from its frame's origin along a direction.
   S reach_of(ShapeId shape, const Quat<Unit<S>>& orientation, Vec3<Unit<S>> along) const;
   void overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, const QueryFilter& filter) const;
@@ -76,12 +78,13 @@ template <class S> class Queries {
   FaultReport fault_of_cast(const ShapeCast<S>& cast) const;
   template <class Probe, class List> void gather(const Probe& probe, const QueryFilter& filter, List& list) const;
   template <class Probe, class List>
-  void meet(const Probe& probe, const QueryFilter& filter, std::uint32_t slot, List& list) const;
+  void meet(const Probe& probe, const QueryFilter& filter, std::uint32_t slot, List& list,
+            const Filter* own = nullptr) const;
   template <class Visit> void visit_cast(const ShapeCast<S>& cast, const Visit& visit) const;
   template <class List> void gather_cast(const ShapeCast<S>& cast, List& list) const;
   template <class Probe, class List>
   void meet_among(const Probe& probe, const QueryFilter& filter, std::span<const std::uint32_t> slot_list,
-                  const Aabb<S>& box, List& list) const;
+                  const Aabb<S>& box, const Filter& own, List& list) const;
   // query_batches.inl
   template <class Work> bool run_batch(const char* name, const Work& work, const TaskRunner& runner) const;
   // query_overlaps.inl
@@ -91,6 +94,7 @@ template <class S> class Queries {
   template <class Visit>
   void visit_overlaps(const Asked& asked, const QueryFilter& filter, std::uint32_t slot, const Visit& visit) const;
   // queries.inl
+  static bool sees(const QueryFilter& filter, const Filter& of, std::uint32_t kind, bool senses);
   bool accept_box(const Aabb<S>& box) const;
   BodyId id_of(std::uint32_t slot) const;
 
@@ -100,8 +104,7 @@ template <class S> class Queries {
   FaultLog& faults_;
 };
 
-#define ISO_EXTERN(S) extern template class Queries<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_QUERIES_OF(extern, S) extern template class Queries<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_QUERIES_OF)
 
 }  // namespace isostep

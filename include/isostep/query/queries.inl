@@ -22,13 +22,25 @@ template <class S> bool Queries<S>::sees(const QueryFilter& filter, std::uint32_
   for (const BodyId unseen : filter.ignore_all) {
     if (unseen && id_of(slot) == unseen) return false;
   }
-  for (const std::uint32_t kind : filter.ignore_kinds) {
-    if (kind == body.material.kind) return false;
+  if (filter.ignore && id_of(slot) == filter.ignore) return false;
+  const bool senses = (body.flags & body_flag::kSensor) != 0;
+  if (map_.traits_of(body.shape).flags == 0) return sees(filter, body.filter, body.material.kind, senses);
+  bool seen = false;
+  for (const Child<S>& child : map_.children_of(body.shape)) seen = seen || sees_part(filter, body, child.traits);
+  return seen;
+}
+/// Of a body that is not ignored by its id.
+template <class S>
+bool Queries<S>::sees_part(const QueryFilter& filter, const BodyProperties<S>& body, const PartTraits<S>& part) const {
+  return sees(filter, part.filter_or(body.filter), part.material_or(body.material).kind,
+              (body.flags & body_flag::kSensor) != 0 || part.has(part_flag::kSensor));
+}
+template <class S> bool Queries<S>::sees(const QueryFilter& filter, const Filter& of, std::uint32_t kind, bool senses) {
+  for (const std::uint32_t ignored : filter.ignore_kinds) {
+    if (ignored == kind) return false;
   }
-  const bool ignored =
-      (filter.ignore && id_of(slot) == filter.ignore) || (filter.group != 0 && filter.group == body.filter.group);
-  return (body.filter.category & filter.mask) != 0 && !ignored &&
-         (filter.sensors || (body.flags & body_flag::kSensor) == 0);
+  const bool grouped = filter.group != 0 && filter.group == of.group;
+  return (of.category & filter.mask) != 0 && !grouped && (filter.sensors || !senses);
 }
 
 template <class S>
@@ -46,13 +58,18 @@ std::optional<ClosestBody<S>> Queries<S>::closest_point(Vec3<S> point, S max_dis
   proxies_.boxes().query(Aabb<S>::around(point, {reach, reach, reach}), [&](std::uint32_t slot) {
     if (!sees(filter, slot)) return true;
     const Transform<S> placed = Transform<S>::of(map_.origin_pose_at(slot));
-    for (const Child<S>& child : map_.children_of(map_.properties_at(map_.location(slot)).shape)) {
+    const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
+    const std::span<const Child<S>> children = map_.children_of(body.shape);
+    const bool traits = map_.traits_of(body.shape).flags != 0;
+    for (std::uint32_t i = 0; i < children.size(); ++i) {
+      const Child<S>& child = children[i];
+      if (traits && !sees_part(filter, body, child.traits)) continue;
       const ClosestPoint<S> found = isostep::closest_point(map_.contents().view(child.primitive),
                                                            compose(placed, Transform<S>::of(child.pose)), point);
       if (max_distance < found.distance) continue;
       const bool nearer =
           !best || found.distance < best->distance || (found.distance == best->distance && slot < best->body.slot);
-      if (nearer) best = ClosestBody<S>{id_of(slot), found.point, found.normal, found.distance};
+      if (nearer) best = ClosestBody<S>{id_of(slot), i, found.point, found.normal, found.distance};
     }
     return true;
   });
@@ -125,4 +142,4 @@ template <class S> S Queries<S>::joint_position(JointId joint, JointAxis axis) c
 }  // namespace isostep
 
 /// What games ask between steps.
-#define ISO_INSTANTIATE_WORLD_QUERIES(S) template class Queries<S>;
+#define ISO_INSTANTIATE_WORLD_QUERIES(S) ISO_QUERIES_OF(, S)

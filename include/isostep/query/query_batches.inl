@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// Pieces of a batch, by index. Each query fills its own hits and reads the world alone.
+/// The pieces of a batch, by index. Each query fills its own hits and reads the world alone.
 template <class S> template <class Work> struct Queries<S>::Batch {
   const Work& work;
   std::size_t pieces;
@@ -21,10 +21,10 @@ template <class S> template <class Work> struct Queries<S>::Batch {
 };
 
 namespace detail {
-/// Threads are not worth waking for fewer.
+/// The fewest queries that are worth waking threads.
 inline constexpr std::size_t kLeastSharedQueries = 16;
 
-/// hits.size() / asked.size() hits a query, the nearest; those that there are not have no body.
+/// The work of a batch: hits.size() / asked.size() hits a query, the nearest; hits that there are not have no body.
 template <class Asked, class Hit, class Fault, class Gather> struct BatchWork {
   std::span<const Asked> asked;
   std::span<Hit> hits;

@@ -23,17 +23,26 @@ void Queries<S>::gather(const Probe& probe, const QueryFilter& filter, List& lis
   });
 }
 
-/// A body's hits: of each triangle, of each child, or the first of all of them.
+/// A body's hits: of each triangle, of each child, or the first of all of them. Of parts that collide with `own`, where
+/// there is one.
 template <class S>
 template <class Probe, class List>
-void Queries<S>::meet(const Probe& probe, const QueryFilter& filter, std::uint32_t slot, List& list) const {
+void Queries<S>::meet(const Probe& probe, const QueryFilter& filter, std::uint32_t slot, List& list,
+                      const Filter* own) const {
   const Transform<S> placed = Transform<S>::of(map_.origin_pose_at(slot));
-  const std::uint32_t shape = map_.properties_at(map_.location(slot)).shape;
+  const BodyProperties<S>& properties = map_.properties_at(map_.location(slot));
+  const std::uint32_t shape = properties.shape;
+  const bool traits = map_.traits_of(shape).flags != 0;
   const std::span<const Child<S>> children = map_.children_of(shape);
   const BodyId body = id_of(slot);
   typename Probe::Hit first = {};
   const auto latest = [&] { return first.body ? min(first.fraction, list.latest()) : list.latest(); };
+  const auto passes = [&](const PartTraits<S>& part) {
+    return !sees_part(filter, properties, part) ||
+           (own != nullptr && !should_collide(*own, part.filter_or(properties.filter)));
+  };
   const auto meet_child = [&](std::uint32_t i) {
+    if (traits && passes(children[i].traits)) return;
     const ShapeView<S> part = map_.contents().view(children[i].primitive);
     const bool is_placed = children[i].pose.is_identity();
     const Transform<S> at = is_placed ? placed : compose(placed, Transform<S>::of(children[i].pose));
@@ -160,23 +169,23 @@ void Queries<S>::find_near(const Aabb<S>& box, const QueryFilter& filter, std::v
 template <class S>
 template <class Probe, class List>
 void Queries<S>::meet_among(const Probe& probe, const QueryFilter& filter, std::span<const std::uint32_t> slot_list,
-                            const Aabb<S>& box, List& list) const {
+                            const Aabb<S>& box, const Filter& own, List& list) const {
   for (const std::uint32_t slot : slot_list) {
-    if (overlap(map_.state_at(map_.location(slot)).fat, box)) meet(probe, filter, slot, list);
+    if (overlap(map_.state_at(map_.location(slot)).fat, box)) meet(probe, filter, slot, list, &own);
   }
 }
 template <class S>
-std::size_t Queries<S>::cast_among(std::span<const std::uint32_t> slot_list, const Aabb<S>& box,
+std::size_t Queries<S>::cast_among(std::span<const std::uint32_t> slot_list, const Aabb<S>& box, const Filter& own,
                                    const ShapeCast<S>& cast, std::span<ShapeCastHit<S>> out) const {
   detail::NearestHits<S, Unit<S>> list(out);
-  visit_cast(cast, [&](const auto& probe) { meet_among(probe, cast.filter, slot_list, box, list); });
+  visit_cast(cast, [&](const auto& probe) { meet_among(probe, cast.filter, slot_list, box, own, list); });
   return list.count();
 }
 template <class S>
-std::size_t Queries<S>::ray_among(std::span<const std::uint32_t> slot_list, const Aabb<S>& box, const RayCast<S>& ray,
-                                  std::span<RayCastHit<S>> out) const {
+std::size_t Queries<S>::ray_among(std::span<const std::uint32_t> slot_list, const Aabb<S>& box, const Filter& own,
+                                  const RayCast<S>& ray, std::span<RayCastHit<S>> out) const {
   detail::NearestHits<S, S> list(out);
-  meet_among(detail::RayProbe<S>(ray.origin, ray.translation, ray.filter), ray.filter, slot_list, box, list);
+  meet_among(detail::RayProbe<S>(ray.origin, ray.translation, ray.filter), ray.filter, slot_list, box, own, list);
   return list.count();
 }
 

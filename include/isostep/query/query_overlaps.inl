@@ -94,8 +94,12 @@ template <class Visit>
 void Queries<S>::visit_overlaps(const Asked& asked, const QueryFilter& filter, std::uint32_t slot,
                                 const Visit& visit) const {
   const BodyId body = id_of(slot);
+  const BodyProperties<S>& properties = map_.properties_at(map_.location(slot));
+  const std::span<const Child<S>> children = map_.children_of(properties.shape);
+  const bool traits = map_.traits_of(properties.shape).flags != 0;
   const auto visit_child = [&](std::uint32_t i, const ShapeView<S>& part, const Transform<S>& at,
                                const Transform<S>& here) {  // false: visit wants no more
+    if (traits && !sees_part(filter, properties, children[i].traits)) return true;
     Manifold<S> manifold;
     const bool is_whole = !is_surface(part.primitive.type), each = filter.per == HitPer::triangle;
     std::uint32_t lowest = kNoTriangle;

@@ -45,7 +45,7 @@ template <class S> class Surroundings {
 
   void begin_step();
   /// For a body of one convex part that does not turn. Lists that the filter names outlive what is asked. What the
-  /// body, whose filter is `collides`, does not collide with is not seen.
+  /// body, or its part, whose filter is `collides`, does not collide with is not seen.
   void begin(ShapeId shape, const Pose<S>& pose, const QueryFilter& filter, const Filter& collides);
   /// Gathers what is within `reach` [m] of the place where it began. What is asked beyond is gathered then.
   void gather(Vec3<S> reach);
@@ -63,8 +63,9 @@ template <class S> class Surroundings {
   struct Placed {
     BodyId body;
     ShapeView<S> shape;
-    Transform<S> at;  // of the part's frame, world
-    Aabb<S> box;      // [m] around it, world
+    Transform<S> at;              // of the part's frame, world
+    Aabb<S> box;                  // [m] around it, world
+    const PartTraits<S>* traits;  // of its own; null: it is as its body
 
     ISO_INLINE bool is_convex() const { return !is_surface(shape.primitive.type); }
   };
@@ -99,11 +100,18 @@ template <class S> class Surroundings {
   }
   ISO_INLINE bool collides_with(std::uint32_t slot) const {
     const BodyProperties<S>& other = map_.properties_at(map_.location(slot));
-    return (other.flags & body_flag::kCollide) != 0 && should_collide(collides_, other.filter);
+    return (other.flags & body_flag::kCollide) != 0 && should_collide(collides_, map_.filter_of(other));
+  }
+  /// Of a body that has parts which are in the way.
+  ISO_INLINE bool is_in_the_way(std::uint32_t slot, const Placed& part) const {
+    if (part.traits == nullptr) return true;
+    const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
+    return queries_.sees_part(filter_, body, *part.traits) &&
+           should_collide(collides_, part.traits->filter_or(body.filter));
   }
   Range place(std::uint32_t slot);
   Range place_some(std::uint32_t slot, const ChildTree<S>& tree);
-  void add_placed(BodyId body, const Transform<S>& origin, const Child<S>& child);
+  void add_placed(BodyId body, const Transform<S>& origin, const Child<S>& child, bool traits);
   ISO_INLINE void cover(const Aabb<S>& box) {
     if (!contains(region_, box)) gather_around(box);
   }
@@ -142,8 +150,7 @@ template <class S> class Surroundings {
   std::vector<std::uint32_t> children_, children_scratch_;
 };
 
-#define ISO_EXTERN(S) extern template class Surroundings<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SURROUNDINGS_OF(extern, S) extern template class Surroundings<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SURROUNDINGS_OF)
 
 }  // namespace isostep

@@ -35,7 +35,7 @@ void Surroundings<S>::begin(ShapeId shape, const Pose<S>& pose, const QueryFilte
   const Pose<S> turned = {Vec3<S>::zero(), pose.orientation};
   const Transform<S> placed = Transform<S>::of(own.pose.is_identity() ? turned : compose(turned, own.pose));
   filter_ = filter;
-  collides_ = collides;
+  collides_ = own.traits.filter_or(collides);
   shape_ = &own.primitive;
   begin_ = pose.position;
   offset_ = placed.position;
@@ -68,7 +68,7 @@ template <class S> void Surroundings<S>::gather_around(const Aabb<S>& box) {
   parts_.clear();
   for (const Near& nearby : near_) {
     for (std::uint32_t i = nearby.parts.first; i < nearby.parts.last; ++i) {
-      if (overlap(placed_[i].box, region_)) parts_.push_back({i, {}});
+      if (overlap(placed_[i].box, region_) && is_in_the_way(nearby.slot, placed_[i])) parts_.push_back({i, {}});
     }
   }
 }
@@ -93,14 +93,17 @@ template <class S> auto Surroundings<S>::place(std::uint32_t slot) -> Range {
   const BodyId body = state_.body_slots.template id_of<BodyId>(slot);
   const Transform<S> origin = Transform<S>::of(map_.origin_pose_at(slot));
   const auto first = static_cast<std::uint32_t>(placed_.size());
-  for (const Child<S>& child : map_.children_of(shape)) add_placed(body, origin, child);
+  const bool traits = map_.traits_of(shape).flags != 0;
+  for (const Child<S>& child : map_.children_of(shape)) add_placed(body, origin, child, traits);
   return placed_of_[slot] = {first, static_cast<std::uint32_t>(placed_.size())};
 }
 /// Those in the region, anew for each region.
 template <class S> auto Surroundings<S>::place_some(std::uint32_t slot, const ChildTree<S>& tree) -> Range {
   const BodyId body = state_.body_slots.template id_of<BodyId>(slot);
   const Transform<S> origin = Transform<S>::of(map_.origin_pose_at(slot));
-  const std::span<const Child<S>> children = map_.children_of(map_.properties_at(map_.location(slot)).shape);
+  const std::uint32_t shape = map_.properties_at(map_.location(slot)).shape;
+  const std::span<const Child<S>> children = map_.children_of(shape);
+  const bool traits = map_.traits_of(shape).flags != 0;
   children_.clear();
   tree.query(origin, region_, [&](std::uint32_t child) {
     children_.push_back(child);
@@ -109,13 +112,14 @@ template <class S> auto Surroundings<S>::place_some(std::uint32_t slot, const Ch
   children_scratch_.resize(children_.size());
   stable_sort(children_.data(), children_scratch_.data(), static_cast<std::uint32_t>(children_.size()), OwnKey{});
   const auto first = static_cast<std::uint32_t>(placed_.size());
-  for (const std::uint32_t child : children_) add_placed(body, origin, children[child]);
+  for (const std::uint32_t child : children_) add_placed(body, origin, children[child], traits);
   return {first, static_cast<std::uint32_t>(placed_.size())};
 }
-template <class S> void Surroundings<S>::add_placed(BodyId body, const Transform<S>& origin, const Child<S>& child) {
+template <class S>
+void Surroundings<S>::add_placed(BodyId body, const Transform<S>& origin, const Child<S>& child, bool traits) {
   const ShapeView<S> view = map_.contents().view(child.primitive);
   const Transform<S> at = child.pose.is_identity() ? origin : compose(origin, Transform<S>::of(child.pose));
-  placed_.push_back({body, view, at, bounds(view, at)});
+  placed_.push_back({body, view, at, bounds(view, at), traits ? &child.traits : nullptr});
 }
 
 // ---- casts

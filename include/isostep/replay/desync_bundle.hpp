@@ -16,9 +16,9 @@ namespace replay_chunk {
 inline constexpr std::uint32_t kPeer = replay_chunk_type('p', 'E', 'E', 'R');
 }  // namespace replay_chunk
 
-/// What a replay has no place for.
+/// The facts that a replay has no place for.
 struct BundleFacts {
-  std::uint32_t player = 0;                // whose bundle it is; 0xff: the host's machine
+  std::uint32_t player = 0;                // the owner of the bundle; 0xff: the host's machine
   Frame agreed = kNoFrame;                 // the last state that all had alike; kNoFrame: not known
   std::vector<std::uint64_t> game_hashes;  // of the whole game after each frame
   std::vector<std::uint32_t> steps;        // that were traced in each frame; none: trace was off

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "isostep/replay/recorder.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "isostep/world/world.hpp"
 
 namespace isostep {
@@ -88,13 +88,13 @@ template <class S> class FrameHistory {
 
   ISO_INLINE const World<S>& world() const { return world_; }
   ISO_INLINE const HistorySettings& settings() const { return settings_; }
-  /// Null when it is not kept, or no more.
+  /// Returns null when the frame is not kept, or no more.
   ISO_INLINE const Kept* find(Frame frame) const {
     if (frame < 0) return nullptr;
     const Kept& kept = ring_[static_cast<std::size_t>(frame) % ring_.size()];
     return kept.frame == frame ? &kept : nullptr;
   }
-  /// Null when it is not kept, or no more, or states are not.
+  /// Returns null when the frame is not kept, or no more, or states are not.
   ISO_INLINE const typename World<S>::Snapshot* state_before(Frame frame) const {
     if (!settings_.states) return nullptr;
     if (frame != kNoFrame && frame == first_) return &start_;

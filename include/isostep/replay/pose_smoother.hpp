@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "isostep/math/quat.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "isostep/world/world.hpp"
 
 namespace isostep {
@@ -17,7 +17,7 @@ struct PoseSmootherSettings {
   float snap_distance = 2;        // [m] a body that is drawn further off than this jumps
 };
 
-/// Called at every step by an observer of `drive`, it filters the poses for drawing:
+/// A filter of the poses for drawing, called at every step by an observer of `drive`:
 ///
 ///     after_step(f)  { smoother.after_step(f, game.world); }
 ///     restarted(f)   { smoother.restarted(f); }
@@ -105,7 +105,8 @@ class PoseSmoother {
     return {pose.orientation[0], pose.orientation[1], pose.orientation[2], pose.orientation[3]};
   }
 
-  /// What is drawn stays where it is: offset + believed = new offset + pose, turn believed = new turn pose.
+  /// Changes the error so that what is drawn stays where it is: offset + believed = new offset + pose, turn believed =
+  /// new turn pose.
   ISO_INLINE void add_error(Body& body, const RenderPose& pose) {
     if (!body.off) {
       body.offset = {};

@@ -14,7 +14,7 @@ namespace isostep {
 
 struct ReplayCheck {
   Simd simd = Simd::best;                        // or the widest narrower lanes; never changes a bit
-  VerifySpan span = {};                          // which frames
+  VerifySpan span = {};                          // the frames that are played
   std::vector<std::uint8_t>* reached = nullptr;  // gets the portable state after the last frame, where all are verified
 };
 

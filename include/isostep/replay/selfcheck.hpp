@@ -14,7 +14,7 @@
 
 namespace isostep {
 
-/// What was replayed in one scalar with one set of lanes.
+/// The recordings of one scalar, replayed with one set of lanes.
 struct SelfcheckPart {
   const char* scalar;        // ScalarTraits::kName
   const char* lanes;         // World::simd_name()
@@ -33,8 +33,8 @@ struct SelfcheckFailure {
 struct SelfcheckResult {
   /// Deviations (bits of scalar/environment.hpp) of the library's arithmetic in the environment that steps run in.
   std::uint32_t engine = 0;
-  /// Likewise of the calling file's flags in the calling thread's environment. The engine does not depend on them;
-  /// float arithmetic of the caller's own does.
+  /// The deviations of the calling file's flags in the calling thread's environment, likewise. The engine does not
+  /// depend on them; float arithmetic of the caller's own does.
   std::uint32_t caller = 0;
   std::vector<SelfcheckPart> parts;
   std::optional<SelfcheckFailure> failure;

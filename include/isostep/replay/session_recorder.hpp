@@ -55,7 +55,7 @@ template <class S> class SessionRecorder {
   ISO_INLINE const Result<void>& result() const { return result_; }
   /// Frames written.
   ISO_INLINE Frame frames() const { return next_ - first_; }
-  /// False once the session restarted, or after an error.
+  /// It is false once the session restarted, or after an error.
   ISO_INLINE bool recording() const { return phase_ == Phase::waiting || phase_ == Phase::open; }
 
  private:

@@ -20,7 +20,7 @@
 
 namespace isostep {
 
-/// What a RecordableWorld does not say of itself.
+/// The facts about a RecordableWorld that it does not say of itself.
 template <class W> struct WorldTraits;
 
 template <class S> struct WorldTraits<World<S>> {
@@ -76,7 +76,7 @@ ISO_INLINE std::string_view with_world(std::string_view kind, std::string_view s
   return with_world_if(
       kind, [&](std::string_view name, std::uint32_t) ISO_INLINE_LAMBDA { return name == scalar; }, visit);
 }
-/// What the header of a recording says of its world; views of it.
+/// The header's facts about the world of a recording; views of it.
 struct RecordedWorld {
   std::string_view kind;    // WorldTraits::kName
   std::uint64_t scalar_id;  // of ScalarTraits

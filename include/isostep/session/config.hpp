@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "isostep/session/frame.hpp"
-#include "isostep/session/roster.hpp"
+#include "isostep/session/protocol/address.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "isostep/state/replay_header.hpp"
 
 namespace isostep {
@@ -20,8 +20,8 @@ enum class SessionMode : std::uint8_t {
   replay      // plays a recorded match
 };
 
-inline constexpr Frame kMostDelay = 60;             // [frames] an input waits at most: a second
-inline constexpr std::size_t kCredentialCap = 256;  // [bytes] a signature of 64 and what it signs
+inline constexpr Frame kMostDelay = 60;     // [frames] an input waits at most: a second
+inline constexpr Frame kMostDeadline = 60;  // [frames]
 
 struct SessionConfig {
   SessionMode mode = SessionMode::rollback;

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "isostep/core/index.hpp"
-#include "isostep/session/core.hpp"
-#include "isostep/session/input_codec.hpp"
+#include "isostep/session/peer/session_core.hpp"
+#include "isostep/session/timeline/input_codec.hpp"
 #include "isostep/state/concepts.hpp"
 
 namespace isostep {
@@ -27,8 +27,9 @@ template <class Input> struct Request {
 /// configuration with a problem gives a session that is refused, by the event that names the field.
 std::unique_ptr<SessionCore> make_session_core(const SessionConfig& config, const InputRules& rules, Bytes recording);
 
-/// A session of `Game`, which models Simulation. It has no sockets, no clock and no threads, and allocates nothing once
-/// its states have been saved the first time (a late join apart). A turn of the game's loop:
+/// A session of `Game`, which models Simulation. It has no sockets, no clock and no threads. In a running match it
+/// allocates only what the game's own save does; joins, returns, repairs, a new host and saved matches take memory. A
+/// turn of the game's loop:
 ///
 ///     transport's events  -> connected, disconnected, receive
 ///     session.add_local_input(player, input);
@@ -108,31 +109,43 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   }
   /// The match stands still, or goes on: on all machines before the same frame, as events say. The host decides; a
   /// client in the match asks it, see SessionConfig::players_set_tempo. False: not possible now.
-  bool pause() { return core_->pause(true); }
-  bool unpause() { return core_->pause(false); }
+  bool pause() { return core_->control() != nullptr && core_->control()->pause(true); }
+  bool unpause() { return core_->control() != nullptr && core_->control()->pause(false); }
   /// [1/8 of the match's rate] 4 to 16, likewise; in a pause for afterwards. False also where the host's most_packets
   /// is below twice the rate.
-  bool set_speed(int eighths) { return core_->set_speed(eighths); }
+  bool set_speed(int eighths) { return core_->control() != nullptr && core_->control()->set_speed(eighths); }
 
   /// `player`, one of ours, asks all who play, see SessionConfig::votes; one vote at a time. What passes is done.
   /// False: not now, or not sound. A client's that the host does not take is counted there.
-  bool propose(int player, const Proposal& proposal) { return core_->propose(player, proposal); }
+  bool propose(int player, const Proposal& proposal) {
+    return core_->control() != nullptr && core_->control()->propose(player, proposal);
+  }
   /// In the vote of the last event `vote`; the last word counts. False: there is none, or the player is not ours.
-  bool vote(int player, bool yes) { return core_->vote(player, yes); }
+  bool vote(int player, bool yes) { return core_->control() != nullptr && core_->control()->vote(player, yes); }
 
   /// Host with SessionConfig::asks_admission: who waits for an answer, each once. One that comes after `silence` is too
   /// late. False: it has gone, or is refused all the same, for there is no seat.
-  std::optional<Applicant> poll_applicant() { return core_->poll_applicant(); }
-  bool admit(std::uint64_t applicant) { return core_->admit(applicant); }
+  std::optional<Applicant> poll_applicant() {
+    return core_->admission() == nullptr ? std::nullopt : core_->admission()->poll_applicant();
+  }
+  bool admit(std::uint64_t applicant) { return core_->admission() != nullptr && core_->admission()->admit(applicant); }
   /// The reason is text for people, printable ASCII of at most kReplayValueCap characters; false: it is not.
-  bool refuse(std::uint64_t applicant, std::string_view reason) { return core_->refuse(applicant, reason); }
+  bool refuse(std::uint64_t applicant, std::string_view reason) {
+    return core_->admission() != nullptr && core_->admission()->refuse(applicant, reason);
+  }
   /// Host: ends the player's connection, if it has one, with that reason. Its token is void and its seat free. False: a
   /// seat of nobody or of the host's own, or no reason as above.
-  bool kick(int player, std::string_view reason) { return core_->kick(player, reason); }
+  bool kick(int player, std::string_view reason) {
+    return core_->admission() != nullptr && core_->admission()->kick(player, reason);
+  }
   /// Likewise of a connection: a spectator's as well.
-  bool kick_peer(PeerId peer, std::string_view reason) { return core_->kick_peer(peer, reason); }
+  bool kick_peer(PeerId peer, std::string_view reason) {
+    return core_->admission() != nullptr && core_->admission()->kick_peer(peer, reason);
+  }
   /// Host: who has this seat now. Nobody, while it is kept for a player who is away, and for the host's own players.
-  std::optional<PeerId> peer_of(int player) const { return core_->peer_of(player); }
+  std::optional<PeerId> peer_of(int player) const {
+    return core_->admission() == nullptr ? std::nullopt : core_->admission()->peer_of(player);
+  }
 
   /// What to do now, in order and all of it: the low level under drive().
   std::span<const Request<Input>> advance(Time now) {
@@ -162,6 +175,8 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   }
   /// After a `save`: the hash of that state.
   void saved(Frame state, std::uint64_t hash) { core_->saved(state, hash); }
+  /// After a `capture`, also where the game has no portable form.
+  void captured() { core_->captured(); }
   /// After a `restore`.
   void restored(bool ok) { core_->restored(ok); }
   /// After a `probe` that found one.
@@ -295,6 +310,7 @@ void carry_out(Session<Game, Predictor>& session, Game& game, const Request<type
         detail::write_whole(game, session.portable());
         if (!is_present) game.load(session.state(session.current()));
       }
+      session.captured();
       break;
     case RequestKind::restore:
       if constexpr (PortableState<Game>) {

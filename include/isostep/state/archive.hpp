@@ -41,6 +41,15 @@ template <class T>
 inline constexpr bool kCopiesWhole = kHasNoPadding<T> && !detail::has_bool<T>() && std::is_trivially_copyable_v<T> &&
                                      std::endian::native == std::endian::little;
 
+class Reader;
+
+namespace detail {
+struct ShortReadVisitor {
+  Reader* reader;
+  template <class T> ISO_INLINE void operator()(const char* name, T& value) const;
+};
+}  // namespace detail
+
 /// Appends to the caller's bytes. Never fails.
 class Writer {
  public:
@@ -48,6 +57,11 @@ class Writer {
 
   template <class T> ISO_INLINE void write(const T& value) { pack(grow(kPackedSize<T>), value); }
   template <class T> ISO_INLINE void operator()(const char*, const T& value) { write(value); }
+  /// Writes the short form: pack_short.
+  template <class T> ISO_INLINE void write_short(const T& value) {
+    std::uint8_t bytes[kMostShort<T> + 1];
+    write_raw({bytes, pack_short(bytes, value)});
+  }
 
   /// n records with no count before them.
   template <class T> ISO_INLINE void write_records(const T* first, std::size_t n) {
@@ -96,7 +110,7 @@ class Reader {
 
   ISO_INLINE bool ok() const { return ok_; }
   ISO_INLINE std::size_t remaining() const { return ok_ ? bytes_.size() - offset_ : 0; }
-  /// Of the next byte, or of the one where reading failed.
+  /// The offset of the next byte, or of the one where reading failed.
   ISO_INLINE std::size_t offset() const { return offset_; }
 
   template <class T> ISO_INLINE bool read(T& value) {
@@ -125,6 +139,27 @@ class Reader {
     read(value);
   }
 
+  /// Reads what write_short wrote. A number in more bytes than it needs, or above its type's largest, is corrupt: a
+  /// value has one form.
+  template <class T> ISO_INLINE bool read_short(T& value) {
+    if constexpr (std::is_bounded_array_v<T>) {
+      for (auto& element : value) read_short(element);
+    } else if constexpr (HasFields<T>) {
+      T::fields(detail::ShortReadVisitor{this}, value);
+    } else if constexpr (kIsLeb128<T>) {
+      constexpr std::uint64_t kMost = static_cast<FieldBits<T>>(~FieldBits<T>{});
+      value = field_from_bits<T>(static_cast<FieldBits<T>>(read_leb128(kMost)));
+    } else {
+      read(value);
+    }
+    return ok_;
+  }
+  /// Reads the short form of a field of that name.
+  template <class T> ISO_INLINE void read_short_field(const char* name, T& value) {
+    if (ok_) field_ = name;
+    read_short(value);
+  }
+
   template <class T> ISO_INLINE bool read_records(T* first, std::size_t n) {
     if constexpr (kCopiesWhole<T>) {
       return read_raw(first, n, sizeof(T));
@@ -149,7 +184,7 @@ class Reader {
   /// `size` bytes with no count before them.
   Bytes read_view(std::size_t size);
 
-  /// For rules of the caller's own: an index past the end, a number that is not finite. `reason` is a literal.
+  /// Fails by a rule of the caller's own: an index past the end, a number that is not finite. `reason` is a literal.
   void fail(ErrorCode code, const char* reason);
   /// Bytes left over are an error too.
   void expect_end();
@@ -161,6 +196,8 @@ class Reader {
   const std::uint8_t* take(std::size_t size);
   bool read_raw(void* to, std::size_t n, std::size_t size);
   std::uint8_t refuse_bool();
+  /// A number up to `most`, or 0 and a failure.
+  std::uint64_t read_leb128(std::uint64_t most);
 
   Bytes bytes_;
   std::size_t offset_;
@@ -169,5 +206,9 @@ class Reader {
   const char* reason_;
   const char* field_;
 };
+
+template <class T> ISO_INLINE void detail::ShortReadVisitor::operator()(const char* name, T& value) const {
+  reader->read_short_field(name, value);
+}
 
 }  // namespace isostep

@@ -12,7 +12,7 @@ namespace isostep {
 /// Each world has one. It is no part of the state: it is not saved, loaded or hashed.
 class CommandJournal {
  public:
-  /// Null: to nothing.
+  /// Appends commands to `log` from now on; null: to nothing.
   ISO_INLINE void record_to(std::vector<std::uint8_t>* log) { log_ = log; }
   ISO_INLINE bool records_to(const std::vector<std::uint8_t>* log) const { return log_ == log; }
   /// A command of the closed list `Command`.

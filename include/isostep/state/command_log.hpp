@@ -1,5 +1,6 @@
 // The command log, a frame as bytes: commands, each its number in its world's closed list and its content, and where
-// among them the world stepped. CommandJournal appends to it, CommandRecorder writes it to a replay.
+// among them the world stepped. CommandJournal appends to it, CommandRecorder writes it to a replay. Fields are in the
+// short form (pack.hpp): an id is two bytes for as long as worlds are small, and a log has one form.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -53,7 +54,7 @@ struct NumbersOf<std::index_sequence<I...>, Commands...> : Numbered<I, Commands>
     if constexpr (WritesItself<C>) {
       command.read(reader);
     } else {
-      reader.read(command);
+      reader.read_short(command);
     }
     if (reader.ok()) visit(std::as_const(command));
     return true;
@@ -63,7 +64,7 @@ template <class Variant> struct Numbers;
 template <class... Commands>
 struct Numbers<std::variant<Commands...>> : NumbersOf<std::index_sequence_for<Commands...>, Commands...> {};
 template <class C, std::size_t I> constexpr std::uint8_t number_in(const Numbered<I, C>*) { return I; }
-/// Of a command in a list.
+/// The number of a command in a list.
 template <class C, class Variant>
 inline constexpr std::uint8_t kNumberOf = number_in<C>(static_cast<const Numbers<Variant>*>(nullptr));
 }  // namespace detail
@@ -80,7 +81,7 @@ template <class Variant, class C> ISO_INLINE void write_command(Writer& writer, 
   if constexpr (detail::WritesItself<C>) {
     command.write(writer);
   } else {
-    writer.write(command);
+    writer.write_short(command);
   }
 }
 

@@ -39,13 +39,13 @@ concept RecordableWorld = ReplayableSimulation<W> && requires(W& world, const W&
   { identity_of_world(same.settings(), std::string_view{}) } -> std::same_as<ReplayIdentity>;
 };
 
-/// Where a frame's command log began.
+/// The place where a frame's command log began.
 template <RecordableWorld W> struct CommandLogStart {
   std::uint64_t loads = 0, tick = 0;
 
   CommandLogStart() = default;
   ISO_INLINE explicit CommandLogStart(const W& world) : loads(world.loads()), tick(world.tick()) {}
-  /// Why the command log does not lead from the state then to the state now; null: it does.
+  /// The reason why the command log does not lead from the state then to the state now; null: it does.
   ISO_INLINE const char* flaw(const W& world, const std::vector<std::uint8_t>& log) const {
     if (!world.records_to(&log) || world.loads() != loads) {
       return "the world was loaded or replaced while it was recorded";
@@ -83,8 +83,8 @@ template <RecordableWorld W> class CommandRecorder {
     return result;
   }
   ISO_INLINE Result<void> end_frame() { return end_frame(world_.hash()); }
-  /// After `end_frame`, with no call to the world since: whoever verifies the recording compares this state byte
-  /// for byte with its own.
+  /// Writes the state as a keyframe. It follows `end_frame`, with no call to the world since: whoever verifies the
+  /// recording compares this state byte for byte with its own.
   ISO_INLINE Result<void> keyframe() {
     const char* flaw = start_.flaw(world_, log_);
     if (flaw == nullptr && !log_.empty()) flaw = "a keyframe stands between two frames";

@@ -29,7 +29,7 @@ template <class T> ISO_INLINE void save_part(const T& part, typename SnapshotOf<
     part.save(to);
   }
 }
-/// False where the part says that it was refused.
+/// Loads a part. Returns false where the part says that it was refused.
 template <class T> ISO_INLINE bool load_part(T& part, const typename SnapshotOf<T>::Type& from) {
   if constexpr (PlainState<T>) {
     part = from;
@@ -65,7 +65,7 @@ template <class T> ISO_INLINE Result<void> read_part(T& part, Reader& reader) {
 }
 }  // namespace detail
 
-/// What a composite of these parts is saved into.
+/// The snapshots of a composite's parts.
 template <class World, class User> struct CompositeSnapshot {
   typename detail::SnapshotOf<World>::Type world;
   typename detail::SnapshotOf<User>::Type user;
@@ -87,7 +87,7 @@ struct Composite {
     detail::save_part(world, to.world);
     detail::save_part(user, to.user);
   }
-  /// False, and the user's part is as it was, where the world refuses.
+  /// Loads both parts. Returns false, and the user's part is as it was, where the world refuses.
   ISO_INLINE bool load(const Snapshot& from) {
     return detail::load_part(world, from.world) && detail::load_part(user, from.user);
   }
@@ -113,7 +113,7 @@ struct Composite {
   }
 };
 
-/// Of parts that live elsewhere, and no shorter.
+/// Refers to parts that live elsewhere and outlive it.
 template <class World, class User> ISO_INLINE Composite<World&, User&> composite(World& world, User& user) {
   return {world, user};
 }

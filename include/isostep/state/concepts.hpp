@@ -1,4 +1,5 @@
-// What sessions, replays and tools require of a world or a game: to be saved, loaded, hashed, stepped and written down.
+// Concepts that sessions, replays and tools require of a world or a game: to be saved, loaded, hashed, stepped and
+// written.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -23,7 +24,7 @@ concept Rollbackable = std::default_initializable<typename T::Snapshot> &&
 
 template <class T> using Snapshot = typename T::Snapshot;
 
-/// What is known of one player's input when a frame is stepped.
+/// The certainty of one player's input when a frame is stepped.
 enum class InputStatus : std::uint8_t {
   confirmed,    // the player's own word
   predicted,    // a guess; the frame will be stepped again if it was wrong
@@ -33,7 +34,7 @@ enum class InputStatus : std::uint8_t {
 /// The inputs of all players for one frame, in player order.
 template <class Input> struct InputView {
   std::span<const Input> values;
-  std::span<const InputStatus> statuses;  // as many
+  std::span<const InputStatus> statuses;  // one for each input
 
   ISO_INLINE std::size_t size() const { return values.size(); }
   ISO_INLINE const Input& operator[](std::size_t player) const { return values[player]; }

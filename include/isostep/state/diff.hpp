@@ -35,7 +35,7 @@ class DiffReport {
   std::uint64_t count() const;
   const std::vector<Difference>& kept() const;
 
-  /// Called when the bits of a field differ.
+  /// Adds a field of which the bits differ.
   void add(const PathPart& path, FieldFormat format, std::uint64_t a, std::uint64_t b);
 
  private:
@@ -44,11 +44,11 @@ class DiffReport {
   std::vector<Difference> kept_;
 };
 
-/// Of two values of this type, from the canonical bytes of each.
+/// Compares two values of this type by the canonical bytes of each.
 void diff_bytes(const PathPart& path, const FieldType& type, const std::uint8_t* a, const std::uint8_t* b,
                 DiffReport& report);
 
-/// By bits: -0 differs from +0, and a NaN equals itself.
+/// Compares by bits: -0 differs from +0, and a NaN equals itself.
 template <class T> ISO_INLINE void diff_value(const PathPart& path, const T& a, const T& b, DiffReport& report) {
   std::uint8_t bytes_a[kPackedSize<T> + 1];
   std::uint8_t bytes_b[kPackedSize<T> + 1];

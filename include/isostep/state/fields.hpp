@@ -18,7 +18,7 @@ struct NamedField {
   std::uint64_t bits;
 };
 std::string field_line(const NamedField& field);
-/// False for anything else.
+/// Reads a field's line. Returns false for anything else.
 bool read_field_line(std::string_view line, NamedField& field);
 
 /// Is called for every field in turn.
@@ -30,7 +30,7 @@ struct FieldSink {
 /// Two groups of the fields of an engine: what lasts, and what one stage of a step leaves for those that follow it.
 enum class FieldGroup : std::uint32_t { state, scratch };
 
-/// What the fields of an engine are reached by. `stage`: an index into its stages, or their count before the first.
+/// Access to the fields of an engine. `stage`: an index into its stages, or their count before the first.
 struct FieldSource {
   void* engine;
   std::uint64_t (*state_hash)(const void* engine);
@@ -44,7 +44,7 @@ class StageView {
  public:
   StageView(const FieldSource& source, std::uint32_t stage);
 
-  /// Of the state's hash and every field of the scratch; where there is none, the state's.
+  /// The hash of the state's hash and every field of the scratch; where there is none, the state's.
   std::uint64_t hash() const;
   /// The state's fields in the order in which the state hash takes them, then the scratch's.
   void visit(const FieldSink& sink) const;

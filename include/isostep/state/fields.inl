@@ -49,7 +49,7 @@ template <class Access> class FieldVisitor {
   template <class T> void operator()(const char* name, T&& value) const {
     walk_fields(PathPart{outer_, name, 0}, *this, value);
   }
-  /// For items that are made only to be looked at, or of which not all is there: each(visitor of the item, index).
+  /// Visits items that are made only to be looked at, or of which not all is there: each(visitor of the item, index).
   template <class Each> void each(const char* name, std::size_t count, Each&& each) const {
     const PathPart list{outer_, name, 0};
     tell_count(list, count);
@@ -83,7 +83,7 @@ template <class Access> class FieldVisitor {
       return Bare::from_raw(field_from_bits<Raw>(static_cast<FieldBits<Raw>>(wanted)));
     });
   }
-  /// As a part of what is visited.
+  /// Visits a named part of what is visited.
   template <class Inside> void within(const char* name, const Inside& inside) const {
     const PathPart part{outer_, name, 0};
     inside(FieldVisitor(part, *this));

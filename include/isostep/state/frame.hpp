@@ -1,4 +1,4 @@
-// What a game's frames are counted in.
+// Frame: the number of a game's frame.
 // SPDX-License-Identifier: MIT
 #pragma once
 

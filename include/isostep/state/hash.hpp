@@ -27,15 +27,15 @@ struct ContentId {
   }
   ISO_FIELDS(low, high)
 };
-/// Of the tag's bytes and then the content's.
+/// The id of the tag's bytes followed by the content's.
 ContentId content_id_of(Bytes tag, Bytes content);
 
-/// The same hash of bytes that arrive in pieces.
+/// Hashes bytes that arrive in pieces, as hash_bytes hashes them at once.
 class HashStream {
  public:
   HashStream();
   void update(const void* bytes, std::size_t size);
-  /// Of everything so far; more may follow.
+  /// The hash of everything so far; more may follow.
   std::uint64_t value() const;
 
  private:
@@ -70,7 +70,7 @@ template <class T> ISO_INLINE std::uint64_t hash_records_by_fields(const T* firs
   return stream.value();
 }
 
-/// The same hash at the speed of memory where the bytes in memory are the canonical ones already.
+/// Hashes records as hash_records_by_fields does, at the speed of memory where their bytes there are canonical.
 template <class T> ISO_INLINE std::uint64_t hash_records(const T* first, std::size_t n) {
   static_assert(kHasNoPadding<T>, "padding has no value, so it can have no hash");
   if constexpr (std::endian::native == std::endian::little) {

@@ -28,7 +28,7 @@
 
 namespace isostep::detail {
 
-/// Of an immutable object with `sections`.
+/// Hashes an immutable object with `sections`.
 template <class Island> ISO_INLINE std::uint64_t hash_sections(const Island& island) {
   HashCombiner combiner;
   Island::sections([&](const char*, const auto& array)
@@ -100,7 +100,8 @@ class StateHasher {
   HashCombiner combiner_;
 };
 
-/// [bytes] What a copy of a state has for itself: not what it shares until one of the copies changes it.
+/// [bytes] The size of what a copy of a state has for itself, without what it shares until one of the copies changes
+/// it.
 class StateSize {
  public:
   ISO_INLINE std::size_t value() const { return bytes_; }
@@ -145,7 +146,7 @@ class StateWriter {
     write_slots(writer_, registry.slot_map());
     writer_.write_array(registry.all());
   }
-  /// As two arrays: the pages do not show.
+  /// Writes the bodies as two arrays: the pages do not show.
   template <class List> ISO_INLINE void bodies_in_pages(const List& list) {
     const auto write = [&](auto array) ISO_INLINE_LAMBDA {
       writer_.write_count(list.size());
@@ -172,12 +173,12 @@ class StateWriter {
   Writer& writer_;
 };
 
-/// For what has no store.
+/// ReadStore of a world that has no store.
 struct ReadNoStore {
   template <class Store> ISO_INLINE void operator()(Store&) const {}
 };
-/// Into a state that is new. What it reads is well formed; whether it is valid, the engine's validator says.
-/// `read_store`: of a store that may be changed, when its turn comes.
+/// Reads into a state that is new. What it reads is well formed; whether it is valid, the engine's validator says.
+/// `read_store` reads a store that may be changed, when its turn comes.
 template <class ReadStore = ReadNoStore> class StateReader {
  public:
   ISO_INLINE explicit StateReader(Reader& reader, ReadStore read_store = {})

@@ -1,4 +1,5 @@
-// The canonical bytes of a value: its fields in order, little-endian, as wide as declared, without gaps.
+// The canonical bytes of a value: its fields in order, little-endian, as wide as declared, without gaps. And the short
+// form of a command: the same with LEB128 for whole numbers.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -68,7 +69,38 @@ template <class T> ISO_INLINE constexpr std::uint8_t* pack(std::uint8_t* at, con
   return at;
 }
 
-/// On a little-endian machine: are the value's bytes in memory its canonical bytes? kHasNoPadding cannot see `fields`
+/// Numbers whose short form is LEB128: ids, kinds, masks, counts, ticks. Scalars, bools and signed numbers stay as wide
+/// as they are.
+template <class T> inline constexpr bool kIsLeb128 = sizeof(T) > 1 && (std::is_enum_v<T> || std::is_unsigned_v<T>);
+/// An upper bound for the short form of T [bytes]: LEB128 makes three bytes of two, five of four, ten of eight.
+template <class T> inline constexpr std::size_t kMostShort = kPackedSize<T> + kPackedSize<T> / 2;
+
+template <class T> ISO_INLINE constexpr std::uint8_t* pack_short(std::uint8_t* at, const T& value);
+
+namespace detail {
+struct ShortPackVisitor {
+  std::uint8_t** at;
+  template <class T> ISO_INLINE constexpr void operator()(const char*, const T& value) const {
+    *at = pack_short(*at, value);
+  }
+};
+}  // namespace detail
+
+/// Writes the short form, at most kMostShort<T> bytes, and returns where it ends.
+template <class T> ISO_INLINE constexpr std::uint8_t* pack_short(std::uint8_t* at, const T& value) {
+  if constexpr (std::is_bounded_array_v<T>) {
+    for (const auto& element : value) at = pack_short(at, element);
+  } else if constexpr (HasFields<T>) {
+    T::fields(detail::ShortPackVisitor{&at}, value);
+  } else if constexpr (kIsLeb128<T>) {
+    at = store_leb128(at, field_bits(value));
+  } else {
+    at = pack(at, value);
+  }
+  return at;
+}
+
+/// The value's bytes in memory, on a little-endian machine, are its canonical bytes. kHasNoPadding cannot see `fields`
 /// that name members out of order or one twice; a test checks this for every stored struct, with all members different.
 template <class T> ISO_INLINE bool memory_is_canonical(const T& value) {
   std::uint8_t bytes[kPackedSize<T> + 1];

@@ -14,12 +14,12 @@
 
 namespace isostep {
 
-inline constexpr std::uint16_t kReplayMajor = 1;
+inline constexpr std::uint16_t kReplayMajor = 2;
 inline constexpr std::uint16_t kReplayMinor = 0;
 inline constexpr std::size_t kReplayPreambleSize = 32;  // [bytes]
 /// The high bit and both line ends, so that a transfer as text shows at once.
 inline constexpr std::uint8_t kReplayMagic[8] = {0x89, 'I', 'S', 'O', '\r', '\n', 0x1a, '\n'};
-/// Whether a file begins as a replay does; the rest of it may be wrong.
+/// The file begins as a replay does; the rest of it may be wrong.
 bool has_replay_magic(Bytes file);
 inline constexpr std::uint32_t kReplayBlockFrames = 60;  // at most in a block
 /// A second of frames, as far as one block holds them: a crash costs no more.
@@ -38,7 +38,7 @@ inline constexpr std::uint32_t kInput = replay_chunk_type('I', 'N', 'P', 'T');
 inline constexpr std::uint32_t kHash = replay_chunk_type('H', 'A', 'S', 'H');
 inline constexpr std::uint32_t kKeyframe = replay_chunk_type('K', 'E', 'Y', 'F');
 inline constexpr std::uint32_t kDone = replay_chunk_type('D', 'O', 'N', 'E');
-/// In the first letter: a reader that does not know the chunk may skip it.
+/// This bit of a chunk's first letter lets a reader that does not know the chunk skip it.
 inline constexpr std::uint32_t kAncillaryBit = 0x20;
 }  // namespace replay_chunk
 
@@ -50,11 +50,11 @@ inline constexpr std::uint32_t kReplayInputCap = 1u << 25;       // one block's 
 inline constexpr std::uint32_t kReplayUnknownCap = 1u << 24;
 std::uint32_t replay_payload_cap(std::uint32_t type);
 
-/// Where the bytes of a replay go. False ends the recording with an error.
+/// The receiver of a replay's bytes. False ends the recording with an error.
 struct ReplaySink {
   bool (*write)(void* context, const std::uint8_t* bytes, std::size_t size);
   void* context;
-  /// After every whole block: what `write` holds back is to be safe from a crash. Null: it holds nothing back.
+  /// Makes what `write` holds back safe from a crash; called after every whole block. Null: nothing is held back.
   bool (*flush)(void* context) = nullptr;
 };
 /// Appends to `out`, which must outlive the writer.
@@ -141,12 +141,12 @@ class ReplayReader {
   ReplayReader& operator=(const ReplayReader&) = delete;
 
   ReplayStatus status() const;
-  /// Where in the file the status other than `complete` was found [bytes].
+  /// [bytes] The place in the file at which a status other than `complete` was found.
   std::size_t place() const;
-  /// Only when the status is not `complete`.
+  /// The error of a status other than `complete`.
   const Error& error() const;
 
-  /// What came before the place of error, whole chunks of it:
+  /// These are of the whole chunks before the place of error:
   bool has_header() const;
   bool has_state() const;
   const ReplayHeader& header() const;
@@ -158,9 +158,9 @@ class ReplayReader {
   /// i < frame_count().
   ReplayFrame frame(std::uint64_t i) const;
   const std::vector<ReplayKeyframe>& keyframes() const;
-  /// In the order of the file.
+  /// The ancillary chunks in the order of the file.
   const std::vector<ReplayAncillary>& ancillaries() const;
-  /// Of a view that this reader gave out.
+  /// The offset in the file of a view that this reader gave out [bytes].
   std::size_t offset_of(Bytes view) const;
 
  private:

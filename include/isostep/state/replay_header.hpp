@@ -1,4 +1,4 @@
-// What a replay was made with, field by field, so that a refusal can say which one differs.
+// The header of a replay: what it was made with, field by field, so that a refusal can say which one differs.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -34,7 +34,7 @@ class ReplayHeader {
   /// Adds or replaces. False, and nothing happens, when the key or value is too long or empty, is not printable ASCII,
   /// or the header is full.
   bool set(std::string_view key, std::string_view value, bool required);
-  /// Null when there is none.
+  /// Returns null when there is none.
   const ReplayField* find(std::string_view key) const;
   /// The value of a decimal field, or an error that names the key.
   Result<std::uint64_t> number(std::string_view key) const;
@@ -49,9 +49,9 @@ class ReplayHeader {
   ReplayField fields_[kReplayFieldCap];
 };
 
-/// In a header: the kind of world. Files of rigid bodies, which came first, are without it.
+/// The header's key for the kind of world. Files of rigid bodies, which came first, are without it.
 inline constexpr std::string_view kWorldKey = "world";
-/// In a header, where it is not 0: the number that the game or session gives to the file's frame 0.
+/// The header's key, where it is not 0, for the number that the game or session gives to the file's frame 0.
 inline constexpr std::string_view kFirstFrameKey = "first_frame";
 
 /// The fields that every replay of a world has, typed. Texts are views: into the caller's strings, or into the header.

@@ -47,7 +47,7 @@ class ReplaySeeker {
 
   /// Frames stepped to reach the state that `sim` has.
   ISO_INLINE std::uint64_t position() const { return position_; }
-  /// Whether it is the state whose hash was recorded there. Nothing else says that a replay still plays as it did.
+  /// The state has the hash that was recorded there. Nothing else says that a replay still plays as it did.
   ISO_INLINE bool agrees() const {
     return sim_.hash() == (position_ == 0 ? replay_.state_hash() : replay_.frame(position_ - 1).hash);
   }

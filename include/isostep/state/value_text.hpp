@@ -12,7 +12,7 @@ namespace isostep {
 
 enum class FieldKind : std::uint32_t { truth, signed_integer, unsigned_integer, scalar };
 
-/// What must be known of a field's type to read its bits.
+/// The facts about a field's type that its bits are read with.
 struct FieldFormat {
   FieldKind kind;
   std::uint32_t size;       // [bytes]

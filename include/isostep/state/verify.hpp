@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// In the order of the tool's exit codes.
+/// They stand in the order of the tool's exit codes.
 enum class VerifyOutcome : std::uint8_t { verified, diverged, incompatible, truncated, corrupt, stopped };
 
 struct VerifyResult {
@@ -30,12 +30,12 @@ struct VerifyResult {
 
 inline constexpr std::uint64_t kAllFrames = ~std::uint64_t{0};
 
-/// What of a replay is played.
+/// The part of a replay that is played.
 struct VerifySpan {
   std::uint64_t first = 0;           // frames before it
   std::uint64_t count = kAllFrames;  // at most
   Bytes state = {};  // portable, after `first` frames; empty: the replay's own start, where `first` is 0
-  /// Called before every frame; false: verify has no more of the time, or whatever its caller counts.
+  /// Asked before every frame; false: verify has no more of the time, or whatever its caller counts.
   bool (*go_on)(void* user) = nullptr;
   void* user = nullptr;
 };
@@ -46,7 +46,7 @@ int exit_code(VerifyOutcome outcome);
 std::string describe(const VerifyResult& result);
 
 namespace detail {
-/// What the file itself says before any simulation runs; `verified` when it says nothing against.
+/// The file's own answer before any simulation runs; `verified` when nothing speaks against it.
 VerifyResult verify_file(const ReplayReader& replay);
 /// The result when every frame that was to be compared agreed, so many.
 VerifyResult verify_end(const ReplayReader& replay, std::uint64_t compared);

@@ -15,7 +15,7 @@ namespace isostep {
 class StageView;  // state/fields.hpp
 struct Stepper;   // state/command_log.hpp
 
-/// Of a kind of world: its Settings, State, Engine and Command, its stages, its name in errors.
+/// The parts of a kind of world: its Settings, State, Engine and Command, its stages, its name in errors.
 template <class World> struct WorldParts;
 
 /// A base of World<S> and ParticleWorld<S>. `load(save(w))` brings back ids and future exactly. Bodies:
@@ -34,8 +34,8 @@ template <class World> class WorldBase {
   /// Why the last call was refused: the rule, the call, the field, and what was expected; `describe` makes a sentence
   /// of it. Commands clear it; queries that are accepted and steps leave it.
   const FaultReport& fault() const;
-  /// Of the first call that was refused since the world was made or told to forget: refusals come in chains, for what
-  /// was refused has no id.
+  /// The first refusal since the world was made or told to forget: refusals come in chains, for what was refused has no
+  /// id.
   const FaultReport& first_fault() const;
   void forget_faults();
   /// A refusal by what makes things by several calls, as add_ragdoll does: kept and told as one of the world's own.
@@ -45,19 +45,19 @@ template <class World> class WorldBase {
   void set_fault_handler(const FaultHandler& handler);
 
   // Recording.
-  /// From now on every accepted command and every step is appended to `log` (null: to nothing). The caller clears it
-  /// every frame. Loading keeps it.
+  /// Appends every accepted command and every step from now on to `log` (null: to nothing). The caller clears it every
+  /// frame. Loading keeps it.
   void record_to(std::vector<std::uint8_t>* log);
   bool records_to(const std::vector<std::uint8_t>* log) const;
   /// A frame's commands and steps as `record_to` wrote them. More than kFrameStepCap steps are an error. `stepper`
   /// takes the steps in the place of `step`, where one is given.
   Result<void> step_recorded(Bytes input);
   Result<void> step_recorded(Bytes input, const Stepper& stepper);
-  /// From now on every step appends the state's hash as it begins and after each stage (null: to nothing). What desyncs
-  /// are narrowed down with; costs a hash a stage.
+  /// Appends to `hashes`, at every step from now on, the state's hash as the step begins and after each stage (null: to
+  /// nothing). Desyncs are narrowed down with it; it costs a hash a stage.
   void trace_to(std::vector<std::uint64_t>* hashes);
-  /// How often the world was loaded or read. Commands alone do not lead across that: a WorldRecorder ends there, and a
-  /// session's recording or bundle (frame_history.hpp) cannot play a frame that has one inside.
+  /// The number of times that the world was loaded or read. Commands alone do not lead across that: a WorldRecorder
+  /// ends there, and a session's recording or bundle (frame_history.hpp) cannot play a frame that has one inside.
   std::uint64_t loads() const;
 
   // State.
@@ -77,15 +77,16 @@ template <class World> class WorldBase {
     std::unique_ptr<State> state_;
   };
   void save(Snapshot& to) const;
-  /// False, no change and a fault where `from` was never saved to, was moved from, or is of a world that was made with
-  /// other settings; gravity may differ. The portable form brings its settings along.
+  /// Loads a saved state. Returns false, with no change and a fault, where `from` was never saved to, was moved from,
+  /// or is of a world that was made with other settings; gravity may differ. The portable form brings its settings
+  /// along.
   bool load(const Snapshot& from);
   std::uint64_t hash() const;
   void write_portable(Writer& writer) const;
   Result<void> read_portable(Reader& reader);
   /// The arrays behind the world, for tools that compare, describe and measure.
   const State& state() const;
-  /// The same field by field, by name: what an observer of stages is given, without what a stage leaves.
+  /// The state field by field, by name: what an observer of stages is given, without what a stage leaves.
   StageView state_fields() const;
 
  protected:

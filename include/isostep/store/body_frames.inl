@@ -31,7 +31,7 @@ template <class S> ISO_INLINE bool has_surfaces(std::span<const Child<S>> childr
 }
 template <class S> ISO_INLINE Leaf leaf_at(const BodyFrame<S>& frame, std::uint32_t index) {
   if (!frame.surfaces) return {index, 0};
-  return frame.tree != nullptr ? frame.tree->leaf_at(index) : isostep::leaf_at(parts_of(frame), frame.contents, index);
+  return isostep::leaf_at(frame.tree, parts_of(frame), frame.contents, index);
 }
 template <class S> LeafRange leaves_of_part(const BodyFrame<S>& frame, std::uint32_t index) {
   if (!frame.surfaces) return {index, 1};
@@ -50,6 +50,8 @@ template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at) {
   const Mat3<Unit<S>> turn = to_matrix(state.orientation);
   const Primitive<S>& first = children[0].primitive;
   const bool plain = children.size() == 1 && children[0].pose.is_identity();
+  const ShapeTraits& parts = map.traits_of(body.shape);
+  const bool traits = parts.flags != 0, sensor = (body.flags & body_flag::kSensor) != 0;
   const ChildTree<S>* const tree = map.tree_of(body.shape);
   const bool surfaces = body.type != BodyType::dynamic &&  // those have none
                         (tree != nullptr ? tree->has_surfaces() : detail::has_surfaces(children));
@@ -63,12 +65,16 @@ template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at) {
           static_cast<std::uint32_t>(children.size()),
           state.slot,
           at.set == Location::kAwake ? at.index + 1 : 0,
-          plain ? part_kind_of(first.type) : PartKind::other,
+          plain && !traits ? part_kind_of(first.type) : PartKind::other,
           plain,
-          (body.flags & body_flag::kSensor) != 0,
+          sensor,
+          sensor || parts.has(part_flag::kSensor),
           at.is_asleep(),
           surfaces,
-          mixes_alone(body.material)};
+          traits,
+          surfaces || traits,
+          (body.flags & body_flag::kReportContacts) != 0 || parts.has(part_flag::kReportContacts),
+          mixes_alone(body.material) && parts.mixes_alone};
 }
 
 template <class S, class Visit>
@@ -179,11 +185,54 @@ void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::ui
   collide_leaves(part_a, ta, part_b, tb, margin, out, polyhedra);
 }
 
+template <class S> bool is_sensor_leaf(const BodyFrame<S>& body, std::uint32_t i) {
+  return body.sensor ||
+         (body.senses && body.children[detail::leaf_at(body, i).child].traits.has(part_flag::kSensor));
+}
+template <class S>
+PartMeeting meeting_of(const BodyMap<S>& map, const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b,
+                   std::uint32_t j) {
+  if (!a.traits && !b.traits) return a.sensor || b.sensor ? PartMeeting::sensed : PartMeeting::solid;
+  const bool senses_a = is_sensor_leaf(a, i), senses_b = is_sensor_leaf(b, j);
+  if (senses_a && senses_b) return PartMeeting::none;
+  const BodyProperties<S>& of_a = map.properties_at(map.location(a.slot));
+  const BodyProperties<S>& of_b = map.properties_at(map.location(b.slot));
+  const auto filter = [](const BodyFrame<S>& body, std::uint32_t leaf, const BodyProperties<S>& of) {
+    return body.children[detail::leaf_at(body, leaf).child].traits.filter_or(of.filter);
+  };
+  if (!should_collide(filter(a, i, of_a), filter(b, j, of_b))) return PartMeeting::none;
+  if (senses_a || senses_b) return PartMeeting::sensed;
+  const bool pushes = of_a.type == BodyType::dynamic || of_b.type == BodyType::dynamic;
+  return pushes ? PartMeeting::solid : PartMeeting::none;
+}
+
+namespace detail {
+/// Of two leaves, one of which is a sensor's.
+template <class S>
+SensorOverlap overlap_of(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j) {
+  const std::uint32_t child_a = leaf_at(a, i).child, child_b = leaf_at(b, j).child;
+  return is_sensor_leaf(a, i) ? SensorOverlap{a.slot, b.slot, child_a, child_b}
+                              : SensorOverlap{b.slot, a.slot, child_b, child_a};
+}
+}  // namespace detail
+
+template <class S, class Visit>
+void visit_meetings(const BodyMap<S>& map, const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, Visit&& visit) {
+  std::uint64_t looks = ~std::uint64_t{0};
+  const auto visit_leaf_pair = [&](std::uint32_t i, std::uint32_t j) {
+    const PartMeeting meeting = meeting_of(map, a, i, b, j);
+    return meeting == PartMeeting::none || visit(i, j, meeting);
+  };
+  if (is_large(a) || is_large(b)) visit_leaves(a, b, margin, looks, visit_leaf_pair);
+  else visit_parts(a, b, margin, looks, visit_leaf_pair);
+}
+
 template <class S> Material<S> material_of_leaf(const BodyFrame<S>& body, std::uint32_t i, const Material<S>& own) {
   const Leaf leaf = detail::leaf_at(body, i);
+  const Material<S>& of_part = body.children[leaf.child].traits.material_or(own);
   const SurfaceMaterial* const listed = listed_material(detail::part(body, leaf.child), leaf.triangle);
-  if (listed == nullptr) return own;
-  Material<S> material = own;
+  if (listed == nullptr) return of_part;
+  Material<S> material = of_part;
   material.friction = from_lattice<S>(listed->friction, SurfaceMaterial::kBits);
   material.restitution = from_lattice<S>(listed->restitution, SurfaceMaterial::kBits);
   material.static_friction = S(0);
@@ -191,18 +240,17 @@ template <class S> Material<S> material_of_leaf(const BodyFrame<S>& body, std::u
   return material;
 }
 
-template <class S> bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slot_b, S margin) {
+template <class S>
+bool bodies_touch(const BodyMap<S>& map, std::uint32_t slot_a, std::uint32_t slot_b, ByParts by, S margin) {
   const BodyFrame<S> a = frame_at(map, map.location(slot_a)), b = frame_at(map, map.location(slot_b));
   bool touch = false;
-  std::uint64_t looks = ~std::uint64_t{0};
-  const auto visit = [&](std::uint32_t i, std::uint32_t j) {
+  visit_meetings(map, a, b, margin, [&](std::uint32_t i, std::uint32_t j, PartMeeting meeting) {
+    if (by == ByParts::solid && meeting != PartMeeting::solid) return true;
     Manifold<S> manifold;
     collide_parts(collide_polyhedra<S>, a, i, b, j, margin, manifold);
     touch = manifold.count > 0;
     return !touch;
-  };
-  if (is_large(a) || is_large(b)) visit_leaves(a, b, margin, looks, visit);
-  else visit_parts(a, b, margin, looks, visit);
+  });
   return touch;
 }
 

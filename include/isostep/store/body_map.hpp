@@ -25,7 +25,7 @@ struct Location {
   ISO_FIELDS(set, index)
 };
 
-/// From a slot to the record, in O(1). A cache: all of it follows from the state.
+/// BodyMap leads from a slot to the record, in O(1). A cache: all of it follows from the state.
 /// Input:   the state, and calls from whatever moves records between its arrays.
 /// Output:  locations, and the records that lie there.
 /// Keeps:   a location for each slot; how often sleeping islands name a body; the content of blobs.
@@ -50,7 +50,7 @@ template <class S> class BodyMap {
     if (slot == kNoBody || locations_[slot].set != Location::kStatic) return true;
     return isostep::is_enabled(state_.static_bodies.properties(locations_[slot].index));
   }
-  /// Of a joint, whether both of its bodies take part: if not, it holds nothing.
+  /// Whether both bodies of a joint take part: if not, it holds nothing.
   ISO_INLINE bool is_enabled(const JointProperties<S>& joint) const {
     return is_enabled(joint.body_a) && is_enabled(joint.body_b);
   }
@@ -69,27 +69,54 @@ template <class S> class BodyMap {
   const BodyState<S>* state_of(BodyId body) const;
   const BodyProperties<S>* properties_of(BodyId body) const;
   const JointProperties<S>* properties_of(JointId joint) const;
-  /// Of a body that does not sleep, to be changed.
+  /// The records of a body that does not sleep, to be changed.
   BodyState<S>& change_state(std::uint32_t slot);
   BodyProperties<S>& change_properties(std::uint32_t slot);
   ISO_INLINE std::span<const Child<S>> children_of(std::uint32_t shape_slot) const {
     return state_.shapes[shape_slot]->children;
   }
+  /// Of all parts of a shape.
+  ISO_INLINE const ShapeTraits& traits_of(std::uint32_t shape_slot) const { return state_.shapes[shape_slot]->traits; }
+  /// Whether the body, or one of its parts, is a sensor; and whether nothing of it is anything else.
+  ISO_INLINE bool senses(const BodyProperties<S>& body) const {
+    return (body.flags & body_flag::kSensor) != 0 || traits_of(body.shape).has(part_flag::kSensor);
+  }
+  ISO_INLINE bool is_sensor(const BodyProperties<S>& body) const {
+    return (body.flags & body_flag::kSensor) != 0 || !traits_of(body.shape).any_solid;
+  }
+  /// Whether something of it presses on others.
+  ISO_INLINE bool has_contacts(const BodyProperties<S>& body) const {
+    constexpr std::uint32_t kFlags = body_flag::kSensor | body_flag::kCollide;
+    return (body.flags & kFlags) == body_flag::kCollide && traits_of(body.shape).any_solid;
+  }
+  /// No less than any of its parts collides with.
+  ISO_INLINE Filter filter_of(const BodyProperties<S>& body) const {
+    return traits_of(body.shape).filter_or(body.filter);
+  }
+  /// Whether events tell when the contacts of a part begin and end.
+  ISO_INLINE bool reports(const BodyProperties<S>& body, std::uint32_t child) const {
+    return (body.flags & body_flag::kReportContacts) != 0 ||
+           children_of(body.shape)[child].traits.has(part_flag::kReportContacts);
+  }
+  /// The part that a contact's key names: a leaf.
+  Leaf leaf_of(std::uint32_t body_slot, std::uint32_t leaf) const;
+  /// The bodies and parts of a contact.
+  ContactEnd named(const ContactKey& key) const;
   /// Null: the shape has no such child, or it is no height field.
   const Child<S>* height_field_of(std::uint32_t shape_slot, std::uint32_t child) const;
   /// Null: the shape has few children.
   ISO_INLINE const ChildTree<S>* tree_of(std::uint32_t shape_slot) const {
     return state_.shapes[shape_slot]->tree.get();
   }
-  /// [m] Of all its children the least thickness().
+  /// [m] The least thickness() of all its children.
   ISO_INLINE S thinnest_of(std::uint32_t shape_slot) const { return state_.shapes[shape_slot]->thinnest; }
-  /// [m] Of all shapes.
+  /// [m] The least of all shapes.
   S least_thickness() const;
   /// Whether a body has the shape.
   ISO_INLINE bool is_used(std::uint32_t shape_slot) const {
     return shape_slot < uses_.size() && uses_[shape_slot] != 0;
   }
-  /// Of the blobs that children name.
+  /// Contents of the blobs that children name.
   ISO_INLINE Contents<S> contents() const { return {contents_.data()}; }
   static Pose<S> origin_pose(const BodyState<S>& state, const BodyProperties<S>& body);
   /// The inverse: where the centre of mass is, axes as the body's, of a body with its origin there.
@@ -106,9 +133,9 @@ template <class S> class BodyMap {
   /// Puts a body among the static or the awake ones, and a joint among the awake ones.
   void insert(const BodyState<S>& state, const BodyProperties<S>& body);
   void insert(const JointState<S>& state, const JointProperties<S>& joint);
-  /// Of a body that does not sleep.
+  /// Erases a body that does not sleep.
   void erase(std::uint32_t slot);
-  /// Of an awake joint.
+  /// Erases an awake joint.
   void erase_joint(std::uint32_t slot);
   /// The records of an array from index `from` on were moved.
   void relabel(const BodySet<S>& bodies, std::uint32_t set, std::size_t from);
@@ -125,15 +152,15 @@ template <class S> class BodyMap {
     if (uses_.size() <= shape_slot) uses_.resize(shape_slot + 1);
     uses_[shape_slot] += by;
   }
-  /// For every slot that the state has handed out.
+  /// Makes room for every slot that the state has handed out.
   void make_room();
-  /// After the state's blobs have changed.
+  /// Renews all contents, after the state's blobs have changed.
   void renew_contents();
-  /// After the one at a place has.
+  /// Renews the one at a place.
   void renew_content(std::uint32_t place);
-  /// Of children as a world stores them, or of none, with all that follows from them; contents come first.
+  /// A shape of children as a world stores them, or of none, with all that follows from them; contents come first.
   static std::shared_ptr<const StoredShape<S>> stored(std::vector<Child<S>> children, Contents<S> contents);
-  /// In place of the shape that the slot has; its number is among those handed out.
+  /// Puts a shape in place of that which the slot has; its number is among those handed out.
   void put_shape(std::uint32_t slot, std::vector<Child<S>> children);
   /// The shapes of the state are others.
   ISO_INLINE void forget_thickness() { knows_thickness_ = false; }
@@ -155,8 +182,7 @@ template <class S> class BodyMap {
   mutable bool knows_thickness_ = false;
 };
 
-#define ISO_EXTERN(S) extern template class BodyMap<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_BODY_MAP_OF(extern, S) extern template class BodyMap<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BODY_MAP_OF)
 
 }  // namespace isostep

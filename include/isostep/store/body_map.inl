@@ -6,6 +6,7 @@
 
 #include "isostep/collision/continuous/shape_impact.hpp"
 #include "isostep/core/lower_bound.hpp"
+#include "isostep/dynamics/contact_friction.hpp"
 #include "isostep/geometry/content.hpp"
 #include "isostep/state/members.hpp"
 #include "isostep/store/body_map.hpp"
@@ -45,6 +46,18 @@ template <class S> const Child<S>* BodyMap<S>::height_field_of(std::uint32_t sha
   const std::span<const Child<S>> children = children_of(shape_slot);
   const bool is_field = child < children.size() && children[child].primitive.type == ShapeType::height_field;
   return is_field ? &children[child] : nullptr;
+}
+
+template <class S> Leaf BodyMap<S>::leaf_of(std::uint32_t body_slot, std::uint32_t leaf) const {
+  const BodyProperties<S>& body = properties_at(locations_[body_slot]);
+  if (body.type == BodyType::dynamic) return {leaf, 0};  // it has no surfaces
+  return leaf_at<S>(tree_of(body.shape), children_of(body.shape), contents(), leaf);
+}
+
+template <class S> ContactEnd BodyMap<S>::named(const ContactKey& key) const {
+  const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };
+  return {id(key.body_a), id(key.body_b), leaf_of(key.body_a, key.child_a).child,
+          leaf_of(key.body_b, key.child_b).child};
 }
 
 /// A body's origin is its centre less the centre's place in the body.
@@ -146,8 +159,13 @@ std::shared_ptr<const StoredShape<S>> BodyMap<S>::stored(std::vector<Child<S>> c
   if (shape->children.size() >= ChildTree<S>::kLeastChildren)
     shape->tree = std::make_shared<const ChildTree<S>>(std::span<const Child<S>>(shape->children), contents);
   shape->thinnest = detail::kThick<S>;
-  for (const Child<S>& child : shape->children)
-    shape->thinnest = min(shape->thinnest, thickness<S>(contents.view(child.primitive)));
+  for (const Child<S>& child : shape->children) {
+    if (!child.traits.has(part_flag::kSensor))
+      shape->thinnest = min(shape->thinnest, thickness<S>(contents.view(child.primitive)));
+    shape->traits.add(child.traits);
+    if (child.traits.has(part_flag::kOwnMaterial) && !isostep::mixes_alone(child.traits.material))
+      shape->traits.mixes_alone = false;
+  }
   return shape;
 }
 

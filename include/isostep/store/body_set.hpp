@@ -18,7 +18,7 @@ template <class S> struct BodySet {
   std::vector<BodyState<S>> states;
   std::vector<BodyProperties<S>> properties;
 
-  // As the compiler makes them, but no weak functions in each of the files that copy what is Shared.
+  // These are as the compiler makes them, but no weak functions in each of the files that copy what is Shared.
   ISO_INLINE BodySet() = default;
   ISO_INLINE BodySet(const BodySet&) = default;
   ISO_INLINE BodySet(BodySet&&) = default;
@@ -86,12 +86,12 @@ template <class S> class StaticBodies {
     return p < pages_.size() && p < other.pages_.size() && pages_[p].is_same(other.pages_[p]);
   }
 
-  /// What was computed of a page: three things, 0 to 2. Hashes take 0 and 1.
+  /// Values that were computed of a page, 0 to 2. Hashes take 0 and 1.
   ISO_INLINE const Remembered& remembered(std::size_t p, int which) const { return pages_[p].remembered(which); }
-  /// What was computed of all, 0 or 1. The hash takes 0.
+  /// Values that were computed of all pages, 0 or 1. The hash takes 0.
   ISO_INLINE const Remembered& remembered_of_all(int which) const { return remembered_[which]; }
 
-  /// One of the two arrays, as one list.
+  /// Rows of all pages in one list, of states or of properties.
   template <class Row> struct Rows {
     std::vector<Row*> rows;
     ISO_INLINE std::size_t size() const { return rows.size(); }
@@ -108,7 +108,7 @@ template <class S> class StaticBodies {
     visit("static_bodies", states);
     visit("static_properties", properties);
   }
-  /// The same to be written.
+  /// Visits both lists, to be written.
   template <class Visit> void change_arrays(Visit&& visit) {
     Rows<BodyState<S>> states;
     Rows<BodyProperties<S>> properties;

@@ -16,12 +16,12 @@
 
 namespace isostep {
 
-/// A BroadPhase but for pairs, which `with` leads to. The tree of boxes, which is the choice of most, is asked without
-/// a detour; the others are behind one call a visit. Those that are not in use are empty.
+/// A BroadPhase but for pairs, which `with` leads to. The tree of boxes, the choice of most, is asked without a detour;
+/// the others are behind one call a visit. Structures that are not in use are empty.
 template <class S> class ChosenBroadPhase {
  public:
   ISO_INLINE BroadPhaseName name() const { return name_; }
-  /// One that this build holds. Empties the structure of now: the caller inserts the boxes again.
+  /// Chooses a structure that this build holds and empties the present one: the caller inserts the boxes again.
   void choose(BroadPhaseName name);
 
   void insert(std::uint32_t slot, const Aabb<S>& box);
@@ -44,7 +44,7 @@ template <class S> class ChosenBroadPhase {
                           ISO_INLINE_LAMBDA { return (*static_cast<Plain*>(data))(slot, most); };
     sweep_other(sweep, call, const_cast<void*>(static_cast<const void*>(&visit)));
   }
-  /// visit(the structure), which is a BroadPhase.
+  /// Calls visit(structure), which is a BroadPhase.
   template <class Visit> ISO_INLINE auto with(Visit&& visit) { return with(*this, visit); }
 
  private:
@@ -67,8 +67,7 @@ template <class S> class ChosenBroadPhase {
 #undef ISO_MEMBER
 };
 
-#define ISO_EXTERN(S) extern template class ChosenBroadPhase<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CHOSEN_BROAD_PHASE_OF(extern, S) extern template class ChosenBroadPhase<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CHOSEN_BROAD_PHASE_OF)
 
 }  // namespace isostep

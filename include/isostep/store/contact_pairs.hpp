@@ -28,7 +28,7 @@ ISO_INLINE void for_each_pair(std::span<const Contact<S>> contacts, const Visit&
   }
 }
 
-/// Of the bodies in slots a < b; empty where they have none.
+/// Contacts of the bodies in slots a < b; empty where they have none.
 template <class S>
 ISO_INLINE std::span<const Contact<S>> contacts_of(std::span<const Contact<S>> contacts, std::uint32_t a,
                                                    std::uint32_t b) {

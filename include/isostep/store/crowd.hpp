@@ -34,7 +34,7 @@ template <class S> class Crowd {
   std::uint32_t bodies_left_out() const { return left_out_; }
 
  private:
-  /// What one search is after: the pairs of a body with everything that is not free, or those of two free bodies.
+  /// A search finds the pairs of a body with everything that is not free, or those of two free bodies.
   enum class Side : std::uint8_t { held, free };
   struct Search;
 

@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// One body's.
+/// The search of one body.
 template <class S> struct Crowd<S>::Search {
   Crowd* crowd;
   std::uint32_t slot;

@@ -1,4 +1,4 @@
-// What a user says to make a body.
+// Definitions: what a user says to make a body.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// What a dynamic body weighs.
+/// Mass of a dynamic body, with its principal moments of inertia.
 template <class S> struct BodyMass {
   S density = S(1);                      // [kg/m^3] where mass is 0; water has 1000
   S mass = S(0);                         // [kg] 0: from density
@@ -40,9 +40,11 @@ template <class S> struct BodyDefinition {
   bool allow_sleep = true;
   bool collide = true;  // false: no contacts, no events
   bool bullet = false;  // moving bodies stop it too, at any speed; two bullets may pass through each other
+  bool report_contacts = false;  // events tell when contacts begin and end; parts may report by themselves
 
   ISO_FIELDS(type, shape, position, orientation, velocity, angular_velocity, density, mass, inertia, material, filter,
-             user_data, gravity_scale, linear_damping, angular_damping, locks, sensor, allow_sleep, collide, bullet)
+             user_data, gravity_scale, linear_damping, angular_damping, locks, sensor, allow_sleep, collide, bullet,
+             report_contacts)
 };
 
 }  // namespace isostep

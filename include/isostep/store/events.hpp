@@ -1,5 +1,5 @@
-// What a step reports to the game: output of one step, in canonical order, never state. What commands end and wake is
-// reported by the next step; until then it is state (UntoldEvents).
+// Events: what a step reports to the game, output of one step, in canonical order, never state. What commands end and
+// wake the next step reports; until then it is state (UntoldEvents).
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,23 +13,28 @@
 
 namespace isostep {
 
-/// Two bodies began to press on each other.
+/// Two bodies began to press on each other by parts that report: of a body with `report_contacts`, or with
+/// part_flag::kReportContacts of their own.
 template <class S> struct ContactBegin {
   BodyId a, b;
+  std::uint32_t child_a, child_b;  // the first parts of their shapes in contact
   S impulse;  // [kg m/s] that all points together gave over the step along their normals; held at the format's end
-  Vec3<Unit<S>> normal;  // [1] from a to b, of the first parts in contact
+  Vec3<Unit<S>> normal;  // [1] from a to b, of those parts
 
-  ISO_FIELDS(a, b, impulse, normal)
+  ISO_FIELDS(a, b, child_a, child_b, impulse, normal)
 };
 struct ContactEnd {
   BodyId a, b;
+  std::uint32_t child_a, child_b;  // the first of their parts that were in contact
 
-  ISO_FIELDS(a, b)
+  ISO_FIELDS(a, b, child_a, child_b)
 };
+/// A part of a body began or ceased to overlap a part of a sensor.
 struct SensorEvent {
   BodyId sensor, other;
+  std::uint32_t sensor_child, other_child;  // parts of their shapes
 
-  ISO_FIELDS(sensor, other)
+  ISO_FIELDS(sensor, other, sensor_child, other_child)
 };
 
 /// A contact broke a body: its Breakable record is marked.
@@ -56,23 +61,25 @@ template <class S> struct JointBroke {
 /// A contact of a body with a HitReport began fast.
 template <class S> struct ContactHit {
   BodyId a, b;
+  std::uint32_t child_a, child_b;  // parts of their shapes
   Vec3<S> point;         // [m] where they closed fastest, where b has it as the step ends
   Vec3<Unit<S>> normal;  // [1] from a to b
   S speed;               // [m/s] of approach along the normal, as the step began
 
-  ISO_FIELDS(a, b, point, normal, speed)
+  ISO_FIELDS(a, b, child_a, child_b, point, normal, speed)
 };
 
 /// A point of a contact of a body with a ContactReport: also one that is only near, with a separation and no impulse.
 template <class S> struct ContactPoint {
   BodyId a, b;
-  std::uint32_t child_a, child_b;  // parts of their shapes; of what touches a mesh or field, its triangles are counted
+  std::uint32_t child_a, child_b;        // parts of their shapes
+  std::uint32_t triangle_a, triangle_b;  // of a mesh or height field; else 0
   Vec3<S> point;                   // [m] where b has it as the step ends
   Vec3<Unit<S>> normal;            // [1] from a to b
   S separation;                    // [m] as the step began; negative: overlap
   S impulse;                       // [kg m/s] that it gave over the step along the normal; held at the format's end
 
-  ISO_FIELDS(a, b, child_a, child_b, point, normal, separation, impulse)
+  ISO_FIELDS(a, b, child_a, child_b, triangle_a, triangle_b, point, normal, separation, impulse)
 };
 
 template <class S> struct Events {
@@ -99,16 +106,16 @@ template <class S> struct Events {
   }
 };
 
-/// What commands ended and woke since the last step, for the next one to tell. A game that counts its events must count
+/// Ends and wakings by commands since the last step, for the next one to tell. A game that counts its events must count
 /// the same after a load, so this is state. By id: the bodies may be gone, and their slots taken, before the step.
 struct UntoldEvents {
   std::vector<ContactEnd> contact_end;  // ascending by slots
-  std::vector<SensorEvent> sensor_end;  // ascending by slots
+  std::vector<SensorEvent> sensor_end;  // ascending by slots, then parts
   std::vector<BodyId> woke;             // as they woke, or commands put them to sleep
   std::vector<BodyId> sensors;          // as commands changed them: sensors that lie still, for who sleeps in them
 };
 
-/// What a step had to mend. Identical on every peer.
+/// The report tells what a step had to mend. Identical on every peer.
 struct StepReport {
   std::uint32_t clamped_speed = 0;     // bodies whose speed was cut to Limits<S>, or whose turn to a radian a sub-step
   std::uint32_t clamped_force = 0;     // bodies whose forces or impulses were cut: they would leave its range at once

@@ -7,16 +7,19 @@
 
 namespace isostep::detail {
 
-/// [m] added around a body's bounds: a body is looked up anew only when it leaves the margin.
+/// [m] The margin added around a body's bounds: a body's pairs are looked up anew only when it leaves its fat box.
 template <class S> inline constexpr S kFatMargin = S(0.1);
 
-/// `always`: also where the body is still inside.
+/// Renews a body's fat box when the body has left it, or `always`.
 template <class S>
 void renew_fat_box(const BodyMap<S>& map, BodyState<S>& state, const BodyProperties<S>& body, bool always);
 
-#define ISO_EXTERN(S) \
-  extern template void renew_fat_box<S>(const BodyMap<S>&, BodyState<S>&, const BodyProperties<S>&, bool);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
-
 }  // namespace isostep::detail
+
+namespace isostep {
+
+#define ISO_FAT_BOX_OF(extern, S) \
+  extern template void detail::renew_fat_box<S>(const BodyMap<S>&, BodyState<S>&, const BodyProperties<S>&, bool);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_FAT_BOX_OF)
+
+}  // namespace isostep

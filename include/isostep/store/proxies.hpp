@@ -13,14 +13,18 @@
 #include "isostep/store/chosen_broad_phase.hpp"
 #include "isostep/store/crowd.hpp"
 #include "isostep/store/proxy.hpp"
+#include "isostep/store/state.hpp"
 
 namespace isostep {
 
-/// A cache, not state: the pairs are a function of every body's fat box, type, filter and whether it is awake, all of
+/// A cache, not state: the pairs are a function of every body's fat box, type, filters and whether it is awake, all of
 /// them state, and where they are more than the budget of the contacts too. `place` compares with what it knew, so that
 /// loading a snapshot renews only what differs.
 template <class S> class Proxies {
  public:
+  /// `shapes` of the state, as they are when a body is placed.
+  ISO_INLINE explicit Proxies(const StoredShapes<S>& shapes) : shapes_(shapes) {}
+
   /// A body that is disabled has no place.
   void place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake);
   void remove(std::uint32_t slot);
@@ -32,7 +36,7 @@ template <class S> class Proxies {
   /// Bodies that the budget keeps from some of their pairs.
   std::uint32_t bodies_left_out() const { return left_out_; }
   const ChosenBroadPhase<S>& boxes() const { return boxes_; }
-  /// From now on another structure holds the boxes.
+  /// Has another structure hold the boxes from now on.
   void use(BroadPhaseName name);
 
   /// The pairs alone: structures differ between worlds that agree.
@@ -48,6 +52,7 @@ template <class S> class Proxies {
     }
   };
 
+  const StoredShapes<S>& shapes_;
   ChosenBroadPhase<S> boxes_;
   PairSet<S> pairs_;
   Crowd<S> crowd_;
@@ -55,8 +60,7 @@ template <class S> class Proxies {
   std::vector<Proxy<S>> proxies_;  // by slot
 };
 
-#define ISO_EXTERN(S) extern template class Proxies<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PROXIES_OF(extern, S) extern template class Proxies<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PROXIES_OF)
 
 }  // namespace isostep

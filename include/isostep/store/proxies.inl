@@ -14,7 +14,7 @@ template <class S> void Proxies<S>::place(const BodyState<S>& state, const BodyP
   }
   if (proxies_.size() <= state.slot) proxies_.resize(state.slot + 1, Proxy<S>{});
   Proxy<S>& known = proxies_[state.slot];
-  const Proxy<S> next = {state.fat, ProxyTraits::of(body, awake), true};
+  const Proxy<S> next = {state.fat, ProxyTraits::of(body, shapes_[body.shape]->traits, awake), true};
   if (!known.present) {
     boxes_.insert(state.slot, state.fat);
   } else if (!(known.box == next.box)) {

@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// What a body is to others, as an index of bits; those who collide with nothing are of no kind.
+/// The kind is what a body is to others, an index of bits; those who collide with nothing are of no kind.
 namespace proxy_kind {
 inline constexpr std::uint32_t kAwake = 1, kDynamic = 2, kSensor = 4;
 inline constexpr std::uint32_t kCount = 8;
@@ -33,30 +33,35 @@ inline constexpr std::uint32_t kAllAwake = 0xaau;
 inline constexpr std::uint32_t kFree = 1u << (kAwake | kDynamic) | 1u << (kAwake | kDynamic | kSensor);
 }  // namespace proxy_kind
 
-/// All but its box that decides with whom a body pairs. Of a subtree of bodies: no less than any of them would allow.
+/// Traits decide with whom a body pairs, but for its box. A body whose parts differ and a subtree of bodies have no
+/// less than any of them would allow.
 struct ProxyTraits {
-  std::uint32_t kinds = 0;     // a bit of proxy_kind
+  std::uint32_t kinds = 0;     // bits: what it is, a proxy_kind each
   std::uint32_t partners = 0;  // bits: the kinds it pairs with
   Filter filter = {};
 
-  template <class S> static ISO_INLINE ProxyTraits of(const BodyProperties<S>& body, bool awake) {
-    if ((body.flags & body_flag::kCollide) == 0) return {0, 0, body.filter};
-    const std::uint32_t kind = (awake ? proxy_kind::kAwake : 0u) |
-                               (body.type == BodyType::dynamic ? proxy_kind::kDynamic : 0u) |
-                               ((body.flags & body_flag::kSensor) != 0 ? proxy_kind::kSensor : 0u);
-    return {1u << kind, proxy_kind::kPartners[kind], body.filter};
+  template <class S>
+  static ISO_INLINE ProxyTraits of(const BodyProperties<S>& body, const ShapeTraits& parts, bool awake) {
+    const Filter filter = parts.filter_or(body.filter);
+    if ((body.flags & body_flag::kCollide) == 0) return {0, 0, filter};
+    const std::uint32_t solid =
+        (awake ? proxy_kind::kAwake : 0u) | (body.type == BodyType::dynamic ? proxy_kind::kDynamic : 0u);
+    const std::uint32_t sensor = solid | proxy_kind::kSensor;
+    if ((body.flags & body_flag::kSensor) != 0) return of_kind(sensor, filter);
+    if (!parts.has(part_flag::kSensor)) return of_kind(solid, filter);
+    return parts.any_solid ? of_both(of_kind(solid, filter), of_kind(sensor, filter)) : of_kind(sensor, filter);
+  }
+  static ISO_INLINE ProxyTraits of_kind(std::uint32_t kind, const Filter& filter) {
+    return {1u << kind, proxy_kind::kPartners[kind], filter};
   }
   static ISO_INLINE ProxyTraits of_both(const ProxyTraits& a, const ProxyTraits& b) {
-    const Filter filter = {a.filter.category | b.filter.category, a.filter.mask | b.filter.mask,
-                           a.filter.group == b.filter.group ? a.filter.group : 0u};
-    return {a.kinds | b.kinds, a.partners | b.partners, filter};
+    return {a.kinds | b.kinds, a.partners | b.partners, ShapeTraits::both(a.filter, b.filter)};
   }
   ISO_INLINE bool pairs_with(const ProxyTraits& other) const {
     return (partners & other.kinds) != 0 && should_collide(filter, other.filter);
   }
   friend ISO_INLINE bool operator==(const ProxyTraits& a, const ProxyTraits& b) {
-    return a.kinds == b.kinds && a.partners == b.partners && a.filter.category == b.filter.category &&
-           a.filter.mask == b.filter.mask && a.filter.group == b.filter.group;
+    return a.kinds == b.kinds && a.partners == b.partners && a.filter == b.filter;
   }
 };
 

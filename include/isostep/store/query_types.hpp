@@ -1,4 +1,4 @@
-// What queries of worlds are given and return.
+// Types that queries of worlds are given and return.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace isostep {
 
-/// What a ray or cast says of what it is inside of from the start. A mesh or height field has no inside: a ray starts
-/// outside of it, a cast inside of triangles that it overlaps.
+/// StartInside is what a ray or cast says of what it starts inside of. A mesh or height field has no inside: a ray
+/// starts outside of it, a cast inside of triangles that it overlaps.
 enum class StartInside : std::uint8_t {
   report,  // a hit at fraction 0
   ignore   // nothing, wherever it goes
 };
-/// What `all` lists one hit of, the first.
+/// `all` lists one hit of each of these, the first.
 enum class HitPer : std::uint8_t {
   body,
   child,    // of a body's shape
@@ -26,12 +26,13 @@ enum class HitPer : std::uint8_t {
 };
 
 /// A query sees bodies whose category meets the mask, sensors only when asked, and neither the one to be ignored nor
-/// those of the group: who looks is in the way of its own ray. A stale id ignores nobody.
+/// those of the group: use this to exclude the caster. A stale id ignores nobody. A part with a filter, material or
+/// sensor flag of its own is seen by those, whatever its body's are.
 struct QueryFilter {
   std::uint32_t mask = 0xffffffffu;
   bool sensors = false;
   BodyId ignore = {};
-  std::uint32_t group = 0;  // bodies of this Filter::group are not seen; 0: none
+  std::uint32_t group = 0;  // what is of this Filter::group is not seen; 0: none
   bool back_faces = false;  // rays and casts hit triangles from behind too
   StartInside start_inside = StartInside::report;
   HitPer per = HitPer::body;
@@ -50,12 +51,12 @@ template <class S, class Fraction> struct QueryHit {
   std::uint8_t material;   // of the triangle; 0 where there is none
   bool inside;             // from the start: the normal is the way back of a ray, the shortest way out of a shape
 };
-/// What a ray met.
+/// A point that a ray met.
 template <class S> using RayCastHit = QueryHit<S, S>;
-/// What a shape that was cast met, rounded down: at the fraction the two do not overlap.
+/// A part that a shape met when it was cast. The fraction is rounded down: there the two do not overlap.
 template <class S> using ShapeCastHit = QueryHit<S, Unit<S>>;
 
-/// What a shape overlaps. In order of the slot, child, triangle.
+/// A part or triangle that a shape overlaps. In order of the slot, child, triangle.
 struct OverlapHit {
   BodyId body;
   std::uint32_t child;     // of the body's shape
@@ -67,9 +68,10 @@ struct OverlapHit {
   }
 };
 
-/// What is nearest to a point.
+/// The body that is nearest to a point.
 template <class S> struct ClosestBody {
   BodyId body;
+  std::uint32_t child;   // of its shape
   Vec3<S> point;         // [m] on its surface
   Vec3<Unit<S>> normal;  // [1] outward
   S distance;            // [m] negative: inside
@@ -85,13 +87,13 @@ template <class S> struct QueryShape {
   ISO_INLINE QueryShape(const Primitive<S>& shape) : of_world(false), primitive(shape) {}
 };
 
-/// One of many rays.
+/// A ray of many.
 template <class S> struct RayCast {
   Vec3<S> origin;       // [m] world
   Vec3<S> translation;  // [m]
   QueryFilter filter = {};
 };
-/// One of many casts.
+/// A cast of many.
 template <class S> struct ShapeCast {
   QueryShape<S> shape;
   Pose<S> pose;         // [m] of the shape's frame at the start, world

@@ -17,7 +17,7 @@ template <class S, class Record, class Body, class Joint, class Children>
 ISO_INLINE RecordPlace<S> place_of(const Record& record, const Settings<S>& settings, const Body& body,
                                    const Joint& joint, const Children& children_of) {
   RecordPlace<S> place = {settings, {}, {}, {}};
-  const NamedBodies<S> bodies = RecordRules<Record>::bodies(record);
+  const NamedBodies<S> bodies = bodies_of(record);
   for (int i = 0; i < bodies.count; ++i) place.bodies[i] = body(bodies.all[i].body);
   if (place.bodies[0] != nullptr) place.parts = children_of(place.bodies[0]->shape);
   const NamedJoints joints = joints_of(record);

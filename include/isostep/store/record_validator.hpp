@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// What a state has in its slots of bodies and joints, and in which set.
+/// Tables of what a state has in its slots of bodies and joints, and in which set.
 template <class S> struct SlotTables {
   struct JointAt {
     const JointProperties<S>* joint;
@@ -25,7 +25,7 @@ template <class S> struct SlotTables {
   std::vector<JointAt> joint_at;
 
   bool is_body(std::uint32_t slot) const { return slot < set_of_body.size() && set_of_body[slot] != Location::kNone; }
-  /// Of a body that is there.
+  /// The type of a body that is there.
   BodyType type_of(std::uint32_t slot) const { return properties_of_body[slot]->type; }
   bool is_disabled(std::uint32_t slot) const {
     return set_of_body[slot] == Location::kStatic && type_of(slot) != BodyType::static_;
@@ -103,7 +103,7 @@ template <class S> class RecordValidator {
     return hash_records_by_fields(&record, 1) == hash_records_by_fields(&none, 1);
   }
   template <class Record> bool names_well(const Record& record) const {
-    const detail::NamedBodies<S> bodies = detail::RecordRules<Record>::bodies(record);
+    const detail::NamedBodies<S> bodies = detail::bodies_of(record);
     for (int i = 0; i < bodies.count; ++i) {
       const detail::NamedBody<S>& named = bodies.all[i];
       if (!named.body && named.may_be_null) continue;
@@ -132,7 +132,7 @@ template <class S> class RecordValidator {
       differ = differ || (set != Location::kNone && set != of);
       set = of;
     };
-    const detail::NamedBodies<S> bodies = detail::RecordRules<Record>::bodies(record);
+    const detail::NamedBodies<S> bodies = detail::bodies_of(record);
     for (int i = 0; i < bodies.count; ++i) {
       const BodyId body = bodies.all[i].body;
       if (body && seen_.moves(body.slot)) look(seen_.set_of_body[body.slot]);

@@ -29,7 +29,7 @@ inline constexpr const char* kStageNames[kStages] = {
     "solve_substeps", "store_impulses", "finalise_bodies",  "continuous",         "update_sensors",
     "emit_events",    "update_sleep",   "move_characters"};
 
-/// Of one step: before its first stage, then after each.
+/// Hashes of one step: before its first stage, then after each.
 inline constexpr std::uint32_t kTraceHashes = kStages + 1;
 
 class StageView;  // state/fields.hpp

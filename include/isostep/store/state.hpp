@@ -27,9 +27,10 @@ namespace isostep {
 template <class S> struct StoredShape {
   std::vector<Child<S>> children;
   std::uint64_t hash = 0;  // of them
-  // No state of its own: follows from the children and the content that they name.
+  // It is no state of its own: it follows from the children and the content that they name.
   std::shared_ptr<const ChildTree<S>> tree;  // null: the shape has few children
-  S thinnest = S(0);                         // [m] of the thickness() of each child
+  S thinnest = S(0);                         // [m] of the thickness() of each child that is no sensor
+  ShapeTraits traits;                        // of all children
 
   static constexpr std::size_t kLeastWritten = 4;  // [bytes] one count
 
@@ -37,7 +38,7 @@ template <class S> struct StoredShape {
     visit("children", self.children);
   }
 };
-/// By slot, shared a page at a time.
+/// Shapes by slot, shared a page at a time.
 template <class S> using StoredShapes = PagedArray<std::shared_ptr<const StoredShape<S>>, 64>;
 /// Joints side by side, ascending by slot.
 template <class S> struct JointSet {
@@ -66,17 +67,20 @@ template <class S> struct PendingMove {
 };
 static_assert(kHasNoPadding<PendingMove<float>> && kHasNoPadding<PendingMove<double>>);
 
-/// A body inside a sensor. Ascending by (sensor, other).
+/// A part of a body inside a part of a sensor. Ascending by (sensor, other, sensor_child, other_child).
 struct SensorOverlap {
-  std::uint32_t sensor, other;  // slots
+  std::uint32_t sensor, other;              // slots
+  std::uint32_t sensor_child, other_child;  // parts of their shapes
 
-  friend constexpr bool operator==(SensorOverlap a, SensorOverlap b) {
-    return a.sensor == b.sensor && a.other == b.other;
+  ISO_INLINE constexpr std::uint64_t bodies() const { return std::uint64_t{sensor} << 32 | other; }
+  ISO_INLINE constexpr std::uint64_t parts() const { return std::uint64_t{sensor_child} << 32 | other_child; }
+  friend ISO_INLINE constexpr bool operator==(SensorOverlap a, SensorOverlap b) {
+    return a.bodies() == b.bodies() && a.parts() == b.parts();
   }
   friend ISO_INLINE constexpr bool operator<(SensorOverlap a, SensorOverlap b) {
-    return a.sensor != b.sensor ? a.sensor < b.sensor : a.other < b.other;
+    return a.bodies() != b.bodies() ? a.bodies() < b.bodies() : a.parts() < b.parts();
   }
-  ISO_FIELDS(sensor, other)
+  ISO_FIELDS(sensor, other, sensor_child, other_child)
 };
 
 /// Bodies asleep together, with their contacts and joints. Never changed once made: worlds and snapshots share it, and
@@ -106,7 +110,7 @@ template <class S> struct WorldState {
   Settings<S> settings;
   std::uint64_t tick = 0;  // steps taken
   SlotMap body_slots, shape_slots, joint_slots;
-  // What only commands change: copies have it in common until one of them does.
+  // Only commands change these: copies have them in common until one of them does.
   StoredShapes<S> shapes;
   Shared<GeometryStore> geometry;  // what their children name
   StaticBodies<S> static_bodies;
@@ -121,7 +125,7 @@ template <class S> struct WorldState {
   UntoldEvents untold;
   SleepingIslands<S> sleeping;
 
-  /// In the order of the hash and of the portable form: see state/members.hpp.
+  /// Visits all in the order of the hash and of the portable form: state/members.hpp.
   template <class Visitor, class Self> static ISO_INLINE void members(Visitor&& visit, Self&& self) {
     visit("settings", self.settings);
     visit("tick", self.tick);

@@ -39,8 +39,7 @@ template <class S> class StateLoader {
   std::vector<std::uint32_t> forgotten_;      // slots of bodies
 };
 
-#define ISO_EXTERN(S) extern template class StateLoader<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_STATE_LOADER_OF(extern, S) extern template class StateLoader<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_STATE_LOADER_OF)
 
 }  // namespace isostep

@@ -74,6 +74,9 @@ template <class S> class StateValidator {
       }
       if (parts.size() > kMaxChildren || validate(parts, state_.geometry->contents()) != ShapeFault::none)
         return "a shape is not valid";
+      for (const Child<S>& part : parts) {
+        if (detail::fault_of(part.traits) != Fault::none) return "a part's traits are not valid";
+      }
       leaves_of_shape_[i] = leaves_of_parts(parts);
     }
     return blobs();
@@ -100,8 +103,11 @@ template <class S> class StateValidator {
     return nullptr;
   }
   std::span<const Child<S>> parts_of(std::uint32_t shape) const { return state_.shapes[shape]->children; }
+  bool has_part(std::uint32_t body, std::uint32_t child) const {
+    return child < parts_of(seen_.properties_of_body[body]->shape).size();
+  }
 
-  /// Of valid ones.
+  /// Counts the leaves of valid parts.
   std::uint32_t leaves_of_parts(std::span<const Child<S>> parts) const {
     std::uint32_t leaves = 0;
     for (const Child<S>& part : parts) {
@@ -130,6 +136,7 @@ template <class S> class StateValidator {
   const char* properties(const BodyProperties<S>& p, std::uint32_t name) const {
     constexpr std::uint32_t kKnown = body_flag::kSensor | body_flag::kAllowSleep | body_flag::kCollide |
                                      body_flag::kSpins | body_flag::kBullet | body_flag::kDisabled |
+                                     body_flag::kReportContacts |
                                      body_flag::kAllLocks;
     const bool dynamic_body = p.type == BodyType::dynamic;
     if (p.type > BodyType::dynamic || is_fixed(p) != (name == Location::kStatic) ||
@@ -189,7 +196,7 @@ template <class S> class StateValidator {
       return "a contact lies in another island than its bodies";
     if (key.child_a >= leaves_of_body_[key.body_a] || key.child_b >= leaves_of_body_[key.body_b])
       return "a contact names no part of a body";
-    if (c.count < 1 || c.count > kMaxContactPoints || c.flags > contact_flag::kTouching)
+    if (c.count < 1 || c.count > kMaxContactPoints || c.flags > (contact_flag::kTouching | contact_flag::kReported))
       return "a contact has 1 to 4 points";
     bool good = is_finite(c.friction_impulse) && is_finite(c.twist_impulse);
     for (std::uint32_t p = 0; p < kMaxContactPoints; ++p) {
@@ -254,6 +261,9 @@ template <class S> class StateValidator {
     for (std::size_t i = 0; i < state_.overlaps.size(); ++i) {
       if (!seen_.is_body(state_.overlaps[i].sensor) || !seen_.is_body(state_.overlaps[i].other))
         return "an overlap names no two bodies";
+      if (!has_part(state_.overlaps[i].sensor, state_.overlaps[i].sensor_child) ||
+          !has_part(state_.overlaps[i].other, state_.overlaps[i].other_child))
+        return "an overlap names no part of a body";
       if (i > 0 && !(state_.overlaps[i - 1] < state_.overlaps[i])) return "overlaps ascend";
     }
     if (const char* rule = RecordValidator<S>(state_, seen_).broken_rule()) return rule;
@@ -270,8 +280,7 @@ template <class S> class StateValidator {
     }
     for (std::size_t i = 0; i < overlaps.size(); ++i) {
       if (!was_body(overlaps[i].sensor) || !was_body(overlaps[i].other)) return "an ended overlap names no two bodies";
-      if (i > 0 && !ascend(overlaps[i - 1].sensor, overlaps[i - 1].other, overlaps[i].sensor, overlaps[i].other))
-        return "ended overlaps ascend";
+      if (i > 0 && !(overlap_of(overlaps[i - 1]) < overlap_of(overlaps[i]))) return "ended overlaps ascend";
     }
     for (const BodyId body : state_.untold.woke) {
       if (!was_body(body)) return "who woke is no body";
@@ -281,9 +290,12 @@ template <class S> class StateValidator {
     }
     return nullptr;
   }
-  /// Of a slot that was given: the body may be gone.
+  /// Whether the slot was given to a body, which may be gone.
   bool was_body(BodyId body) const {
     return body && body.slot < seen_.set_of_body.size() && SlotMap::space_of(body) == state_.settings.id_space;
+  }
+  static SensorOverlap overlap_of(const SensorEvent& e) {
+    return {e.sensor.slot, e.other.slot, e.sensor_child, e.other_child};
   }
   static bool ascend(BodyId a, BodyId b, BodyId next_a, BodyId next_b) {
     return a.slot != next_a.slot ? a.slot < next_a.slot : b.slot < next_b.slot;

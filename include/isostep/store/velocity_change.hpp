@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// Of the body in a row of SolverBodies.
+/// A change of the velocity of the body in a row of SolverBodies.
 template <class S> struct VelocityChange {
   std::uint32_t row;
   Vec3<Velocity<S>> linear, angular;  // [m/s], [rad/s]
@@ -18,7 +18,8 @@ template <class S> struct VelocityChange {
 
 namespace detail {
 
-/// As a sub-step of `h` seconds would leave a row by gravity and that acceleration, before contacts and joints.
+/// Motion of a row as a sub-step of `h` seconds would leave it by gravity and that acceleration, before contacts and
+/// joints.
 template <class S>
 MotionRow<Velocity<S>> next_motion(const WorldState<S>& state, const SolverBodies<S>& bodies,
                                    const std::vector<Acceleration<S>>& accelerations, std::uint32_t row, Step<S> h) {

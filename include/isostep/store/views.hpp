@@ -1,4 +1,4 @@
-// What a world shows of itself by value: a body, a pose for drawing, counts.
+// Views: what a world shows of itself by value, a body, a pose for drawing, counts.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// What the world keeps of a body, for effects that meet shapes themselves. Holds until the next command, step or load.
+/// A body as the world keeps it, for effects that meet shapes themselves. Holds until the next command, step or load.
 template <class S> struct BodyView {
   const BodyState<S>* state = nullptr;  // null: a stale id
   const BodyProperties<S>* properties = nullptr;

@@ -54,7 +54,7 @@ namespace isostep {
 ///   BodyFinisher    -> BodyMap, Proxies
 ///   ContinuousCollision -> BodyMap, Proxies
 ///   SensorOverlaps  -> BodyMap, Proxies
-///   ContactEvents   -> no other
+///   ContactEvents   -> BodyMap
 ///   BreakEvents     -> BodyMap
 ///   JointLoads      -> BodyMap, Destruction
 ///   HitEvents       -> BodyMap
@@ -98,7 +98,7 @@ template <class S> class WorldEngine {
   AssetSource assets_;
 
   BodyMap<S> map_{state_};
-  Proxies<S> proxies_;
+  Proxies<S> proxies_{state_.shapes};
   IslandWake<S> wake_{state_, map_, proxies_};
   IslandSleep<S> sleep_{state_, map_, proxies_};
   MoveTargets<S> targets_{state_, map_};
@@ -112,7 +112,7 @@ template <class S> class WorldEngine {
   BodyFinisher<S> finisher_{state_, map_, proxies_};
   ContinuousCollision<S> continuous_{state_, map_, proxies_};
   SensorOverlaps<S> sensors_{state_, map_, proxies_};
-  ContactEvents<S> contact_events_{state_};
+  ContactEvents<S> contact_events_{state_, map_};
   BreakEvents<S> break_events_{state_, map_};
   HitEvents<S> hit_events_{state_, map_};
   ContactPoints<S> contact_points_{state_, map_};
@@ -140,8 +140,7 @@ template <class S> class WorldEngine {
 };
 
 /// The step is compiled apart from what is called between steps: instantiate/world_step.cpp.
-#define ISO_EXTERN(S) extern template StepReport WorldEngine<S>::step(const StageObserver&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_ENGINE_OF(extern, S) extern template StepReport WorldEngine<S>::step(const StageObserver&);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ENGINE_OF)
 
 }  // namespace isostep

@@ -10,7 +10,7 @@
 namespace isostep {
 
 namespace detail {
-/// With every field brought to the nearest that is in range.
+/// Brings every field to the nearest value that is in range.
 template <class S> Settings<S> in_range(Settings<S> s) {
   s.hz = clamp(s.hz, 10, 1000);
   s.substeps = clamp(s.substeps, 1, min(64, kMaxRate / s.hz));
@@ -71,7 +71,7 @@ template <class S> void WorldEngine<S>::write_portable(Writer& writer) const {
 }
 
 namespace detail {
-/// With what follows from the children, which the portable form leaves out.
+/// Completes shapes with what follows from the children, which the portable form leaves out.
 template <class S> void complete_shapes(WorldState<S>& state) {
   std::vector<const void*> contents;
   find_contents<S>(state.geometry->contents(), contents);

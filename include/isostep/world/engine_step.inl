@@ -63,7 +63,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   return report_;
 }
 
-/// Until nothing that moves touches a sleeping island.
+/// Finds pairs until nothing that moves touches a sleeping island.
 template <class S> void WorldEngine<S>::find_pairs() {
   const auto budget = static_cast<std::size_t>(state_.settings.most_pairs);
   do proxies_.update(state_.contacts, budget);
@@ -84,7 +84,7 @@ template <class S> void WorldEngine<S>::find_contacts() {
                    &belts_);
 }
 
-/// What commands ended and woke since the last step, and what this one woke, is reported by this one.
+/// Reports what commands ended and woke since the last step, and what this one woke.
 template <class S> void WorldEngine<S>::tell_untold() {
   events_.clear();
   events_.contact_end.swap(state_.untold.contact_end);
@@ -114,7 +114,7 @@ template <class S> void WorldEngine<S>::tell_sleep() {
   changed.clear();
 }
 
-/// From colour_constraints to store_impulses: the calls of rigid_solver.hpp.
+/// Solves from colour_constraints to store_impulses: the calls of rigid_solver.hpp.
 template <class S>
 template <class Solver, class After>
 void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
@@ -133,7 +133,7 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
 
 }  // namespace isostep
 
-/// What a game calls every frame. The systems that it calls: *_systems.inl, acting_records.inl.
+/// Instantiates what a game calls every frame. The systems that it calls: *_systems.inl, acting_records.inl.
 #define ISO_INSTANTIATE_WORLD_STEP(S) \
-  template class StepSolver<S>;       \
-  template StepReport WorldEngine<S>::step(const StageObserver&);
+  ISO_STEP_SOLVER_OF(, S)             \
+  ISO_ENGINE_OF(, S)

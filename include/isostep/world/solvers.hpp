@@ -31,7 +31,7 @@ static_assert(HasEachSolver<Solvers<float>>, "a solver has no member in Solvers"
 ISO_FOR_EACH_BUILT_SOLVER(ISO_IS_SOLVER)
 #undef ISO_IS_SOLVER
 
-/// visit(the solver of that name)
+/// Calls visit with the solver of that name.
 template <class S, class Visit> void with_solver(Solvers<S>& solvers, SolverName name, Visit&& visit) {
   switch (name) {
 #define ISO_CASE(name) \

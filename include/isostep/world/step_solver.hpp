@@ -64,8 +64,7 @@ template <class S> class StepSolver {
   std::vector<std::uint8_t> cut_;
 };
 
-#define ISO_EXTERN(S) extern template class StepSolver<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_STEP_SOLVER_OF(extern, S) extern template class StepSolver<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_STEP_SOLVER_OF)
 
 }  // namespace isostep

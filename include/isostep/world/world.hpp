@@ -62,41 +62,41 @@ template <class S> class World final : public WorldBase<World<S>> {
   /// (ISOSTEP_BOOK): the world has soft_step then.
   explicit World(const Settings<S>& settings = {}) : Base(settings) {}
 
-  /// Lanes for this world's solver. Never changes a bit; false and no change where this processor or build lacks them.
+  /// Sets the solver's lanes. Never changes a bit; false and no change where this processor or build lacks them.
   bool use_simd(Simd simd);
   const char* simd_name() const;
-  /// The structure that finds bodies near each other, and what queries meet: the tree of boxes unless told. Never
+  /// Sets the structure that finds bodies near each other, for steps and queries: the tree of boxes unless told. Never
   /// changes a bit. Grids move and insert more quickly, the tree finds pairs more quickly. One that the build leaves
   /// out (ISOSTEP_BOOK) is refused.
   bool use_broad_phase(BroadPhaseName name);
   BroadPhaseName broad_phase() const;
-  /// Threads that help with every step from now on; none by default. Never changes a bit. Small worlds stay on the
+  /// Sets threads that help with every step from now on; none by default. Never changes a bit. Small worlds stay on the
   /// calling thread. What `runner` points to outlives the world or the next call.
   void use_threads(const TaskRunner& runner);
-  /// Who brings the blobs that states and commands name and do not carry: BlobHome::asset. None by default.
+  /// Sets the source of the blobs that states and commands name and do not carry: BlobHome::asset. None by default.
   void use_assets(const AssetSource& assets);
 
-  // Shapes: shared by the bodies that name them. Any of the list, with the world's numbers, or without a scalar:
-  // Box{{0.5, 0.5, 0.5}}.
+  // Shapes are shared by the bodies that name them. add_shape takes any of the list, with the world's numbers, or
+  // without a scalar: Box{{0.5, 0.5, 0.5}}.
 #define ISO_ADD_SHAPE(name, Shape)          \
   ShapeId add_shape(const Shape<S>& shape); \
   ShapeId add_shape(const Shape<Literal>& shape);
   ISO_FOR_EACH_SHAPE(ISO_ADD_SHAPE)
 #undef ISO_ADD_SHAPE
-  /// What a blob is by itself: a hull.
+  /// Adds the shape that a blob is by itself: a hull.
   ShapeId add_shape(const BlobRef& blob);
-  /// `blobs`: what the children name by Primitive::blob, 1 + its index here.
+  /// Adds a shape of children, which name `blobs` by Primitive::blob: 1 + the index here.
   ShapeId add_shape(std::span<const Child<S>> children, std::span<const BlobRef> blobs = {});
   bool remove_shape(ShapeId shape);
-  /// Other heights, and materials, for a part of the field that is that child of the shape.
+  /// Sets other heights, and materials, for a part of the field that is that child of the shape.
   bool set_heights(ShapeId shape, std::uint32_t child, const HeightPatch& patch);
-  /// As it is until the next command or load; null: the child is no height field.
+  /// Returns the field as it is until the next command or load; null: the child is no height field.
   const BakedHeightField* height_field(ShapeId shape, std::uint32_t child = 0) const;
 
   // Bodies.
   BodyId create(const BodyDefinition<S>& definition);
   bool destroy(BodyId body);
-  /// The same as one by one, in this order, for the price of one: a pass over the awake. Returns how many there were.
+  /// Destroys bodies as if one by one, in this order, at the price of one: a pass over the awake. Returns how many.
   std::size_t destroy(std::span<const BodyId> bodies);
   bool wake(BodyId body);
   bool set_pose(BodyId body, const Pose<S>& pose);
@@ -111,23 +111,23 @@ template <class S> class World final : public WorldBase<World<S>> {
   /// filter may be set meanwhile; what moves it is refused. It comes back as it was, awake. To be what it is already
   /// changes nothing.
   bool set_enabled(BodyId body, bool enabled);
-  /// Another type, with id, shape, joints and records. `mass` is that of a body that becomes dynamic. Velocity stays,
-  /// but of what becomes static; contacts end and begin anew. A joint without a dynamic body holds nothing. Refused: a
-  /// dynamic body of a shape without a volume, a type that a record of the body may not name, a body too light for its
-  /// joints.
+  /// Changes the type of a body, with id, shape, joints and records. `mass` is that of a body that becomes dynamic.
+  /// Velocity stays, but of a body that becomes static; contacts end and begin anew. A joint without a dynamic body
+  /// holds nothing. Refused: a dynamic body of a shape without a volume, a type that a record of the body may not name,
+  /// a body too light for its joints.
   bool set_type(BodyId body, BodyType type, const BodyMass<S>& mass = {});
-  /// Mass and inertia of a dynamic body, as if it had been made with them. Velocity stays. Forces of
-  /// this step that were applied before act as on the old mass.
+  /// Sets mass and inertia of a dynamic body, as if it had been made with them. Velocity stays. Forces of this step
+  /// that were applied before act as on the old mass.
   bool set_mass(BodyId body, const BodyMass<S>& mass);
-  /// Another shape: growth, crouching, damage. Id, origin's pose, velocity, joints and records stay; contacts end and
-  /// begin anew, and what overlaps then is pushed apart. Without a mass a dynamic body keeps its own, with the inertia
-  /// of the shape. Refused: a shape without a volume for a dynamic body, one that a record or joint of the body may not
-  /// have.
+  /// Changes the shape of a body: growth, crouching, damage. Id, origin's pose, velocity, joints and records stay;
+  /// contacts end and begin anew, and what overlaps then is pushed apart. Without a mass a dynamic body keeps its own,
+  /// with the inertia of the shape. Refused: a shape without a volume for a dynamic body, one that a record or joint of
+  /// the body may not have.
   bool set_shape(BodyId body, ShapeId shape);
   bool set_shape(BodyId body, ShapeId shape, const BodyMass<S>& mass);
   /// Puts a dynamic body and all that touches it or is tied to it to sleep at once: they stop, and lose what was asked
-  /// of them for the next step. No event tells of it. Refused where one of them may not sleep, or the world's settings
-  /// forbid it. What moves and touches them wakes them, in the next step if it does so now.
+  /// of them for the next step, which lists them in `fell_asleep`. Refused where one of them may not sleep, or the
+  /// world's settings forbid it. What moves and touches them wakes them, in the next step if it does so now.
   bool sleep(BodyId body);
   /// The next step carries a kinematic body to that pose. In that step it has the velocity that leads there, along a
   /// line and about one axis by the shorter way, so that it pushes and carries what it touches, and is held by no lock;
@@ -137,10 +137,10 @@ template <class S> class World final : public WorldBase<World<S>> {
   /// when it is enabled again.
   bool move_to(BodyId body, const Pose<S>& pose);
   bool set_gravity(Vec3<S> gravity);  // [m/s^2] world
-  /// [N] and [N m], world, for the length of the next step; they add up. A point is in the world [m].
+  /// Adds a force [N] and a torque [N m], world, for the length of the next step. A point is in the world [m].
   bool apply_force(BodyId body, Vec3<S> force, Vec3<S> torque = {S(0), S(0), S(0)});
   bool apply_force_at(BodyId body, Vec3<S> force, Vec3<S> point);
-  /// [kg m/s] and [kg m^2/s], world: velocities change at once.
+  /// Applies an impulse [kg m/s] and an angular impulse [kg m^2/s], world: velocities change at once.
   bool apply_impulse(BodyId body, Vec3<S> impulse, Vec3<S> angular_impulse = {S(0), S(0), S(0)});
   bool apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point);
 
@@ -148,15 +148,15 @@ template <class S> class World final : public WorldBase<World<S>> {
   /// A joint whose frames lie where `frame` (world, a unit quaternion) is now; a null id is the world. Add limits,
   /// motor, spring; then create.
   JointProperties<S> joint_at(JointType type, BodyId a, BodyId b, const Pose<S>& frame) const;
-  /// The same of two frames that lie apart.
+  /// A joint of two frames that lie apart.
   JointProperties<S> joint_between(JointType type, BodyId a, const Pose<S>& frame_a, BodyId b,
                                    const Pose<S>& frame_b) const;
   JointId create(const JointProperties<S>& joint);
-  /// One of joint_presets.hpp, with its AxisDrives: all of it or, with a fault, nothing.
+  /// Creates one of joint_presets.hpp, with its AxisDrives: all of it or, with a fault, nothing.
   JointId create(const JointDefinition<S>& joint);
   bool destroy(JointId joint);
   bool set_joint(JointId joint, const JointProperties<S>& properties);
-  /// Parts of it, of what joint_position() counts; set_joint has the rest. Drives of six-axis joints are AxisDrives.
+  /// Sets a part of it, along joint_position(); set_joint has the rest. Six-axis joints have AxisDrives instead.
   bool set_limits(JointId joint, S lower, S upper);        // [rad] or [m]
   bool set_motor(JointId joint, S speed, S torque);        // [rad/s], [N m] or [m/s], [N]; torque 0: no motor
   bool set_spring(JointId joint, S frequency, S damping);  // [Hz], [1] 1 is critical; frequency 0: no spring
@@ -164,10 +164,10 @@ template <class S> class World final : public WorldBase<World<S>> {
   const JointProperties<S>* joint(JointId joint) const;
   /// Distance between the joint's anchors, or for a distance joint its error [m]; 0 for a stale id.
   S joint_error(JointId joint) const;
-  /// What lower, upper and spring_target count: the twist of frame b against frame a about z, in (-pi, pi] [rad]; of a
-  /// slider or cylindrical joint the way along z of a, of a distance joint the length [m]. 0 for a stale id.
+  /// The position that lower, upper and spring_target count: the twist of frame b against a about z in (-pi, pi] [rad];
+  /// of a slider or cylindrical joint the way along z of a, of a distance joint the length [m]. 0 for a stale id.
   S joint_position(JointId joint) const;
-  /// The same of one axis of a six-axis joint: where it stands [m], or its angle in (-pi, pi] [rad].
+  /// The position of one axis of a six-axis joint: its way [m], or its angle in (-pi, pi] [rad].
   S joint_position(JointId joint, JointAxis axis) const;
   /// The record on one axis of a six-axis joint, presets and ragdolls included: for find, set and remove, as to change
   /// the target of a servo or the speed of a motor. Null where there is none.
@@ -183,16 +183,16 @@ template <class S> class World final : public WorldBase<World<S>> {
   const Record* find(Id id) const;
   ISO_FOR_EACH_RECORD(ISO_RECORD, S)
 #undef ISO_RECORD
-  /// What a game asks of a record, until it asks something else; a new record has its default. Null: a stale id.
+  /// The input that a game gives a record, until it gives another; a new record has its default. Null: a stale id.
 #define ISO_INPUT(name, Input, Id, S)        \
   bool set_input(Id id, const Input& input); \
   const Input* input(Id id) const;
   ISO_FOR_EACH_INPUT(ISO_INPUT, S)
 #undef ISO_INPUT
-  /// [rad/s] from now on: of a car that is put on the road at speed.
+  /// Sets the spin [rad/s] of a wheel from now on: of a car that is put on the road at speed.
   bool set_spin(WheelId wheel, S spin);
   using Base::state;
-  /// How the last step left a record. Null: a stale id.
+  /// The state in which the last step left a record. Null: a stale id.
 #define ISO_STATE(name, State, Id, S) const State* state(Id id) const;
   ISO_FOR_EACH_RECORD_STATE(ISO_STATE, S)
 #undef ISO_STATE
@@ -201,10 +201,10 @@ template <class S> class World final : public WorldBase<World<S>> {
 #define ISO_APPLY(name, Type, Result, S) Result apply(const Type& command);
   ISO_FOR_EACH_COMMAND(ISO_APPLY, S)
 #undef ISO_APPLY
-  /// Any of them, as recorded ones are.
+  /// Applies any of them, as recorded ones are.
   bool apply(const Command& command);
 
-  // What bodies are like. A stale id gives the zero of the type that is returned.
+  // Getters of bodies. A stale id gives the zero of the type that is returned.
   bool contains(BodyId body) const;
   bool contains(ShapeId shape) const;
   bool contains(JointId joint) const;
@@ -215,10 +215,10 @@ template <class S> class World final : public WorldBase<World<S>> {
   Vec3<S> center_of_mass(BodyId body) const;
   Vec3<S> velocity(BodyId body) const;
   Vec3<S> angular_velocity(BodyId body) const;
-  /// [m/s] of a point [m] that moves with the body, both world.
+  /// The velocity [m/s] of a point [m] that moves with the body, both world.
   Vec3<S> velocity_at(BodyId body, Vec3<S> point) const;
   S mass(BodyId body) const;
-  /// [kg m^2] about an axis [1] through its centre of mass, world. 0 of what is not dynamic, and of a locked axis.
+  /// The inertia [kg m^2] about an axis [1] through the centre of mass, world. 0: not dynamic, or a locked axis.
   S inertia(BodyId body, Vec3<Unit<S>> axis) const;
   std::uint64_t user_data(BodyId body) const;
   std::vector<BodyId> bodies() const;
@@ -232,7 +232,7 @@ template <class S> class World final : public WorldBase<World<S>> {
   /// The first hit of every body on the way, or of every child or triangle, in order, appended to `out`.
   void cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out,
                     QueryFilter filter = {}) const;
-  /// As many of them as `out` has room for, and their number. Allocates nothing.
+  /// Writes the nearest that `out` has room for, in order, and returns their number. Allocates nothing.
   std::size_t cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::span<RayCastHit<S>> out,
                            QueryFilter filter = {}) const;
   /// The first hit of a convex shape that moves from a pose along a translation without turning. Overlaps of up to
@@ -244,16 +244,16 @@ template <class S> class World final : public WorldBase<World<S>> {
                       std::vector<ShapeCastHit<S>>& out, QueryFilter filter = {}) const;
   std::size_t cast_shape_all(const QueryShape<S>& shape, const Pose<S>& pose, Vec3<S> translation,
                              std::span<ShapeCastHit<S>> out, QueryFilter filter = {}) const;
-  /// Many at once, on the world's threads; the hits are those of one by one, whatever their number. `hits` has room for
-  /// the same number of hits for each, one or more: the nearest ones, in order, then some without a body. False: at
-  /// least one was refused, and has no hits; the fault is that of the first. Allocates nothing.
+  /// Casts many at once, on the world's threads; the hits are those of one by one, whatever their number. `hits` has
+  /// room for the same number of hits for each, one or more: the nearest ones, in order, then some without a body.
+  /// False: at least one was refused, and has no hits; the fault is that of the first. Allocates nothing.
   bool cast_rays(std::span<const RayCast<S>> rays, std::span<RayCastHit<S>> hits) const;
   bool cast_shapes(std::span<const ShapeCast<S>> casts, std::span<ShapeCastHit<S>> hits) const;
   std::optional<ClosestBody<S>> closest_point(Vec3<S> point, S max_distance, QueryFilter filter = {}) const;
   /// Bodies that overlap the shape at the pose, ascending by slot, appended to `out`.
   void overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
                      QueryFilter filter = {}) const;
-  /// The same with the child and triangle of each: of every body, or of every child or triangle.
+  /// Appends the child and triangle of each as well: of every body, or of every child or triangle.
   void overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<OverlapHit>& out,
                      QueryFilter filter = {}) const;
   /// The first of them. Allocates nothing.
@@ -267,8 +267,8 @@ template <class S> class World final : public WorldBase<World<S>> {
   // Time.
   StepReport step(const StageObserver& observer = {});
   const Events<S>& events() const;
-  /// Of Events::contacts those of one body, in their order, appended to `out`: of a body with a ContactReport, or of
-  /// what touches one.
+  /// Appends to `out` those of Events::contacts that are of one body, in their order: of a body with a ContactReport,
+  /// or of one that touches such a body.
   void contacts_of(BodyId body, std::vector<ContactPoint<S>>& out) const;
   /// Poses of all moving bodies between the last step and the one before it, alpha in 0..1.
   const std::vector<RenderPose>& poses_float(float alpha);
@@ -277,10 +277,9 @@ template <class S> class World final : public WorldBase<World<S>> {
   using Base::engine_;
 };
 
-#define ISO_EXTERN(S)                        \
+#define ISO_WORLD_OF(extern, S)              \
   extern template class WorldBase<World<S>>; \
   extern template class World<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_WORLD_OF)
 
 }  // namespace isostep

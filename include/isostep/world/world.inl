@@ -73,7 +73,7 @@ template <class S> ShapeId World<S>::add_shape(const BlobRef& blob) {
   child.primitive.blob = 1;
   return add_shape(std::span<const Child<S>>(&child, 1), std::span<const BlobRef>(&blob, 1));
 }
-/// What the world has already a command names without its content: a recording holds it once.
+/// A command names a blob that the world has already without its content: a recording holds it once.
 template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> children, std::span<const BlobRef> blobs) {
   AddShape<S> command = {{children.begin(), children.end()}};
   for (const BlobRef& blob : blobs) {
@@ -311,7 +311,6 @@ template <class S> const std::vector<RenderPose>& World<S>::poses_float(float al
 
 /// World<S>, and how states come into it. What it calls: executing_commands.inl, queries.inl, engine_step.inl.
 #define ISO_INSTANTIATE_WORLD(S)                       \
-  template class StateLoader<S>;                       \
+  ISO_STATE_LOADER_OF(, S)                             \
   template std::uint64_t WorldEngine<S>::hash() const; \
-  template class WorldBase<World<S>>;                  \
-  template class World<S>;
+  ISO_WORLD_OF(, S)

@@ -43,8 +43,8 @@ template <class S> S World<S>::joint_position(JointId joint, JointAxis axis) con
   return engine_->queries_.joint_position(joint, axis);
 }
 
-/// Both frames from one frame in the world, as the bodies lie now. A frame whose orientation is none stays so, for
-/// create() to refuse it.
+/// Makes both frames from one frame in the world, as the bodies lie now. A frame whose orientation is none stays so,
+/// for create() to refuse it.
 template <class S>
 JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const Pose<S>& frame) const {
   return joint_between(type, a, frame, b, frame);

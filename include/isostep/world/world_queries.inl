@@ -1,4 +1,4 @@
-// World<S>: what its queries call.
+// World<S>: its queries.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -158,9 +158,14 @@ enum {
 typedef uint32_t iso_body_flag;
 enum {
   ISO_BODY_FLAG_SENSOR = 1, ISO_BODY_FLAG_ALLOW_SLEEP = 2, ISO_BODY_FLAG_COLLIDE = 4, ISO_BODY_FLAG_BULLET = 16,
-  ISO_BODY_FLAG_DISABLED = 32, ISO_BODY_FLAG_LOCK_X = 256, ISO_BODY_FLAG_LOCK_Y = 512, ISO_BODY_FLAG_LOCK_Z = 1024,
-  ISO_BODY_FLAG_LOCK_ANGULAR_X = 2048, ISO_BODY_FLAG_LOCK_ANGULAR_Y = 4096, ISO_BODY_FLAG_LOCK_ANGULAR_Z = 8192,
-  ISO_BODY_FLAG_ALL_LOCKS = 16128
+  ISO_BODY_FLAG_DISABLED = 32, ISO_BODY_FLAG_REPORT_CONTACTS = 64, ISO_BODY_FLAG_LOCK_X = 256,
+  ISO_BODY_FLAG_LOCK_Y = 512, ISO_BODY_FLAG_LOCK_Z = 1024, ISO_BODY_FLAG_LOCK_ANGULAR_X = 2048,
+  ISO_BODY_FLAG_LOCK_ANGULAR_Y = 4096, ISO_BODY_FLAG_LOCK_ANGULAR_Z = 8192, ISO_BODY_FLAG_ALL_LOCKS = 16128
+};
+typedef uint32_t iso_part_flag;
+enum {
+  ISO_PART_FLAG_OWN_MATERIAL = 1, ISO_PART_FLAG_OWN_FILTER = 2, ISO_PART_FLAG_SENSOR = 4,
+  ISO_PART_FLAG_REPORT_CONTACTS = 8
 };
 typedef uint32_t iso_joint_flag;
 enum {
@@ -212,10 +217,14 @@ typedef struct iso_overlap_hit {
 typedef struct iso_body_pair {
   iso_body a;
   iso_body b;
+  uint32_t child_a; /* the first of their parts that were in contact */
+  uint32_t child_b; /* the first of their parts that were in contact */
 } iso_body_pair;
 typedef struct iso_sensor_event {
   iso_body sensor;
   iso_body other;
+  uint32_t sensor_child; /* parts of their shapes */
+  uint32_t other_child; /* parts of their shapes */
 } iso_sensor_event;
 typedef struct iso_render_pose {
   iso_body body;
@@ -403,9 +412,16 @@ typedef struct iso_f32_primitive {
   iso_f32_unit_vec3 normal; /* [1] half-space only */
   float offset; /* [m] half-space only */
 } iso_f32_primitive;
+typedef struct iso_f32_part_traits {
+  uint32_t flags; /* part_flag */
+  iso_filter filter;
+  iso_f32_material material;
+} iso_f32_part_traits;
 typedef struct iso_f32_child {
   iso_f32_primitive primitive;
   iso_f32_pose pose;
+  iso_f32_part_traits traits;
+  uint64_t user_data; /* the game's, for whom events and hits name the part */
 } iso_f32_child;
 typedef struct iso_f32_joint_range {
   float lower;
@@ -482,17 +498,19 @@ typedef struct iso_f32_shape_hit {
 } iso_f32_shape_hit;
 typedef struct iso_f32_closest_body {
   iso_body body;
+  uint32_t child; /* of its shape */
   iso_f32_vec3 point; /* [m] on its surface */
   iso_f32_unit_vec3 normal; /* [1] outward */
   float distance; /* [m] negative: inside */
-  uint8_t reserved1[4];
 } iso_f32_closest_body;
 typedef struct iso_f32_contact_begin {
   iso_body a;
   iso_body b;
+  uint32_t child_a; /* the first parts of their shapes in contact */
+  uint32_t child_b; /* the first parts of their shapes in contact */
   /* [kg m/s] that all points together gave over the step along their normals; held at the format's end */
   float impulse;
-  iso_f32_unit_vec3 normal; /* [1] from a to b, of the first parts in contact */
+  iso_f32_unit_vec3 normal; /* [1] from a to b, of those parts */
 } iso_f32_contact_begin;
 typedef struct iso_f32_broke {
   iso_body body;
@@ -512,6 +530,8 @@ typedef struct iso_f32_joint_broke {
 typedef struct iso_f32_contact_hit {
   iso_body a;
   iso_body b;
+  uint32_t child_a; /* parts of their shapes */
+  uint32_t child_b; /* parts of their shapes */
   iso_f32_vec3 point; /* [m] where they closed fastest, where b has it as the step ends */
   iso_f32_unit_vec3 normal; /* [1] from a to b */
   float speed; /* [m/s] of approach along the normal, as the step began */
@@ -520,8 +540,10 @@ typedef struct iso_f32_contact_hit {
 typedef struct iso_f32_contact_point {
   iso_body a;
   iso_body b;
-  uint32_t child_a; /* parts of their shapes; of what touches a mesh or field, its triangles are counted */
-  uint32_t child_b; /* parts of their shapes; of what touches a mesh or field, its triangles are counted */
+  uint32_t child_a; /* parts of their shapes */
+  uint32_t child_b; /* parts of their shapes */
+  uint32_t triangle_a; /* of a mesh or height field; else 0 */
+  uint32_t triangle_b; /* of a mesh or height field; else 0 */
   iso_f32_vec3 point; /* [m] where b has it as the step ends */
   iso_f32_unit_vec3 normal; /* [1] from a to b */
   float separation; /* [m] as the step began; negative: overlap */
@@ -544,8 +566,8 @@ typedef struct iso_f32_settings {
      StepReport::cut_compounds. */
   int32_t most_pairs;
   iso_projection projection; /* of worst_first; other solvers take any and use none */
-  /* [m/s] 0..Limits::speed(): what meets more slowly does not bounce. Rest is a rain of small bounces without it; of
-     what nothing presses together all bounces above a sixteenth of it. */
+  /* [m/s] 0..Limits::speed(): bodies that meet more slowly do not bounce. Rest is a rain of small bounces without
+     it; bodies that nothing presses together bounce above a sixteenth of it. */
   float restitution_threshold;
   uint8_t reserved2[4];
 } iso_f32_settings;
@@ -573,7 +595,8 @@ typedef struct iso_f32_body_definition {
   uint8_t allow_sleep;
   uint8_t collide; /* false: no contacts, no events */
   uint8_t bullet; /* moving bodies stop it too, at any speed; two bullets may pass through each other */
-  uint8_t reserved2[4];
+  uint8_t report_contacts; /* events tell when contacts begin and end; parts may report by themselves */
+  uint8_t reserved2[3];
 } iso_f32_body_definition;
 typedef struct iso_f32_body_mass {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
@@ -1335,8 +1358,11 @@ typedef struct iso_f64_material {
 typedef struct iso_f64_primitive {
   iso_shape_type type; uint32_t blob; iso_f64_vec3 half; double radius; iso_f64_unit_vec3 normal; double offset;
 } iso_f64_primitive;
+typedef struct iso_f64_part_traits {
+  uint32_t flags; iso_filter filter; iso_f64_material material;
+} iso_f64_part_traits;
 typedef struct iso_f64_child {
-  iso_f64_primitive primitive; iso_f64_pose pose;
+  iso_f64_primitive primitive; iso_f64_pose pose; iso_f64_part_traits traits; uint64_t user_data;
 } iso_f64_child;
 typedef struct iso_f64_joint_range {
   double lower; double upper;
@@ -1368,10 +1394,10 @@ typedef struct iso_f64_shape_hit {
   uint8_t material; uint8_t inside; uint8_t reserved1[6];
 } iso_f64_shape_hit;
 typedef struct iso_f64_closest_body {
-  iso_body body; iso_f64_vec3 point; iso_f64_unit_vec3 normal; double distance;
+  iso_body body; uint32_t child; uint8_t reserved1[4]; iso_f64_vec3 point; iso_f64_unit_vec3 normal; double distance;
 } iso_f64_closest_body;
 typedef struct iso_f64_contact_begin {
-  iso_body a; iso_body b; double impulse; iso_f64_unit_vec3 normal;
+  iso_body a; iso_body b; uint32_t child_a; uint32_t child_b; double impulse; iso_f64_unit_vec3 normal;
 } iso_f64_contact_begin;
 typedef struct iso_f64_broke {
   iso_body body; double impulse; iso_f64_vec3 point; iso_f64_unit_vec3 direction;
@@ -1380,11 +1406,12 @@ typedef struct iso_f64_joint_broke {
   iso_joint joint; iso_body a; iso_body b; uint64_t user_data; double force; double torque;
 } iso_f64_joint_broke;
 typedef struct iso_f64_contact_hit {
-  iso_body a; iso_body b; iso_f64_vec3 point; iso_f64_unit_vec3 normal; double speed;
+  iso_body a; iso_body b; uint32_t child_a; uint32_t child_b; iso_f64_vec3 point; iso_f64_unit_vec3 normal;
+  double speed;
 } iso_f64_contact_hit;
 typedef struct iso_f64_contact_point {
-  iso_body a; iso_body b; uint32_t child_a; uint32_t child_b; iso_f64_vec3 point; iso_f64_unit_vec3 normal;
-  double separation; double impulse;
+  iso_body a; iso_body b; uint32_t child_a; uint32_t child_b; uint32_t triangle_a; uint32_t triangle_b;
+  iso_f64_vec3 point; iso_f64_unit_vec3 normal; double separation; double impulse;
 } iso_f64_contact_point;
 typedef struct iso_f64_settings {
   uint32_t size; uint32_t reserved0; int32_t hz; int32_t substeps; iso_f64_vec3 gravity; uint8_t allow_sleep;
@@ -1396,7 +1423,7 @@ typedef struct iso_f64_body_definition {
   iso_f64_quat orientation; iso_f64_vec3 velocity; iso_f64_vec3 angular_velocity; double density; double mass;
   iso_f64_vec3 inertia; iso_f64_material material; iso_filter filter; uint8_t reserved2[4]; uint64_t user_data;
   double gravity_scale; double linear_damping; double angular_damping; uint32_t locks; uint8_t sensor;
-  uint8_t allow_sleep; uint8_t collide; uint8_t bullet;
+  uint8_t allow_sleep; uint8_t collide; uint8_t bullet; uint8_t report_contacts; uint8_t reserved3[7];
 } iso_f64_body_definition;
 typedef struct iso_f64_body_mass {
   uint32_t size; uint32_t reserved0; double density; double mass; iso_f64_vec3 inertia;
@@ -1681,8 +1708,11 @@ typedef struct iso_q16_material {
 typedef struct iso_q16_primitive {
   iso_shape_type type; uint32_t blob; iso_q16_vec3 half; int32_t radius; iso_q16_unit_vec3 normal; int32_t offset;
 } iso_q16_primitive;
+typedef struct iso_q16_part_traits {
+  uint32_t flags; iso_filter filter; iso_q16_material material;
+} iso_q16_part_traits;
 typedef struct iso_q16_child {
-  iso_q16_primitive primitive; iso_q16_pose pose;
+  iso_q16_primitive primitive; iso_q16_pose pose; iso_q16_part_traits traits; uint64_t user_data;
 } iso_q16_child;
 typedef struct iso_q16_joint_range {
   int32_t lower; int32_t upper;
@@ -1714,10 +1744,10 @@ typedef struct iso_q16_shape_hit {
   uint8_t material; uint8_t inside; uint8_t reserved1[2];
 } iso_q16_shape_hit;
 typedef struct iso_q16_closest_body {
-  iso_body body; iso_q16_vec3 point; iso_q16_unit_vec3 normal; int32_t distance; uint8_t reserved1[4];
+  iso_body body; uint32_t child; iso_q16_vec3 point; iso_q16_unit_vec3 normal; int32_t distance;
 } iso_q16_closest_body;
 typedef struct iso_q16_contact_begin {
-  iso_body a; iso_body b; int32_t impulse; iso_q16_unit_vec3 normal;
+  iso_body a; iso_body b; uint32_t child_a; uint32_t child_b; int32_t impulse; iso_q16_unit_vec3 normal;
 } iso_q16_contact_begin;
 typedef struct iso_q16_broke {
   iso_body body; int32_t impulse; iso_q16_vec3 point; iso_q16_unit_vec3 direction; uint8_t reserved1[4];
@@ -1726,11 +1756,12 @@ typedef struct iso_q16_joint_broke {
   iso_joint joint; iso_body a; iso_body b; uint64_t user_data; int32_t force; int32_t torque;
 } iso_q16_joint_broke;
 typedef struct iso_q16_contact_hit {
-  iso_body a; iso_body b; iso_q16_vec3 point; iso_q16_unit_vec3 normal; int32_t speed; uint8_t reserved1[4];
+  iso_body a; iso_body b; uint32_t child_a; uint32_t child_b; iso_q16_vec3 point; iso_q16_unit_vec3 normal;
+  int32_t speed; uint8_t reserved1[4];
 } iso_q16_contact_hit;
 typedef struct iso_q16_contact_point {
-  iso_body a; iso_body b; uint32_t child_a; uint32_t child_b; iso_q16_vec3 point; iso_q16_unit_vec3 normal;
-  int32_t separation; int32_t impulse;
+  iso_body a; iso_body b; uint32_t child_a; uint32_t child_b; uint32_t triangle_a; uint32_t triangle_b;
+  iso_q16_vec3 point; iso_q16_unit_vec3 normal; int32_t separation; int32_t impulse;
 } iso_q16_contact_point;
 typedef struct iso_q16_settings {
   uint32_t size; uint32_t reserved0; int32_t hz; int32_t substeps; iso_q16_vec3 gravity; uint8_t allow_sleep;
@@ -1742,7 +1773,7 @@ typedef struct iso_q16_body_definition {
   iso_q16_quat orientation; iso_q16_vec3 velocity; iso_q16_vec3 angular_velocity; int32_t density; int32_t mass;
   iso_q16_vec3 inertia; iso_q16_material material; iso_filter filter; uint64_t user_data; int32_t gravity_scale;
   int32_t linear_damping; int32_t angular_damping; uint32_t locks; uint8_t sensor; uint8_t allow_sleep;
-  uint8_t collide; uint8_t bullet; uint8_t reserved2[4];
+  uint8_t collide; uint8_t bullet; uint8_t report_contacts; uint8_t reserved2[3];
 } iso_q16_body_definition;
 typedef struct iso_q16_body_mass {
   uint32_t size; uint32_t reserved0; int32_t density; int32_t mass; iso_q16_vec3 inertia; uint8_t reserved1[4];
@@ -2030,8 +2061,11 @@ typedef struct iso_q32_material {
 typedef struct iso_q32_primitive {
   iso_shape_type type; uint32_t blob; iso_q32_vec3 half; int64_t radius; iso_q32_unit_vec3 normal; int64_t offset;
 } iso_q32_primitive;
+typedef struct iso_q32_part_traits {
+  uint32_t flags; iso_filter filter; iso_q32_material material;
+} iso_q32_part_traits;
 typedef struct iso_q32_child {
-  iso_q32_primitive primitive; iso_q32_pose pose;
+  iso_q32_primitive primitive; iso_q32_pose pose; iso_q32_part_traits traits; uint64_t user_data;
 } iso_q32_child;
 typedef struct iso_q32_joint_range {
   int64_t lower; int64_t upper;
@@ -2063,10 +2097,10 @@ typedef struct iso_q32_shape_hit {
   uint8_t material; uint8_t inside; uint8_t reserved1[6];
 } iso_q32_shape_hit;
 typedef struct iso_q32_closest_body {
-  iso_body body; iso_q32_vec3 point; iso_q32_unit_vec3 normal; int64_t distance;
+  iso_body body; uint32_t child; uint8_t reserved1[4]; iso_q32_vec3 point; iso_q32_unit_vec3 normal; int64_t distance;
 } iso_q32_closest_body;
 typedef struct iso_q32_contact_begin {
-  iso_body a; iso_body b; int64_t impulse; iso_q32_unit_vec3 normal;
+  iso_body a; iso_body b; uint32_t child_a; uint32_t child_b; int64_t impulse; iso_q32_unit_vec3 normal;
 } iso_q32_contact_begin;
 typedef struct iso_q32_broke {
   iso_body body; int64_t impulse; iso_q32_vec3 point; iso_q32_unit_vec3 direction;
@@ -2075,11 +2109,12 @@ typedef struct iso_q32_joint_broke {
   iso_joint joint; iso_body a; iso_body b; uint64_t user_data; int64_t force; int64_t torque;
 } iso_q32_joint_broke;
 typedef struct iso_q32_contact_hit {
-  iso_body a; iso_body b; iso_q32_vec3 point; iso_q32_unit_vec3 normal; int64_t speed;
+  iso_body a; iso_body b; uint32_t child_a; uint32_t child_b; iso_q32_vec3 point; iso_q32_unit_vec3 normal;
+  int64_t speed;
 } iso_q32_contact_hit;
 typedef struct iso_q32_contact_point {
-  iso_body a; iso_body b; uint32_t child_a; uint32_t child_b; iso_q32_vec3 point; iso_q32_unit_vec3 normal;
-  int64_t separation; int64_t impulse;
+  iso_body a; iso_body b; uint32_t child_a; uint32_t child_b; uint32_t triangle_a; uint32_t triangle_b;
+  iso_q32_vec3 point; iso_q32_unit_vec3 normal; int64_t separation; int64_t impulse;
 } iso_q32_contact_point;
 typedef struct iso_q32_settings {
   uint32_t size; uint32_t reserved0; int32_t hz; int32_t substeps; iso_q32_vec3 gravity; uint8_t allow_sleep;
@@ -2091,7 +2126,7 @@ typedef struct iso_q32_body_definition {
   iso_q32_quat orientation; iso_q32_vec3 velocity; iso_q32_vec3 angular_velocity; int64_t density; int64_t mass;
   iso_q32_vec3 inertia; iso_q32_material material; iso_filter filter; uint8_t reserved2[4]; uint64_t user_data;
   int64_t gravity_scale; int64_t linear_damping; int64_t angular_damping; uint32_t locks; uint8_t sensor;
-  uint8_t allow_sleep; uint8_t collide; uint8_t bullet;
+  uint8_t allow_sleep; uint8_t collide; uint8_t bullet; uint8_t report_contacts; uint8_t reserved3[7];
 } iso_q32_body_definition;
 typedef struct iso_q32_body_mass {
   uint32_t size; uint32_t reserved0; int64_t density; int64_t mass; iso_q32_vec3 inertia;

@@ -33,9 +33,6 @@ template <class E> struct Enumerators;
   };
 ISO_ENUM(ScalarName, scalar, "f32", "f64", "q16", "q32")
 ISO_ENUM(BodyType, body_type, "static", "kinematic", "dynamic")
-ISO_ENUM(JointAxis, joint_axis, "x", "y", "z", "swing_x", "swing_y", "twist")
-ISO_ENUM(ZoneShape, zone_shape, "everywhere", "sphere", "box")
-ISO_ENUM(BreakPattern, break_pattern, "eight_boxes", "grain", "radial", "voronoi")
 ISO_ENUM(Footing, footing, "airborne", "floor", "steep")
 ISO_ENUM(StartInside, start_inside, "report", "ignore")
 ISO_ENUM(HitPer, hit_per, "body", "child", "triangle")
@@ -55,11 +52,17 @@ ISO_ENUM(Simd, simd, "best", ISO_FOR_EACH_SIMD(ISO_LISTED, ))
 #undef ISO_ENUM
 // clang-format on
 
-template <> struct Enumerators<Stage> {
-  static constexpr const char* kName = "stage";
-  static constexpr const auto& kNames = kStageNames;
-  static constexpr std::uint32_t kCount = kStages;
-};
+#define ISO_NAMED_ENUM(E, name, names)                                      \
+  template <> struct Enumerators<E> {                                       \
+    static constexpr const char* kName = #name;                             \
+    static constexpr const auto& kNames = names;                            \
+    static constexpr std::uint32_t kCount = sizeof kNames / sizeof *kNames; \
+  };
+ISO_NAMED_ENUM(Stage, stage, kStageNames)
+ISO_NAMED_ENUM(JointAxis, joint_axis, kJointAxisNames)
+ISO_NAMED_ENUM(ZoneShape, zone_shape, kZoneShapeNames)
+ISO_NAMED_ENUM(BreakPattern, break_pattern, kBreakPatternNames)
+#undef ISO_NAMED_ENUM
 static_assert(Enumerators<Fault>::kCount == kFaults);
 
 /// Of all enumerations, for the one who writes the header.
@@ -84,6 +87,7 @@ inline constexpr Flag kBodyFlags[] = {{"sensor", body_flag::kSensor},
                                       {"collide", body_flag::kCollide},
                                       {"bullet", body_flag::kBullet},
                                       {"disabled", body_flag::kDisabled},
+                                      {"report_contacts", body_flag::kReportContacts},
                                       {"lock_x", body_flag::kLockX},
                                       {"lock_y", body_flag::kLockX << 1},
                                       {"lock_z", body_flag::kLockX << 2},
@@ -91,6 +95,10 @@ inline constexpr Flag kBodyFlags[] = {{"sensor", body_flag::kSensor},
                                       {"lock_angular_y", body_flag::kLockAngularX << 1},
                                       {"lock_angular_z", body_flag::kLockAngularX << 2},
                                       {"all_locks", body_flag::kAllLocks}};
+inline constexpr Flag kPartFlags[] = {{"own_material", part_flag::kOwnMaterial},
+                                      {"own_filter", part_flag::kOwnFilter},
+                                      {"sensor", part_flag::kSensor},
+                                      {"report_contacts", part_flag::kReportContacts}};
 inline constexpr Flag kJointFlags[] = {{"collide_connected", joint_flag::kCollideConnected},
                                        {"limit", joint_flag::kLimit},
                                        {"motor", joint_flag::kMotor},
@@ -110,6 +118,6 @@ inline constexpr Flag kZoneEffects[] = {{"acceleration", zone_effect::kAccelerat
                                         {"gravity", zone_effect::kGravity},
                                         {"water", zone_effect::kWater}};
 inline constexpr FlagSet kFlagSets[] = {
-    {"body_flag", kBodyFlags}, {"joint_flag", kJointFlags}, {"zone_effect", kZoneEffects}};
+    {"body_flag", kBodyFlags}, {"part_flag", kPartFlags}, {"joint_flag", kJointFlags}, {"zone_effect", kZoneEffects}};
 
 }  // namespace isostep::c

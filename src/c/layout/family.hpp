@@ -5,7 +5,7 @@
 #include "isostep/core/instantiate.hpp"
 #include "isostep/scalar/scalar.hpp"
 
-/// X(P, S): the prefix of the family in C, and its scalar. ISO_C_SCALARS of isostep.h is the same list.
+/// X(P, S) has the prefix of the family in C, and its scalar. ISO_C_SCALARS of isostep.h is the same list.
 #define ISO_C_FAMILIES(X) X(f32, float) X(f64, double) X(q16, ::isostep::Q16_16) X(q32, ::isostep::Q32_32)
 
 namespace isostep::c {
@@ -17,7 +17,7 @@ template <class S> inline constexpr ScalarName kScalarName = ScalarName::f32;
 ISO_C_FAMILIES(ISO_NAME)
 #undef ISO_NAME
 
-/// Whether this build of the library has the engine of S.
+/// True if this build of the library has the engine of S.
 template <class S> inline constexpr bool kIsBuilt = false;
 #define ISO_BUILT(S) template <> inline constexpr bool kIsBuilt<S> = true;
 ISO_FOR_EACH_SCALAR(ISO_BUILT)

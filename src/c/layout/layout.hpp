@@ -1,4 +1,4 @@
-// Where the members of a C struct lie: computed from the `fields` of its C++ twin, the same on every target.
+// The layout of a C struct's members: computed from the `fields` of its C++ twin, the same on every target.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -35,10 +35,10 @@ template <class T> inline constexpr bool kIsPointer<Pointer<T>> = true;
 template <class T> inline constexpr bool kIsOptional = false;
 template <class T> inline constexpr bool kIsOptional<std::optional<T>> = true;
 
-/// What begins a struct that goes by pointer: its size as the caller knows it, and a reserved word.
+/// [bytes] The head of a struct that goes by pointer: its size as the caller knows it, and a reserved word.
 inline constexpr std::size_t kHeadSize = 8;
-/// How many members a struct that goes by pointer had in the last release, where it has grown since; 0: it has not.
-/// Later members begin where the struct ended then, so that callers of that release give none of them.
+/// The number of members that a struct that goes by pointer had in the last release, where it has grown since; 0 where
+/// it has not. Later members begin where the struct ended then, so that callers of that release give none of them.
 template <class T> inline constexpr int kMembersReleased = 0;
 
 struct Extent {
@@ -80,7 +80,7 @@ struct ExtentVisitor {
   }
 };
 
-/// Of a member. Enumerations have four bytes, truth values one, ids and pointers eight.
+/// The extent of a member. Enumerations have four bytes, truth values one, ids and pointers eight.
 template <class T> constexpr Extent extent_of() {
   if constexpr (std::is_bounded_array_v<T>) {
     constexpr Extent one = extent_of<std::remove_extent_t<T>>();
@@ -99,7 +99,7 @@ template <class T> constexpr Extent extent_of() {
   }
 }
 
-/// Of a struct that goes by pointer: a multiple of eight, the head included.
+/// [bytes] The size of a struct that goes by pointer: a multiple of eight, the head included.
 template <class T> constexpr std::size_t sized_size() {
   Placing placing{kHeadSize};
   placing.released = kMembersReleased<T>;
@@ -108,7 +108,7 @@ template <class T> constexpr std::size_t sized_size() {
   return round_up(placing.end, 8);
 }
 
-/// Members as C has them: an optional one is two.
+/// Counts members in C's form: an optional one is two.
 struct CountVisitor {
   std::size_t* count;
   template <class T> constexpr void operator()(const char*, const T&) const { *count += kIsOptional<T> ? 2 : 1; }
@@ -120,7 +120,7 @@ template <class T> constexpr std::size_t member_count() {
   return count;
 }
 
-/// The offsets of all members, to compare with what a C compiler makes of the header.
+/// The offsets of all members, to compare with a C compiler's of the header.
 template <class T> struct OffsetsVisitor {
   Placing* placing;
   std::array<std::size_t, member_count<T>()>* offsets;

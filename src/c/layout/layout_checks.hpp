@@ -12,7 +12,8 @@
   X(material, false, O(friction), O(restitution), O(rolling_resistance), O(spin_resistance), O(surface_velocity), \
     O(static_friction), O(anisotropy), O(kind), O(reserved)) \
   X(primitive, false, O(type), O(blob), O(half), O(radius), O(normal), O(offset)) \
-  X(child, false, O(primitive), O(pose)) \
+  X(part_traits, false, O(flags), O(filter), O(material)) \
+  X(child, false, O(primitive), O(pose), O(traits), O(user_data)) \
   X(joint_range, false, O(lower), O(upper)) \
   X(joint_motor, false, O(speed), O(force)) \
   X(joint_spring, false, O(frequency), O(damping), O(target)) \
@@ -23,17 +24,18 @@
     O(upper)) \
   X(ray_hit, false, O(body), O(child), O(triangle), O(point), O(normal), O(fraction), O(material), O(inside)) \
   X(shape_hit, false, O(body), O(child), O(triangle), O(point), O(normal), O(fraction), O(material), O(inside)) \
-  X(closest_body, false, O(body), O(point), O(normal), O(distance)) \
-  X(contact_begin, false, O(a), O(b), O(impulse), O(normal)) \
+  X(closest_body, false, O(body), O(child), O(point), O(normal), O(distance)) \
+  X(contact_begin, false, O(a), O(b), O(child_a), O(child_b), O(impulse), O(normal)) \
   X(broke, false, O(body), O(impulse), O(point), O(direction)) \
   X(joint_broke, false, O(joint), O(a), O(b), O(user_data), O(force), O(torque)) \
-  X(contact_hit, false, O(a), O(b), O(point), O(normal), O(speed)) \
-  X(contact_point, false, O(a), O(b), O(child_a), O(child_b), O(point), O(normal), O(separation), O(impulse)) \
+  X(contact_hit, false, O(a), O(b), O(child_a), O(child_b), O(point), O(normal), O(speed)) \
+  X(contact_point, false, O(a), O(b), O(child_a), O(child_b), O(triangle_a), O(triangle_b), O(point), O(normal), \
+    O(separation), O(impulse)) \
   X(settings, true, O(hz), O(substeps), O(gravity), O(allow_sleep), O(solver), O(id_space), O(most_pairs), \
     O(projection), O(restitution_threshold)) \
   X(body_definition, true, O(type), O(shape), O(position), O(orientation), O(velocity), O(angular_velocity), \
     O(density), O(mass), O(inertia), O(material), O(filter), O(user_data), O(gravity_scale), O(linear_damping), \
-    O(angular_damping), O(locks), O(sensor), O(allow_sleep), O(collide), O(bullet)) \
+    O(angular_damping), O(locks), O(sensor), O(allow_sleep), O(collide), O(bullet), O(report_contacts)) \
   X(body_mass, true, O(density), O(mass), O(inertia)) \
   X(body_state, true, O(pose), O(centre), O(velocity), O(angular_velocity), O(user_data), O(type), O(awake), \
     O(enabled)) \
@@ -128,8 +130,8 @@
   X(query_filter, CQueryFilter, false, O(mask), O(sensors), O(back_faces), O(ignore), O(group), O(start_inside), \
     O(per), O(ignore_all_count), O(ignore_all), O(ignore_kinds_count), O(reserved), O(ignore_kinds)) \
   X(overlap_hit, OverlapHit, false, O(body), O(child), O(triangle), O(material)) \
-  X(body_pair, ContactEnd, false, O(a), O(b)) \
-  X(sensor_event, SensorEvent, false, O(sensor), O(other)) \
+  X(body_pair, ContactEnd, false, O(a), O(b), O(child_a), O(child_b)) \
+  X(sensor_event, SensorEvent, false, O(sensor), O(other), O(sensor_child), O(other_child)) \
   X(render_pose, RenderPose, false, O(body), O(position), O(orientation)) \
   X(step_report, StepReport, true, O(clamped_speed), O(clamped_force), O(clamped_position), O(stopped), O(crowded), \
     O(cut_compounds), O(unsolved)) \

@@ -17,6 +17,7 @@
   X(aabb, Aabb<S>, S)                  \
   X(material, Material<S>, S)          \
   X(primitive, Primitive<S>, S)        \
+  X(part_traits, PartTraits<S>, S)     \
   X(child, Child<S>, S)                \
   X(joint_range, JointRange<S>, S)     \
   X(joint_motor, JointMotor<S>, S)     \

@@ -281,7 +281,9 @@ template <> struct CFields<OverlapHit> {
   ISO_C_FIELDS_OF(OverlapHit) { ISO_MEMBER(body) ISO_MEMBER(child) ISO_MEMBER(triangle) ISO_MEMBER(material) }
 };
 template <class S> struct CFields<ClosestBody<S>> {
-  ISO_C_FIELDS_OF(ClosestBody) { ISO_MEMBER(body) ISO_MEMBER(point) ISO_MEMBER(normal) ISO_MEMBER(distance) }
+  ISO_C_FIELDS_OF(ClosestBody) {
+    ISO_MEMBER(body) ISO_MEMBER(child) ISO_MEMBER(point) ISO_MEMBER(normal) ISO_MEMBER(distance)
+  }
 };
 template <> struct CFields<RenderPose> {
   ISO_C_FIELDS_OF(RenderPose) { ISO_MEMBER(body) ISO_MEMBER(position) ISO_MEMBER(orientation) }

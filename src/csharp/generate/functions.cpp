@@ -10,7 +10,7 @@
 namespace isostep::csharp {
 namespace {
 
-/// "const iso_blob* const*" is "iso_blob" and two stars.
+/// A pointer type by its base: "const iso_blob* const*" is "iso_blob" and two stars.
 struct Pointed {
   std::string base;
   int stars = 0;

@@ -7,12 +7,12 @@
 
 namespace isostep::csharp {
 
-/// Native: every function as C has it.
+/// Adds Native: every function as C has it.
 void add_functions(const Schema& schema, Files& files);
-/// World, Session ...: a method for each function whose arguments say by themselves what they mean.
+/// Adds to World, Session ... a method for each function whose arguments say by themselves what they mean.
 void add_methods(const Schema& schema, Files& files);
 
-/// A C type as its declaration in C# has it.
+/// The type in C#'s declarations of a C type.
 std::string native_type(const std::string& c_type, const std::string& family, const Schema& schema, bool qualified);
 
 }  // namespace isostep::csharp

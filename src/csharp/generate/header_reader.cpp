@@ -11,7 +11,7 @@
 namespace isostep::csharp {
 namespace {
 
-/// One line, no blanks at its ends.
+/// The text on one line, without blanks at its ends.
 std::string squeezed(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -22,8 +22,8 @@ std::string squeezed(const std::string& text) {
   return result;
 }
 
-/// Items that end with `end`, at the depth of no bracket; the comment behind an item on its line is that item's, one
-/// before it likewise.
+/// Items that end with `end`, outside of all brackets; the comment before an item, or behind it on its line, is that
+/// item's.
 struct Item {
   std::string text, comment;
 };
@@ -97,7 +97,7 @@ Member member_of(const Item& item, const Schema& schema) {
   return member;
 }
 
-/// Offsets as C has them on 64 bits.
+/// Places members at the offsets that C has on 64 bits.
 void place(Struct& made) {
   static const std::map<std::string, int> sizes = {{"u8", 1},  {"char", 1}, {"reserved", 1}, {"bool", 1}, {"u16", 2},
                                                    {"u32", 4}, {"i32", 4},  {"enum", 4},     {"f32", 4},  {"u64", 8},
@@ -112,7 +112,7 @@ void place(Struct& made) {
   made.size = (end + widest - 1) / widest * widest;
 }
 
-/// False: interface.json has it.
+/// Reads a struct. Returns false when interface.json has it.
 bool read_struct(const Item& item, Schema& schema) {
   static const std::regex form("^typedef struct (\\w+) \\{(.*)\\} (\\w+)$");
   std::smatch match;

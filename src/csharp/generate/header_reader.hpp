@@ -6,7 +6,7 @@
 
 namespace isostep::csharp {
 
-/// Enumerations, structs and functions of `text`, which is written as isostep.h is, appended to `schema`.
+/// Appends the enumerations, structs and functions of `text`, which is written like isostep.h, to `schema`.
 void read_header(const std::string& text, Schema& schema);
 
 }  // namespace isostep::csharp

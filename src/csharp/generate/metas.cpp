@@ -1,4 +1,4 @@
-// What kind of asset a file is decides which importer its .meta names.
+// The kind of asset that a file is decides which importer its .meta names.
 // SPDX-License-Identifier: MIT
 #include "metas.hpp"
 
@@ -31,7 +31,7 @@ std::string importer(const std::string& name, const std::string& between = "") {
   return name + ":\n  externalObjects: {}\n" + between + kEnd;
 }
 
-/// A folder of Runtime/Plugins, what Unity calls its platform, and the processor there.
+/// A folder of Runtime/Plugins, Unity's name of its platform, and the processor there.
 struct Platform {
   std::string name, cpu;
   bool in_editor;

@@ -1,4 +1,4 @@
-// What a function's arguments are together decides what C# passes and returns.
+// The arguments of a function together decide which values C# passes and returns.
 // SPDX-License-Identifier: MIT
 #include "method.hpp"
 
@@ -10,7 +10,7 @@
 
 namespace isostep::csharp {
 
-/// Without iso_ and the family's prefix.
+/// The function's name without iso_ and the family's prefix.
 std::string short_name(const Function& function) { return function.name.substr(function.family.empty() ? 4 : 8); }
 
 bool starts(const std::string& text, const std::string& with) { return text.compare(0, with.size(), with) == 0; }
@@ -25,7 +25,7 @@ bool may_be_null(const std::string& function, const std::string& argument) {
   return argument == "torque" || argument == "angular_impulse";
 }
 
-/// "iso_body_get_state" is GetBodyState, "iso_world_get_counts" of a world GetCounts.
+/// The method's name: "iso_body_get_state" is GetBodyState, "iso_world_get_counts" of a world GetCounts.
 std::string method_name(const Function& function, const std::string& handle) {
   static const std::map<std::string, std::string> own = {
       {"body_move_to", "MoveBodyTo"},      {"world_poses", "Poses"},
@@ -48,13 +48,13 @@ std::string method_name(const Function& function, const std::string& handle) {
   return pascal(name);
 }
 
-/// One method as it grows: parameters, what comes before the call, what is passed, what is returned.
+/// One method as it grows: parameters, lines before the call, arguments, the result.
 class Method {
  public:
   Method(const Function& function, const Schema& schema, const std::string& handle)
       : function_(function), schema_(schema), handle_(handle) {}
 
-  /// Empty where some argument's meaning is not known.
+  /// The method's text, empty where some argument's meaning is not known.
   std::string text() {
     const bool is_static = handle_.empty();
     for (at_ = is_static ? 0 : 1; at_ < function_.arguments.size();) {
@@ -64,7 +64,7 @@ class Method {
     const std::string call = "Native." + function_.name + "(" + passed + ")";
     return summary(function_.comment, kIndent) + (is_view_ ? view_text(call) : method_text(call));
   }
-  /// Of a view: what it shows, "" of others.
+  /// The struct that a view shows, "" of other methods.
   const std::string& viewed() const { return viewed_; }
 
  private:

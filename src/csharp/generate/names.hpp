@@ -1,4 +1,4 @@
-// How C's names are written in C#.
+// The C# forms of C's names.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,9 +13,9 @@ struct Family {
 const std::vector<Family>& families();
 const Family* find_family(const std::string& prefix);
 
-/// "body_definition" to "BodyDefinition", "ISO_LOCK_X" to "IsoLockX".
+/// Turns "body_definition" to "BodyDefinition", "ISO_LOCK_X" to "IsoLockX".
 std::string pascal(const std::string& name);
-/// "id_space" to "idSpace"; keywords get an @.
+/// Turns "id_space" to "idSpace"; keywords get an @.
 std::string camel(const std::string& name);
 
 /// The C# name of a struct, enumeration or handle: "iso_q32_vec3" is Vec3, within its family's namespace.

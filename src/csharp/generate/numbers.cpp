@@ -47,7 +47,7 @@ std::string constant(const std::string& name, UInt128Parts value) {
   return "        internal static readonly Wide " + name + " = " + wide(value) + ";\n";
 }
 
-/// "0x5fff..." of `constexpr std::uint64_t NAME = 0x5fff...u;`, for constants that stand within a function.
+/// The number "0x5fff..." of `constexpr std::uint64_t NAME = 0x5fff...u;`, for constants that stand within a function.
 std::string local_constant(const std::string& header, const std::string& name) {
   const std::string before = "std::uint64_t " + name + " = ";
   const std::size_t begin = header.find(before) + before.size();
@@ -82,7 +82,7 @@ std::string tables(const std::string& rsqrt_header) {
   return text + "    }\n}\n";
 }
 
-/// What the templates call the format F.
+/// The words by which the templates name the format F.
 template <class F> Words words_of(const std::string& name, const std::string& summary, const std::string& source) {
   const bool narrow = F::kBits == 32;
   return {{"NAME", name},
@@ -94,7 +94,7 @@ template <class F> Words words_of(const std::string& name, const std::string& su
           {"FRACTION", std::to_string(F::kFracBits)}};
 }
 
-/// What the templates call a scalar S beside its unit format.
+/// The words by which the templates name a scalar S beside its unit format.
 template <class S> Words family_words(const std::string& scalar, const std::string& space) {
   constexpr S kPi = S(3.14159265358979323846), kHalfPi = S(1.57079632679489661923), kTwoPi = S(6.28318530717958647693);
   constexpr S kDegrees = S(57.2957795130823208768);
@@ -147,7 +147,7 @@ void add_family(const std::filesystem::path& templates, Files& files, const std:
   family.add(space + "/Quat.cs", "Quat.cs.in");
 }
 
-/// Worlds of every family; vectors without arithmetic where a compiler could change it.
+/// Adds worlds of every family; vectors without arithmetic where a compiler could change it.
 void add_worlds(const std::filesystem::path& templates, Files& files) {
   for (const Family& each : families()) {
     const Words words = {{"S", each.number}, {"NS", each.space}, {"P", each.prefix}, {"P_PASCAL", pascal(each.prefix)}};

@@ -6,7 +6,7 @@
 
 namespace isostep::csharp {
 
-/// `source`: the repository.
+/// Adds the numbers. `source` is the repository.
 void add_numbers(const std::filesystem::path& source, Files& files);
 
 }  // namespace isostep::csharp

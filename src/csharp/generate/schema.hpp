@@ -1,4 +1,4 @@
-// What the C interface has, as the C# files need it: from interface.json, and sessions from their header.
+// The C interface as the C# files need it: from interface.json, and sessions from their header.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace isostep::csharp {
 
-/// `kind`: number unit bool enum id pointer struct char i16 i32 u8 u16 u32 u64 f32 f64 reserved, as in interface.json;
-/// handle: a pointer or size of the machine's width.
+/// A member of a struct. `kind`: number unit bool enum id pointer struct char i16 i32 u8 u16 u32 u64 f32 f64 reserved,
+/// as in interface.json; handle: a pointer or size of the machine's width.
 struct Member {
   std::string name, kind, of, comment;
   int count = 0;  // elements of an array; 0: no array
@@ -47,7 +47,7 @@ struct Schema {
   const Struct* find(const std::string& name) const;
 };
 
-/// `source`: the repository.
+/// Reads the interface. `source` is the repository.
 Schema read_schema(const std::filesystem::path& source);
 
 }  // namespace isostep::csharp

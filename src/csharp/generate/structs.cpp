@@ -33,7 +33,7 @@ std::string element_type(const Member& member, const Family* family) {
   if (member.kind == "handle") return "IntPtr";
   return plain_type(member.kind);
 }
-/// What a pointer that interface.json names points to.
+/// The type that a pointer of interface.json points to.
 std::string pointee(const std::string& of) {
   return of == "iso_text"          ? "byte"
          : of == "iso_body_list"   ? "BodyId"
@@ -128,7 +128,7 @@ class Writer {
     line("}");
   }
 
-  /// Bytes of which another member says how many count, or that all count.
+  /// Writes bytes of which another member says how many count, or that all count.
   void write_bytes(const Member& member, const std::string& name, const std::string& hidden) {
     bool has_size = false;
     for (const Member& other : made_.members) has_size = has_size || other.name == member.name + "_size";

@@ -9,7 +9,7 @@ namespace isostep::csharp {
 
 void add_enums(const Schema& schema, Files& files);
 void add_structs(const Schema& schema, Files& files);
-/// For tests: what C# must lay out as C does, and the same of C's sessions as static assertions.
+/// The layout that C# must share with C, for tests, and that of C's sessions as static assertions.
 std::string layout_table(const Schema& schema);
 std::string layout_assertions(const Schema& schema);
 

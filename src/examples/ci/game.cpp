@@ -1,4 +1,4 @@
-// What continuous integration asks of a game: whether this machine computes as it should, and the hash of every frame
+// The game that continuous integration runs: whether this machine computes as it should, and the hash of every frame
 // of a match that is always the same.
 // SPDX-License-Identifier: MIT
 #include <cstdint>
@@ -19,7 +19,7 @@ int selfcheck() {
   return check.sound() ? 0 : 1;
 }
 
-/// Ten crates that fall on a floor, and a push now and then, as a player would give it.
+/// Ten crates fall on a floor, and a push comes now and then, as a player would give it.
 template <class S> void play(const char* scalar, int frames) {
   iso::World<S> world({.hz = 60, .substeps = 4, .gravity = {0, -10, 0}});
   world.create({.shape = world.add_shape(iso::Box{{50, 1, 50}}), .position = {0, -1, 0}});

@@ -1,4 +1,4 @@
-// What faults mean, in words.
+// The texts of faults.
 // SPDX-License-Identifier: MIT
 #include "isostep/core/fault.hpp"
 

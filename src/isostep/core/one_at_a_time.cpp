@@ -1,4 +1,4 @@
-// Which thread this is.
+// The address that tells one thread from another.
 // SPDX-License-Identifier: MIT
 #include "isostep/core/one_at_a_time.hpp"
 

@@ -1,4 +1,4 @@
-// What the processor has.
+// The instruction sets of the processor.
 // SPDX-License-Identifier: MIT
 #include "isostep/core/simd.hpp"
 

@@ -24,7 +24,7 @@ bool is_direction(GridVector d) {
 }
 bool is_zero(GridVector d) { return d.x == 0 && d.y == 0 && d.z == 0; }
 
-/// How many pieces a pattern may make, or what is wrong with it.
+/// The greatest number of pieces of a pattern, or the error in it.
 Result<std::uint32_t> most_pieces_of(const FracturePattern& pattern, const FractureImpact& impact) {
   if (const auto* grain = std::get_if<GrainPlanes>(&pattern)) {
     if (!is_direction(grain->grain) || is_zero(grain->grain))
@@ -88,7 +88,7 @@ void run(detail::FractureShards& shards, const FracturePattern& pattern, const F
   shatter_boxes(shards, impact);
 }
 
-/// Eight corners, all on both ends of each axis.
+/// The hull is its box: eight corners, each at an end of every axis.
 bool is_box(const ConvexHull& hull, const detail::HullBox& box) {
   if (hull.vertices.size() != 8) return false;
   const auto at_end = [](std::int32_t v, std::int32_t low, std::int32_t high) { return v == low || v == high; };

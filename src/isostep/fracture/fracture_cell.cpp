@@ -1,4 +1,4 @@
-// Cutting cells by planes.
+// Cells of a fracture, cut by planes.
 // SPDX-License-Identifier: MIT
 #include "fracture_cell.hpp"
 
@@ -24,8 +24,8 @@ bool is_lower(GridVector a, GridVector b) {
   return a.z < b.z;
 }
 
-/// Where the edge from a to b crosses the plane, at heights of either sign. Always from the lower end, so that both
-/// sides of a cut round alike.
+/// The point where the edge from a to b crosses the plane, at heights of either sign. It is found from the lower end,
+/// so that both sides of a cut round alike.
 GridVector crossing(GridVector a, std::int64_t height_a, GridVector b, std::int64_t height_b) {
   if (is_lower(b, a)) return crossing(b, height_b, a, height_a);
   const std::int64_t part = height_a < 0 ? -height_a : height_a;

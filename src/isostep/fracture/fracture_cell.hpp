@@ -22,7 +22,7 @@ struct FinePlane {
   ISO_INLINE FinePlane flipped() const { return {{-normal.x, -normal.y, -normal.z}, -offset}; }
   ISO_INLINE std::int64_t height(GridVector p) const { return dot(normal, p) - offset; }
 };
-/// Through a point [steps].
+/// The point in fine steps, from steps.
 ISO_INLINE GridVector fine(GridPoint p) {
   constexpr std::int64_t kOne = 1 << kFineBits;
   return {p.x * kOne, p.y * kOne, p.z * kOne};
@@ -61,11 +61,11 @@ struct Span64 {
 };
 
 FractureCell cell_of(const ConvexHull& hull);
-/// What lies inside of the plane.
+/// The part of a cell inside of the plane.
 FractureCell clipped(const FractureCell& cell, const FinePlane& plane);
-/// [fine steps times the normal's length] Of the corners along a normal.
+/// [fine steps times the normal's length] The extent of a cell's corners along a normal.
 Span64 extent_along(const FractureCell& cell, GridVector normal);
-/// On the solid's grid, to nearest, halves upwards.
+/// The corners on the solid's grid, to nearest, halves upwards.
 std::vector<GridPoint> rounded_corners(const FractureCell& cell);
 
 /// numerator / divisor to nearest, halves away from zero; the divisor is positive and the quotient below 2^63.

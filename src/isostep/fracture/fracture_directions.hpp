@@ -20,7 +20,7 @@ struct Frame3 {
   /// (a axis + b t + c u) / kSpokeLength, each component to nearest.
   GridVector combined(std::int64_t a, std::int64_t b, std::int64_t c) const;
 };
-/// Of any direction but zero, whose components are below 2^21.
+/// The frame along any direction but zero, whose components are below 2^21.
 Frame3 frame_along(GridVector direction);
 
 }  // namespace isostep::detail

@@ -11,7 +11,7 @@ FinePlane plane_of_spoke(const Frame3& frame, GridPoint centre, std::uint32_t tu
   return plane_through(centre, frame.spoke(turn + kQuarterCircle));
 }
 
-/// Whether more of a shard lies in the half turn after `turn` than before.
+/// More of a shard lies in the half turn after `turn` than before.
 bool lies_after(const FractureShard& shard, const FinePlane& plane) {
   const Span64 span = extent_along(shard.cell, plane.normal);
   return span.high - plane.offset > plane.offset - span.low;

@@ -1,4 +1,4 @@
-// Cutting shards, and what is too small to be one.
+// Shards that are cut, and the least size of one.
 // SPDX-License-Identifier: MIT
 #include "fracture_shards.hpp"
 

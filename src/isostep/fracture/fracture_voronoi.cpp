@@ -27,7 +27,7 @@ GridPoint draw_in(const ConvexHull& hull, const HullBox& box, Pcg32& random) {
   return p;
 }
 
-/// Moved towards the impact by up to `gathering` / 256 of the way.
+/// The point moved towards the impact by up to `gathering` / 256 of the way.
 GridPoint gathered(GridPoint p, GridPoint impact, std::uint32_t gathering, Pcg32& random) {
   const std::int64_t share = std::int64_t{gathering} * random_below(random, 1u << 16);  // [2^-24]
   const GridVector way = impact - p;
@@ -37,7 +37,7 @@ GridPoint gathered(GridPoint p, GridPoint impact, std::uint32_t gathering, Pcg32
   return {moved(p.x, way.x), moved(p.y, way.y), moved(p.z, way.z)};
 }
 
-/// What is nearer to a than to b.
+/// The plane with the points nearer to a than to b inside.
 FinePlane bisector(GridPoint a, GridPoint b) {
   const GridVector normal = b - a, sum = {std::int64_t{a.x} + b.x, std::int64_t{a.y} + b.y, std::int64_t{a.z} + b.z};
   return {normal, dot(normal, sum) * (1 << (kFineBits - 1))};
@@ -66,7 +66,8 @@ void shatter_voronoi(FractureShards& shards, const VoronoiCells& pattern, const 
     const GridPoint p = draw_in(solid.hull, box, random);
     points.push_back(gathered(p, impact.point, pattern.gathering, random));
   }
-  // Dropping a point only enlarges other cells, but may change those found before it: so once more from the first.
+  // A point that is dropped only enlarges other cells, but may change those found before it: so once more from the
+  // first.
   for (bool complete = false; !complete;) {
     complete = true;
     shards.shards.clear();

@@ -30,7 +30,7 @@ Blob::~Blob() {
   }
 }
 
-/// Two threads that ask at once may both make it; they are alike, and both are kept.
+/// Two threads that ask at once may both make the content; the two are alike, and both are kept.
 const void* Blob::content(ContentMaker maker) const {
   for (const Made* made = made_.load(std::memory_order_acquire); made != nullptr; made = made->next) {
     if (made->maker == maker) return made->content.get();

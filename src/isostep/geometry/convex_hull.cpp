@@ -1,4 +1,4 @@
-// From the triangles of quickhull to the faces of a convex hull.
+// The faces of a convex hull from the triangles of quickhull.
 // SPDX-License-Identifier: MIT
 #include "isostep/geometry/baked/convex_hull.hpp"
 
@@ -37,7 +37,7 @@ Error too_many(std::size_t count, const char* what, std::uint32_t limit) {
 Error out_of_grid() { return error(ErrorCode::invalid, "a coordinate has more than 19 bits"); }
 Error no_volume() { return error(ErrorCode::invalid, "the points span no volume"); }
 
-/// Ascending. False: a coordinate is out of the grid.
+/// Collects the distinct points in ascending order. Returns false when a coordinate is out of the grid.
 bool take_distinct(std::span<const GridPoint> points, std::vector<GridPoint>& distinct) {
   constexpr std::int32_t kLimit = GridPoint::kLimit;
   distinct.assign(points.begin(), points.end());
@@ -55,7 +55,7 @@ bool take_distinct(std::span<const GridPoint> points, std::vector<GridPoint>& di
   return true;
 }
 
-/// Faces as loops of points: planes of the triangles, without what is no corner.
+/// Faces as loops of points: the planes of the triangles, without points that are no corner.
 class FaceLoops {
  public:
   FaceLoops(std::span<const GridPoint> points, std::span<const HullTriangle> triangles)
@@ -95,7 +95,7 @@ class FaceLoops {
       ++planes_;
     }
   }
-  /// Of neighbours.
+  /// Returns true if two neighbours lie in one plane.
   bool coplanar(const HullTriangle& a, const HullTriangle& b) const {
     const GridPoint at = points_[a.vertices[0]];
     const GridVector normal = cross(points_[a.vertices[1]] - at, points_[a.vertices[2]] - at);
@@ -104,7 +104,7 @@ class FaceLoops {
     }
     return true;
   }
-  /// Where three planes or more meet. Two meet in the middle of an edge, one in the middle of a face.
+  /// Finds the points where three planes or more meet. Two meet in the middle of an edge, one in the middle of a face.
   void find_corners() {
     std::vector<std::uint32_t> seen[2];
     for (std::vector<std::uint32_t>& plane : seen) plane.assign(points_.size(), kNone);
@@ -130,7 +130,7 @@ class FaceLoops {
     }
     return false;
   }
-  /// Along the rim of the plane's triangles.
+  /// The loop of points along the rim of the plane's triangles.
   std::vector<std::uint32_t> loop_of(std::uint32_t plane) const {
     std::uint32_t t = first_triangle_[plane];
     int edge = 0;
@@ -165,7 +165,7 @@ struct LoopKey {
   std::uint64_t operator()(const std::vector<std::uint32_t>& loop) const { return pair_of(loop[0], loop[1]); }
 };
 
-/// Faces ascend by their first edge, which starts at their lowest vertex.
+/// Puts the faces in order: they ascend by their first edge, which starts at their lowest vertex.
 std::vector<std::vector<std::uint32_t>> in_order(const FaceLoops& faces, std::span<const std::uint32_t> vertex_of) {
   std::vector<std::vector<std::uint32_t>> loops;
   for (const std::vector<std::uint32_t>& loop : faces.loops()) {
@@ -199,7 +199,7 @@ void link(ConvexHull& hull, std::span<const std::vector<std::uint32_t>> loops, s
   }
 }
 
-/// [steps] Of the box around them.
+/// [steps] The longest side of the box around the points.
 std::int64_t width_of(std::span<const GridPoint> points) {
   GridPoint low = points[0], high = points[0];
   for (const GridPoint p : points) {
@@ -210,7 +210,7 @@ std::int64_t width_of(std::span<const GridPoint> points) {
   return std::max(size.x, std::max(size.y, size.z));
 }
 
-/// From each face to the vertex furthest below it.
+/// Returns true if every face is thick enough: the vertex furthest below it is `least` [steps] deep or more.
 bool is_thick(const ConvexHull& hull) {
   const std::int64_t least = std::max(ConvexHull::kLeastThickness, width_of(hull.vertices) / ConvexHull::kMostSlender);
   for (std::uint32_t f = 0; f < hull.faces.size(); ++f) {

@@ -38,7 +38,8 @@ Result<void> check_count(const char* list, std::uint64_t count, std::uint64_t ex
 
 constexpr char kNothingThere[] = "every cell is a hole or a ghost";
 
-/// From the corner of half 0, in columns and rows; of half 1 from the opposite corner, with the sign turned.
+/// An offset from the corner of half 0, in columns and rows; half 1 takes it from the opposite corner, with the sign
+/// turned.
 struct Offset {
   std::int32_t i, k;
 };
@@ -88,7 +89,7 @@ BakedTriangle BakedHeightField::triangle(std::uint32_t id) const {
   return baked;
 }
 
-/// False: no triangle touches the box.
+/// Returns false where no triangle touches the box.
 bool BakedHeightField::range_of(const MeshBox& box, CellRange& range) const {
   const MeshBox own = bounds();
   if (!own.touches(box)) return false;
@@ -118,7 +119,7 @@ void BakedHeightField::lay_out() {
   spans_.resize(total);
 }
 
-/// The spans of all blocks that hold the cells.
+/// Renews the spans of all blocks that hold the cells.
 void BakedHeightField::refresh(const CellRange& cells) {
   for (std::uint32_t level = 0; level < levels_; ++level) {
     const std::uint32_t bits = kBlockBits + level;
@@ -176,7 +177,7 @@ Result<BakedHeightField> height_field(const HeightGrid& grid, std::span<const st
   return field;
 }
 
-/// As CellRange: the heights say nothing.
+/// The cells about a patch, in a CellRange whose heights say nothing.
 BakedHeightField::CellRange BakedHeightField::cells_about(const HeightPatch& patch) const {
   const auto before = [](std::uint32_t v) { return v == 0 ? 0 : v - 1; };
   return {

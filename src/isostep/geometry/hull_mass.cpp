@@ -53,7 +53,7 @@ Moments moments_about(const ConvexHull& hull, GridPoint reference) {
   return sum;
 }
 
-/// To nearest, halves away from zero. `divisor` is positive, and the quotient below 2^63.
+/// The quotient to nearest, halves away from zero. `divisor` is positive, and the quotient below 2^63.
 std::int64_t rounded_quotient(Int128 numerator, std::int64_t divisor) {
   const bool negative = numerator < Int128(0);
   const Int128 magnitude = (negative ? -numerator : numerator) + Int128(divisor / 2);
@@ -75,7 +75,7 @@ HullMass hull_mass(const ConvexHull& hull) {
   std::int32_t near[3];  // the centre, to a step
   for (int i = 0; i < 3; ++i)
     near[i] = static_cast<std::int32_t>(origin[i] + rounded_quotient(sum.first[i], sum.volume6) / 4);
-  // From there the squares of the means are below a few steps, and take no digits from the second moments.
+  // The squares of the means are below a few steps from there, and take no digits from the second moments.
   sum = moments_about(hull, {near[0], near[1], near[2]});
   std::int64_t mean[3];  // [2^-16 steps] four times the centre, from `near`
   for (int i = 0; i < 3; ++i) {

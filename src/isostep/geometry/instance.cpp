@@ -20,7 +20,7 @@ template <class Point> struct PointGrid {
   std::vector<Point> points;
   int exponent;  // a step is 2^-exponent m
 
-  /// False: a point leaves the range.
+  /// Doubles all points, or the step where they do not fit. Returns false where both end.
   bool double_all() {
     const auto fits = [](std::int32_t v) { return 2 * std::abs(v) < Point::kLimit; };
     const bool all =
@@ -29,7 +29,7 @@ template <class Point> struct PointGrid {
     for (Point& p : points) p = {2 * p.x, 2 * p.y, 2 * p.z};
     return true;
   }
-  /// False: a point falls between the steps.
+  /// Halves the step, or at the finest one all points. Returns false where a point falls between the steps.
   bool halve_all() {
     if (exponent < GridHull::kFinest) {
       ++exponent;

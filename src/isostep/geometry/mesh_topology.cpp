@@ -30,7 +30,7 @@ void sort(std::vector<Record>& records, std::vector<Record>& scratch, const Key&
   stable_sort(records.data(), scratch.data(), static_cast<std::uint32_t>(records.size()), key);
 }
 
-/// Of each point, the first one with its coordinates.
+/// Returns for each point the first one with its coordinates.
 std::vector<std::uint32_t> first_equals(std::span<const MeshPoint> points) {
   std::vector<IndexedPoint> sorted(points.size()), scratch(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) sorted[i] = {points[i], i};
@@ -59,7 +59,7 @@ class EdgeFinder {
  public:
   explicit EdgeFinder(const WeldedMesh& mesh) : mesh_(mesh), edges_(mesh.triangles.size()) {}
 
-  /// Groups of half-edges with the same ends.
+  /// Groups half-edges with the same ends, and makes each group an edge.
   Result<std::vector<MeshEdges>> run() {
     const std::vector<HalfEdgeRecord> sorted = sorted_half_edges();
     std::size_t end = 0;
@@ -99,7 +99,7 @@ class EdgeFinder {
     edges_[other / 3].edges[other % 3] = MeshEdge(one / 3, one % 3, kind);
   }
 
-  /// Of a group that is no border and no pair of neighbours. Half-edges of a group ascend.
+  /// The error of a group that is no border and no pair of neighbours. Half-edges of a group ascend.
   Error fault_of(std::span<const HalfEdgeRecord> group) const {
     for (std::size_t j = 1; j < group.size() && j < 64; ++j) {  // enough to name one
       for (std::size_t i = 0; i < j; ++i) {

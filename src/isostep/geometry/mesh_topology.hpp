@@ -1,4 +1,4 @@
-// What a triangle mesh is made from: distinct points, and edges with what is across them.
+// The parts of a triangle mesh: distinct points, and edges with what is across them.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,7 +15,7 @@ struct WeldedMesh {
   std::vector<MeshPoint> points;        // distinct, in the order in which the triangles first name them
   std::vector<MeshTriangle> triangles;  // as they came, of those points
 
-  // As the compiler makes them, but no weak functions in two files.
+  // These are what the compiler would make, but without weak functions in two files.
   ISO_INLINE WeldedMesh() = default;
   ISO_INLINE WeldedMesh(const WeldedMesh&) = default;
   ISO_INLINE WeldedMesh(WeldedMesh&&) = default;
@@ -23,10 +23,10 @@ struct WeldedMesh {
   ISO_INLINE WeldedMesh& operator=(WeldedMesh&&) = default;
   ISO_INLINE ~WeldedMesh() = default;
 };
-/// Vertices must be points.
+/// Makes points with equal coordinates one. Vertices must be points.
 WeldedMesh weld(std::span<const MeshPoint> points, std::span<const MeshTriangle> triangles);
 
-/// Of each triangle. Errors: see triangle_mesh.
+/// Finds the edges of each triangle. Errors: see triangle_mesh.
 Result<std::vector<MeshEdges>> find_edges(const WeldedMesh& mesh);
 
 }  // namespace isostep

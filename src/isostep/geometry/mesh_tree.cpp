@@ -1,4 +1,4 @@
-// How a MeshTree is built.
+// The build of a MeshTree.
 // SPDX-License-Identifier: MIT
 #include "isostep/geometry/baked/mesh_tree.hpp"
 
@@ -25,7 +25,7 @@ struct Item {
   Bounds box;
   std::uint32_t triangle;
 
-  /// Twice the centre of the box.
+  /// The doubled centre of the box.
   std::int32_t centre(int axis) const { return box.low[axis] + box.high[axis]; }
 };
 
@@ -44,7 +44,7 @@ static_assert(MeshTree::capacity(MeshTree::kLevels) >= MeshTree::kMaxTriangles);
 static_assert(MeshTree::kMaxTriangles <= MeshNode::kFirstMask);
 
 constexpr int kBins = 16;
-/// Triangles of two levels of full nodes. Up to so many, bins cost more than they save, and full nodes save memory.
+/// The triangles of two levels of full nodes. Bins cost more than they save up to so many, and full nodes save memory.
 constexpr std::uint32_t kFew = static_cast<std::uint32_t>(MeshTree::capacity(2));
 
 struct Bin {
@@ -57,7 +57,7 @@ struct Bin {
   }
 };
 
-/// Centres of a range, cut into slices of equal width.
+/// The centres of a range, cut into slices of equal width.
 struct Slices {
   int axis;
   std::int32_t start;
@@ -68,7 +68,7 @@ struct Slices {
   }
 };
 
-/// Triangles of slices 0 to `last` are the first part.
+/// A cut of a range: triangles of slices 0 to `last` are the first part.
 struct Cut {
   Slices slices;
   int last;
@@ -112,7 +112,7 @@ class MeshTreeBuilder {
     Bounds bounds;
   };
 
-  /// The range has at most capacity(levels) triangles, so recursion ends at level 1.
+  /// Adds the node of a range. It has at most capacity(levels) triangles, so recursion ends at level 1.
   Child add_node(Range range, int levels) {
     const auto index = static_cast<std::uint32_t>(tree_.nodes_.size());
     tree_.nodes_.push_back({{}, {}, {MeshNode::kNoChild, MeshNode::kNoChild, MeshNode::kNoChild, MeshNode::kNoChild}});
@@ -179,13 +179,14 @@ class MeshTreeBuilder {
     }
     return count;
   }
-  /// What the halves of a range are a multiple of, but for its last: of few triangles, a full leaf or node.
+  /// The number of which the halves of a range are a multiple, but for its last: a full leaf or node where triangles
+  /// are few.
   static std::uint32_t grain_of(std::uint32_t count) {
     const bool is_few = MeshTree::capacity(1) < count && count <= kFew;
     return is_few ? static_cast<std::uint32_t>(MeshTree::capacity(1)) : MeshTree::kLeafTriangles;
   }
 
-  /// Orders the range and gives the size of its first part.
+  /// Orders the range and returns the size of its first part.
   std::uint32_t split(Range range, bool is_free, std::uint32_t grain) {
     Bounds centres;
     for (const Item& item : items_of(range)) centres.add(centre_of(item));
@@ -250,7 +251,7 @@ class MeshTreeBuilder {
     }
     return best;
   }
-  /// Half the surface times the triangles: below 2^(1.6 + 2 * 19 + 22), of two parts 2^62.6.
+  /// The cost of a bin: half the surface times the triangles, below 2^(1.6 + 2 * 19 + 22), of two parts 2^62.6.
   std::uint64_t cost_of(const Bin& bin) const {
     if (bin.count == 0) return 0;
     std::uint64_t d[3];

@@ -23,7 +23,7 @@ std::vector<HullTriangle> Quickhull::run(std::uint32_t vertices) {
   return result();
 }
 
-/// Squares of distances in doubles: their few operations are rounded alike on every machine.
+/// The distances are squared in doubles: their few operations are rounded alike on every machine.
 std::uint32_t Quickhull::facet_with_furthest() const {
   std::uint32_t best = kNone;
   double most = 0;
@@ -61,7 +61,7 @@ std::vector<HullTriangle> Quickhull::result() const {
   return hull;
 }
 
-/// A tetrahedron of the first point, the last one, the furthest from their line and the furthest from that plane.
+/// Makes a tetrahedron of the first point, the last one, the furthest from their line and the furthest from that plane.
 bool Quickhull::begin() {
   if (points_.size() < 4) return false;
   const std::uint32_t a = 0, b = static_cast<std::uint32_t>(points_.size() - 1), c = furthest_from_line(a, b);
@@ -119,12 +119,13 @@ std::uint32_t Quickhull::add_facet(std::uint32_t a, std::uint32_t b, std::uint32
   return static_cast<std::uint32_t>(facets_.size() - 1);
 }
 
-/// Positive: strictly outside.
+/// The height of a point over a facet, not normalised; positive strictly outside.
 std::int64_t Quickhull::height(const Facet& facet, std::uint32_t point) const {
   return dot(facet.normal, points_[point] - points_[facet.triangle.vertices[0]]);
 }
 
-/// To the first facet from that one on that has the point above it; a point above none of them is inside the hull.
+/// Gives the point to the first facet from that one on that has it above; a point above none of them is inside the
+/// hull.
 void Quickhull::give(std::uint32_t point, std::uint32_t first_facet) {
   for (std::uint32_t f = first_facet; f < facets_.size(); ++f) {
     if (height(facets_[f], point) <= 0) continue;
@@ -146,7 +147,7 @@ std::uint32_t Quickhull::furthest_above(const Facet& facet) const {
   return furthest;
 }
 
-/// What a point sees is a disc of facets; the horizon is its rim.
+/// Finds the rim of the facets that a point sees, which are a disc.
 void Quickhull::find_horizon(std::uint32_t seen_from, std::uint32_t facet) {
   horizon_.clear();
   visible_.assign(1, facet);
@@ -166,7 +167,7 @@ void Quickhull::find_horizon(std::uint32_t seen_from, std::uint32_t facet) {
   }
 }
 
-/// Triangles from each edge of the horizon to the apex take the place of what it sees.
+/// Replaces the facets that the apex sees by triangles from each edge of the horizon to it.
 void Quickhull::cover(std::uint32_t apex) {
   const auto first = static_cast<std::uint32_t>(facets_.size());
   for (const HorizonEdge& edge : horizon_) {

@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// Counter-clockwise seen from outside. Triangles that share a plane are not merged.
+/// A triangle of the hull, counter-clockwise seen from outside. Triangles that share a plane are not merged.
 struct HullTriangle {
   std::uint32_t vertices[3];    // indices of points
   std::uint32_t neighbours[3];  // triangles, across the edge from vertex i to the one after it
@@ -23,9 +23,9 @@ class Quickhull {
   ISO_INLINE explicit Quickhull(std::span<const GridPoint> points) : points_(points) {}
   ISO_INLINE ~Quickhull() = default;
 
-  /// Empty: the points are one, lie on a line or in a plane.
+  /// Returns the triangles of the hull; none where the points are one, lie on a line or in a plane.
   std::vector<HullTriangle> run();
-  /// The same with at most so many vertices, at least four: those that reach furthest beyond the ones before.
+  /// Runs up to so many vertices, at least four: those that reach furthest beyond the ones before.
   std::vector<HullTriangle> run(std::uint32_t vertices);
 
  private:

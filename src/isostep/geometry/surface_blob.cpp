@@ -14,7 +14,7 @@ namespace {
 
 Error bad_number(const char* place, const char* expected) { return {ErrorCode::invalid, expected, place}; }
 
-/// The finest grid at which magnitudes up to `most` [m] are below `limit` steps; negative: none.
+/// The finest grid at which magnitudes up to `most` [m] are below `limit` steps; negative where there is none.
 int finest_grid(double most, std::int64_t limit) { return finest_lattice(most, limit, TriangleMesh::kMaxExponent); }
 constexpr double kMostMetres = 0x1p23 - 1;
 

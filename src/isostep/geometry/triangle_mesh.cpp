@@ -67,7 +67,7 @@ Result<void> check_triangles(std::span<const MeshPoint> points, std::span<const 
   return {};
 }
 
-/// Of the triangles that are no ghosts, one or more.
+/// The tree over the triangles that are no ghosts, one or more.
 MeshTree tree_of(const WeldedMesh& mesh, std::span<const std::uint8_t> materials) {
   std::vector<MeshBox> boxes;
   std::vector<std::uint32_t> ids;

@@ -1,4 +1,4 @@
-// What records do in a step of World<S>, for every shipped scalar.
+// Records that act in a step of World<S>, for every shipped scalar.
 // SPDX-License-Identifier: MIT
 #include "isostep/instantiate/acting_records.inl"
 

@@ -4,7 +4,7 @@
 
 namespace isostep {
 
-#define ISO_INSTANTIATE(S) template BreakReport break_bodies<S>(World<S>&, std::uint32_t);
+#define ISO_INSTANTIATE(S) ISO_BREAKING_OF(, S)
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE
 

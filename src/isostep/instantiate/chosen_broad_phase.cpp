@@ -10,7 +10,7 @@ namespace isostep {
 template <class S> inline constexpr bool kAreBroadPhases = true ISO_FOR_EACH_BUILT_BROAD_PHASE(ISO_IS_BROAD_PHASE);
 #define ISO_INSTANTIATE(S)           \
   static_assert(kAreBroadPhases<S>); \
-  template class ChosenBroadPhase<S>;
+  ISO_CHOSEN_BROAD_PHASE_OF(, S)
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE
 

@@ -1,4 +1,4 @@
-// Drawing for every shipped scalar, and a DebugDraw that draws nothing.
+// The drawing of worlds for every shipped scalar, and a DebugDraw that draws nothing.
 // SPDX-License-Identifier: MIT
 #include "isostep/draw/debug_draw.inl"
 
@@ -22,9 +22,8 @@ void DebugDraw::spring(const DrawnSpring&) {}
 void DebugDraw::link(const DrawnLink&) {}
 void DebugDraw::collider(const DrawnCollider&) {}
 
-#define ISO_INSTANTIATE(S)                                                \
-  template void draw<S>(const World<S>&, DebugDraw&, const DrawOptions&); \
-  template void draw<S>(const ParticleWorld<S>&, DebugDraw&, const DrawOptions&);
+#define ISO_INSTANTIATE(S) ISO_DEBUG_DRAW_OF(, S)
+
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE
 

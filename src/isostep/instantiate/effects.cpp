@@ -4,7 +4,7 @@
 
 namespace isostep {
 
-#define ISO_INSTANTIATE(S) template class ParticleCoupling<S>;
+#define ISO_INSTANTIATE(S) ISO_PARTICLE_COUPLING_OF(, S)
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE
 

@@ -1,4 +1,4 @@
-// What tells events in a step of World<S>, for every shipped scalar.
+// Systems that tell events in a step of World<S>, for every shipped scalar.
 // SPDX-License-Identifier: MIT
 #include "isostep/instantiate/event_systems.inl"
 

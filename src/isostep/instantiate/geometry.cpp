@@ -7,16 +7,13 @@
 
 namespace isostep {
 
-#define ISO_INSTANTIATE(S)                                                                     \
-  template struct HullContent<S>;                                                              \
-  ISO_CONTENT_OF(, S)                                                                          \
-  template MassProperties<S> mass_properties<S>(std::span<const Child<S>>, S, Contents<S>);    \
-  template struct MassTensor<S>;                                                               \
-  template ShapeFault validate<S>(const Primitive<S>&);                                        \
-  template ShapeFault validate<S>(const Pose<S>&);                                             \
-  template ShapeFault validate<S>(std::span<const Child<S>>, std::span<const BlobRef>);        \
-  template ShapeFaultPlace find_fault<S>(std::span<const Child<S>>, std::span<const BlobRef>); \
-  template Child<S> normalised<S>(const Child<S>&);
+#define ISO_INSTANTIATE(S)    \
+  ISO_HULL_CONTENT_OF(, S)    \
+  ISO_CONTENT_OF(, S)         \
+  ISO_MASS_PROPERTIES_OF(, S) \
+  ISO_MASS_TENSOR_OF(, S)     \
+  ISO_VALIDATE_OF(, S)
+
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE
 

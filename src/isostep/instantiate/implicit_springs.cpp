@@ -6,7 +6,7 @@
 
 namespace isostep {
 
-#define ISO_INSTANTIATE(S) template class ImplicitSprings<S>;
+#define ISO_INSTANTIATE(S) ISO_IMPLICIT_SPRINGS_OF(, S)
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE
 

@@ -1,4 +1,4 @@
-// Which kernels a machine runs.
+// The kernels that a machine runs.
 // SPDX-License-Identifier: MIT
 #include "isostep/collision/narrowphase/pair_kernels.hpp"
 #include "isostep/dynamics/joints/tree_kernels.hpp"

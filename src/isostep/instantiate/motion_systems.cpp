@@ -1,4 +1,4 @@
-// What looks after motion in a step of World<S>, for every shipped scalar.
+// Systems that look after motion in a step of World<S>, for every shipped scalar.
 // SPDX-License-Identifier: MIT
 #include "isostep/instantiate/motion_systems.inl"
 

@@ -5,9 +5,8 @@
 
 namespace isostep {
 
-#define ISO_INSTANTIATE(S)                                                         \
-  template OscillatorStep<S> oscillator_step<S>(S, S, InverseMass<S>, S);          \
-  template OscillatorStep<S> implicit_oscillator_step<S>(S, S, InverseMass<S>, S); \
+#define ISO_INSTANTIATE(S) \
+  ISO_STIFF_SPRING_OF(, S) \
   ISO_INSTANTIATE_PARTICLE_STEP(S)
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE

@@ -11,7 +11,7 @@
 namespace isostep {
 
 #define ISO_INSTANTIATE(S)       \
-  template class HullSolid<S>;   \
+  ISO_HULL_SOLID_OF(, S)         \
   ISO_POLYHEDRON_SURFACE_OF(, S) \
   ISO_ROUNDED_POLYHEDRON_OF(, S) \
   ISO_POLYHEDRA_OF(, S)          \

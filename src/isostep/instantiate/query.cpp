@@ -7,7 +7,7 @@ namespace isostep {
 
 #define ISO_INSTANTIATE(S) \
   ISO_RAY_CAST_OF(, S)     \
-  template ClosestPoint<S> closest_point<S>(ShapeView<S>, const Transform<S>&, Vec3<S>);
+  ISO_CLOSEST_POINT_OF(, S)
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE
 

@@ -4,8 +4,7 @@
 
 namespace isostep {
 
-#define ISO_INSTANTIATE(S) \
-  template Ragdoll<S> add_ragdoll<S>(World<S>&, std::span<const RagdollBone<S>>, const RagdollSettings<S>&);
+#define ISO_INSTANTIATE(S) ISO_RAGDOLL_OF(, S)
 ISO_FOR_EACH_SCALAR(ISO_INSTANTIATE)
 #undef ISO_INSTANTIATE
 

@@ -16,7 +16,7 @@
 
 #include "isostep/scalar/math.hpp"
 
-// What Eigen takes for std: its search for an order of elimination asks for the root of a double, and unoptimised that
+// Eigen takes this for std: its search for an order of elimination asks for the root of a double, and unoptimised that
 // is a call of libm.
 namespace isostep_eigen::std {
 using namespace ::std;
@@ -72,7 +72,7 @@ Pattern upper_blocks(const std::vector<Index>& place, const Pairs& pairs) {
   return blocks;
 }
 
-/// Which of a column's blocks is in `row`: a binary search.
+/// The index of the block of a column that is in `row`: a binary search.
 Index nth_of(const Pattern& blocks, Index column, Index row) {
   const Index first = blocks.outerIndexPtr()[column];
   Index low = first, high = blocks.outerIndexPtr()[column + 1];
@@ -84,7 +84,7 @@ Index nth_of(const Pattern& blocks, Index column, Index row) {
   return low - first;
 }
 
-/// Where the three columns of a block begin among the matrix's values.
+/// The places among the matrix's values at which the three columns of a block begin.
 struct Place {
   Index column[3];
   bool turned = false;  // a pair's block (second, first) is there
@@ -156,7 +156,7 @@ template <class N> struct SparseCholesky<N>::Parts {
 
 namespace {
 
-/// Floating point: one solve.
+/// Solves once, in floating point.
 template <class Parts, class T>
 bool solve_with(Parts& parts, const std::vector<Vec3<Exact<T>>>& b, int, int, std::vector<Vec3<Exact<T>>>& x,
                 int& exponent) {
@@ -173,7 +173,7 @@ bool solve_with(Parts& parts, const std::vector<Vec3<Exact<T>>>& b, int, int, st
   return true;
 }
 
-// Fixed point. A number of 2^-62 units, times 2^exponent; residuals are sums of products, in 2^-124 units of x's.
+// A number of 2^-62 units, times 2^exponent, for fixed point; residuals are sums of products, in 2^-124 units of x's.
 using Entry = Fixed<std::int64_t, 62>;
 using Column = Eigen::Matrix<Entry, Eigen::Dynamic, 1>;
 

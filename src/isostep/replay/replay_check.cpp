@@ -1,4 +1,4 @@
-// Which world a replay needs, and whether it passes through the replay's hashes.
+// Checks of a replay: the world that it needs, and whether that passes through the replay's hashes.
 // SPDX-License-Identifier: MIT
 #include "isostep/replay/replay_check.hpp"
 
@@ -35,8 +35,8 @@ Result<ReplayHeader> header_here(const Settings* settings, const ReplayIdentity&
   return make_replay_header(here);
 }
 
-/// Of a file that is sound in itself. Its start is read once: for the header that this build would write, and to be
-/// stepped on. `lanes`: becomes what steps it once the header is one that can be compared.
+/// Verifies a file that is sound in itself. Its start is read once: for the header that this build would write, and to
+/// be stepped on. `lanes` becomes what steps it once the header is one that can be compared.
 template <class W>
 VerifyResult verify_as(const ReplayReader& replay, W& world, const ReplayIdentity& claimed, const VerifySpan& span,
                        const char*& lanes) {
@@ -65,7 +65,7 @@ void check_as(const ReplayReader& replay, const ReplayIdentity& claimed, const R
   world.write_portable(writer);
 }
 
-/// Null, or why this build cannot play a recording of such a world: core/book.hpp.
+/// Returns null, or why this build cannot play a recording of such a world: core/book.hpp.
 const char* left_out_for(const ReplayIdentity& claimed) {
   const bool rigid = claimed.world == WorldTraits<World<float>>::kName;
   const std::optional<SolverName> solver = rigid ? solver_named(claimed.solver) : std::nullopt;

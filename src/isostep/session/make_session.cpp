@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include <bit>
 
-#include "isostep/session/client_core.hpp"
-#include "isostep/session/host_core.hpp"
-#include "isostep/session/relay_core.hpp"
-#include "isostep/session/replay_core.hpp"
+#include "isostep/session/client/client_core.hpp"
+#include "isostep/session/client/relay_core.hpp"
+#include "isostep/session/host/host_core.hpp"
 #include "isostep/session/session.hpp"
-#include "isostep/session/sync_test_core.hpp"
+#include "isostep/session/solo/replay_core.hpp"
+#include "isostep/session/solo/sync_test_core.hpp"
 
 namespace isostep {
 namespace {

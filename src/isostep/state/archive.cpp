@@ -82,6 +82,19 @@ void Reader::expect_end() {
   if (ok_ && offset_ != bytes_.size()) fail(ErrorCode::corrupt, "bytes are left over");
 }
 
+std::uint64_t Reader::read_leb128(std::uint64_t most) {
+  if (!ok_) return 0;
+  const Leb128 number = load_leb128(bytes_.subspan(offset_), most);
+  switch (number.flaw) {
+    case Leb128Flaw::none: break;
+    case Leb128Flaw::cut: fail(ErrorCode::truncated, "the data end here"); break;
+    case Leb128Flaw::overlong: fail(ErrorCode::corrupt, "a number in more bytes than it needs"); break;
+    case Leb128Flaw::too_large: fail(ErrorCode::corrupt, "a number above its type's largest"); break;
+  }
+  offset_ += number.size;
+  return number.value;
+}
+
 Result<void> Reader::result(std::string_view what) const {
   if (ok_) return {};
   Error error{code_, {}, what};

@@ -1,4 +1,4 @@
-// What the library was built with, for the informative fields of a replay.
+// The compiler and architecture of the library, for the informative fields of a replay.
 // SPDX-License-Identifier: MIT
 #include "isostep/core/version.hpp"
 

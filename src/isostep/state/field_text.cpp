@@ -7,7 +7,7 @@
 namespace isostep {
 namespace {
 
-// Of a format the letter says how bits are read, the numbers how many there are and, of scalars, how many of them
+// The letter of a format says how bits are read, the numbers how many there are and, of scalars, how many of them
 // follow the point (q) or make the mantissa (f): what ScalarTraits::kId says.
 constexpr char kLetters[] = {'b', 'i', 'u'};
 

@@ -1,4 +1,4 @@
-// Reading replays: the specification is replays/README.md.
+// The reader of replays: the specification is replays/README.md.
 // SPDX-License-Identifier: MIT
 //
 // Nothing in the file is believed before it is checked, in this order: is it there, is it undamaged, is it known, does
@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kChunkHead = 12;  // type, length, raw length
 constexpr std::size_t kChunkTail = 4;   // checksum
-// What a power failure leaves of a file that grew: its length, and zeros where bytes were not written yet. Systems
-// write whole pages, in any order.
+// A power failure leaves of a file that grew its length, and zeros where bytes were not written yet. Systems write
+// whole pages, in any order.
 constexpr std::size_t kPage = 4096;  // [bytes]
 // [bytes] A shorter run of zeros before the end of a page may be an input's.
 constexpr std::size_t kLeastHole = 64;
@@ -28,15 +28,15 @@ bool is_type(std::uint32_t type) {
   return true;
 }
 
-/// Where the zeros begin in which the bytes end.
+/// The place where the zeros begin in which the bytes end.
 std::size_t end_of_data(Bytes bytes) {
   std::size_t end = bytes.size();
   while (end > 0 && bytes[end - 1] == 0) --end;
   return end;
 }
 
-/// Whether all from some place of the `size` damaged bytes on is zeros. A checksum is torn only where its bytes before
-/// that place are right.
+/// The damaged bytes, `size` of them, are zeros from some place to their end. A checksum is torn only where its bytes
+/// before that place are right.
 bool ends_in_zeros(Bytes file, std::size_t offset, std::size_t size) {
   const std::size_t end = end_of_data(file);
   if (end >= offset + size) return false;
@@ -47,7 +47,7 @@ bool ends_in_zeros(Bytes file, std::size_t offset, std::size_t size) {
   return std::memcmp(checksum, file.data() + offset + covered, end - offset - covered) == 0;
 }
 
-/// Whether zeros that begin in the `size` damaged bytes reach the end of a page, and what follows was written.
+/// Zeros that begin in the `size` damaged bytes reach the end of a page, and what follows was written.
 bool has_hole(Bytes file, std::size_t offset, std::size_t size) {
   const std::size_t end = offset + size;
   for (std::size_t page = (offset / kPage + 1) * kPage; page <= file.size() && page - kPage < end; page += kPage) {

@@ -1,4 +1,4 @@
-// Writing replays: the specification is replays/README.md.
+// The writer of replays: the specification is replays/README.md.
 // SPDX-License-Identifier: MIT
 #include <cstring>
 

@@ -17,7 +17,8 @@ export function createPucks(iso: Engine): Pucks {
   const state = iso.createState({touches: 'u32'});  // saved, rolled back and hashed with the world
   world.createBody({shape: world.addShape('box', {halfExtents: [20, 1, 20]}), position: [0, -1, 0]});
   const ball = world.addShape('sphere', {radius: 0.5});
-  const pucks = [-2, 2].map(x => world.createBody({type: 'dynamic', shape: ball, position: [x, 1, 0]}));
+  const pucks = [-2, 2].map(x =>
+    world.createBody({type: 'dynamic', shape: ball, position: [x, 1, 0], reportContacts: true}));
   return {
     world, state, pucks, score: state,
     step(inputs) {

@@ -1,4 +1,4 @@
-// What a world is asked: bodies, joints, records, queries, events, poses.
+// Questions to a world: bodies, joints, records, queries, events, poses.
 // SPDX-License-Identifier: MIT
 
 import {given, id, out} from './calls.js';
@@ -8,18 +8,18 @@ import {unsigned} from './module.js';
 import {Records} from './views.js';
 
 export class AskedWorld extends Handle {
-  /** Of an engine's: not to be made by others. */
+  /** An engine makes it; nothing else does. */
   constructor(calls, at) {
     super(calls.module, at, 'iso_world_destroy', 'world');
     Object.defineProperty(this, 'calls', {value: calls});
   }
 
-  /** A function of this world; what it refuses is thrown with the world's own report. */
+  /** A function of this world; a refusal is thrown with the world's own report. */
   run(name, ...parts) {
     this.calls.begin();
     return this.runNow(name, ...parts);
   }
-  /** The same, and what was placed before stays. */
+  /** Runs like run(), and keeps what was placed before. */
   runNow(name, ...parts) { return this.#told(() => this.calls.runNow(name, this.at, ...parts)); }
   #told(call) {
     try {
@@ -39,9 +39,9 @@ export class AskedWorld extends Handle {
 
   // ---- the world
 
-  /** Of the whole state: the same on every machine. */
+  /** The hash of the whole state, the same on every machine. */
   get hash() { return unsigned(this.module.call('iso_world_hash', this.at)); }
-  /** Steps taken. */
+  /** The number of steps taken. */
   get tick() { return Number(unsigned(this.module.call('iso_world_tick', this.at))); }
   get settings() { return this.run('P_world_get_settings', out('settings')); }
   get counts() { return this.run('world_get_counts', out('world_counts')); }
@@ -58,23 +58,23 @@ export class AskedWorld extends Handle {
   hasBody(body) { return this.module.call('iso_body_exists', this.at, id(body, 'body')) !== 0; }
   hasShape(shape) { return this.module.call('iso_shape_exists', this.at, id(shape, 'shape')) !== 0; }
   hasJoint(joint) { return this.module.call('iso_joint_exists', this.at, id(joint, 'joint')) !== 0; }
-  /** Pose, velocity, and what is asked most often beside them. */
+  /** The body's pose, velocity, and what is asked most often beside them. */
   body(body) { return this.run('P_body_get_state', id(body, 'body'), out('body_state')); }
   bodyProperties(body) { return this.run('P_body_get_properties', id(body, 'body'), out('body_properties')); }
   /** The parts of its shape, in the body's frame. */
   children(body) { return this.#list('P_body_get_children', 'child', id(body, 'body')); }
-  /** [m/s] of a point [m] that moves with the body. */
+  /** [m/s] The velocity of a point [m] that moves with the body. */
   velocityAt(body, point) {
     return this.run('P_body_get_velocity_at', id(body, 'body'), given('vec3', point), out('vec3'));
   }
-  /** [kg m^2] about an axis through its centre of mass, world. */
+  /** [kg m^2] The inertia about an axis through its centre of mass, world frame. */
   inertia(body, axis) {
     return this.run('P_body_get_inertia', id(body, 'body'), given('unit_vec3', axis), out('number'));
   }
   joint(joint) { return this.run('P_joint_get', id(joint, 'joint'), out('joint_properties')); }
-  /** [m] between the anchors; of a distance joint its error. */
+  /** [m] The distance between the anchors; the error of a distance joint. */
   jointError(joint) { return this.run('P_joint_get_error', id(joint, 'joint'), out('number')); }
-  /** [rad] or [m]: what limits count; `axis`: of a six-axis joint. */
+  /** [rad] or [m] The position that limits count; `axis` of a six-axis joint. */
   jointPosition(joint, axis) {
     if (axis === undefined) return this.run('P_joint_get_position', id(joint, 'joint'), out('number'));
     const number = this.calls.number('joint_axis', axis);
@@ -90,12 +90,12 @@ export class AskedWorld extends Handle {
     const name = this.calls.nameOf('records', kind);
     return this.run(`P_get_${name}`, id(record, 'record'), out(name));
   }
-  /** What a game asks of it: input('vehicle', id). */
+  /** The game's input to it: input('vehicle', id). */
   input(kind, record) {
     const name = `${this.calls.nameOf('inputs', kind)}_input`;
     return this.run(`P_get_${name}`, id(record, 'record'), out(name));
   }
-  /** How the last step left it: state('wheel', id). */
+  /** Its state after the last step: state('wheel', id). */
   state(kind, record) {
     const name = `${this.calls.nameOf('states', kind)}_state`;
     return this.run(`P_get_${name}`, id(record, 'record'), out(name));
@@ -114,7 +114,7 @@ export class AskedWorld extends Handle {
   overlapShape(query) { return this.#all('P_overlap_shape', 'overlap_query', query, 'overlap_hit'); }
   /** Bodies whose bounds meet the box: a cheap first query. */
   overlapBox(query) { return this.#all('P_overlap_box', 'box_query', query, 'id'); }
-  /** Many at once: of each ray at most `each` hits, the nearest, in order. */
+  /** Casts many rays at once: at most `each` hits for each, the nearest, in order. */
   castRays(rays, each = 1) { return this.#many('P_cast_rays', 'ray_cast', rays, 'ray_hit', each); }
   castShapes(casts, each = 1) { return this.#many('P_cast_shapes', 'shape_cast', casts, 'shape_hit', each); }
 
@@ -150,7 +150,7 @@ export class AskedWorld extends Handle {
 
   // ---- poses, and what the last step reports: Records, which outlive the world
 
-  /** Of all moving bodies, between the step before the last and the last; alpha from 0 to 1. Always float. */
+  /** The poses of all moving bodies, between the last two steps; alpha from 0 to 1. They are always float. */
   poses(alpha = 1) { return this.#records('world_poses', 'render_pose', Float32Array, alpha); }
   contactBegins() { return this.#records('P_contact_begins', 'contact_begin'); }
   contactEnds() { return this.#records('contact_ends', 'body_pair'); }
@@ -158,13 +158,13 @@ export class AskedWorld extends Handle {
   sensorEnds() { return this.#records('sensor_ends', 'sensor_event'); }
   brokeEvents() { return this.#records('P_broke_events', 'broke'); }
   jointBrokeEvents() { return this.#records('P_joint_broke_events', 'joint_broke'); }
-  /** Of bodies with a hit report. */
+  /** The hits of bodies with a hit report. */
   contactHits() { return this.#records('P_contact_hits', 'contact_hit'); }
-  /** Of bodies with a contact report. */
+  /** The contact points of bodies with a contact report. */
   contactPoints() { return this.#records('P_contact_points', 'contact_point'); }
   fellAsleep() { return this.#records('fell_asleep', 'id').ids; }
   woke() { return this.#records('woke', 'id').ids; }
-  /** Of the contact points those of one body, as objects. */
+  /** The contact points of one body, as objects. */
   contactsOf(body) { return this.#list('P_body_get_contacts', 'contact_point', id(body, 'body')); }
 
   #records(name, layout, array = this.calls.numbers.array, ...words) {

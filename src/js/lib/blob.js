@@ -21,24 +21,24 @@ export class Blob extends Handle {
     const {view} = this.module;
     return view.getBigUint64(high, true) << 64n | view.getBigUint64(low, true);
   }
-  /** As a file of `isostep bake`. */
+  /** Returns a file like those of `isostep bake`. */
   write() { return this.#calls.bytesOut('iso_blob_write', this.at); }
 }
 
 const home = (calls, name) => calls.number('blob_home', name);
 const made = (calls, name, ...parts) => new Blob(calls, calls.runNow(name, ...parts, out('u32')));
 
-/** Of points [m], [[x, y, z], ...]. */
+/** Makes a hull of points [m], [[x, y, z], ...]. */
 export function createHull(calls, points, where = 'carried') {
   calls.begin();
   return made(calls, 'P_blob_create_hull', calls.placeAll('vec3', points, 'points'), points.length, home(calls, where));
 }
 
-/** Numbers as doubles: nested or flat, or a typed array. */
+/** Places numbers as doubles: nested or flat, or a typed array. */
 function doubles(calls, values, field) {
   return calls.placeBytes(Float64Array.from(Array.isArray(values) ? values.flat() : values), field);
 }
-/** {numbers, table: [{friction, restitution}]} of triangles or cells, or none. */
+/** Places {numbers, table: [{friction, restitution}]} of triangles or cells, or none. */
 function materialsAt(calls, materials) {
   if (materials === undefined) return 0;
   const numbers = Uint8Array.from(materials.numbers ?? []);
@@ -49,7 +49,7 @@ function materialsAt(calls, materials) {
   });
 }
 
-/** {points: [[x, y, z], ...] [m], triangles: [[0, 1, 2], ...], materials}: counter-clockwise seen from outside. */
+/** Takes {points: [[x, y, z], ...] [m], triangles: [[0, 1, 2], ...], materials}, counter-clockwise from outside. */
 export function createMesh(calls, {points, triangles, materials}, where = 'carried') {
   calls.begin();
   const corners = Uint32Array.from(Array.isArray(triangles) ? triangles.flat() : triangles);
@@ -63,7 +63,7 @@ export function createMesh(calls, {points, triangles, materials}, where = 'carri
   return made(calls, 'blob_create_mesh', given('triangles', mesh), materialsAt(calls, materials), home(calls, where));
 }
 
-/** {columns, rows, pitch [m], heights [m] by rows, materials}. */
+/** Takes {columns, rows, pitch [m], heights [m] by rows, materials}. */
 export function createHeightField(calls, {columns, rows, pitch, heights, materials}, where = 'carried') {
   calls.begin();
   const flat = Array.isArray(heights) ? heights.flat() : heights;
@@ -73,7 +73,7 @@ export function createHeightField(calls, {columns, rows, pitch, heights, materia
     home(calls, where));
 }
 
-/** A file of `isostep bake`, or what Blob.write gave. */
+/** Reads a file of `isostep bake`, or one that Blob.write returned. */
 export function readBlob(calls, bytes, where = 'carried') {
   calls.begin();
   return made(calls, 'blob_read', calls.placeBytes(bytes, 'bytes'), bytes.byteLength, home(calls, where));

@@ -10,7 +10,7 @@ const kArrays = {
   i8: Int8Array, i16: Int16Array, i32: Int32Array, i64: BigInt64Array, f32: Float32Array, f64: Float64Array
 };
 
-/** [[name, type, offset, count or undefined]] and the size of them all: as those members of a C struct. */
+/** The members [[name, type, offset, count or undefined]] and their size, laid out as in a C struct. */
 function layoutOf(fields) {
   const places = [];
   let end = 0, align = 1;

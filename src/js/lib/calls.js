@@ -1,4 +1,4 @@
-// Calls of the C interface with JavaScript's values: places arguments in memory, reads results, throws what is refused.
+// Calls of the C interface with JavaScript's values: places arguments in memory, reads results, throws refusals.
 // SPDX-License-Identifier: MIT
 
 import {badValue, IsostepError, within} from './errors.js';
@@ -12,7 +12,7 @@ export function id(value, field) {
   return value;
 }
 
-/** What a call is given besides words: in(layout, value) by pointer, out(layout) to be read when it succeeds. */
+/** Arguments besides words: given(layout, value) by pointer, out(layout) to be read when the call succeeds. */
 export const given = (layout, value, field = '') => ({layout, value, field});
 export const out = layout => ({layout, isOut: true});
 
@@ -32,12 +32,12 @@ export class Calls {
   }
   layout(name) { return this.layouts.of(name); }
 
-  /** A function by its name without "iso_"; "P_..." is the scalar's own. What it writes to is returned. */
+  /** A function by its name without "iso_"; "P_..." is the scalar's own. Values that it writes are returned. */
   run(name, ...parts) {
     this.begin();
     return this.runNow(name, ...parts);
   }
-  /** The same, and what was placed before stays. */
+  /** Runs like run(), and keeps what was placed before. */
   runNow(name, ...parts) {
     const words = new Array(parts.length);
     let result;
@@ -61,7 +61,7 @@ export class Calls {
     const status = this.module.call(name, ...words);
     if (status !== 0) this.fail(name, status);
   }
-  /** Throws what a status says: "world_create: hz: a number is beyond the scalar's limits; expected 10 to 1000". */
+  /** Throws a status in words: "world_create: hz: a number is beyond the scalar's limits; expected 10 to 1000". */
   fail(name, status) {
     const sentence = this.module.text(this.module.call('iso_last_error'));
     const parts = /^(\w+): (?:([\w.]+): )?([^;]+)(?:; expected (.*))?$/.exec(sentence);
@@ -124,7 +124,7 @@ export class Calls {
     this.layout(name).write(this.module.view, at, value, field);
     return at;
   }
-  /** One behind the other: for lists of vectors, children, rays. */
+  /** Places values one behind the other: for lists of vectors, children, rays. */
   placeAll(name, values, field) {
     const codec = this.layout(name);
     const at = this.take(codec.size * values.length);
@@ -150,7 +150,7 @@ export class Calls {
 
   // ---- results
 
-  /** What a function writes as (bytes, size): asked for its size first. */
+  /** The bytes that a function writes as (bytes, size), asked for its size first. */
   bytesOut(name, ...words) {
     this.begin();
     const size = this.take(4);
@@ -162,7 +162,7 @@ export class Calls {
     this.call(name, ...words, at, size);
     return this.module.bytes(at, need).slice();
   }
-  /** A copy of what a function shows as (pointer, size). */
+  /** A copy of the bytes that a function shows as (pointer, size). */
   bytesSeen(name, ...words) {
     this.begin();
     const pointer = this.take(4), size = this.take(4);
@@ -170,7 +170,7 @@ export class Calls {
     const {view} = this.module;
     return this.module.bytes(view.getUint32(pointer, true), view.getUint32(size, true)).slice();
   }
-  /** What a function writes as (array, room, count), as objects: asked again where there was too little room. */
+  /** The list that a function writes as (array, room, count), as objects; it is asked again where room lacked. */
   listOut(name, layout, ...words) {
     const codec = this.layout(layout);
     for (let room = 64;;) {

@@ -1,4 +1,4 @@
-// What the package throws: one class, with the engine's own words for the place and the rule.
+// The exception that the package throws: one class, with the engine's own words for the place and the rule.
 // SPDX-License-Identifier: MIT
 
 /** A refused call. `status` is the C interface's: above 0 the world's fault, below 0 misuse. */
@@ -24,7 +24,7 @@ export function badValue(field, expected, value) {
   return new IsostepError({status: kBadArgument, reason: `${shown} is not that`, field, expected});
 }
 
-/** Runs `write`; what it throws names the command too. */
+/** Runs `write`; an error that it throws names the command too. */
 export function within(command, write) {
   try {
     return write();

@@ -1,9 +1,9 @@
-// What is owned in the engine's memory: freed by dispose(), by `using`, or when nothing in JavaScript knows it.
+// Handle: an object in the engine's memory, freed by dispose(), by `using`, or when nothing in JavaScript knows it.
 // SPDX-License-Identifier: MIT
 
 import {IsostepError, kNotAlive} from './errors.js';
 
-/** Frees what was forgotten. Not soon, and not surely: games dispose of what is large. */
+/** Frees forgotten objects. It comes neither soon nor surely: games dispose of large ones. */
 const forgotten = new FinalizationRegistry(({module, at, destroy}) => {
   if (module.ended === null) module.call(destroy, at);
 });
@@ -25,7 +25,7 @@ export class Handle {
     return this.#at;
   }
   get disposed() { return this.#at === 0; }
-  /** Again and again without effect. */
+  /** Frees the object; again it has no effect. */
   dispose() {
     if (this.#at === 0) return;
     const at = this.#at;

@@ -17,7 +17,7 @@ export {deliver, dispatch} from './transport/pump.js';
 /** By which channel a session's bytes go: they may be lost, or they arrive whole and in order. */
 export const Channel = {datagram: 0, reliable: 1};
 /** Bits of fields of flags: BodyFlags.lockX | BodyFlags.lockY. */
-export const {bodyFlags: BodyFlags, jointFlags: JointFlags, zoneEffects: ZoneEffects} = interfaceSchema.flags;
+export const {bodyFlags: BodyFlags, partFlags: PartFlags, jointFlags: JointFlags, zoneEffects: ZoneEffects} = interfaceSchema.flags;
 
 /** The version of the C interface that these files speak. */
 const kAbi = interfaceSchema.abi;

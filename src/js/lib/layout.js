@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Vectors are [x, y, z], quaternions [x, y, z, w], ids and other 64-bit integers BigInt, enumerators their names, bools
-// true and false, arrays arrays. What an object does not name keeps its default; what the struct has not is an error.
+// true and false, arrays arrays. Members that an object does not name keep their defaults; what the struct has not is
+// an error.
 
 import {badValue, kBadEnum, IsostepError} from './errors.js';
 
@@ -68,7 +69,7 @@ export const kPlain = {
   }
 };
 
-/** Enumerators by name: {static: 0, kinematic: 1, dynamic: 2}. */
+/** The codec of enumerators by name: {static: 0, kinematic: 1, dynamic: 2}. */
 function enumeration(names) {
   const words = Object.keys(names), byValue = new Map(words.map(word => [names[word], word]));
   return {
@@ -84,7 +85,7 @@ function enumeration(names) {
   };
 }
 
-/** `count` of `element`, one after the other; an array of any kind is taken. */
+/** The codec of `count` of `element`, one after the other; it takes an array of any kind. */
 function sequence(element, count) {
   return {
     size: element.size * count,
@@ -102,7 +103,7 @@ function sequence(element, count) {
   };
 }
 
-/** Characters, ended by a zero byte. */
+/** The codec of characters, ended by a zero byte. */
 function characters(count) {
   return {
     size: count,
@@ -121,7 +122,7 @@ function characters(count) {
   };
 }
 
-/** `count` bytes, of which the number `used` before them counts; as a Uint8Array. */
+/** The codec of `count` bytes as a Uint8Array; the number before them says how many are used. */
 function byteArray(count, usedOffset) {
   return {
     size: count,
@@ -136,7 +137,7 @@ function byteArray(count, usedOffset) {
   };
 }
 
-/** A list elsewhere in memory, by its place and how many: what Calls.list() makes. */
+/** A list elsewhere in memory, by its place and its length: Calls.list() makes it. */
 export class Placed {
   constructor(at, count) { Object.assign(this, {at, count}); }
 }
@@ -152,7 +153,7 @@ function list(countOffset) {
   };
 }
 
-/** What may be missing: null. A byte `has` says whether it is there. */
+/** The codec of a value that may be missing, null; a byte `has` says whether it is there. */
 function optional(element, hasOffset) {
   return {
     size: element.size,

@@ -4,7 +4,7 @@
 import {IsostepError, kNotAlive} from './errors.js';
 import {wasiImports} from './wasi.js';
 
-/** Literal, so that bundlers find the files. */
+/** The files; their names are literal, so that bundlers find them. */
 const kFiles = {
   f32: new URL('../wasm/isostep.f32.wasm', import.meta.url),
   f64: new URL('../wasm/isostep.f64.wasm', import.meta.url),
@@ -67,7 +67,7 @@ export class Module {
     this.dataView = new DataView(exports.memory.buffer);
   }
 
-  /** Of the memory as it is now: a call that allocates may replace it. */
+  /** A view of the memory as it is now: a call that allocates may replace it. */
   get view() {
     if (this.dataView.buffer !== this.exports.memory.buffer) this.dataView = new DataView(this.exports.memory.buffer);
     return this.dataView;
@@ -92,7 +92,7 @@ export class Module {
     throw Object.assign(new IsostepError({status: kNotAlive, reason, command}), {cause: this.ended});
   }
 
-  /** Room that the caller frees. */
+  /** Allocates room that the caller frees. */
   allocate(size) {
     const at = this.call('malloc', size);
     if (at === 0) throw new IsostepError({status: -7, reason: `no memory for ${size} bytes`});

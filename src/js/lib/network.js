@@ -3,7 +3,7 @@
 
 import {Handle} from './handle.js';
 
-/** Between sessions of one engine; what befalls their packets depends on the seed alone. */
+/** A network between sessions of one engine; the fate of their packets depends on the seed alone. */
 export class SimulatedNetwork extends Handle {
   #calls;
   static create(calls, seed) {
@@ -18,7 +18,7 @@ export class SimulatedNetwork extends Handle {
   }
   #run(name, ...words) { this.#calls.call(name, this.at, ...words); }
 
-  /** A new endpoint on a line: 'wifi', 'latency=80,jitter=20,loss=5' ([ms], [ms], [%]); its number. */
+  /** Adds an endpoint on a line: 'wifi', 'latency=80,jitter=20,loss=5' ([ms], [ms], [%]); returns its number. */
   addClient(profile) {
     this.#calls.begin();
     const text = this.#calls.placeText(profile, 'profile'), out = this.#calls.take(4);
@@ -30,15 +30,15 @@ export class SimulatedNetwork extends Handle {
     this.#run('iso_network_set_profile', client, this.#calls.placeText(profile, 'profile'));
   }
   connect(from, to = 0) { this.#run('iso_network_connect', from, to); }
-  /** Both sides hear it now. */
+  /** Cuts a connection; both sides hear it now. */
   cut(client) { this.#run('iso_network_cut', client); }
-  /** As if the cable were pulled. */
+  /** Silences an endpoint, as if the cable were pulled. */
   setSilent(endpoint, silent) { this.#run('iso_network_set_silent', endpoint, silent ? 1 : 0); }
-  /** Endpoints of different sides do not meet. */
+  /** Puts an endpoint on a side; those of different sides do not meet. */
   setSide(endpoint, side) { this.#run('iso_network_set_side', endpoint, side); }
   /** [us] Lets everything due until then happen. */
   advanceTo(now) { this.#run('iso_network_advance_to', BigInt(Math.floor(now))); }
-  /** Before and after a session's drive. */
+  /** Deliver comes before, dispatch after a session's drive. */
   deliver(endpoint, session, now) { this.#run('iso_network_deliver', endpoint, session.at, BigInt(Math.floor(now))); }
   dispatch(endpoint, session, now) { this.#run('iso_network_dispatch', endpoint, session.at, BigInt(Math.floor(now))); }
 }

@@ -1,4 +1,4 @@
-// How each scalar's numbers lie in memory, and how they become JavaScript's.
+// The numbers of each scalar in memory, and their way to JavaScript's and back.
 // SPDX-License-Identifier: MIT
 //
 // A Number becomes the nearest number of the format, ties away from zero, as iso_<P>_from_double has it; outside of the
@@ -28,7 +28,7 @@ function scaled(value, field, fraction, bits) {
   return exact < 0 ? -nearest : nearest;
 }
 
-/** `word`: the number as an argument of a call; `write`, `read`: in memory. */
+/** A codec: `word` is the number as an argument of a call; `write` and `read` are in memory. */
 function floating(size, get, set) {
   const word = (value, field) => {
     if (typeof value !== 'number') throw badValue(field, 'a number', value);
@@ -63,7 +63,7 @@ function fixed64(fraction, raw) {
 const kFloat = floating(4, 'getFloat32', 'setFloat32');
 const kDouble = floating(8, 'getFloat64', 'setFloat64');
 
-/** Of a scalar: its numbers, its units (directions and quaternions), and the typed array that shows them raw. */
+/** The numbers of a scalar, its units (directions and quaternions), and the typed array that shows them raw. */
 export function numbersOf(scalar, raw) {
   switch (scalar) {
     case 'f32': return {scalar: kFloat, unit: kFloat, array: Float32Array};

@@ -6,7 +6,7 @@ import {Handle} from './handle.js';
 import {unsigned} from './module.js';
 import {World} from './world.js';
 
-/** One that grows: World.record, then endFrame after the commands and steps of each frame, then finish. */
+/** A recording that grows: World.record, then endFrame after the commands and steps of each frame, then finish. */
 export class Tape extends Handle {
   #calls;
   constructor(calls, at) {
@@ -14,16 +14,16 @@ export class Tape extends Handle {
     this.#calls = calls;
   }
   endFrame() { this.#calls.run('tape_end_frame', this.at); }
-  /** The whole state, for seeking; after endFrame, before the next command. */
+  /** Records the whole state, for seeking; after endFrame, before the next command. */
   keyframe() { this.#calls.run('tape_keyframe', this.at); }
-  /** All frames so far are in bytes(): kept, a crash costs none of them. Else it costs a second. */
+  /** Puts all frames so far into bytes(): a crash costs none that are kept. Else it costs a second. */
   flush() { this.#calls.run('tape_flush', this.at); }
   finish() { this.#calls.run('tape_finish', this.at); }
-  /** A copy of what there is of the file. */
+  /** A copy of the file so far. */
   bytes() { return this.#calls.bytesSeen('tape_bytes', this.at); }
 }
 
-/** One that is read. */
+/** A recording that is read. */
 export class Replay extends Handle {
   #calls;
   constructor(calls, at) {
@@ -31,9 +31,9 @@ export class Replay extends Handle {
     this.#calls = calls;
   }
   get info() { return this.#calls.run('replay_get_info', this.at, out('replay_info')); }
-  /** In the state before the first frame. */
+  /** Makes a world in the state before the first frame. */
   createWorld() { return new World(this.#calls, this.#calls.run('replay_create_world', this.at, out('u32'))); }
-  /** {commands, hash}: for World.apply, and the hash after it. */
+  /** The frame's {commands, hash}: for World.apply, and the hash after it. */
   frame(number) {
     this.#calls.begin();
     const [pointer, size, hash] = [4, 4, 8].map(bytes => this.#calls.take(bytes));

@@ -9,7 +9,7 @@ const kStatuses = ['confirmed', 'predicted', 'disconnected'];     // iso_input_s
 const kInputSize = 516, kInputBytes = 4;                          // iso_input: the size, the status, then the bytes
 const kRefused = -11;
 
-/** Microseconds as the C interface has them. */
+/** The time in microseconds as the C interface has it. */
 function time(now) {
   if (!(now >= 0 && now <= Number.MAX_SAFE_INTEGER)) throw badValue('now', 'microseconds since the start', now);
   return BigInt(Math.floor(now));
@@ -42,7 +42,7 @@ export class Session extends Handle {
     this.#game = game;
   }
 
-  /** Of a session whose world or state is gone nothing is asked: the engine would write to what is somebody else's. */
+  /** Throws when the session's world or state is gone: the engine would write to memory that is somebody else's. */
   get at() {
     const {world, state} = this.#game;
     world?.at;
@@ -50,14 +50,14 @@ export class Session extends Handle {
     return super.at;
   }
   #call(name, ...words) { this.#calls.call(name, this.at, ...words); }
-  /** True, or false where the session refuses: not now, not yours, or not sound. */
+  /** Returns true, or false where the session refuses: not now, not yours, or not sound. */
   #try(name, ...words) {
     const status = this.module.call(name, this.at, ...words);
     if (status === kRefused) return false;
     if (status !== 0) this.#calls.fail(name, status);
     return true;
   }
-  /** Why the last call was refused. */
+  /** The reason why the last call was refused. */
   get problem() { return this.module.text(this.module.call('iso_last_error')); }
 
   // ---- a turn
@@ -65,8 +65,8 @@ export class Session extends Handle {
   /**
    * Plays what is due with `game.step`, and tells `rolledBack`, `restarted` and `confirmed` of it. Returns how many
    * frames were stepped, those again included. Without inputs of its own since the last turn a player repeats the last.
-   * What the game throws ends the turn: the next one tells 'misuse', steps again what was missed, from the newest final
-   * state, and the match goes on.
+   * An error that the game throws ends the turn: the next one tells 'misuse', steps again what was missed, from the
+   * newest final state, and the match goes on.
    */
   drive(now) {
     this.#call('iso_session_advance', time(now));
@@ -95,21 +95,21 @@ export class Session extends Handle {
     const players = this.module.view.getUint32(room, true);
     return Array.from({length: players}, (_, player) => this.#input(first + player * kInputSize));
   }
-  /** A copy: the memory may grow in the step. */
+  /** A copy of an input: the memory may grow in the step. */
   #input(at) {
     const size = this.module.view.getUint16(at, true);
     return {bytes: this.module.bytes(at + kInputBytes, size).slice(),
             status: kStatuses[this.module.view.getUint8(at + 2)]};
   }
 
-  /** For the next frame; until that is stepped a later one replaces it. False: not a player of ours, or not now. */
+  /** Gives the next frame's input; until that is stepped a later one replaces it. False: not our player, or not now. */
   addLocalInput(player, bytes) {
     this.#calls.begin();
     return this.#try('iso_session_add_local_input', player, this.#calls.placeBytes(bytes, 'bytes'), bytes.byteLength);
   }
-  /** The last input has been taken: a game of orders hands over the next only then. */
+  /** True when the last input has been taken: a game of orders hands over the next only then. */
   wantsInput(player) { return this.module.call('iso_session_wants_input', this.at, player) !== 0; }
-  /** [us] until the next frame is due. */
+  /** [us] The time until the next frame is due. */
   wait(now) { return Number(unsigned(this.module.call('iso_session_wait', this.at, time(now)))); }
 
   // ---- the transport's side
@@ -118,13 +118,13 @@ export class Session extends Handle {
     this.#call('iso_session_connected', peer, time(now), incoming ? 1 : 0);
   }
   disconnected(peer, now) { this.#call('iso_session_disconnected', peer, time(now)); }
-  /** `channel`: 0 a datagram, 1 a reliable message. */
+  /** Takes a message. `channel` 0 is a datagram, 1 a reliable message. */
   receive(peer, channel, bytes, now) {
     this.#calls.begin();
     const at = this.#calls.placeBytes(bytes, 'bytes');
     this.#call('iso_session_receive', peer, channel, at, bytes.byteLength, time(now));
   }
-  /** What is to be sent: {peer, channel, bytes, close}, or null. `bytes` is a view until the next call. */
+  /** The next message to be sent: {peer, channel, bytes, close}, or null. `bytes` is a view until the next call. */
   pollSend(now) {
     this.#calls.begin();
     const at = this.#calls.sized('outgoing'), pointer = this.#calls.take(4);
@@ -134,7 +134,7 @@ export class Session extends Handle {
     const {peer, channel, length, close} = this.#calls.layout('outgoing').read(this.module.view, at);
     return {peer, channel: this.#calls.number('channel', channel), bytes: this.module.bytes(bytes, length), close};
   }
-  /** Where the transport is to connect to, or null. */
+  /** The address that the transport is to connect to, or null. */
   pollConnect() {
     this.#calls.begin();
     const room = this.#calls.take(4);
@@ -145,7 +145,7 @@ export class Session extends Handle {
 
   // ---- what happens
 
-  /** {kind: 'joined', player, frame, ...}, or null. */
+  /** The next event {kind: 'joined', player, frame, ...}, or null. */
   pollEvent() {
     this.#calls.begin();
     const at = this.#calls.sized('session_event');
@@ -156,15 +156,15 @@ export class Session extends Handle {
   get phase() { return this.#calls.enumerator('phase', this.module.call('iso_session_phase', this.at)); }
   /** The next frame to be stepped. */
   get current() { return this.module.call('iso_session_current', this.at); }
-  /** States up to this one are final. */
+  /** The last frame whose state is final. */
   get confirmed() { return this.module.call('iso_session_confirmed', this.at); }
   /** The first player of this machine; -1: none yet. */
   get localPlayer() { return this.module.call('iso_session_local_player', this.at); }
-  /** All of them, a bit each. */
+  /** All players of this machine, a bit each. */
   get localPlayers() { return this.module.call('iso_session_local_players', this.at) >>> 0; }
-  /** Says who we are after a crash: the setting `token`. 0n: not seated yet. */
+  /** The setting `token`, which says who we are after a crash. 0n: not seated yet. */
   get token() { return unsigned(this.module.call('iso_session_token', this.at)); }
-  /** What a player did in a frame that is at most `kept` frames old. */
+  /** The input of a player in a frame that is at most `kept` frames old. */
   input(frame, player) {
     this.#calls.begin();
     const at = this.#calls.take(kInputSize);
@@ -179,7 +179,7 @@ export class Session extends Handle {
     this.#calls.call(name, this.at, ...words, at);
     return this.#calls.layout(layout).read(this.module.view, at);
   }
-  /** [bytes] Of the snapshot under way: on a client the one it waits for, on a host the one that `peer` is sent. */
+  /** [bytes] The progress of the snapshot that a client waits for, or that a host sends to `peer`. */
   snapshotProgress(peer = 0) {
     this.#calls.begin();
     const at = this.#calls.take(8);
@@ -192,21 +192,21 @@ export class Session extends Handle {
   start(now) { return this.#try('iso_session_start', time(now)); }
   resync() { return this.#try('iso_session_resync'); }
   /**
-   * With `migration`, where the match stands for lack of a majority, or its host is lost: goes on with those who are
-   * here, at this machine. Whoever calls knows that the others play nowhere else: nothing else keeps two matches from
-   * becoming of one.
+   * Goes on with those who are here, at this machine. It is for sessions with `migration` whose match stands for lack
+   * of a majority, or whose host is lost. The caller knows that the others play nowhere else: nothing else keeps one
+   * match from becoming two.
    */
   goOn(now) { return this.#try('iso_session_go_on', time(now)); }
   pause() { return this.#try('iso_session_pause'); }
   unpause() { return this.#try('iso_session_unpause'); }
-  /** [1/8 of the match's rate] 4 to 16. */
+  /** Sets the speed [1/8 of the match's rate], 4 to 16. */
   setSpeed(eighths) { return this.#try('iso_session_set_speed', eighths); }
   propose(player, proposal, subject = 0) {
     return this.#try('iso_session_propose', player, this.#calls.number('proposal', proposal), subject);
   }
   vote(player, yes) { return this.#try('iso_session_vote', player, yes ? 1 : 0); }
 
-  /** Host with asksAdmission: who waits for an answer, or null. */
+  /** The applicant who waits for an answer, or null; for a host with asksAdmission. */
   pollApplicant() {
     const applicant = this.#read('applicant', 'iso_session_poll_applicant');
     return applicant.id === 0n ? null : applicant;
@@ -219,30 +219,30 @@ export class Session extends Handle {
     this.#calls.begin();
     return this.#try(name, whom, this.#calls.placeText(reason, 'reason'));
   }
-  /** Host: who has the seat; -1: nobody. */
+  /** The peer that has the seat; -1: nobody. For a host. */
   peerOf(player) { return this.module.call('iso_session_peer_of', this.at, player); }
 
   // ---- recordings
 
-  /** Host: the match in its newest final state, for `file` of another process. */
+  /** Returns the match in its newest final state, for `file` of another process. For a host. */
   saveMatch() { return this.#calls.bytesOut('iso_session_save_match', this.at); }
-  /** From the next frame on: 'match' is played again by the game, 'world' by `isostep verify` without it. */
+  /** Records from the next frame on: the game plays 'match' again, `isostep verify` plays 'world' without it. */
   record(kind, scene = null) {
     this.#calls.begin();
     const text = scene === null ? 0 : this.#calls.placeText(scene, 'scene');
     return this.#try('iso_session_record', this.#calls.number('recording', kind), text);
   }
-  /** What is new of the file since the last such call, with all final frames so far: appended, it survives a crash. */
+  /** The file's new bytes since the last such call, with all final frames: appended, they survive a crash. */
   flushRecording(kind) {
     return this.#calls.bytesSeen('session_flush_recording', this.at, this.#calls.number('recording', kind));
   }
-  /** Ends the recording with the last confirmed frame: the file. */
+  /** Ends the recording with the last confirmed frame; returns the file. */
   recorded(kind) {
     return this.#calls.bytesOut('iso_session_recorded', this.at, this.#calls.number('recording', kind));
   }
 }
 
-/** The world and the state for the session; what the game does is asked for, never called back from within. */
+/** Places world and state for the session; the game's deeds are asked for, never called back from within. */
 function placeGame(calls, {world, state}) {
   return calls.place('game', {
     ...(world !== undefined && {world: world.at}),

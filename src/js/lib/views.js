@@ -1,4 +1,4 @@
-// Arrays of the engine's as copies: poses, and what a step reports.
+// Copies of the engine's arrays: poses, and the reports of a step.
 // SPDX-License-Identifier: MIT
 
 /**
@@ -19,10 +19,10 @@ export class Records {
     this.length = length;
   }
 
-  /** Words of `numbers` from a record to the next. */
+  /** The words of `numbers` from a record to the next. */
   get stride() { return this.#codec.size / this.#array.BYTES_PER_ELEMENT; }
   get numbers() { return this.#numbers ??= new this.#array(this.#bytes); }
-  /** Words of `ids` from a record to the next. */
+  /** The words of `ids` from a record to the next. */
   get idStride() { return this.#codec.size / 8; }
   get ids() { return this.#ids ??= new BigUint64Array(this.#bytes); }
 

@@ -1,9 +1,9 @@
-// As much of WASI (preview 1) as the engine's module asks for: libc's own start, and nothing that the engine uses.
+// The part of WASI (preview 1) that the engine's module asks for: libc's own start, and nothing that the engine uses.
 // SPDX-License-Identifier: MIT
 //
 // Source: WASI preview 1, "wasi_snapshot_preview1" (witx). The engine opens no file, reads no clock and prints nothing:
-// there are no files and no environment here. What libc writes as it aborts goes to console.error, and every other call
-// is refused.
+// there are no files and no environment here. The text that libc writes as it aborts goes to console.error, and every
+// other call is refused.
 
 const kSuccess = 0, kBadDescriptor = 8, kNoSystemCall = 52;
 

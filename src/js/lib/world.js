@@ -25,11 +25,12 @@ export class World extends AskedWorld {
     if (radius === undefined) return this.run('add_blob', blob.at, out('id'));
     return this.run('P_add_hull', given('hull', {radius}), blob.at, out('id'));
   }
-  /** Parts at poses of their own: {kind: 'box', shape: {...}, pose: {position, orientation}}, or with a blob. */
+  /** Parts at poses of their own: {kind: 'box', shape: {...}, pose: {position, orientation}}, or with a blob; and what
+      they have of their own: {traits: {flags: partFlag.ownMaterial, material: {...}}, userData}. */
   addCompound(parts) {
     const blobs = [...new Set(parts.map(part => part.blob).filter(Boolean))];
-    const children = parts.map(({kind, shape, blob, pose}) =>
-      ({pose, primitive: this.#primitive(kind, shape, blob, blobs)}));
+    const children = parts.map(({kind, shape, blob, ...own}) =>
+      ({...own, primitive: this.#primitive(kind, shape, blob, blobs)}));
     this.calls.begin();
     const list = this.calls.take(4 * Math.max(blobs.length, 1));
     blobs.forEach((blob, i) => this.module.view.setUint32(list + 4 * i, blob.at, true));

@@ -7,7 +7,7 @@ import type {
   Applicant, BlobHomeName, BodyDefinition, BodyFlagsBits, BodyMass, BodyPair, BodyProperties, BodyState, BodyTypeName,
   BoxQuery, BreakReport, BroadPhaseName, Broke, Child, ClosestBody, ContactBegin, ContactHit, ContactPoint, Filter,
   GenreName, JointAxisName, JointBroke, JointFlagsBits, JointProperties, Joints, JointTypeName, Material, OverlapHit,
-  OverlapQuery, PhaseName, PlayerStats, PointQuery, Pose, Primitive, ProposalName, RagdollBone, RagdollSettings,
+  OverlapQuery, PartFlagsBits, PhaseName, PlayerStats, PointQuery, Pose, Primitive, ProposalName, RagdollBone, RagdollSettings,
   RayCast, RayHit, RecordingName, RecordInputs, RecordKinds, RecordStates, RenderPose, ReplayInfo, ReplayResult,
   SelfcheckResult, SensorEvent,
   SessionConfig,
@@ -45,6 +45,7 @@ export function load(scalar: Scalar, options?: LoadOptions & {numbers?: 'si'}): 
 export function load(scalar: 'q16' | 'q32', options: LoadOptions & {numbers: 'raw'}): Promise<Engine<bigint>>;
 
 export const BodyFlags: BodyFlagsBits;
+export const PartFlags: PartFlagsBits;
 export const JointFlags: JointFlagsBits;
 export const ZoneEffects: ZoneEffectsBits;
 export const Channel: {readonly datagram: 0, readonly reliable: 1};

@@ -30,7 +30,7 @@ def energy(world):
 
 
 def energies(replay):
-    """After each frame; what the tool records begins with an empty world."""
+    """Energies after each frame; a recording of the tool begins with an empty world."""
     return numpy.array([energy(frame.world) for frame in replay])
 
 

@@ -24,7 +24,7 @@ SMALL_BUFFER, NOT_ALIVE = -4, -9
 
 
 class Handle:
-    """An object of the library. Closed by `close`, by `with`, or when nobody has it any more. Once closed it raises
+    """An object of the library, closed by `close`, by `with`, or when nobody has it any more. Once closed it raises
     Closed, whatever it is asked but `is_open` and `close`."""
 
     _kind = ""  # "world": destroyed by iso_world_destroy
@@ -49,13 +49,13 @@ class Handle:
         return self._address != 0
 
     def _open(self):
-        """Its address."""
+        """The object's address."""
         if not self._address:
             raise Closed(NOT_ALIVE, f"the {self._kind} was closed")
         return self._address
 
     def close(self):
-        """Destroys it; arrays that it gave stay. Closing again does nothing."""
+        """Destroys it; arrays that it gave stay. A second call does nothing."""
         if self._address:
             status = self._destroy()
             if status:
@@ -73,13 +73,13 @@ class Handle:
             self._destroy()
 
     def _destroy(self):
-        # As a pointer: ctypes would hand on the low 32 bits of a plain number.
+        # The address goes as a pointer: ctypes would hand on the low 32 bits of a plain number.
         return self._library.raw(f"iso_{self._kind}_destroy")(ctypes.c_void_p(self._address))
 
 
 def copied(c_type, address, count, dtype):
     """`count` elements in the library's memory as they are now: a read-only numpy array or, without numpy, ctypes'
-    own. What lies there goes with its owner, or is moved by the next call; a copy costs less than the call."""
+    own. The elements go with their owner, or the next call moves them; a copy costs less than the call."""
     size = count * ctypes.sizeof(c_type)
     data = ctypes.string_at(address, size) if size else b""
     if numpy is None:
@@ -104,7 +104,7 @@ class _Declared:
 
 
 class _Run:
-    """One execution: `room` for what is handed out in unknown amounts, `need` as the function tells it."""
+    """One execution: `room` for results of unknown size, `need` as the function tells it."""
 
     def __init__(self, room):
         self.room, self.need = room, None

@@ -57,7 +57,7 @@ def diff(a, b):
 
 
 def diff_bodies(a, b, frames):
-    """What differs of the bodies after so many frames: body, field, its value in a and in b."""
+    """The differences of bodies after so many frames: body, field, its value in a and in b."""
     import numpy
 
     a, b = _opened(a), _opened(b)
@@ -74,7 +74,7 @@ def diff_bodies(a, b, frames):
 
 
 def table(rows):
-    """Such an array as text, a row a line: hashes in hexadecimal, differences in three digits."""
+    """An array of diff() as text, a row a line: hashes in hexadecimal, differences in three digits."""
     lines = ["  ".join(rows.dtype.names)]
     for row in rows:
         cells = []

@@ -1,4 +1,4 @@
-"""What goes wrong, as exceptions."""
+"""The library's errors as exceptions."""
 
 # SPDX-License-Identifier: MIT
 

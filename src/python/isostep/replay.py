@@ -16,7 +16,7 @@ def use_library(library):
 
 
 def _bytes_of(source):
-    """Of a path, or of the file's bytes."""
+    """The bytes of a path, or of the file itself."""
     if isinstance(source, (bytes, bytearray, memoryview)):
         return bytes(source)
     with open(os.fspath(source), "rb") as file:
@@ -24,7 +24,7 @@ def _bytes_of(source):
 
 
 def verify(source, simd="best", most_frames=None):
-    """What `isostep verify` does: plays the file and compares every hash. `outcome` of the result is "verified",
+    """Plays the file and compares every hash, like `isostep verify`. `outcome` of the result is "verified",
     "diverged", "incompatible", "truncated" or "corrupt", `text` the sentence."""
     most = (1 << 64) - 1 if most_frames is None else most_frames
     return _library.call("iso_replay_verify")(_bytes_of(source), simd, most)
@@ -39,11 +39,11 @@ class Frame:
 
     @property
     def agrees(self):
-        """Whether the frame came out as it was recorded."""
+        """True if the frame came out as it was recorded."""
         return self.hash == self.recorded
 
     def states(self):
-        """Pose and velocity of every body: World.states."""
+        """The pose and velocity of every body: World.states."""
         return self.world.states()
 
     @property
@@ -64,7 +64,7 @@ class Replay(Handle):
         self._player, self._position, self._kept, self._spacing = None, 0, [], self.SPACING
 
     def close(self):
-        """With the world of `at`, which is its own."""
+        """Closes the replay and the world of `at`, which is its own."""
         super().close()
         for one in [self._player, *self._kept]:
             if one is not None:
@@ -130,6 +130,6 @@ class Replay(Handle):
             self._spacing *= 2
 
     def verify(self, **options):
-        """The file, by `verify`."""
+        """Verifies the file by `verify`."""
         self._open()
         return verify(self._source, **options)

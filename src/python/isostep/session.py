@@ -25,7 +25,7 @@ class Input:
 
 
 class Game:
-    """What a session saves, rolls back, hashes and sends to who joins late: a world, a block of bytes, or both.
+    """The state that a session saves, rolls back, hashes and sends to late joiners: a world, a block of bytes, or both.
 
     `step(inputs)` is called for every frame, again for those that are rolled back; what it does depends on the world,
     the block and the inputs alone. `state` is the block as a memoryview of bytes, which struct.pack_into writes to.
@@ -37,17 +37,17 @@ class Game:
         self.state = memoryview(self._block).cast("B") if block_size else memoryview(b"")
 
     def step(self, inputs):
-        """The next frame: `inputs` has an Input for each player."""
+        """Steps the next frame: `inputs` has an Input for each player."""
         raise NotImplementedError("a game overrides step")
 
     def rolled_back(self, frame):
-        """The state is again that before `frame`."""
+        """Hears that the state is again that before `frame`."""
 
     def restarted(self, frame):
-        """The state is one that arrived from elsewhere, before `frame`."""
+        """Hears that the state is one that arrived from elsewhere, before `frame`."""
 
     def confirmed(self, frame, hash):
-        """`frame` is final; `hash`: of the state after it."""
+        """Hears that `frame` is final; `hash` is that of the state after it."""
 
     def _in_c(self):
         made = _library.new("game")
@@ -92,18 +92,18 @@ class Session(Handle):
         self._game = None
 
     def call(self, name, *values):
-        """iso_session_NAME of isostep.h, with this session first."""
+        """Calls iso_session_NAME of isostep.h, with this session first."""
         self._open()
         return _library.call(f"iso_session_{name}")(self, *values)
 
     def add_input(self, player, data):
-        """For the next frame; until that is stepped a later one replaces it."""
+        """Gives the next frame's input; until that is stepped a later one replaces it."""
         self.call("add_local_input", player, data)
 
     def drive(self, now):
-        """A turn at the time `now` [us]: steps the game as often as it is due; the number of steps. What the game
-        raises ends the turn. The next one tells "misuse", steps again what was missed, from the newest final state, and
-        the match goes on."""
+        """Plays a turn at `now` [us]: steps the game as often as it is due; returns the number of steps. An
+        error that the game raises ends the turn. The next one tells "misuse", steps again what was missed, from the
+        newest final state, and the match goes on."""
         self.call("advance", now)
         steps = 0
         while True:
@@ -121,16 +121,16 @@ class Session(Handle):
                 self.game.confirmed(request.frame, request.hash)
 
     def inputs(self):
-        """Of the step that was asked for, by player."""
+        """The inputs of the step that was asked for, by player."""
         address, players = self.call("inputs")
         return [_input_of(one) for one in (_c_input() * players).from_address(address)] if address else []
 
     def input(self, frame, player):
-        """What a player did in a frame that is at most `kept` frames old."""
+        """The input of a player in a frame that is at most `kept` frames old."""
         return _input_of(self.call("input", frame, player))
 
     def events(self):
-        """What has happened since the last call, in order: `kind`, `player`, `frame`, ..."""
+        """The events since the last call, in order: `kind`, `player`, `frame`, ..."""
         while True:
             event = self.call("poll_event")
             if event.kind == "none":
@@ -138,7 +138,7 @@ class Session(Handle):
             yield event
 
     def sends(self, now):
-        """What is to be sent, each as (peer, "datagram" or "reliable", bytes, whether the connection ends after it)."""
+        """The messages to send as (peer, "datagram" or "reliable", bytes, whether the connection ends after it)."""
         while True:
             out, address = self.call("poll_send", now)
             if not address and not out.close:
@@ -146,19 +146,19 @@ class Session(Handle):
             yield out.peer, out.channel, ctypes.string_at(address, out.length) if out.length else b"", bool(out.close)
 
     def go_on(self, now):
-        """With `migration`, where the match stands for lack of a majority, or its host is lost: goes on with those who
-        are here, at this machine. Whoever calls knows that the others play nowhere else: nothing else keeps two matches
-        from becoming of one. Error: the match goes on without, or this machine has no part in it."""
+        """Goes on with those who are here, at this machine. It is for sessions with `migration` whose match stands for
+        lack of a majority, or whose host is lost. The caller knows that the others play nowhere else: nothing else
+        keeps one match from becoming two. Error: the match goes on without, or this machine has no part in it."""
         self.call("go_on", now)
 
     def flush_recording(self, kind):
-        """What is new of the file of a recording, "match" or "world", with all final frames so far: appended to a file
+        """The new bytes of a recording's file, "match" or "world", with all final frames so far: appended to a file
         it survives a crash. `call("record", kind, None)` begins one and `call("recorded", kind)` ends it: the whole."""
         return self.call("flush_recording", kind)
 
     @property
     def confirmed(self):
-        """States up to this frame are final; -1: none."""
+        """The last frame whose state is final; -1: none."""
         return self.call("confirmed")
 
     @property
@@ -184,19 +184,19 @@ class Network(Handle):
         self._take(_library.call("iso_network_create")(seed))
 
     def call(self, name, *values):
-        """iso_network_NAME of isostep.h, with this network first."""
+        """Calls iso_network_NAME of isostep.h, with this network first."""
         self._open()
         return _library.call(f"iso_network_{name}")(self, *values)
 
     def add_client(self, profile="wifi"):
-        """The endpoint of a client whose line is like `profile`: "mobile", "latency=80,jitter=20,loss=5"; connected to
-        the host."""
+        """Adds the endpoint of a client whose line is like `profile`: "mobile", "latency=80,jitter=20,loss=5". It is
+        connected to the host."""
         endpoint = self.call("add_client", profile)
         self.call("connect", endpoint, 0)
         return endpoint
 
     def drive(self, sessions, now):
-        """A turn of the game's loop for the sessions of all endpoints, in order."""
+        """Plays a turn of the game's loop for the sessions of all endpoints, in order."""
         self.call("advance_to", now)
         for endpoint, session in enumerate(sessions):
             self.call("deliver", endpoint, session, now)

@@ -24,7 +24,7 @@ _NUMPY_TYPES = {ctypes.c_float: "<f4", ctypes.c_double: "<f8", ctypes.c_char: "S
 
 
 def whole(value):
-    """An integer of any type, numpy's too, as int; None of what is none."""
+    """An integer of any type, numpy's too, as int; None where it is none."""
     try:
         return operator.index(value)
     except TypeError:
@@ -32,7 +32,7 @@ def whole(value):
 
 
 class Raw:
-    """A number of a scalar by its bits: Raw(1 << 32) is 1 in Q32.32. For float and double the number itself."""
+    """A number of a scalar by its bits: Raw(1 << 32) is 1 in Q32.32. In float and double it is the number itself."""
 
     def __init__(self, bits):
         self.bits = bits
@@ -53,7 +53,7 @@ class Family:
         self.from_double = {"number": float, "unit": float}  # the library's own, once it is loaded
 
     def to_raw(self, value, kind="number"):
-        """The bits of `value`, nearest to it; `kind` is number, or unit: of directions and quaternions."""
+        """The bits of `value`, nearest to it; `kind` is number, or unit for directions and quaternions."""
         if isinstance(value, Raw):
             return value.bits
         value = float(value)
@@ -62,7 +62,7 @@ class Family:
         return self.from_double[kind](value)
 
     def to_float(self, raw, kind="number"):
-        """Of one number or an array of them, nearest to it: a double has 53 bits, Q32.32 has 64."""
+        """The floats nearest to a number or an array of them: a double has 53 bits, Q32.32 has 64."""
         bits = self._bits[kind]
         return raw if bits == 0 else raw / 2.0**bits
 
@@ -80,7 +80,7 @@ class Enumeration:
         self.by_value = {number: name for name, number in self.by_name.items()}
 
     def number(self, value):
-        """Of a name, of a number of any integer type, and of several of them where they are flags."""
+        """The number of a name, of a number of any integer type, or of several where they are flags."""
         if isinstance(value, str):
             if value not in self.by_name:
                 raise ValueError(f"no {self.name} '{value}': {', '.join(self.by_name)}")
@@ -99,17 +99,17 @@ class Enumeration:
 
 
 class Struct(ctypes.Structure):
-    """A struct of the interface. Reading and setting attributes converts; `raw(name)` does not."""
+    """A struct of the interface. Attributes convert when read and set; `raw(name)` does not."""
 
     _members_ = {}
     _family_ = None
 
     def raw(self, name):
-        """The member's own bits: what another machine computes from, where a float would round."""
+        """The member's own bits, from which another machine computes, where a float would round."""
         return super().__getattribute__("_" + name)
 
     def set(self, **values):
-        """Several members at once."""
+        """Sets several members at once."""
         for name, value in values.items():
             setattr(self, name, value)
         return self
@@ -149,7 +149,7 @@ class Struct(ctypes.Structure):
 
 
 class _Member:
-    """How one member of a struct is read and written."""
+    """The read and the write of one member of a struct."""
 
     def __init__(self, described, c_type, family, interface):
         self.name, self.kind, self.count = described["name"], described["kind"], described.get("count", 0)
@@ -200,7 +200,8 @@ class _Member:
             super(Struct, struct).__setattr__("_" + self.name, self._raw(value, None))
 
     def _point_at(self, struct, values):
-        """An array of these values, which lives as long as the struct; a count with the member's name follows them."""
+        """Points the member at an array of these values, which lives as long as the struct; a count with the member's
+        name follows them."""
         array = (self.pointee * len(values))(*values)
         if f"{self.name}_count" in struct._members_:
             struct.set(**{f"{self.name}_count": len(values)})
@@ -211,7 +212,7 @@ class _Member:
         root.__dict__.setdefault("_kept", []).append(array)
 
     def _raw(self, value, place):
-        """For the memory. Of a struct: `place` with these members, or with these values in order."""
+        """The value for the memory; for a struct, `place` with these members, or with these values in order."""
         if self.kind in ("number", "unit"):
             return self.family.to_raw(value, self.kind)
         if self.kind == "bool":
@@ -232,7 +233,7 @@ class _Member:
 
 
 def fill(struct, values):
-    """`struct` with the members of a mapping, the items of a sequence, or all of an equal struct."""
+    """Fills `struct` with the members of a mapping, the items of a sequence, or all of an equal struct."""
     if isinstance(values, type(struct)):
         ctypes.pointer(struct)[0] = values
     elif hasattr(values, "items"):
@@ -266,14 +267,14 @@ class Interface:
         self._dtypes = {}
 
     def family_of(self, scalar):
-        """By the name in C ("q32") or in replays ("q32.32")."""
+        """The family by its name in C ("q32") or in replays ("q32.32")."""
         for family in self.families.values():
             if scalar in (family.prefix, family.scalar):
                 return family
         raise ValueError(f"no scalar '{scalar}': {', '.join(self.families)}")
 
     def c_type(self, member, family):
-        """Of one element of a member."""
+        """The type of one element of a member."""
         if member["kind"] in ("number", "unit"):
             return getattr(family, member["kind"])
         return self.structs[member["of"]] if member["kind"] == "struct" else _C_TYPES[member["kind"]]

@@ -15,7 +15,7 @@ def use_library(library):
 
 
 class Snapshot(Handle):
-    """A state of a world, for `World.load`. Reusable: `World.save(snapshot)` allocates nothing once it is warm."""
+    """A state of a world, for `World.load`. `World.save(snapshot)` reuses it and allocates nothing once it is warm."""
 
     _kind = "snapshot"
 
@@ -24,7 +24,7 @@ class Snapshot(Handle):
 
     @property
     def size(self):
-        """[bytes] What it holds for itself."""
+        """[bytes] The memory that it holds for itself."""
         return _library.call("iso_snapshot_get_size")(self)
 
 
@@ -35,12 +35,12 @@ class Blob(Handle):
 
     @classmethod
     def read(cls, data, home="carried"):
-        """A file of `isostep bake`, or what `write` gave."""
+        """Reads a file of `isostep bake`, or one that `write` returned."""
         return _library.call("iso_blob_read")(data, home)
 
     @classmethod
     def mesh(cls, points, triangles, materials=None, home="carried"):
-        """Points [m], and three indices a triangle, counter-clockwise seen from its outward side."""
+        """Makes a mesh of points [m] and three indices a triangle, counter-clockwise seen from its outward side."""
         flat = [number for point in points for number in point]
         corners = [index for triangle in triangles for index in triangle]
         given = {"point_count": len(flat) // 3, "triangle_count": len(corners) // 3, "points": flat, "vertices": corners}
@@ -68,20 +68,20 @@ class Tape(Handle):
         _library.call("iso_tape_end_frame")(self)
 
     def flush(self):
-        """All frames so far are in `bytes`: written to disk, a crash costs none of them. Else it costs a second."""
+        """Puts all frames so far into `bytes`: written to disk, a crash costs none. Else it costs a second."""
         _library.call("iso_tape_flush")(self)
 
     def keyframe(self):
         _library.call("iso_tape_keyframe")(self)
 
     def finish(self):
-        """Ends the recording; the file's bytes."""
+        """Ends the recording and returns the file's bytes."""
         _library.call("iso_tape_finish")(self)
         return self.bytes
 
     @property
     def bytes(self):
-        """What there is of the file."""
+        """The file so far."""
         return _library.call("iso_tape_bytes")(self)
 
 
@@ -137,7 +137,7 @@ class World(Handle):
     # Time and state
 
     def step(self):
-        """One step of 1 / hz seconds; the report of what it had to mend."""
+        """Steps by 1 / hz seconds; returns the report of what it had to mend."""
         return self.call("step")
 
     @property
@@ -146,7 +146,7 @@ class World(Handle):
 
     @property
     def hash(self):
-        """Of the whole state; the same on every machine."""
+        """The hash of the whole state, the same on every machine."""
         return self.call("hash")
 
     @property
@@ -158,13 +158,13 @@ class World(Handle):
         return self.call("get_settings")
 
     def save(self, into=None):
-        """The state, in a new snapshot or into one that was made before."""
+        """Saves the state, in a new snapshot or into one that was made before."""
         into = into or Snapshot(self)
         self.call("save", into)
         return into
 
     def load(self, snapshot):
-        """Same ids, same future."""
+        """Loads a state: the same ids and the same future as the world that saved it."""
         self.call("load", snapshot)
 
     def write(self):
@@ -183,27 +183,27 @@ class World(Handle):
     # What is in it
 
     def add_shape(self, kind, **fields):
-        """A sphere, box, capsule, half_space, cylinder or cone; its id."""
+        """Adds a sphere, box, capsule, half_space, cylinder or cone; returns its id."""
         return self.call(f"add_{kind}", fields)
 
     def add_hull(self, points, radius=0):
-        """The convex hull of points [m], and all within `radius` of it."""
+        """Adds the convex hull of points [m], and all within `radius` of it."""
         with _library.call(f"iso_{self.scalar}_blob_create_hull")(points, "carried") as blob:
             return self.call("add_hull", {"radius": radius}, blob)
 
     def add_blob(self, blob):
-        """A shape of a Blob."""
+        """Adds a shape of a Blob."""
         return self.call("add_blob", blob)
 
     def create_body(self, **definition):
-        """Members of iso_<scalar>_body_definition; the body's id."""
+        """Takes members of iso_<scalar>_body_definition; returns the body's id."""
         return self.call("body_create", definition)
 
     def destroy_body(self, body):
         self.call("body_destroy", body)
 
     def create_joint(self, kind, **fields):
-        """A hinge, slider, ball, fixed, ...: the kinds of isostep.h's iso_<scalar>_create_; its id."""
+        """Creates a hinge, slider, ball, fixed, ...: the kinds of isostep.h's iso_<scalar>_create_; returns its id."""
         return self.call(f"create_{kind}", fields)
 
     def destroy_joint(self, joint):
@@ -214,26 +214,26 @@ class World(Handle):
         return self.call("joint_get_axis_drive", joint, axis)
 
     def add_record(self, kind, **fields):
-        """What acts from step to step: a thruster, spring, zone, wheel, ...; its id."""
+        """Adds a record that acts from step to step: a thruster, spring, zone, wheel, ...; returns its id."""
         return self.call(f"add_{kind}", fields)
 
     def get_record(self, kind, record):
         return self.call(f"get_{kind}", record)
 
     def set_record(self, kind, record, **changes):
-        """These members of it; the others stay, bit for bit."""
+        """Sets these members of it; the others stay, bit for bit."""
         self.call(f"set_{kind}", record, self.get_record(kind, record).set(**changes))
 
     def get_input(self, kind, record):
-        """What a game asks of a record until it asks something else: of a breakable, character or vehicle."""
+        """The game's input to a record, which holds until the next one: a breakable, character or vehicle."""
         return self.call(f"get_{kind}_input", record)
 
     def set_input(self, kind, record, **changes):
-        """These members of its input; the others stay."""
+        """Sets these members of its input; the others stay."""
         self.call(f"set_{kind}_input", record, self.get_input(kind, record).set(**changes))
 
     def get_state(self, kind, record):
-        """How the last step left a record: a character, joint_load, vehicle or wheel."""
+        """The state of a record after the last step: a character, joint_load, vehicle or wheel."""
         return self.call(f"get_{kind}_state", record)
 
     def remove_record(self, kind, record):
@@ -246,11 +246,11 @@ class World(Handle):
         return self.call("bodies")
 
     def state(self, body):
-        """Pose, velocities, user data, type, and whether it is awake."""
+        """The pose, velocities, user data, type, and whether it is awake."""
         return self.call("body_get_state", body)
 
     def properties(self, body):
-        """What only commands change: mass, material, filter, ..."""
+        """The properties that only commands change: mass, material, filter, ..."""
         return self.call("body_get_properties", body)
 
     def states(self, bodies=None):
@@ -277,7 +277,8 @@ class World(Handle):
         return family.to_float(raw, "unit" if unit else "number")
 
     def poses(self, alpha=1.0):
-        """For drawing: body, position [m] and orientation of all moving bodies between the last two steps, in float."""
+        """The poses for drawing: body, position [m] and orientation of all moving bodies between the last two steps, in
+        float."""
         return self.call("poses", alpha)
 
     @property
@@ -308,7 +309,7 @@ class World(Handle):
         return self.call("cast_ray_all", {"origin": origin, "translation": translation, "filter": filter})
 
     def closest_point(self, point, max_distance, **filter):
-        """Of the nearest body; or None."""
+        """The closest point of the nearest body, or None."""
         return _found(self.call("closest_point", {"point": point, "max_distance": max_distance, "filter": filter}))
 
 

@@ -30,7 +30,7 @@ template <class S> void shoot(World<S>& world);
 // Explosions, blast.cpp.
 /// The book's ten bodies.
 Scene rubble();
-/// So many boxes about the centre.
+/// A blast amid so many boxes about its centre.
 Scene blast(int bodies);
 inline constexpr int kBlastBegins = 60;  // [frames]
 

@@ -6,7 +6,7 @@
 namespace isostep::scenes {
 namespace {
 
-/// From y to the way that leads on in the plane of x and y.
+/// The rotation from y to the way that leads on in the plane of x and y.
 Rotation along(double cosine, double sine) {
   // Half of the angle from y: cos(a) = sine, sin(a) = -cosine.
   const double half_cos = sqrt((1 + sine) / 2), half_sin = sqrt((1 - sine) / 2);

@@ -28,7 +28,7 @@ struct Level {
   std::vector<LevelSpot> spots;
 };
 
-/// [m] Of vertices: multiples of 1/1024, so that every scalar has one geometry.
+/// [m] The coordinates of vertices: multiples of 1/1024, so that every scalar has one geometry.
 double on_lattice(double metres);
 Point on_lattice(Point p);
 Point unit_of(Point v);
@@ -37,7 +37,7 @@ Point unit_of(Point v);
 Level town_level();
 /// Materials of its triangles.
 enum TownMaterial : int { kGrass, kStreet, kWall, kRoof, kStairs, kRamp, kTower, kBridge };
-/// [m] of its ground.
+/// [m] The height of its ground.
 double town_ground(double x, double z);
 
 /// A yard of hulls: a seeded choice of walls, gates, stairs, ramps, columns, boulders and mounds.

@@ -12,29 +12,29 @@
 
 namespace isostep::scenes {
 
-/// From place to place; mirrors nothing.
+/// A map from place to place; it mirrors nothing.
 using Warp = std::function<Point(Point)>;
 /// Cells between planes; `round`: the last of x are beside the first.
 struct Planes {
   std::vector<double> x, y, z;
   bool round = false;
 };
-/// Of cells by their numbers along x, y, z.
+/// The choice of cells by their numbers along x, y, z.
 using Filled = std::function<bool(int i, int j, int k)>;
 
 /// `count` + 1 planes.
 std::vector<double> evenly(double from, double to, int count);
-/// Whether cell `i` of the planes is between two places.
+/// Cell `i` of the planes is between two places.
 bool is_between(const std::vector<double>& planes, int i, double from, double to);
 
 class MeshBuilder {
  public:
   MeshBuilder() { part_.type = ShapeType::mesh; }
-  /// Of what follows.
+  /// Sets the material of what follows.
   void use(int material) { material_ = material; }
   /// Counter-clockwise seen from outside. A side without length makes it a triangle.
   void quad(Point a, Point b, Point c, Point d);
-  /// What is filled, closed all around: a quad wherever a filled cell is beside an empty one.
+  /// Adds what is filled, closed all around: a quad wherever a filled cell is beside an empty one.
   void add_cells(const Planes& planes, const Filled& filled, const Warp& warp);
   /// A closed column about an upright axis.
   void add_column(Point foot, double radius, double height, int sides);

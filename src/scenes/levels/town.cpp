@@ -53,7 +53,7 @@ Slope slope_at(double x, double z) {
   return {far + (1 - s) * (south - far) + (1 - t) * (east - far), (far - south) / kPitch, (far - east) / kPitch};
 }
 
-/// Each in the middle of a triangle.
+/// Tells spots of the ground, each in the middle of a triangle.
 void tell_ground(std::vector<LevelSpot>& spots) {
   struct Place {
     const char* name;

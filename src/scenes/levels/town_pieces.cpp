@@ -20,10 +20,10 @@ std::string name_at(const std::string& name, Point at) {
 /// Along the middle of a row of three planes or more, a cell that is neither the first nor the last.
 bool is_inner(const std::vector<double>& planes, int i) { return i > 0 && i + 2 < static_cast<int>(planes.size()); }
 
-// [m] of a house
+// [m] The sizes of a house.
 constexpr double kEaves = 3, kRidge = 2;  // walls, and the roof above them
 constexpr double kDoorHalf = 0.625, kDoorTop = 2.25;
-/// How far the roof is above the eaves, at a distance from the ridge.
+/// The height of the roof above the eaves, at a distance from the ridge.
 double gable(double z) { return kRidge * (1 - std::fabs(z) / 4); }
 
 }  // namespace

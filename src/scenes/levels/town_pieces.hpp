@@ -17,13 +17,13 @@ class TownPieces {
   void add_house(Point at);
   /// 10 m by 8 m and 5 m high, with a parapet around a flat roof and outer stairs up to it from the north.
   void add_tall_house(Point at);
-  /// From the corner `at` eastward: 14 steps, a terrace, a ramp down.
+  /// Stairs from the corner `at` eastward: 14 steps, a terrace, a ramp down.
   void add_grand_stairs(Point at);
   /// Round, open above, with a doorway to the south and 20 steps about a column.
   void add_tower(Point at);
   /// An arch of 24 m from west to east, with rails, on two pillars.
   void add_bridge(Point at);
-  /// From the corner `at` eastward, in a row to the south: two ramps, and a round one.
+  /// Ramps from the corner `at` eastward, in a row to the south: two straight, and a round one.
   void add_ramps(Point at);
   /// A round basin.
   void add_fountain(Point at);

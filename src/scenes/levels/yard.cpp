@@ -19,14 +19,14 @@ class Plot {
   Plot(std::vector<LevelSpot>& spots, std::string name, Point at, int quarters)
       : spots_(spots), name_(std::move(name)), at_(at), quarters_(quarters) {}
 
-  /// What its body has.
+  /// The parts of its body.
   std::vector<ScenePart> parts;
 
   void add(std::vector<Point> points) {
     for (Point& p : points) p = on_lattice(turned(p));
     parts.push_back(hull_part(points));
   }
-  /// Between two corners.
+  /// Adds a box between two corners.
   void add_box(Point low, Point high) {
     std::vector<Point> points;
     for (const double x : {low.x, high.x}) {

@@ -17,7 +17,7 @@ template <class S> ParticleMaterialId add_material(ParticleWorld<S>& world, S da
   return world.add(material);
 }
 
-/// Held level by two corners, it swings down over a bar and onto the ground.
+/// A cloth, held level by two corners, swings down over a bar and onto the ground.
 template <class S> void build_cloth(ParticleWorld<S>& world) {
   ClothDefinition<S> d;
   d.down = {S(0), S(0), S(4)};

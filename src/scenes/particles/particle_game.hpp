@@ -10,7 +10,7 @@ namespace isostep::scenes {
 template <class S> struct ParticleGame {
   explicit ParticleGame(const ParticleScene& scene)
       : ParticleGame(scene, script_of<S>(scene.id).settings, [](ParticleWorld<S>&) {}) {}
-  /// With another rate or method than the scene's. `begin(world)` sees the world while it is empty.
+  /// Builds with another rate or method than the scene's. `begin(world)` sees the world while it is empty.
   template <class Begin>
   ParticleGame(const ParticleScene& scene, const ParticleSettings<S>& settings, Begin&& begin)
       : script(script_of<S>(scene.id)), world(settings) {
@@ -24,7 +24,7 @@ template <class S> struct ParticleGame {
     after_step(world);
     return report;
   }
-  /// For any world of this scene.
+  /// These take any world of this scene.
   void before_step(ParticleWorld<S>& any) const {
     if (script.before_step != nullptr) script.before_step(any);
   }

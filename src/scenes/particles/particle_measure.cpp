@@ -1,4 +1,4 @@
-// Measuring particle worlds.
+// Measures of particle worlds.
 // SPDX-License-Identifier: MIT
 #include "particle_measure.hpp"
 
@@ -17,7 +17,7 @@ struct Place {
 template <class T> Place place(const Vec3<T>& v) { return {to_double(v.x), to_double(v.y), to_double(v.z)}; }
 double distance(Place a, Place b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 double length(Place a) { return distance(a, {0, 0, 0}); }
-/// Of a spring or link now.
+/// The length of a spring or link now.
 template <class S, class Bond> double length_of(const ParticleState<S>& state, const Bond& bond) {
   const Place other = bond.b ? place(state.position[bond.b.slot]) : place(bond.anchor);
   return distance(place(state.position[bond.a.slot]), other);

@@ -1,4 +1,4 @@
-// What a particle world is like, for reports. All in double, never fed back.
+// Measures of a particle world, for reports. All in double, never fed back.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -6,15 +6,16 @@
 
 namespace isostep::scenes {
 
-/// Of particles that are not pinned. Potential: of gravity, zero at the origin; elastic: of springs of every type.
+/// The energy of particles that are not pinned. Potential: of gravity, zero at the origin; elastic: of springs of every
+/// type.
 struct ParticleEnergy {
   double kinetic = 0, potential = 0, elastic = 0;  // [J]
   double total() const { return kinetic + potential + elastic; }
 };
 template <class S> ParticleEnergy measure_energy(const ParticleWorld<S>& world);
-/// [m] by which any cable is too long or any rod has another length.
+/// [m] The length by which a cable is too long or a rod is off, at most.
 template <class S> double largest_link_error(const ParticleWorld<S>& world);
-/// [m] of particles that collide, with each other and with scenery.
+/// [m] The largest overlap of particles that collide, with each other and with scenery.
 template <class S> double largest_overlap(const ParticleWorld<S>& world);
 /// [m/s]
 template <class S> double largest_speed(const ParticleWorld<S>& world);

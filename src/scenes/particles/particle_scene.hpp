@@ -9,7 +9,7 @@
 
 namespace isostep::scenes {
 
-/// What a scene is, for a scalar: world commands and nothing remembered, so that a world that was loaded goes on alike.
+/// A scene for a scalar: world commands and nothing remembered, so that a world that was loaded goes on alike.
 template <class S> struct ParticleScript {
   ParticleSettings<S> settings;
   void (*build)(ParticleWorld<S>&) = nullptr;        // into a world that is empty
@@ -46,7 +46,7 @@ struct ParticleScene {
 };
 
 std::span<const ParticleScene> particle_scenes();
-/// Null for a name that no scene has.
+/// Returns null for a name that no scene has.
 const ParticleScene* find_particle_scene(std::string_view name);
 template <class S> ParticleScript<S> script_of(ParticleSceneId id);
 

@@ -19,7 +19,7 @@ template <class S> void hang(ParticleWorld<S>& world, std::uint32_t slot, LinkTy
   link.restitution = S(0.25);
   world.add(link);
 }
-/// On cables by two corners and on rods by the others, soft enough for every integrator.
+/// Adds a cloth that hangs on cables by two corners and on rods by the others, soft enough for every integrator.
 template <class S> void add_cloth(ParticleWorld<S>& world, ParticleMaterialId material) {
   ClothDefinition<S> d;
   d.corner = {S(-0.5), S(2.5), S(-0.5)};

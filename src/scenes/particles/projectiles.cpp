@@ -120,7 +120,7 @@ template <class S> void launch(ParticleWorld<S>& world) {
   const S x = S(5 * random_between(random, -1, 1));
   light(world, static_cast<std::uint32_t>(kind), {x, S(0), S(0)}, {S(0), S(0), S(0)}, random);
 }
-/// What fell to the ground bursts as well; what bursts from it waits for the next step.
+/// Bursts what expired, and what fell to the ground as well; the sparks of a burst wait for the next step.
 template <class S> void burst_all(ParticleWorld<S>& world) {
   const std::vector<ParticleId> particles = world.particles();
   for (const ParticleExpired<S>& e : world.events().expired) {

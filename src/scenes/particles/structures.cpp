@@ -11,7 +11,7 @@ namespace {
 template <class S> inline constexpr S kNode = S(1);   // [kg] a particle by itself
 template <class S> inline constexpr S kLoad = S(10);  // [kg]
 
-/// done / whole, with done <= whole.
+/// The share done / whole, with done <= whole.
 template <class S> Unit<S> share_of(std::uint64_t done, std::uint64_t whole) {
   return divide_to<Unit<S>>(S(static_cast<std::int32_t>(done)), S(static_cast<std::int32_t>(whole)));
 }
@@ -44,7 +44,7 @@ template <class S> void build_bridge(ParticleWorld<S>& world) {
   build(world, d);
   add_ground(world);
 }
-/// From particle 0 to the opposite corner, where it stays.
+/// A load walks from particle 0 to the opposite corner, where it stays.
 template <class S> void walk_bridge(ParticleWorld<S>& world) {
   const std::uint64_t whole = steps_of(world, kCrossing), done = world.tick();
   if (done > whole) return;
@@ -60,7 +60,7 @@ template <class S> void walk_bridge(ParticleWorld<S>& world) {
 
 // ---- platform
 
-/// [s] on the left end, on the way to the right end, and then there for good.
+/// [s] The load's time on the left end, and on the way to the right end, where it stays for good.
 constexpr std::uint32_t kOnTheLeft = 4, kToTheRight = 4;
 
 template <class S> void build_platform(ParticleWorld<S>& world) {

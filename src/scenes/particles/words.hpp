@@ -15,7 +15,7 @@ template <class S> ParticleMaterialId material_at(const ParticleWorld<S>& world,
   return world.state().materials.slot_map().template id_of<ParticleMaterialId>(slot);
 }
 
-/// In steps, of a time in seconds.
+/// The steps in a time in seconds.
 template <class S> std::uint32_t steps_of(const ParticleWorld<S>& world, std::uint32_t seconds) {
   return seconds * static_cast<std::uint32_t>(world.settings().hz);
 }

@@ -49,7 +49,7 @@ namespace {
 Scene thousandfold_ball() { return ball_chain(16, 1000); }
 Scene sixhundredfold_ball() { return ball_chain(32, 600); }
 
-/// [%] of a link.
+/// [%] The largest separation of a joint over a link's length.
 class Stretch : public Separation {
  public:
   Stretch() : Separation(kLink / 100) {}
@@ -89,9 +89,9 @@ Scene limited_chain() {
   return scene;
 }
 
-/// [%] of what the scene's masses gain by falling as far as they reach from the fixed point: the most by which total
-/// energy was above that of the first sight that counts, or above the peak of any ten seconds before. Peaks, because a
-/// soft limit takes energy and gives it back. Sights before `from` [s] do not count.
+/// [%] The rise of energy over what the scene's masses gain by falling as far as they reach from the fixed point: the
+/// most by which total energy was above that of the first sight that counts, or above the peak of any ten seconds
+/// before. Peaks, because a soft limit takes energy and gives it back. Sights before `from` [s] do not count.
 class EnergyRise : public Judge {
  public:
   EnergyRise(const Scene& scene, double from) : from_(from) {

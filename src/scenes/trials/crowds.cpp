@@ -29,7 +29,7 @@ Scene dominoes() {
   return scene;
 }
 
-/// [%] of their mean: the standard deviation of the times in which the front passes ten dominoes, over the second half
+/// [%] The standard deviation over the mean of the times in which the front passes ten dominoes, over the second half
 /// of the line. 100 where not all fell. A domino is passed when it leans by kPassed, between frames in proportion.
 class FrontSpread : public Judge {
  public:
@@ -56,7 +56,7 @@ class FrontSpread : public Judge {
   static constexpr double kPassed = 0.3, kNever = -1;  // [rad], [s]
   static constexpr std::size_t kBlock = 10;
 
-  /// [rad] between a body's y axis and the world's.
+  /// [rad] The angle between a body's y axis and the world's.
   static double lean_of(const BodySight& body) {
     const Quat<double>& q = body.orientation;
     return std::acos(std::clamp(1 - 2 * (q.x * q.x + q.z * q.z), -1.0, 1.0));

@@ -106,8 +106,8 @@ Scene spin_for_an_hour() {
   return scene;
 }
 
-/// [ppm] Of the orientation's norm, of its axis' tilt in radians, of the centre's way in metres, and at the end of the
-/// angle turned through.
+/// [ppm] The worst error of the orientation's norm, of its axis' tilt in radians, of the centre's way in metres, and at
+/// the end of the angle turned through.
 class HourOfSpin : public Judge {
  public:
   void see(const Sight& sight) override {
@@ -185,7 +185,7 @@ Scene soak() {
   return scene;
 }
 
-/// [mm/min] of the last minute.
+/// [mm/min] The way in the last minute.
 std::unique_ptr<Judge> judge_soak(const Scene& scene) {
   return std::make_unique<FurthestWay>(duration_of(scene) - 60, 0.001);
 }

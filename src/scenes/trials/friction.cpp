@@ -54,7 +54,7 @@ constexpr Point kSlopeBoxes[] = {{0.5, 0.5, 0.5}, {0.5, 0.1, 0.5}, {0.1, 0.1, 0.
 Scene resting_slope() { return slope_with(kCalm, kSlopeBoxes, 3660); }
 Scene sliding_slope() { return slope_with(kSteep, kSlopeBoxes, 240); }
 
-/// [mm/min] after the first second, in which contacts settle, of a run of 61 s.
+/// [mm/min] The way after the first second, in which contacts settle, of a run of 61 s.
 std::unique_ptr<Judge> judge_creep(const Scene&) { return std::make_unique<FurthestWay>(1, 0.001); }
 
 /// [%] Velocities gained since the first second, as vectors, against g (sin - friction cos) downhill.
@@ -142,7 +142,8 @@ Scene rolling_stop() {
   add(scene, ball);
   return scene;
 }
-/// Of a solid ball that goes on rolling, r m d + 2/5 m r d = lever m g: d = 5/7 lever g / r, and v^2 / (2 d) to stop.
+/// The way of a solid ball that goes on rolling, r m d + 2/5 m r d = lever m g: d = 5/7 lever g / r, and v^2 / (2 d) to
+/// stop.
 std::unique_ptr<Judge> judge_rolling_stop(const Scene&) {
   const double slowing = 5 * kLever * kGravity / (7 * kBall);
   return std::make_unique<Travel>(kRollSpeed * kRollSpeed / (2 * slowing), 0, kRollSpeed);

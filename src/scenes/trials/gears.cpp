@@ -12,7 +12,7 @@ void couple(Scene& scene, double a, double ratio_a, double b, double ratio_b) {
   scene.records.push_back(
       {"coupling", {{"joint_a", {a}}, {"joint_b", {b}}, {"ratio_a", {ratio_a}}, {"ratio_b", {ratio_b}}}});
 }
-/// As large as their teeth, meshed; the first is driven at `speed` [rad/s].
+/// Wheels as large as their teeth, meshed; the first is driven at `speed` [rad/s].
 Scene wheels(double speed) {
   Scene scene = awake(3600);
   double x = 0;
@@ -40,7 +40,7 @@ Scene gear_train() {
   couple(scene, 2, 1, 3, -1 / winch);
   return scene;
 }
-/// [teeth] out of mesh, of either pair.
+/// [teeth] The error of mesh, of either pair.
 class MeshError : public Off {
  public:
   MeshError() : Off(1) {}

@@ -36,13 +36,13 @@ class FromStart : public Judge {
   Sight start_;
 };
 
-/// How far a body has come since the start [m].
+/// [m] The way of a body since the start.
 inline Vec3<double> way_of(const Sight& start, const Sight& now, std::size_t body) {
   return now.bodies[body].centre - start.bodies[body].centre;
 }
 
-/// [%] of a unit box: the largest way sideways of any of a tower's boxes, which are listed from the ground up. At most
-/// 100, and that for a box that sank by half of itself into the one below, or fell off it.
+/// [%] The largest way sideways of any of a tower's unit boxes over a box's side; they are listed from the ground up.
+/// At most 100, and that for a box that sank by half of itself into the one below, or fell off it.
 class Drift : public FromStart {
  public:
   double figure() const override { return 100 * worst_; }

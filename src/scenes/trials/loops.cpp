@@ -29,8 +29,8 @@ void shoot(Scene& scene, double radius, double mass, Point from, Point velocity)
   scene.bodies.push_back(ball);
 }
 
-/// [m] Between ball and target at the start: the ball flies 1.7 m a frame, and whether it meets what is thinner is not
-/// what these trials ask.
+/// [m] The gap between ball and target at the start: the ball flies 1.7 m a frame, and whether it meets what is thinner
+/// is not what these trials ask.
 constexpr double kGap = 0.005;
 
 /// Crank, coupler and rocker of 1 kg each between two pivots of the world, 2 m apart; axes along z.

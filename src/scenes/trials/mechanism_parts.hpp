@@ -1,4 +1,4 @@
-// What trials of mechanisms are made of: bodies and joints with one property more, the worst of one error.
+// The parts of trials of mechanisms: bodies and joints with one property more, the worst of one error.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace isostep::scenes {
 
-/// [rad] about z, in (-pi, pi].
+/// [rad] The angle of a body about z, in (-pi, pi].
 inline double angle_of(const BodySight& body) {
   const double angle = 2 * std::atan2(body.orientation.z, body.orientation.w);
   return angle - kTurn * std::round(angle / kTurn);

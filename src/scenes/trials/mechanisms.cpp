@@ -25,7 +25,7 @@ Scene slider_crank() {
                   joint_of(JointType::hinge, 1, 2, {kCrank + kRod, 0, 0}), slide};
   return scene;
 }
-/// [mm] Of the piston, from where the crank's angle puts it.
+/// [mm] The distance of the piston from where the crank's angle puts it.
 class CrankError : public Off {
  public:
   CrankError() : Off(0) {}
@@ -53,7 +53,7 @@ Scene atwood() {
       {"coupling", {{"joint_a", {0}}, {"joint_b", {1}}, {"ratio_a", {1}}, {"ratio_b", {1}}, {"upper", {20}}}});
   return scene;
 }
-/// [%] Of their acceleration, a third of gravity's; a millimetre of rope counts as half a per cent.
+/// [%] The error of their acceleration, a third of gravity's; a millimetre of rope counts as half a per cent.
 class AtwoodError : public Off {
  public:
   AtwoodError() : Off(1) {}
@@ -83,7 +83,7 @@ Scene pressed_stop() {
   scene.joints = {stopped(driven(joint_of(JointType::hinge, -1, 0, {0, 0, 0}), 10, 100), -kTurn / 12, kTurn / 12)};
   return scene;
 }
-/// [degrees] From the stop, a second after the start and later.
+/// [degrees] The angle from the stop, a second after the start and later.
 template <int kDegrees> class StopError : public Off {
  public:
   StopError() : Off(1) {}
@@ -111,7 +111,7 @@ Scene loaded_lift() {
   scene.joints = {stopped(driven(slide, 2, 40'000), 0, 10)};
   return scene;
 }
-/// [mm] Of the platform, from 2 m/s times the time and then from its stop.
+/// [mm] The distance of the platform from its stop, 8 s after the start and later; 1000 where a crate fell off.
 class LiftError : public Off {
  public:
   LiftError() : Off(8) {}  // the crates have landed, twice
@@ -129,7 +129,7 @@ class LiftError : public Off {
 
 constexpr int kBoxes = 20;
 
-/// Welded to each other and to the world, level.
+/// A beam of boxes, welded to each other and to the world, level.
 Scene cantilever() {
   Scene scene = awake(600);
   for (int i = 0; i < kBoxes; ++i) {
@@ -138,7 +138,7 @@ Scene cantilever() {
   }
   return scene;
 }
-/// [%] Of its length by which the tip sags.
+/// [%] The way of the beam's tip over the beam's length.
 class Sag : public Off {
  public:
   Sag() : Off(0) {}
@@ -169,8 +169,8 @@ Scene parallelogram() {
                   joint_of(JointType::hinge, -1, 2, {kSide, 0, 0})};
   return scene;
 }
-/// [mm] Out of the plane, of any rod; a rocker that is not parallel to the crank any more counts as a metre. No number,
-/// where the crank has not passed as many.
+/// [mm] The way out of the plane, of any rod; a rocker that is not parallel to the crank any more counts as a metre. No
+/// number, where the crank has not passed as many.
 class Flip : public Judge {
  public:
   void see(const Sight& now) override {
@@ -203,8 +203,9 @@ template <class Hold> Scene loaded_arm(const Hold& held) {
   scene.joints.push_back(joint_of(JointType::fixed, kLinks - 1, kLinks, {double(kLinks), 0, 0}));
   return scene;
 }
-/// [Hz] Made for what hangs behind it, each spring lets the load down by g / (2 pi f)^2: 2.5 mm, 7.6 mm by the three.
-/// Made for its two links alone, a spring of 240 Hz, as fast as there are, gives by 3 % of the arm.
+/// [Hz] The frequency of each spring, made for what hangs behind it: it lets the load down by g / (2 pi f)^2: 2.5 mm,
+/// 7.6 mm by the three. Made for its two links alone, a spring of 240 Hz, as fast as there are, gives by 3 % of the
+/// arm.
 constexpr double kServoRate = 10;
 Scene arm_of_springs() {
   return loaded_arm([](Scene& scene, int i) {
@@ -225,7 +226,7 @@ Scene arm_of_motors() {
     scene.joints.push_back(driven(joint_of(JointType::hinge, i - 1, i, {double(i), 0, 0}), 0, 20'000));
   });
 }
-/// [%] Of its length: by how much the load hangs lower from the third second on, or how far it still swings.
+/// [%] The way of the load from the third second on, or how far it still swings, over the arm's length.
 class ArmSag : public FromStart {
  public:
   double figure() const override { return 100 * worse(sag_, highest_ - lowest_) / kLinks; }
@@ -250,8 +251,8 @@ Scene twisted_lever() {
   scene.joints = {stopped(joint_of(JointType::ball, -1, 0, {0, 0, 0}), kTurn / 6, kTurn / 4)};
   return scene;
 }
-/// [m/s] Of its ends, by their way in a frame: a correction of poses has no velocity. No number, where it is not back
-/// at its limit in the end.
+/// [m/s] The speed of its ends, by their way in a frame: a correction of poses has no velocity. No number, where it is
+/// not back at its limit in the end.
 class ReturnSpeed : public Judge {
  public:
   void see(const Sight& sight) override {

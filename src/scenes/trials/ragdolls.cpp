@@ -15,7 +15,7 @@ namespace {
 /// [J/kg] rounding moves the energy of what has hardly begun to fall by less.
 constexpr double kRise = 1e-3;
 
-/// [%] of the bar it is nearest to, of joints, limits and energy, over the run and at its end.
+/// [%] The error of joints, limits and energy, over the run and at its end: the one nearest to its bar, over that bar.
 class LimitedRagdolls : public FromStart {
  public:
   explicit LimitedRagdolls(const Scene& scene) : limits_(scene) {
@@ -95,7 +95,8 @@ Scene thrown_ragdoll() {
   for (std::size_t i = first; i < scene.bodies.size(); ++i) scene.bodies[i].velocity = vector_of({speed, 0, speed});
   return scene;
 }
-/// [%] Of the bar it is nearest to, of joints over the run and after a second; 1000 for what is through.
+/// [%] The error of joints, over the run and after a second: the one nearest to its bar, over that bar; 1000 for what
+/// is through.
 class CornerOfRagdoll : public Judge {
  public:
   void see(const Sight& sight) override {

@@ -92,7 +92,7 @@ Scene overlapped_pile() {
 constexpr double kBrick = 0.05;  // [m] side
 constexpr int kBase = 20;
 
-/// As S2, a twentieth of its size.
+/// The wall of S2 at a twentieth of its size.
 Scene tiny_wall() {
   Scene scene;
   scene.frames = 600;
@@ -108,7 +108,7 @@ Scene tiny_wall() {
   return scene;
 }
 
-/// [%] of a side.
+/// [%] The furthest way of a brick over its side.
 std::unique_ptr<Judge> judge_bricks(const Scene&) { return std::make_unique<FurthestWay>(0, kBrick / 100); }
 
 constexpr double kTray = 0.06;  // [m] half of its inside
@@ -134,7 +134,7 @@ Scene tiny_dice() {
   return scene;
 }
 
-/// [s] until every die sleeps in the tray; the whole run when one does not, or lies elsewhere.
+/// [s] The time until every die sleeps in the tray; the whole run when one does not, or lies elsewhere.
 class TimeToRest : public Judge {
  public:
   explicit TimeToRest(const Scene& scene) : duration_(duration_of(scene)) {}

@@ -33,14 +33,14 @@ double volume_of(const SceneBody& body) {
   return volume;
 }
 
-/// [m] of mass, in the body's frame: parts stand as the body does.
+/// [m] The centre of mass in the body's frame: parts stand as the body does.
 Vec3<double> centre_of(const ScenePart& part) {
   const Vec3<double> position = value(part.position);
   if (part.type == ShapeType::cone) return position + Vec3<double>{0, value(part.half_height) / -2, 0};
   return part.type == ShapeType::hull ? position + hull_of(part)->centre : position;
 }
 
-/// [m^2] about the part's own centre, a kilogram of it.
+/// [m^2] The inertia of a kilogram of the part about its own centre.
 Mat3<double> gyration_of_hull(const Mat3<double>& moments) {
   const double trace = moments.rows[0].x + moments.rows[1].y + moments.rows[2].z;
   Mat3<double> gyration = Mat3<double>::diagonal({trace, trace, trace});

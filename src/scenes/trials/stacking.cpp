@@ -19,7 +19,7 @@ Scene taller_stack() { return tower(50, false); }
 Scene sleeping_stack() { return tower(20, true); }
 Scene taller_sleeping_stack() { return tower(50, true); }
 
-/// [s] until all of a tower sleeps for good; the whole run for a tower that fell first.
+/// [s] The time until all of a tower sleeps for good; the whole run for a tower that fell first.
 class Restlessness : public Judge {
  public:
   explicit Restlessness(const Scene& scene) : whole_(static_cast<double>(scene.frames) / scene.hz) {}
@@ -44,7 +44,7 @@ Scene heavy_on_light(double ratio) {
 Scene hundredfold_on_light() { return heavy_on_light(100); }
 Scene fourhundredfold_on_light() { return heavy_on_light(400); }
 
-/// [%] of a unit box: how far the last body is from its start now, be it sunk in, thrown off or fallen.
+/// [%] The distance of the last body from its start now over a unit box's side, be it sunk in, thrown off or fallen.
 class Sinking : public FromStart {
  public:
   double figure() const override { return 100 * way_; }

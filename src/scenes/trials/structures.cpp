@@ -8,7 +8,7 @@
 namespace isostep::scenes {
 namespace {
 
-/// About the world's z axis, anticlockwise as seen from +z.
+/// A turn about the world's z axis, anticlockwise as seen from +z.
 Rotation roll(double angle) {
   const SinCos<double> half = sin_cos(angle / 2);
   return {0, 0, half.sin, half.cos};
@@ -55,7 +55,7 @@ Scene card_house() {
   return scene;
 }
 
-/// [s] of the run that were left when the first body was a quarter of a card from its start.
+/// [s] The time of the run that was left when the first body was a quarter of a card from its start.
 class Unstanding : public FromStart {
  public:
   explicit Unstanding(const Scene& scene) : whole_(static_cast<double>(scene.frames) / scene.hz) {}
@@ -84,7 +84,7 @@ SceneBody wedge(double angle) {
   SceneBody body;
   for (const double side : {-1.0, 1.0}) {
     ScenePart part = box_part({(kOuter - kInner) / 2, width / 2, 0.5});
-    // In the stone's frame, x outward and its origin in the middle of its bisector.
+    // The part is in the stone's frame, x outward and its origin in the middle of its bisector.
     part.position = {middle * half.cos + width / 2 * half.sin - middle,
                      side * (middle * half.sin - width / 2 * half.cos), 0};
     part.orientation = roll(side * kHalf);
@@ -104,7 +104,7 @@ Scene arch() {
   return scene;
 }
 
-/// [%] of its height: the largest way of the stone at the top, which is the middle one.
+/// [%] The largest way of the stone at the top, which is the middle one, over its height.
 class KeystoneWay : public FromStart {
  public:
   double figure() const override { return 100 * worst_; }
@@ -127,7 +127,8 @@ void add_plank(Scene& scene, int layer, double across, Point half) {
                                 : body_of(box_part(half), {across, y, 0}));
 }
 
-/// In the middle of the game: of every second layer one plank is out, a middle one and one of either side in turn.
+/// A tower in the middle of the game: of every second layer one plank is out, a middle one and one of either side in
+/// turn.
 Scene jenga() {
   constexpr int kLayers = 18, kPlanks = 3;
   constexpr double kPitch = 0.25;  // [m]

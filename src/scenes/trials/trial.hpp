@@ -22,7 +22,7 @@ class Judge {
 
   /// The start, then after every frame.
   virtual void see(const Sight& sight) = 0;
-  /// In the trial's unit: survived at or below its bar. Not a number: failed.
+  /// The figure in the trial's unit: survived at or below its bar. Not a number: failed.
   virtual double figure() const = 0;
 };
 
@@ -39,10 +39,10 @@ struct Trial {
 
 /// Every trial, family after family.
 std::span<const Trial> trials();
-/// Null for a name that no trial has.
+/// Returns null for a name that no trial has.
 const Trial* find_trial(std::string_view name);
 
-/// Whether a run that looks so has been through all of a trial, whatever the rate of its steps.
+/// A run that looks so has been through all of a trial, whatever the rate of its steps.
 bool is_over(const Scene& scene, const Sight& sight);
 
 /// A run that mended numbers, or has no number to show, has failed whatever the figure.

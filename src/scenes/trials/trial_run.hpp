@@ -20,7 +20,7 @@ class TrialRun {
   }
 
   const Trial& trial() const { return *trial_; }
-  /// As if the run ended now.
+  /// The verdict as if the run ended now.
   Verdict verdict() const { return verdict_of(*trial_, *judge_, now_); }
   bool over() const { return is_over(*scene_, now_); }
 

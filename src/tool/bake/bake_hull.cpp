@@ -17,7 +17,7 @@ std::vector<GridPoint> grid_points(const Placed& source, int exponent) {
 
 std::string said(const Error& error) { return std::string(error.message.view()); }
 
-/// [m] Of the point that is furthest outside: the largest distance from a face's plane.
+/// [m] The largest distance of a point outside of a face's plane.
 double outside(const std::vector<GridPoint>& points, const GridHull& hull) {
   double most = 0;
   for (std::uint8_t f = 0; f < hull.hull.faces.size(); ++f) {

@@ -12,7 +12,7 @@
 namespace isostep::tool::bake {
 namespace {
 
-/// In the order of the file.
+/// The triangles in the order of the file.
 struct Triangles {
   std::vector<MeshPoint> points;  // three of each
   std::vector<std::uint32_t> faces;
@@ -36,7 +36,7 @@ Triangles cut(const Placed& source, int exponent) {
   return triangles;
 }
 
-/// On the grid.
+/// The triangle has an area on the grid.
 bool has_area(const MeshPoint* p) { return !(cross(p[1] - p[0], p[2] - p[0]) == GridVector{0, 0, 0}); }
 
 /// Two that turn the same way through the same points are equal, whichever comes first.
@@ -49,7 +49,7 @@ std::array<std::int32_t, 9> key_of(const MeshPoint* p) {
   for (std::size_t i = 0; i < 9; ++i) key[i] = corners[i / 3][i % 3];
   return key;
 }
-/// Of equal triangles the first remains.
+/// A triangle repeats an equal one: the first remains.
 std::vector<bool> is_repeated(const Triangles& triangles) {
   std::vector<std::pair<std::array<std::int32_t, 9>, std::size_t>> sorted;
   for (std::size_t i = 0; i < triangles.size(); ++i) sorted.push_back({key_of(&triangles.points[3 * i]), i});
@@ -84,7 +84,7 @@ std::vector<std::uint8_t> materials_of(const Triangles& triangles, const Placed&
   return materials;
 }
 
-/// With where the triangle is, for whoever looks for it in a modeller.
+/// Fails with the place of the triangle, for whoever looks for it in a modeller.
 [[noreturn]] void fail_mesh(const Error& error, const Triangles& triangles, const SourceMesh& source,
                             const Placed& placed, const BakeOptions& options) {
   std::string text = std::string(error.place.view()) + ": " + std::string(error.message.view());

@@ -1,4 +1,4 @@
-// What meshes and hulls have in common: the chosen faces, the units and axes, the grid.
+// The common part of meshes and hulls: the chosen faces, the units and axes, the grid.
 // SPDX-License-Identifier: MIT
 #include "baked.hpp"
 #include "isostep/geometry/baked/mesh_point.hpp"

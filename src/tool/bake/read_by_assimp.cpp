@@ -13,7 +13,7 @@
 namespace isostep::tool::bake {
 namespace {
 
-/// [file's units] From a node's frame to the file's.
+/// [file's units] The transform from a node's frame to the file's.
 struct Placement {
   double rows[3][4];
 

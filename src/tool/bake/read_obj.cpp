@@ -33,7 +33,7 @@ std::size_t take(std::string_view& word, const char* any_of, std::size_t most = 
   word.remove_prefix(n);
   return n;
 }
-/// As tinyobjloader reads one to its end.
+/// The word is a number, as tinyobjloader reads one to its end.
 bool is_number(std::string_view word) {
   constexpr const char* kDigits = "0123456789";
   take(word, "+-", 1);
@@ -65,7 +65,7 @@ std::size_t check_lines(std::string_view text, const std::string& path) {
   return bare;
 }
 
-/// What tinyobjloader calls with the lines of a file.
+/// The callbacks that tinyobjloader calls with the lines of a file.
 class Lines {
  public:
   explicit Lines(const std::string& path) : path_(path) {}
@@ -89,7 +89,7 @@ class Lines {
 
  private:
   static constexpr std::uint32_t kNoPlace = 0xffffffffu;
-  /// Of the faces that follow; it is in its list once a face has it.
+  /// The material or object of the faces that follow; it is in its list once a face has it.
   struct Current {
     std::string name;
     std::uint32_t place = kNoPlace;

@@ -1,4 +1,4 @@
-// Who reads which file.
+// The choice of the reader of a file.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cctype>

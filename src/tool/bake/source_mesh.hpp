@@ -17,7 +17,7 @@ struct SourceFace {
   std::uint32_t object;      // of SourceMesh::objects
 };
 
-/// In the file's units and axes, with the transforms of its nodes.
+/// A mesh in the file's units and axes, with the transforms of its nodes.
 struct SourceMesh {
   std::vector<Vec3<double>> points;
   std::vector<std::uint32_t> corners;  // points of the faces, one face after another
@@ -26,8 +26,8 @@ struct SourceMesh {
   std::size_t bare = 0;  // lines and single points, which have no area and are left out
 };
 
-/// By the file's ending: OBJ by tinyobjloader, all else by assimp. Throws ToolError: 66 for a file that cannot be read,
-/// 69 where the library is missing, 64 for what is wrong in the file.
+/// Reads by the file's ending: OBJ by tinyobjloader, all else by assimp. Throws ToolError: 66 for a file that cannot be
+/// read, 69 where the library is missing, 64 for what is wrong in the file.
 SourceMesh read_source(const std::string& path);
 
 // Those that read_source chooses from.

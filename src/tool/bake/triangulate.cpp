@@ -28,7 +28,7 @@ class Polygon {
   }
 
  private:
-  /// With its neighbours.
+  /// The corner with its neighbours.
   std::array<std::uint32_t, 3> corner(std::size_t i) const {
     return {rest_[(i + rest_.size() - 1) % rest_.size()], rest_[i], rest_[(i + 1) % rest_.size()]};
   }

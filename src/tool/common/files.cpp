@@ -27,7 +27,7 @@ void write_to(const std::string& path, const void* bytes, std::size_t size) {
   if (!written || !closed) fail(exit_status::kOutput, path);
 }
 
-/// Where a file for `path` grows: beside it, or in it where it is a device or a pipe.
+/// The path at which a file for `path` grows: beside it, or itself where it is a device or a pipe.
 std::string aside_of(const std::string& path) {
   std::error_code error;
   const bool special = std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error);

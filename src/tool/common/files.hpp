@@ -15,8 +15,8 @@ namespace isostep::tool {
 /// Throws ToolError 66.
 std::vector<std::uint8_t> read_file(const std::string& path);
 
-/// Beside the place and then moved there, so that nobody meets half a file; devices and pipes are written directly.
-/// Throws ToolError 74.
+/// Writes beside the place and then moves the file there, so that nobody meets half of one; devices and pipes are
+/// written directly. Throws ToolError 74.
 void write_file(const std::string& path, std::string_view content);
 void write_file(const std::string& path, Bytes content);
 
@@ -35,7 +35,7 @@ class ReplayFile {
   ReplayFile& operator=(const ReplayFile&) = delete;
 
   ReplaySink sink();
-  /// Of what a recorder wrote there. Throws ToolError 74 with the file and the system's reason, or the recorder's.
+  /// Checks what a recorder wrote there. Throws ToolError 74 with the file and the system's reason, or the recorder's.
   void check(const Result<void>& result) const;
   /// Throws ToolError 74 when the bytes are not safely there.
   void close();

@@ -1,4 +1,4 @@
-// What a run may ask for instead of the scene's own rate and methods.
+// Options of a run in place of the scene's own rate and methods.
 // SPDX-License-Identifier: MIT
 #pragma once
 

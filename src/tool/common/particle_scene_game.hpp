@@ -21,7 +21,7 @@ template <class S> ParticleSettings<S> asked_of(ParticleSettings<S> settings, co
   choose(settings.stepping, options.stepping, kSteppingNames);
   return settings;
 }
-/// Whether a world is already as the options ask.
+/// The world is already as the options ask.
 template <class S> bool is_as_asked(const ParticleSettings<S>& own, const GameOptions& options) {
   const ParticleSettings<S> asked = asked_of(own, options);
   return asked.hz == own.hz && asked.substeps == own.substeps && asked.solver == own.solver &&

@@ -53,7 +53,7 @@ class CommandLine {
         ->check(CLI::IsMember(scalar_names()))
         ->capture_default_str();
   }
-  /// Of a file or a directory: a name.
+  /// Adds an option that names a file or a directory.
   static CLI::Option* add_path(CLI::App* command, const char* name, std::string& path, const char* what) {
     return command->add_option(name, path, what)->check(refuse_blank, "");
   }

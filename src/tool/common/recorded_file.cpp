@@ -1,4 +1,4 @@
-// Which world a recording is of.
+// The world of a recording.
 // SPDX-License-Identifier: MIT
 #include "recorded_file.hpp"
 

@@ -21,10 +21,10 @@ struct Input {
   bool is_replay() const { return has_replay_magic(bytes); }
 };
 
-/// With the exit status of `verify` for such a file.
+/// Ends with the exit status of `verify` for such a file.
 [[noreturn]] void refuse(const std::string& path, VerifyOutcome outcome, const Error& error);
 
-/// Once the file is known to be whole blocks with a start; others are refused. A cut one gets a line on stderr.
+/// The world of a file that is whole blocks with a start; others are refused. A cut one gets a line on stderr.
 RecordedWorld world_of(const Input& input);
 
 }  // namespace isostep::tool

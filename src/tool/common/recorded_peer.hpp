@@ -15,7 +15,7 @@
 
 namespace isostep::tool {
 
-/// Null when there is none: the file is the recording of a whole match.
+/// Returns null when there is none: the file is the recording of a whole match.
 inline const ReplayAncillary* facts_chunk(const ReplayReader& replay) {
   for (const ReplayAncillary& chunk : replay.ancillaries()) {
     if (chunk.type == replay_chunk::kPeer) return &chunk;
@@ -55,12 +55,12 @@ template <class W> class RecordedPeer {
     if (!facts_) return std::nullopt;
     return facts_->game_hashes[index(frame)];
   }
-  /// Whether something changed the world between the frame before and this one; false where it was not traced.
+  /// Something changed the world between the frame before and this one; false where it was not traced.
   bool changed_before(Frame frame) const {
     return facts_ && std::find(facts_->changed_before.begin(), facts_->changed_before.end(), frame) !=
                          facts_->changed_before.end();
   }
-  /// As many hashes for each step as the world has; nothing when they were not traced.
+  /// The hashes of a frame, as many for each step as the world has; nothing when they were not traced.
   std::optional<std::span<const std::uint64_t>> stages(Frame frame) const {
     if (!facts_ || facts_->steps.empty()) return std::nullopt;
     const auto steps = facts_->steps.begin() + static_cast<std::ptrdiff_t>(index(frame));

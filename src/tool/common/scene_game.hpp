@@ -19,7 +19,7 @@ namespace isostep::tool {
 
 /// Throws ToolError 64 or 66, SceneError's text included: 64 as well for a name that is neither a scene's nor a file's.
 scenes::Scene load_scene_file(const std::string& name_or_file);
-/// As a ToolError 64 that names the file.
+/// Throws a ToolError 64 that names the file.
 [[noreturn]] void fail_scene(const std::string& name_or_file, const scenes::SceneError& error);
 
 /// Throws ToolError 64 for methods that rigid bodies have not got.
@@ -52,7 +52,7 @@ template <class Methods> void ask(Methods& methods, const GameOptions& options) 
   choose(methods.solver, options.solver, kSolverNames);
   choose(methods.projection, options.projection, kProjectionNames);
 }
-/// Whether a world is already as the options ask; methods it has no choice of are refused before.
+/// The world is already as the options ask; methods it has no choice of are refused before.
 template <class S> bool is_as_asked(const Settings<S>& own, const GameOptions& options) {
   Settings<S> asked = own;
   ask(asked, options);
@@ -60,8 +60,9 @@ template <class S> bool is_as_asked(const Settings<S>& own, const GameOptions& o
          asked.projection == own.projection;
 }
 
-/// What every kind of game has: World, Scene; `world`, which its constructor builds from a scene, once `begin(world)`
-/// has seen it empty; and `before_step` and `after_step` for any world of that scene, whatever it went through.
+/// A game of a scene. Every kind of game has World and Scene; `world`, which its constructor builds from a scene, once
+/// `begin(world)` has seen it empty; and `before_step` and `after_step` for any world of that scene, whatever it went
+/// through.
 template <class S> struct SceneGame {
   using World = isostep::World<S>;
   using Scene = scenes::Scene;

@@ -8,7 +8,7 @@
 namespace isostep::tool {
 namespace {
 
-/// Of ascending values: the smallest that at least `percent` of them do not exceed.
+/// The smallest of ascending values that at least `percent` of them do not exceed.
 double percentile(const std::vector<double>& sorted, std::size_t percent) {
   if (sorted.empty()) return 0;
   const std::size_t rank = (sorted.size() * percent + 99) / 100;

@@ -1,4 +1,4 @@
-// How long the steps of a run took, as figures.
+// The times of a run's steps, as figures.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -1,4 +1,4 @@
-// What every command of the tool shares: errors, and Ctrl-C.
+// Errors and Ctrl-C, which every command of the tool shares.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -24,7 +24,7 @@ class ToolError : public std::runtime_error {
   int status_;
 };
 
-/// From now on Ctrl-C only sets the flag; loops look at it between frames, so that files end well.
+/// Makes Ctrl-C only set the flag from now on; loops look at it between frames, so that files end well.
 void catch_interrupt();
 bool interrupted();
 /// Throws the ToolError of an interrupted command when the flag is set.
@@ -32,7 +32,7 @@ void stop_if_interrupted();
 
 /// CPU time of this thread [ms].
 double thread_milliseconds();
-/// [ms] since some moment.
+/// [ms] The real time since some moment.
 double real_milliseconds();
 
 std::string hex(std::uint64_t hash);

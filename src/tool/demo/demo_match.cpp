@@ -1,4 +1,4 @@
-// Starting two peers, and comparing what they wrote.
+// Two peers, started, and their recordings, compared.
 // SPDX-License-Identifier: MIT
 #include "demo_match.hpp"
 

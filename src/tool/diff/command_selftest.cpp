@@ -72,7 +72,7 @@ template <class Game> class Selftest {
     if (!ahead(world, frame, "a world that runs again")) return false;
     world.load(snapshot_);
 
-    // Into a world that has lived: nothing of that life may be left in it.
+    // The portable form goes into a world that has lived: nothing of that life may be left in it.
     write(world, bytes_);
     Reader reader(bytes_);
     World& rebuilt = other_.world;

@@ -63,7 +63,7 @@ inline const char* verdict(bool a, bool b) {
   return "as neither recorded it";
 }
 
-/// What the peers' own traces say.
+/// The place at which the peers' own traces part.
 template <class W>
 std::optional<StagePlace> traced_place(const RecordedPeer<W>& a, const RecordedPeer<W>& b, Frame frame) {
   const std::optional<Trace> of_a = a.stages(frame), of_b = b.stages(frame);
@@ -114,7 +114,8 @@ template <class W> void report_bundles(const RecordedPeer<W>& a, const RecordedP
   std::printf("played again here, the frame comes out %s\n", verdict(again_a.has_value(), again_b.has_value()));
 }
 
-/// By what was recorded; played again is only the frame that differs, and what leads to it where no state is stored.
+/// Compares what was recorded; played again is only the frame that differs, and what leads to it where no state is
+/// stored.
 template <class W> int diff_bundles(const Input& input_a, const Input& input_b) {
   const RecordedPeer<W> a(input_a), b(input_b);
   print_headers(a.header(), b.header());

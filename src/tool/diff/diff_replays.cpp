@@ -26,7 +26,7 @@ template <class W> std::vector<std::uint64_t> hashes_as(const Input& input, std:
   }
   return hashes;
 }
-/// After each of the first frames, as it comes out here; empty where this build lacks the world.
+/// The hashes after each of the first frames, as they come out here; empty where this build lacks the world.
 std::vector<std::uint64_t> hashes_here(const Input& input, std::uint64_t frames) {
   const Result<RecordedWorld> world = recorded_world(input.replay.header());
   std::vector<std::uint64_t> hashes;

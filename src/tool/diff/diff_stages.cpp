@@ -48,7 +48,7 @@ void print_fields(const FieldList& a, const FieldList& b, bool parted) {
   std::printf("  %llu of %zu fields differ\n", static_cast<unsigned long long>(report.count()), a.all().size());
 }
 
-/// Where in a frame, and what differs there; from the first point at which the traces part.
+/// Reports the first point at which the traces part: where in a frame, and what differs there.
 int report(const Input& input_a, const StageSide& a, const Points& trace_a, const Input& input_b, const StageSide& b,
            const Points& trace_b, std::size_t first) {
   const std::uint64_t frame = std::min(trace_a[first].at.frame, trace_b[first].at.frame);

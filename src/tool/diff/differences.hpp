@@ -1,4 +1,4 @@
-// How differences of two states are printed.
+// The printing of differences of two states.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -23,7 +23,7 @@ template <class State> void print(const DiffReport& report, const State& a) {
   }
 }
 
-/// Of all of two states; whether there are any.
+/// Prints the differences of two whole states. Returns whether there are any.
 template <class State> bool print_differences(const State& a, const State& b) {
   DiffReport report(kShown);
   diff_states(a, b, report);

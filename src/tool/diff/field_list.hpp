@@ -30,7 +30,7 @@ class FieldList {
 /// differ in length differ in a field "count", too.
 std::optional<std::string> diff_fields(const FieldList& a, const FieldList& b, DiffReport& report);
 
-/// Whom a field belongs to: "body slot 17", "body slots 3 and 9", "particle slot 4"; empty where the path says it or
+/// The owner of a field: "body slot 17", "body slots 3 and 9", "particle slot 4"; empty where the path says it or
 /// nobody is meant.
 std::string owner_of(const FieldList& fields, std::string_view path);
 

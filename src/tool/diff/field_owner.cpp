@@ -1,4 +1,4 @@
-// Whose a field is: from an array's name and an index to the slots that games know bodies, joints and particles by.
+// The owner of a field: from an array's name and an index to the slots that games know bodies, joints and particles by.
 // SPDX-License-Identifier: MIT
 #include <array>
 
@@ -17,7 +17,8 @@ struct Item {
 
   std::string text() const { return array + "[" + std::to_string(index) + "]"; }
 };
-/// Of the n-th pair of brackets; nothing where no number stands in them: another program's paths come here, too.
+/// The item in the n-th pair of brackets; nothing where no number stands in them: another program's paths come here,
+/// too.
 std::optional<Item> item_of(std::string_view path, int depth) {
   std::size_t open = 0, close = 0;
   for (int i = 0; i <= depth; ++i) {
@@ -67,7 +68,7 @@ class Owners {
   // ---- rigid bodies
 
   Slot body_at(std::uint64_t index) const { return value(Item{"bodies", index}.text() + ".slot"); }
-  /// Of SolverBodies: row 0 is what does not move.
+  /// The body of a row of SolverBodies: row 0 is what does not move.
   Slot body_of_row(Slot row) const { return row && *row != 0 ? body_at(*row - 1) : std::nullopt; }
   std::string of_contact(const std::string& array, Slot index) const {
     return index ? by_fields("body", {array, *index}, ".key.body_a", ".key.body_b") : std::string();
@@ -163,7 +164,7 @@ class Owners {
     if (name == "touch_impulses") return by_field("particle", {"touches", item.index}, ".particle.slot");
     return {};
   }
-  /// By the paths of both sides' slots; the second is a particle if there is one of that slot.
+  /// The owners by the paths of both sides' slots; the second is a particle if there is one of that slot.
   std::string of_sides(const std::string& path_a, const std::string& path_b) const {
     const Slot b = value(path_b);
     const bool particle = b && fields_.find(Item{"inverse_mass", *b}.text()) != nullptr;

@@ -55,7 +55,7 @@ class Here : public StageSide {
   StagedReplay how_;
 };
 
-/// What a shell's command prints.
+/// The output of a shell's command.
 class Pipe {
  public:
   explicit Pipe(const std::string& command) : file_(popen(command.c_str(), "r")) {
@@ -75,7 +75,7 @@ class Pipe {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     return c != EOF || !line.empty();
   }
-  /// Empty, or how the command failed. `also_well`: an exit status beside 0 that is no failure.
+  /// Returns an empty text, or how the command failed. `also_well`: an exit status beside 0 that is no failure.
   std::string close(int also_well) {
     const int status = pclose(std::exchange(file_, nullptr));
     if (!WIFEXITED(status)) return "did not come to its end";
@@ -100,7 +100,7 @@ bool read_point(const std::string& line, TracePoint& point) {
   return error == std::errc() && end == hash.data() + hash.size();
 }
 
-/// Of the kind of world that was recorded, in their order; none of a kind that this build does not know.
+/// The stages of the kind of world that was recorded, in their order; none of a kind that this build does not know.
 using Stages = std::span<const char* const>;
 Stages stages_of(const ReplayReader& replay) {
   const Result<RecordedWorld> world = recorded_world(replay.header());
@@ -115,8 +115,8 @@ Stages stages_of(const ReplayReader& replay) {
   return stages;
 }
 
-/// Whether a trace may go on so: a frame begins with the commands, and a step is its commands and then every stage.
-/// Null: it begins.
+/// A trace may go on so: a frame begins with the commands, and a step is its commands and then every stage. Null: it
+/// begins.
 bool follows(Stages stages, const StagePoint* before, const StagePoint& at) {
   const bool commands = at.stage == kCommandsStage;
   if (before == nullptr) return commands && at.frame == 0 && at.step == 1;

@@ -25,7 +25,7 @@ class StageSide {
   virtual FieldList fields_at(const StagePoint& at) const = 0;
 };
 
-/// In this process.
+/// Plays in this process.
 std::unique_ptr<StageSide> played_here(const Input& input, const StagedReplay& how = {});
 /// `prover`: a command line of a shell.
 std::unique_ptr<StageSide> played_by(const std::string& prover, const Input& input);

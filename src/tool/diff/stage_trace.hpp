@@ -12,10 +12,11 @@
 
 namespace isostep::tool {
 
-/// Of a frame's stages, as World::trace_to gives them: for each step a hash before it and one after each stage.
+/// The hashes of a frame's stages, as World::trace_to gives them: for each step a hash before it and one after each
+/// stage.
 using Trace = std::span<const std::uint64_t>;
 
-/// Where in a frame two traces part.
+/// The place in a frame at which two traces part.
 struct StagePlace {
   std::span<const char* const> stages;  // of the world
   std::size_t hashes;                   // for each step
@@ -47,12 +48,12 @@ struct StagePlace {
   }
 };
 
-/// Of two traces of worlds of one kind.
+/// The place at which two traces of worlds of one kind part.
 template <class W> StagePlace place_of(Trace a, Trace b) { return {a, b, WorldTraits<W>::kStages}; }
 
 template <class W> class PlayedFrame {
  public:
-  /// From `world` on.
+  /// Plays one frame from `world` on.
   PlayedFrame(W&& world, Bytes commands) : world_(std::move(world)), commands_(commands) {
     world_.save(before_);
     world_.trace_to(&trace_);
@@ -64,7 +65,7 @@ template <class W> class PlayedFrame {
   bool playable() const { return playable_; }
   std::uint64_t hash() const { return hash_; }
   Trace trace() const { return trace_; }
-  /// At the frame's end for a place after both.
+  /// The state at a place; at the frame's end for a place after both.
   typename W::State state_at(const StagePlace& place) {
     Watch watch{world_, place.index, {}};
     world_.load(before_);

@@ -16,9 +16,9 @@ namespace isostep::tool {
 /// they are, for others may be awake in each. Compiled for the states of worlds.
 template <class State> void diff_states(const State& a, const State& b, DiffReport& report);
 
-/// Whom an index of an awake array belongs to: "body slot 17", "body slots 3 and 9"; empty for other paths.
+/// The owner of an index of an awake array: "body slot 17", "body slots 3 and 9"; empty for other paths.
 template <class S> std::string owner_of(const WorldState<S>& state, std::string_view path);
-/// Of a particle world: arrays of particles are by slot; empty for paths that say so themselves.
+/// The owner in a particle world: arrays of particles are by slot; empty for paths that say so themselves.
 template <class S> std::string owner_of(const ParticleState<S>& state, std::string_view path);
 
 }  // namespace isostep::tool

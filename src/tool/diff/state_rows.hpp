@@ -17,7 +17,7 @@
 
 namespace isostep::tool {
 
-/// Whose a row is, alike in every state: two slots, and the parts of their bodies. Rows ascend by it.
+/// The owner of a row, alike in every state: two slots, and the parts of their bodies. Rows ascend by it.
 struct RowKey {
   std::uint32_t slots[2] = {kNoSlot, kNoSlot}, parts[2] = {};
   static constexpr std::uint32_t kNoSlot = 0xffffffffu;
@@ -30,7 +30,9 @@ template <class S> RowKey key_of(const PendingForce<S>& force) { return {{force.
 template <class S> RowKey key_of(const Contact<S>& contact) {
   return {{contact.key.body_a, contact.key.body_b}, {contact.key.child_a, contact.key.child_b}};
 }
-inline RowKey key_of(const SensorOverlap& overlap) { return {{overlap.sensor, overlap.other}}; }
+inline RowKey key_of(const SensorOverlap& overlap) {
+  return {{overlap.sensor, overlap.other}, {overlap.sensor_child, overlap.other_child}};
+}
 
 /// Rows of one type, or a value by itself. Refers to the state that it was made of.
 struct Rows {
@@ -53,7 +55,7 @@ struct Islands {
   void (*gather)(const void* object, StateRows& rows);
 };
 
-/// What a state or an island consists of, in the order of its hash: rows, and behind each its islands, if it has some.
+/// The parts of a state or an island, in the order of its hash: rows, and behind each its islands, if it has some.
 struct StateRows {
   struct Member {
     Rows rows;

@@ -28,7 +28,7 @@ Place least(const std::vector<LabResult>& results, const Counts& counts, const B
   return best;
 }
 
-/// What another model than bodies of that shape is off by. Empty for bodies.
+/// The deviation of another model than bodies of that shape. Empty for bodies.
 std::string model_text(const LabResult& result) {
   if (result.point.model == "rigid" || result.deviation < 0) return "";
   return ", " + quantity_text(Quantity::deviation, result.deviation) + " from the bodies after 1 s";

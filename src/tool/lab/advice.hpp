@@ -1,4 +1,4 @@
-// What a sweep says: the front of cost against error, and the cheapest setting that holds a tolerance.
+// The advice of a sweep: the front of cost against error, and the cheapest setting that holds a tolerance.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -21,8 +21,8 @@ struct Advice {
   bool holds = false;
   std::string text;  // one line
 };
-/// From the runs of one scene in one scalar, or in all of them when `scalar` is empty. `own` is the scene's setting,
-/// whatever its scalar: see default_point.
+/// Advises from the runs of one scene in one scalar, or in all of them when `scalar` is empty. `own` is the scene's
+/// setting, whatever its scalar: see default_point.
 Advice advise(const std::vector<LabResult>& results, const Tolerance& tolerance, const LabPoint& own,
               const std::string& scalar = "");
 

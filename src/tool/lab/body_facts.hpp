@@ -1,4 +1,4 @@
-// What the laboratory has to know of a scene's body: mass, volume and where its middle is, in double.
+// Facts about a scene's body for the laboratory: mass, volume and where its middle is, in double.
 // SPDX-License-Identifier: MIT
 #pragma once
 

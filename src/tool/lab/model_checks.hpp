@@ -1,4 +1,4 @@
-// What decides whether bodies may be spheres or particles.
+// Checks that decide whether bodies may be spheres or particles.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,8 +12,8 @@ namespace isostep::tool::lab {
 /// One sphere, and nothing else.
 bool is_ball(const scenes::SceneBody& body);
 
-/// Empty, or how far in one another the spheres of equal volume would start where that is more than a tenth of a
-/// radius: such a start is another scene, for it bursts.
+/// Returns an empty text, or how far in one another the spheres of equal volume would start where that is more than a
+/// tenth of a radius: such a start is another scene, for it bursts.
 std::string overlap_of_spheres(const scenes::Scene& scene, const std::vector<BodyFacts>& facts);
 
 }  // namespace isostep::tool::lab

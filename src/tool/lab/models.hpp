@@ -45,7 +45,7 @@ struct ParticlePlan {
     Vec3<double> start, end;  // [m] of a line
     double radius;            // [m] of a line
   };
-  /// Where a body of the scene is: between two ends, each a particle or, at -1, a fixed point.
+  /// The place of a body of the scene: between two ends, each a particle or, at -1, a fixed point.
   struct Place {
     int ends[2];
     Vec3<double> fixed[2];  // [m]

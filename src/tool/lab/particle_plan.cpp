@@ -1,4 +1,4 @@
-// From a rigid scene to a plan of particles, rods and scenery.
+// The way from a rigid scene to a plan of particles, rods and scenery.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNear = 1e-3;  // [1] of a length: off by less is there
 
-/// Why a scene has no particles; caught where the offer is made.
+/// The reason why a scene has no particles; caught where the offer is made.
 struct Refusal {
   std::string reason;
 };
@@ -69,8 +69,8 @@ class Planner {
     plan_.particles.push_back({place, velocity, mass, material});
     return static_cast<int>(plan_.particles.size()) - 1;
   }
-  /// What friction does to a ball is that it rolls, which hardly holds it. A particle cannot roll, and would be held:
-  /// so it slides. With friction the 4000 balls of S5 stay in the columns in which they fell.
+  /// Friction makes a ball roll, which hardly holds it. A particle cannot roll, and would be held: so it slides. With
+  /// friction the 4000 balls of S5 stay in the columns in which they fell.
   std::size_t material_of(const scenes::SceneBody& body, double radius, bool collides) {
     const ParticlePlan::Material material = {radius,
                                              is_ball(body) ? 0 : value_of(body.friction),

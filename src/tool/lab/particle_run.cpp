@@ -121,7 +121,7 @@ template <class S> void ParticleRun<S>::add_scenery() {
   }
 }
 
-/// What worst_first leaves unresolved is an error that is measured, not a number mended.
+/// The rows that worst_first leaves unresolved are an error that is measured, not a number mended.
 template <class S> bool ParticleRun<S>::step() {
   ParticleReport report = world_.step();
   report.unresolved = 0;
@@ -133,7 +133,7 @@ template <class S> scenes::Energy ParticleRun<S>::energy() const {
   return {energy.kinetic, energy.potential, mass_};
 }
 
-/// Sorted along x and swept, as the rigid measure; pairs closer than 1 cm.
+/// The particles are sorted along x and swept, as the rigid measure does; pairs closer than 1 cm.
 template <class S> scenes::Overlap ParticleRun<S>::overlap() const {
   constexpr double kNear = 0.01;  // [m]
   const ParticleState<S>& state = world_.state();

@@ -7,8 +7,8 @@
 
 namespace isostep::tool::lab {
 
-/// On a terminal the line is written over; into a file it goes now and then. The time left is what the work done so
-/// far took, for the work that is left.
+/// A line of progress: on a terminal it is written over; into a file it goes now and then. The time left is what the
+/// work done so far took, for the work that is left.
 class Progress {
  public:
   Progress(bool shown, std::size_t total, double work);

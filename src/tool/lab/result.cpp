@@ -72,7 +72,7 @@ void read(const Json& object, const char* key, double& value) {
   value = node.is_null() ? std::numeric_limits<double>::quiet_NaN() : node.get<double>();
 }
 
-/// As JSON writes it, which quotes text; commas and quotes in text are doubled the way CSV wants.
+/// The text as JSON writes it, which quotes text; commas and quotes in text are doubled the way CSV wants.
 std::string cell(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";

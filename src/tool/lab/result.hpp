@@ -10,7 +10,7 @@ namespace isostep::tool::lab {
 
 inline constexpr const char* kOwnEngine = "isostep";
 
-/// What was run.
+/// The setting of a run.
 struct LabPoint {
   std::string scene;                // a name or a file
   std::string engine = kOwnEngine;  // "isostep", "bullet", "ode", "rapier-simd", "rapier-det"
@@ -21,12 +21,13 @@ struct LabPoint {
   friend bool operator==(const LabPoint&, const LabPoint&) = default;
 };
 
-/// Whether `substeps` are passes over one step of integration.
+/// `substeps` are passes over one step of integration.
 bool counts_passes(const LabPoint& point);
 /// "S1 q32.32 direct 2x60 rigid": unique, for keys and progress.
 std::string name_of(const LabPoint& point);
 
-/// done: ran to its end. slow: given up at the limit of CPU time. refused: never began, or had to stop, see `reason`.
+/// The statuses. done: it ran to its end. slow: given up at the limit of CPU time. refused: it never began, or had to
+/// stop, see `reason`.
 inline constexpr const char* kDone = "done";
 inline constexpr const char* kSlow = "slow";
 inline constexpr const char* kRefused = "refused";
@@ -67,7 +68,7 @@ LabRecord from_line(std::string_view line);
 /// is not there; none for a file that is not there. Throws ToolError 64, which names file and line, or 66.
 std::vector<LabRecord> read_records(const std::string& path);
 
-/// The same as a table: a header, and a line each.
+/// The results as a table: a header, and a line each.
 std::string csv_of(const std::vector<LabResult>& results);
 
 }  // namespace isostep::tool::lab

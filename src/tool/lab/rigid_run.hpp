@@ -26,7 +26,8 @@ inline SolverName rigid_solver(const std::string& name) {
   throw scenes::SceneError("", "rigid bodies have no solver " + name);
 }
 
-/// What every kind of run has, for `watch`. The constructor throws scenes::SceneError for what the scalar refuses.
+/// A run of rigid bodies, with the members that `watch` asks of every kind of run. The constructor throws
+/// scenes::SceneError for what the scalar refuses.
 template <class S> class RigidRun {
  public:
   RigidRun(const Subject& subject, const LabPoint& point)
@@ -36,9 +37,9 @@ template <class S> class RigidRun {
     scenes::build(scene_, world_);
   }
 
-  /// Between steps, and not timed.
+  /// It is called between steps, and not timed.
   void prepare() { scenes::before_step(scene_.script, world_); }
-  /// Whether the step had to mend numbers.
+  /// Steps once. Returns whether the step had to mend numbers.
   bool step() { return !world_.step().clean(); }
   scenes::Energy energy() const { return scenes::measure_energy(world_); }
   double joint_error() const {

@@ -24,7 +24,7 @@ double mean(const std::vector<double>& values) {
   return values.empty() ? 0 : sum / static_cast<double>(values.size());
 }
 
-/// Of a body that is there, how far it got from its start, in radii of a sphere of its volume.
+/// The way of a body that is there from its start, in radii of a sphere of its volume.
 double way_of(const Subject& subject, const scenes::Sight& start, const scenes::Sight& now, std::size_t i) {
   const Vec3<double> way = now.bodies[i].centre - start.bodies[i].centre;
   return length_of(way) / facts_of(subject.scene.bodies[i]).radius;

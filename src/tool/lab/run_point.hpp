@@ -12,8 +12,8 @@
 
 namespace isostep::tool::lab {
 
-/// What the most careful run of the scene does: double, 64 sub-steps, and the direct solver where there are joints and
-/// nothing that can touch, for there it is exact and contacts never leave it without an answer; else soft step.
+/// The most careful run of the scene: double, 64 sub-steps, and the direct solver where there are joints and nothing
+/// that can touch, for there it is exact and contacts never leave it without an answer; else soft step.
 struct Reference {
   LabPoint point;
   bool exists = false;                // it ran for the second without a fault
@@ -23,7 +23,7 @@ struct Reference {
 
 /// [m] root mean square over bodies that move; below 0 where there are not the same bodies.
 double deviation_of(const scenes::Sight& a, const scenes::Sight& b);
-/// Whether in the end nothing has gone that hardly moves in the reference.
+/// All that hardly moves in the reference is still there in the end.
 bool stands(const Subject& subject, const Reference& reference, const scenes::Sight& end);
 
 struct RunLimits {
@@ -31,7 +31,7 @@ struct RunLimits {
   double limit = 0;  // [s] CPU time
 };
 
-/// Called now and then: true, and the run ends as if it had never been.
+/// It is called now and then: true, and the run ends as if it had never been.
 using Cancel = std::function<bool()>;
 struct Cancelled {};
 

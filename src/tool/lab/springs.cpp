@@ -17,7 +17,7 @@ constexpr int kSteps = 10 * kRate;  // 10 s
 constexpr int kSide = 8;            // particles of the net along an edge
 constexpr int kPulled = 2 * kSide + 3;
 
-/// What every scalar can hold: Q16.16 ends at 32768 and at 2^-16, its masses begin at 1/64 kg.
+/// A scale that every scalar can hold: Q16.16 ends at 32768 and at 2^-16, its masses begin at 1/64 kg.
 struct Scale {
   double mass;       // [kg]
   double stiffness;  // [N/m]
@@ -119,7 +119,7 @@ template <class S> class Springs {
     return settings;
   }
 
-  /// Where a particle rests; columns and rows -1 and kSide are the frame.
+  /// The place at which a particle rests; columns and rows -1 and kSide are the frame.
   Vec3<S> place(int column, int row) const {
     const double middle = (side_ - 1) / 2.0;
     return {number((column - middle) * scale_.length), number((row - middle) * scale_.length), S(0)};
@@ -143,7 +143,8 @@ template <class S> class Springs {
     joined_.push_back({a, b});
   }
 
-  /// Of what differs from rest: springs of rest length 0 are linear, so what they hold there does not matter.
+  /// The energy of what differs from rest: springs of rest length 0 are linear, so what they hold there does not
+  /// matter.
   Energy energy() const {
     Energy energy;
     std::vector<Vec3<double>> away;

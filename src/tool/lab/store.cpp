@@ -1,4 +1,4 @@
-// Appending to a file of lines.
+// The store of runs: a file to which lines are appended.
 // SPDX-License-Identifier: MIT
 #include "store.hpp"
 
@@ -13,7 +13,7 @@
 namespace isostep::tool::lab {
 namespace {
 
-/// Behind the last whole line.
+/// The place behind the last whole line.
 std::uintmax_t end_of_lines(const std::string& path) {
   const std::vector<std::uint8_t> bytes = read_file(path);
   const auto last = std::find(bytes.rbegin(), bytes.rend(), std::uint8_t{'\n'});

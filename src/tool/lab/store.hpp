@@ -12,7 +12,7 @@ namespace isostep::tool::lab {
 
 inline constexpr const char* kResultsFile = "results.jsonl";
 
-/// What a run has to be for an earlier one to stand for it.
+/// The conditions under which an earlier run stands for this one.
 struct Wanted {
   std::string version;
   int frames = 0;    // at the point's rate
@@ -31,11 +31,11 @@ class ResultStore {
   ResultStore(const ResultStore&) = delete;
   ResultStore& operator=(const ResultStore&) = delete;
 
-  /// Null where there is none that stands for it.
+  /// Returns null where there is none that stands for it.
   const LabResult* find(const LabPoint& point, const Wanted& wanted) const;
   /// Throws ToolError 74.
   void append(const LabRecord& record);
-  /// Empty: nothing is kept.
+  /// The path of the file; empty: nothing is kept.
   const std::string& path() const { return path_; }
 
  private:

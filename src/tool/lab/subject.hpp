@@ -1,4 +1,5 @@
-// What the laboratory runs: a scene with its trial, its simpler models, and the digest by which results are known.
+// The subject of a run of the laboratory: a scene with its trial, its simpler models, and the digest by which results
+// are known.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -21,10 +22,10 @@ inline constexpr const char* kModels[] = {"rigid", "spheres", "particles"};
 
 /// Throws ToolError 64 or 66.
 Subject subject_of(const std::string& name_or_file);
-/// Empty: the model is offered.
+/// Returns the reason of a refusal; empty: the model is offered.
 const std::string& refusal_of(const Subject& subject, const std::string& model);
 
-/// Of so many steps at the scene's own rate (-1: as many as the scene has), how many a rate takes for the same time.
+/// The frames at a rate that take as long as so many steps at the scene's own rate (-1: as many as the scene has).
 int frames_at(const scenes::Scene& scene, int frames, int hz);
 
 }  // namespace isostep::tool::lab

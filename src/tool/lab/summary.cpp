@@ -23,7 +23,7 @@ std::vector<std::string> scalars_in(const std::vector<LabResult>& results) {
   return scalars;
 }
 
-/// What a column of the table shows: nothing where no run of the front has anything to show there.
+/// A column of the table: nothing where no run of the front has anything to show there.
 struct Column {
   Quantity quantity;
   const char* title;

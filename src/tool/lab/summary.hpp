@@ -1,4 +1,4 @@
-// What `isostep lab SCENE` prints: a table of the front and a line of advice, or all of it as JSON.
+// The output of `isostep lab SCENE`: a table of the front and a line of advice, or all of it as JSON.
 // SPDX-License-Identifier: MIT
 #pragma once
 

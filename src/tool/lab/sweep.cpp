@@ -1,4 +1,4 @@
-// Sweeping: threads that each take the longest run that is left.
+// A sweep: threads that each take the longest run that is left.
 // SPDX-License-Identifier: MIT
 #include "sweep.hpp"
 
@@ -69,7 +69,7 @@ class Sweep {
   Wanted wanted(const Subject& subject, const LabPoint& point) const {
     return {subject.version, frames_at(subject.scene, options_.frames, point.hz), options_.limit};
   }
-  /// About how long a run takes, in no unit: a step has costs of its own beside those of sub-steps.
+  /// The time that a run takes, about, in no unit: a step has costs of its own beside those of sub-steps.
   double work(std::size_t i) const {
     constexpr double kStep = 4;  // [sub-steps]
     const Subject& subject = benches_.at(points_[i].scene)->subject;

@@ -9,7 +9,7 @@
 
 namespace isostep::tool::lab {
 
-/// What to vary; an empty list: all there is.
+/// The settings to vary; an empty list: all there is.
 struct GridOptions {
   std::vector<std::string> scalars;
   std::vector<std::string> solvers;  // of rigid bodies and of particles, by name

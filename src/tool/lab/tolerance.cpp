@@ -1,4 +1,4 @@
-// Reading tolerances, and holding runs against them.
+// Tolerances, read and held against runs.
 // SPDX-License-Identifier: MIT
 #include "tolerance.hpp"
 

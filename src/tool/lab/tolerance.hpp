@@ -12,7 +12,7 @@ namespace isostep::tool::lab {
 enum class Quantity { penetration, joint, deviation, energy, unrest, figure };
 inline constexpr const char* kQuantityNames[] = {"penetration", "joint", "deviation", "energy", "unrest", "figure"};
 
-/// Of a quantity as LabResult has it: [m], [J/kg], or the trial's unit.
+/// A bound of a quantity as LabResult has it: [m], [J/kg], or the trial's unit.
 struct Bound {
   Quantity quantity;
   double most;
@@ -32,7 +32,7 @@ Tolerance parse_tolerance(const std::string& text);
 /// [1] the largest quotient of what is wrong by what may be: held up to 1. Infinite for a run that is not done, had
 /// to mend numbers, fell, or was measured against no reference when it should.
 double excess_of(const LabResult& result, const Tolerance& tolerance);
-/// Empty when it is held; else what is worst: "joint = 1 mm by 3.2 mm", "the fall of what should stand".
+/// Returns what is worst: "joint = 1 mm by 3.2 mm", "the fall of what should stand"; empty when the tolerance is held.
 std::string miss_of(const LabResult& result, const Tolerance& tolerance);
 
 double measured(const LabResult& result, Quantity quantity);

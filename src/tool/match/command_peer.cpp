@@ -62,7 +62,7 @@ class OwnRelay {
   std::thread thread_;
 };
 
-/// Who hears nothing would wait for its timeout.
+/// Ends all connections: a peer that hears nothing would wait for its timeout.
 void say_goodbye(transport::EnetTransport& transport) {
   for (PeerId peer = 0; peer < transport::EnetSettings{}.max_peers; ++peer) transport.disconnect(peer);
   for (const Time end = steady_now() + kGoodbye; steady_now() < end;) {

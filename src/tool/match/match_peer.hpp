@@ -9,7 +9,7 @@
 #include "commands.hpp"
 #include "isostep/replay/desync_bundle.hpp"
 #include "isostep/replay/session_recorder.hpp"
-#include "isostep/session/event_log.hpp"
+#include "isostep/session/observers/event_log.hpp"
 #include "isostep/session/session.hpp"
 #include "scenes/match.hpp"
 #include "tool/common/files.hpp"
@@ -21,7 +21,7 @@ namespace isostep::tool {
 
 inline constexpr char kMatchScene[] = "match";
 
-/// What all peers of a match must have alike, beside what the session adds.
+/// The header that all peers of a match must have alike, beside what the session adds.
 template <class S> ReplayHeader match_identity(const scenes::Match<S>& game) {
   Result<ReplayHeader> header = make_replay_header(identity_of_world(game.world().settings(), kMatchScene));
   if (!header) throw ToolError(exit_status::kSoftware, std::string(header.error().message.view()));
@@ -69,12 +69,12 @@ template <class S> class MatchPeer {
     }
   }
   Time wait(Time now) const { return session_.wait(now); }
-  /// By now: with migration a client may become it.
+  /// This peer is the host by now: with migration a client may become it.
   bool is_host() const { return session_.config().host; }
   /// A host stays until the others have what they need, but not for ever.
   bool is_over(Time now);
 
-  // What drive() calls.
+  // drive() calls these.
   void before_step(Frame frame) {
     started_at_ = thread_milliseconds();
     sounds_.before_step(frame);
@@ -124,7 +124,7 @@ template <class S> class MatchPeer {
   void take(const transport::Arrival& arrival, Time now);
   void reconnect(Time now);
   void report(const SessionEvent& event);
-  /// Of a snapshot, and of the machines that the match could go on at.
+  /// Reports the progress of a snapshot, and the machines that the match could go on at.
   void report_progress();
   std::string name() const;
   /// A line on stderr.

@@ -15,7 +15,7 @@ namespace isostep::tool {
 inline constexpr Time kTryAgain = kSecond / 2;   // [us] between attempts to reach a host
 inline constexpr Time kPatience = 20 * kSecond;  // [us] without a host, or that a host that is done stays for others
 
-/// From the system: nobody else can know it.
+/// A seed from the system: nobody else can know it.
 inline std::uint64_t secret_seed() {
   std::random_device random;
   std::uint64_t seed = 0;
@@ -190,8 +190,8 @@ template <class S> void MatchPeer<S>::write_desync_bundle(const SessionEvent& ev
   options_.bundle.clear();
 }
 
-/// What a memory fault does: the lowest bit of a position, behind the world's back. Of a velocity, friction may take it
-/// back within the step.
+/// Turns, as a memory fault does, the lowest bit of a position behind the world's back. Of a velocity, friction may
+/// take it back within the step.
 template <class S> void MatchPeer<S>::flip_a_bit() {
   auto& states = const_cast<WorldState<S>&>(game_.world().state()).awake.states;
   if (states.empty()) return;

@@ -1,4 +1,4 @@
-// What the tool's networked commands share: addresses, profiles, a clock, and files that tell a port.
+// Addresses, profiles, a clock, and files that tell a port: for the tool's networked commands.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "isostep/core/result.hpp"
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 #include "tool/common/tool.hpp"
 #include "transport/network_profile.hpp"
 
@@ -21,11 +21,12 @@ struct UdpAddress {
   std::uint16_t port;
   bool is_ipv6() const { return host.find(':') != std::string::npos; }
 };
-/// Of "HOST:PORT", of IPv6 "[ADDRESS]:PORT". Throws ToolError 64.
+/// The address of "HOST:PORT", of IPv6 "[ADDRESS]:PORT". Throws ToolError 64.
 UdpAddress parse_address(const std::string& text);
 /// A profile's name or items. Throws ToolError 64.
 transport::NetworkProfile profile_of(const std::string& text);
-/// Into the file, unless its name is empty: for scripts that let the system choose. Throws ToolError 74.
+/// Writes the port into the file, unless its name is empty: for scripts that let the system choose. Throws ToolError
+/// 74.
 void write_port(const std::string& path, std::uint16_t port);
 
 /// The value, or a ToolError 66 that begins with `what`.

@@ -8,7 +8,7 @@
 
 namespace isostep::tool::page {
 
-/// What a page is told of a run as it goes.
+/// The camera tells a page of a run as it goes.
 class Camera {
  public:
   Camera(Recording& recording, int every) : recording_(recording), recorder_(recording), every_(every) {}
@@ -21,7 +21,7 @@ class Camera {
     recording_.solver = kIntegratorNames[static_cast<std::uint32_t>(world.settings().integrator)];
     begin_any(world);
   }
-  /// After a step, the `taken`-th.
+  /// It is called after a step, the `taken`-th.
   template <class W> void stepped(const W& world, int taken, bool last) {
     if (taken % every_ == 0 || last) recorder_.record(world);
   }

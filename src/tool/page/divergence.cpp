@@ -30,7 +30,7 @@ class Play {
   std::vector<Place> places_;
 };
 
-/// For each actor of `a` its namesake in `b`, or -1. Wheels have none: they go where their bodies go.
+/// The namesake in `b` of each actor of `a`, or -1. Wheels have none: they go where their bodies go.
 std::vector<std::int32_t> namesakes(const Recording& a, const Recording& b) {
   std::map<std::uint64_t, std::int32_t> by_id;
   const auto id = [](const Actor& actor) { return std::uint64_t{actor.generation} << 32 | actor.slot; };

@@ -1,4 +1,4 @@
-// Where two recordings of one scene part.
+// The place at which two recordings of one scene part.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -85,7 +85,7 @@ template <class S> Effect effect_of(const AeroSurface<S>& surface) {
            {"wet", {surface.is_under_water ? 1.0 : 0.0}}}};
 }
 
-/// Tells a Recorder of one record: a tell() a kind. A kind without one does not compile.
+/// Tells a Recorder of one record, of kinds of which a page draws something by themselves.
 template <class S, class To> class EffectTeller {
  public:
   EffectTeller(const World<S>& world, To& to) : to_(to), weather_(world) {}
@@ -110,29 +110,8 @@ template <class S, class To> class EffectTeller {
     to_.push(weather_.force_of(surface), to_double(surface.control));
   }
 
-  // DebugDraw draws these.
-  void tell(CharacterId, const CharacterSettings<S>&) {}
-  void tell(WheelId, const WheelSettings<S>&) {}
-
-  // These show only in what bodies do.
-  void tell(AttractorId, const Attractor<S>&) {}
-  void tell(BuoyancyId, const BuoyancyPoint<S>&) {}
-  void tell(DragId, const BodyDrag<S>&) {}
-  void tell(DampingZoneId, const DampingZone<S>&) {}
-  void tell(MaterialPairId, const MaterialPair<S>&) {}
-  void tell(BreakableId, const Breakable<S>&) {}
-  void tell(VehicleId, const VehicleSettings<S>&) {}
-  void tell(SurfaceVelocityId, const SurfaceVelocity<S>&) {}
-  void tell(GhostId, const Ghost<S>&) {}
-  void tell(OneWayId, const OneWay<S>&) {}
-  void tell(HitReportId, const HitReport<S>&) {}
-  void tell(ContactReportId, const ContactReport<S>&) {}
-  void tell(JointLoadId, const JointLoad<S>&) {}
-  void tell(CouplingId, const Coupling<S>&) {}
-  void tell(AxisDriveId, const AxisDrive<S>&) {}
-  void tell(KindGhostId, const KindGhost<S>&) {}
-  void tell(KindResponseId, const KindResponse<S>&) {}
-  void tell(SensorMountId, const SensorMount<S>&) {}
+  // The others show only in what bodies do, or DebugDraw draws them.
+  template <class Id, class Record> void tell(Id, const Record&) {}
 
  private:
   To& to_;

@@ -17,7 +17,7 @@ struct Effect {
   std::uint32_t first = 0, last = 0;                                 // frames of the recording in which it is there
 };
 
-/// What an effect does to its body at a frame.
+/// The push of an effect on its body at a frame.
 struct Push {
   std::uint32_t effect;
   std::array<float, 3> force;  // [N] world axes, at the effect's point

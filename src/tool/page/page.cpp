@@ -1,4 +1,4 @@
-// Filling in the page.
+// The page, filled in.
 // SPDX-License-Identifier: MIT
 #include "page.hpp"
 
@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kPointRoom = 2'000'000;  // [bytes] of all runs' contact points
 constexpr const char* kTypeNames[] = {"static", "kinematic", "dynamic"};
 
-/// To the fifth digit: what is drawn needs no more.
+/// The number to the fifth digit: what is drawn needs no more.
 double short_of(float x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.5g", double{x});
@@ -115,7 +115,7 @@ Json json_of(const Film& film) {
   return json;
 }
 
-/// For inside an element: no '<' that a browser could take for a tag's.
+/// The text for inside an element: no '<' that a browser could take for a tag's.
 std::string harmless(const std::string& text, const char* less) {
   std::string out;
   for (const char c : text) {

@@ -10,9 +10,9 @@
 
 namespace isostep::tool::page {
 
-/// Whether this build holds three.js, without which there are no pages.
+/// This build holds three.js, without which there are no pages.
 bool available();
-/// How to get a build that does, in one line.
+/// The way to get a build that does, in one line.
 std::string how_to_get();
 
 struct Film {

@@ -1,4 +1,4 @@
-// Recording what is drawn.
+// The recorder of what is drawn.
 // SPDX-License-Identifier: MIT
 #include "recorder.hpp"
 
@@ -32,7 +32,7 @@ Pose rounded(const DrawnPose& pose) {
   return out;
 }
 
-/// For ContactPoint::force.
+/// The force as ContactPoint::force holds it.
 std::uint8_t packed_force(double newtons) {
   return static_cast<std::uint8_t>(std::min(255.0, std::round(16 * std::log2(1 + std::max(0.0, newtons)))));
 }
@@ -44,7 +44,7 @@ void Recorder::begin(std::uint64_t tick, std::uint64_t hash, double energy) {
   recording_.scenery.clear();
 }
 
-/// Who was not told of is gone.
+/// An actor that was not drawn in this frame is gone.
 void Recorder::finish() {
   for (std::uint32_t actor = 0; actor < casts_.size(); ++actor) {
     if (casts_[actor].seen == now() || casts_[actor].is == Change::gone) continue;
@@ -55,7 +55,7 @@ void Recorder::finish() {
             [](const Moved& a, const Moved& b) { return a.actor < b.actor; });
 }
 
-/// Whether it is new.
+/// Finds or adds the actor. Returns whether it is new.
 bool Recorder::cast(std::vector<Known>& all, std::uint32_t slot, std::uint32_t generation, std::uint32_t& actor) {
   if (all.size() <= slot) all.resize(slot + 1);
   Known& known = all[slot];

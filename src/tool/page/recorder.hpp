@@ -41,7 +41,7 @@ class Recorder : public DebugDraw {
   void link(const DrawnLink& link) override;
   void collider(const DrawnCollider& collider) override;
 
-  // What record_effects tells, after all bodies. `body` null: of the world.
+  // record_effects tells these, after all bodies. `body` null: of the world.
   void effect(std::uint32_t slot, std::uint32_t generation, BodyId body, Effect effect);
   void push(Vector force, double control);  // of the effect told last
   void body_spring(BodySpringId id, BodyId a, BodyId b, Vector at_a, Vector at_b, bool only_pulls);

@@ -1,4 +1,4 @@
-// Packing of recordings.
+// Recordings, packed.
 // SPDX-License-Identifier: MIT
 #include "recording.hpp"
 

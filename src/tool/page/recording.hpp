@@ -1,4 +1,4 @@
-// What a page plays: a run as plain numbers, rounded to what an eye can see.
+// A recording, which a page plays: a run as plain numbers, rounded to what an eye can see.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -46,7 +46,7 @@ struct Bond {
   std::uint32_t first, last;        // frames of the recording in which it is there
 };
 
-/// What particles meet and nothing moves.
+/// Scenery: particles meet it and nothing moves it.
 struct Scenery {
   bool plane;                    // else a line
   std::array<float, 3> outward;  // [1] of a plane
@@ -100,8 +100,8 @@ struct Recording {
 /// The smallest three of a unit quaternion in 15 bits each; which one is left out in the top bits of the first two.
 std::array<std::uint16_t, 3> pack_turn(const float (&quaternion)[4]);
 
-/// What a recording takes in a page [bytes]: little-endian, see player's decode.js for the layout. `room`: for contact
-/// points; where they would take more, they are kept of every n-th frame.
+/// A recording in a page [bytes]: little-endian, see player's decode.js for the layout. `room`: for contact points;
+/// where they would take more, they are kept of every n-th frame.
 struct Packed {
   std::vector<std::uint8_t> bytes;
   std::array<float, 3> points_low, points_size;  // [m] contact points are 16-bit fractions of that box

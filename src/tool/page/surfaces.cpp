@@ -1,4 +1,4 @@
-// Collecting and packing surfaces.
+// Surfaces, collected and packed.
 // SPDX-License-Identifier: MIT
 #include "surfaces.hpp"
 

@@ -19,13 +19,13 @@ struct Surface {
 
 class Surfaces {
  public:
-  /// Where it is among all; kNone: it is not there.
+  /// The place of the content among all; kNone: it is not there.
   static constexpr std::uint32_t kNone = 0xffffffffu;
   std::uint32_t find(const ContentId& content) const;
 
   /// A content that is not there yet gets a surface, still without triangles, and its place.
   std::uint32_t begin(const ContentId& content);
-  /// Of the surface begun last.
+  /// Adds a triangle to the surface begun last.
   void add(const DrawnTriangle& triangle);
   /// The place of an equal surface, which joins them if it is not there.
   std::uint32_t merge(const Surface& surface);
@@ -38,7 +38,7 @@ class Surfaces {
   std::map<std::array<float, 3>, std::uint32_t> vertices_;  // of the surface begun last
 };
 
-/// What they take in a page [bytes], see surfaces.js: vertices are 16-bit fractions of their box.
+/// The surfaces in a page [bytes], see surfaces.js: vertices are 16-bit fractions of their box.
 std::vector<std::uint8_t> pack(const Surfaces& surfaces);
 
 }  // namespace isostep::tool::page

@@ -48,7 +48,7 @@ template <class S> class Weather {
     seconds_ = static_cast<double>(world.tick()) / world.settings().hz;
   }
 
-  /// Zero without gravity.
+  /// The direction against gravity; zero without it.
   Vector up() const { return up_; }
 
   /// [N] World axes, on the surface's body at its point.

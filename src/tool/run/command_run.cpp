@@ -111,7 +111,7 @@ template <class Game> class Run {
     hashes_.push_back(game_->world.hash());
     if (recorder_) file_->check(recorder_->end_frame(hashes_.back()));
   }
-  /// [ms] Of one thread its own time; what several save shows in real time alone.
+  /// [ms] The time: a single thread's own; with several threads, which save real time alone, the real time.
   double now() const { return options_.threads > 1 ? real_milliseconds() : thread_milliseconds(); }
 
   void finish(int frames) {
@@ -158,7 +158,7 @@ template <class Game> class Run {
   std::vector<std::uint64_t> hashes_;
 };
 
-/// The same run in another scalar, for the page alone.
+/// Films the run in another scalar, for the page alone.
 template <class Game> void film(const RunOptions& options, const typename Game::Scene& scene, page::Camera& camera) {
   Game game(scene, options.game);
   camera.begin(game.world);
@@ -178,7 +178,7 @@ void require_page(const RunOptions& options) {
     throw ToolError(exit_status::kUsage, "--beside begins both runs anew: not with --load");
 }
 
-/// Of the run beside it.
+/// The text about the run beside it.
 std::string told_of(const page::Film& film, const RunOptions& options) {
   if (options.beside.empty()) return "";
   char text[160];

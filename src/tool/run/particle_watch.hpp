@@ -1,4 +1,4 @@
-// What `run` observes of a world of particles beside times and hashes.
+// The observations of `run` on a world of particles, beside times and hashes.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -13,7 +13,7 @@
 namespace isostep::tool {
 namespace {
 
-/// To the nanosecond: a clock has no more.
+/// The time to the nanosecond: a clock has no more.
 double rounded(double milliseconds) {
   return static_cast<double>(static_cast<std::int64_t>(milliseconds * 1e6 + 0.5)) / 1e6;
 }

@@ -1,4 +1,4 @@
-// What `run` reports of a run: one set of figures for people and for programs.
+// The report of a run by `run`: one set of figures for people and for programs.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace isostep::tool {
 
-/// Of a run of any kind of world.
+/// The report of a run of any kind of world.
 struct AnyRunReport {
   std::string scene, scalar, solver, simd;
   int substeps = 0, threads = 1, frames = 0;
@@ -25,7 +25,7 @@ struct AnyRunReport {
   std::uint64_t faults = 0;                 // all that the step reports named
 };
 
-/// Of a run of a trial's scene from its start.
+/// The report of a run of a trial's scene from its start.
 struct TrialReport {
   const scenes::Trial* trial;
   scenes::Verdict verdict;
@@ -51,12 +51,12 @@ struct RunReport : AnyRunReport {
   std::optional<int> through;  // bullets that passed what was in their way, of scenes that are about them
   std::vector<BlobReport> blobs;
 
-  // For people alone.
+  // These are for people alone.
   double penetration_mean = 0;  // [m] over pairs closer than 1 cm
   double unrest = 0;            // [J/kg] kinetic energy, mean of the last 60 frames
 };
 
-/// Of a world of particles; `faults` is without what is unresolved.
+/// The report of a world of particles; `faults` is without what is unresolved.
 struct ParticleRunReport : AnyRunReport {
   std::string integrator, stepping;
   ParticleCounts counts = {};    // at the end

@@ -1,4 +1,4 @@
-// What `run` observes of a game's world beside times and hashes, by the kind of game.
+// The observations of `run` on a game's world, beside times and hashes, by the kind of game.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -17,7 +17,8 @@
 
 namespace isostep::tool {
 
-/// Of rigid bodies. A kind's watch has a Report with the members that Run fills, and json_of and table_of for it.
+/// The watch of rigid bodies. A kind's watch has a Report with the members that Run fills, and json_of and table_of for
+/// it.
 template <class S> class RigidWatch {
  public:
   using Report = RunReport;
@@ -26,11 +27,11 @@ template <class S> class RigidWatch {
     found_.energy_start = scenes::measure_energy(world).total();
     observe_joints(world);
   }
-  /// Of a trial's scene as built; from now on it is judged.
+  /// Judges from now on a trial's scene, as built.
   void judge(const scenes::Trial& trial, const scenes::Scene& scene, const World<S>& world) {
     trial_.emplace(trial, scene).see(world);
   }
-  /// Of a benchmark scene as built: what leaves its place, or passes what is in its way.
+  /// Counts in a benchmark scene, as built, what leaves its place or passes what is in its way.
   void count_lost(const std::string& scene, const World<S>& world) {
     benchmark_ = scene;
     start_ = scenes::sight_of(world, 0).bodies;

@@ -1,4 +1,4 @@
-// Watching recordings.
+// The playing of recordings.
 // SPDX-License-Identifier: MIT
 #include "watch.hpp"
 
@@ -13,7 +13,7 @@
 namespace isostep::tool {
 namespace {
 
-/// What belongs to a scene that is run, and not to what was run already.
+/// Some option belongs to a scene that is run, and not to what was run already.
 bool asks_for_a_run(const RunOptions& options) {
   const RunOptions standard;
   const std::string files = options.load + options.save + options.record + options.hashes + options.dump;

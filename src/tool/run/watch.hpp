@@ -8,7 +8,7 @@
 
 namespace isostep::tool {
 
-/// By its first bytes; false for what is no file.
+/// The file is a recording by its first bytes; false for what is no file.
 bool is_recording(const std::string& path);
 /// An exit status. Throws ToolError 64 for options that only a scene's run has.
 int watch(const RunOptions& options);

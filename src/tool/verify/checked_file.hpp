@@ -1,4 +1,4 @@
-// Checking a replay of any game, or one line of golden hashes.
+// The check of a replay of any game, or of one line of golden hashes.
 // SPDX-License-Identifier: MIT
 #pragma once
 

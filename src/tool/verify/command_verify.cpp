@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In a directory: every *.replay, and goldens.txt. Ascending.
+/// The file is one that is checked in a directory: every *.replay, and goldens.txt.
 bool is_checkable(const fs::path& path) { return path.extension() == ".replay" || path.filename() == "goldens.txt"; }
 
 std::vector<std::string> files_of(const std::vector<std::string>& paths) {

@@ -26,7 +26,7 @@ Golden golden_of(const std::string& scene, const std::string& scalar, const std:
 std::size_t frame_of_mark(const Golden& golden, std::size_t i);
 /// Ends without a line break.
 std::string text_of(const Golden& golden);
-/// Nothing for text of any other form.
+/// Reads a line; nothing for text of any other form.
 std::optional<Golden> parse_golden(std::string_view line);
 
 /// The lines of a file; line breaks of either kind, the last one may lack.

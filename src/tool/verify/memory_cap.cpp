@@ -1,4 +1,4 @@
-// What Linux counts: private writable memory, mapped or not yet touched.
+// MemoryCap counts what Linux counts: private writable memory, mapped or not yet touched.
 // SPDX-License-Identifier: MIT
 #include "memory_cap.hpp"
 

@@ -6,8 +6,8 @@
 
 namespace isostep::tool {
 
-/// While it lives, whoever asks for more than so much beyond what the process had gets std::bad_alloc. Where the system
-/// has no such bound (it is Linux's RLIMIT_DATA), ToolError 69.
+/// A cap: while it lives, whoever asks for more than so much beyond what the process had gets std::bad_alloc. Where the
+/// system has no such bound (it is Linux's RLIMIT_DATA), ToolError 69.
 class MemoryCap {
  public:
   explicit MemoryCap(int mebibytes);

@@ -16,7 +16,7 @@ struct Row {
   int frames;
   const char *solver = "", *integrator = "", *stepping = "";  // empty: the scene's
 };
-/// Until the scene has said what it has to say. A frame by `direct` costs ten others.
+/// The frames last until the scene has said what it has to say. A frame by `direct` costs ten others.
 const Row kRows[] = {
     {"medley", "medley", 180},
     {"medley_pgs", "medley", 40, "pgs"},
@@ -29,7 +29,7 @@ const Row kRows[] = {
     {"elements", "elements", 150},
 };
 
-/// The same replay with a header that does not tell where it was made.
+/// The replay with a header that does not tell where it was made.
 std::vector<std::uint8_t> without_origin(const std::vector<std::uint8_t>& bytes) {
   const ReplayReader replay(bytes);
   ReplayHeader header;

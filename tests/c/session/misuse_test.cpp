@@ -1,4 +1,4 @@
-// What a session of C does with callers that err: null, rubbish, wrong sizes, destroyed handles, calls in callbacks.
+// A session of C and callers that err: null, rubbish, wrong sizes, destroyed handles, calls in callbacks.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 

@@ -40,6 +40,7 @@ iso_status puck_game_create(puck_game* game, int32_t players) {
   sphere.radius = N(0.5);
   TRY(F(add_sphere)(game->world, &sphere, &body.shape));
   body.type = ISO_BODY_TYPE_DYNAMIC;
+  body.report_contacts = 1;
   body.position.y = N(1);
   for (n = 0; n < players && n < PUCK_PLAYERS; ++n) {
     body.position.x = N(4 * n - 2);

@@ -1,4 +1,4 @@
-// Within a turn of a session of C: what may be called, what is left in its middle, what is recorded meanwhile.
+// The turn of a session of C: what may be called, what is left in its middle, what is recorded meanwhile.
 // SPDX-License-Identifier: MIT
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Compiled and linked with -ffast-math as a shared library: the start-up code that comes with it makes the thread that
+// A shared library, compiled and linked with -ffast-math: the start-up code that comes with it makes the thread that
 // loads the library flush denormals.
 // SPDX-License-Identifier: MIT
 

@@ -15,7 +15,7 @@
 
 namespace isostep::test {
 
-/// What surrounds a run.
+/// The surroundings of a run.
 struct Ground {
   int workers = 1;
   Simd simd = Simd::best;
@@ -24,7 +24,7 @@ struct Ground {
   unsigned char rubbish = 0;       // in new memory, and on the stack before every step
 };
 
-/// What locals of the next calls will find where nobody wrote.
+/// Litters the stack that locals of the next calls will find where nobody wrote.
 [[gnu::noinline]] inline void litter_stack(unsigned char rubbish) {
   unsigned char room[1 << 16];
   std::memset(room, rubbish, sizeof room);

@@ -1,4 +1,4 @@
-// On hostile ground nothing changes: worker counts, lanes, roundings, traps, flushed denormals, shuffled addresses,
+// Hostile ground changes nothing: worker counts, lanes, roundings, traps, flushed denormals, shuffled addresses,
 // rubbish in memory and on the stack, a library loaded with -ffast-math, commas for points. Each is shown to be there.
 // SPDX-License-Identifier: MIT
 #include "determinism/hostile/ground.hpp"
@@ -24,7 +24,8 @@ namespace {
 
 using Hashes = std::vector<std::uint64_t>;
 
-/// Of every frame. Numbers enter before the ground turns hostile: what a caller computes is the caller's.
+/// Steps, and notes the hash of every frame. Numbers enter before the ground turns hostile: what a caller computes is
+/// the caller's.
 template <class W> void step_on(W& world, Holding& holding, Hashes& hashes) {
   std::uint64_t hash = 0;
   EXPECT_TRUE(holding([&] {

@@ -95,7 +95,7 @@ void give_back(void* block) {
   std::free(block);
 }
 
-/// What asks malloc itself gets rubbish too, where malloc can.
+/// Fills with rubbish what asks malloc itself too, where malloc can.
 void perturb([[maybe_unused]] int pattern) {
 #if defined(M_PERTURB)
   mallopt(M_PERTURB, pattern);

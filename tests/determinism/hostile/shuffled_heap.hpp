@@ -7,8 +7,8 @@
 
 namespace isostep::test {
 
-/// While one lives, `new` of this program, on every thread, takes its blocks from anywhere in its regions and fills
-/// them with the pattern; what is freed is filled with its complement. One at a time.
+/// A hostile heap: while one lives, `new` of this program, on every thread, takes its blocks from anywhere in its
+/// regions and fills them with the pattern; what is freed is filled with its complement. One at a time.
 class ShuffledHeap {
  public:
   ShuffledHeap(std::uint64_t seed, unsigned char pattern);

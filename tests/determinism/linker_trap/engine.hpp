@@ -1,4 +1,4 @@
-// What the engine's and the user's side of the linker trap both include: sums of products by our headers.
+// The header that the engine's and the user's side of the linker trap both include: sums of products by our headers.
 // SPDX-License-Identifier: MIT
 #pragma once
 

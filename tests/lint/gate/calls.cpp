@@ -22,7 +22,7 @@ namespace isostep_lint {
 
 namespace {
 
-/// Without the suffix of a format.
+/// The names without the suffix of a format.
 const std::set<std::string>& mathematics() {
   static const std::set<std::string> names = {
       // C17

@@ -1,4 +1,4 @@
-// Which functions an object may not ask the linker for.
+// The functions that an object may not ask the linker for.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace isostep_lint {
 
-/// What is the matter with an undefined symbol, as nm prints it.
+/// The concern about an undefined symbol, as nm prints it.
 Concern concern_of_call(std::string_view symbol);
 
 }  // namespace isostep_lint

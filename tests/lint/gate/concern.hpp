@@ -1,4 +1,4 @@
-// What may not be in a simulation's objects, and the instruction sets whose objects the gate can read.
+// The concerns about a simulation's objects, and the instruction sets whose objects the gate can read.
 // SPDX-License-Identifier: MIT
 #pragma once
 

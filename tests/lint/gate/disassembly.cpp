@@ -1,4 +1,4 @@
-// What kind of line a disassembler's line is.
+// The kinds of a disassembler's lines.
 // SPDX-License-Identifier: MIT
 #include "disassembly.hpp"
 
@@ -26,7 +26,7 @@ bool Disassembly::is_function(const std::string& line) {
   return true;
 }
 
-/// Behind "   1a:\t", and behind the blanks that LLVM leaves for bytes.
+/// The instruction stands behind "   1a:\t", and behind the blanks that LLVM leaves for bytes.
 std::string_view Disassembly::instruction_text(const std::string& line) const {
   const std::size_t colon = line.find(':'), tab = line.find('\t');
   const std::size_t digits = line.find_first_not_of(' ');

@@ -43,9 +43,9 @@ constexpr Rules kAarch64 = {
     "b?fn?m(add|sub|la|ls|ad|sb|opa|ops)\\w*|b?fmmla|fcmla|ftmad|b?fv?dot[bt]?|fr(ecp|sqrt)s(\\.\\w+)?", "",
     "\\.inst|undefined|udf|<unknown>"};
 
-/// The same, F6: VFMA, VFMS, VFNMA, VFNMS, VFMAL, VFMSL, VFMAB, VFMAT, VCMLA, VDOT and VMMLA of BF16. VMLA, VMLS, VNMLA
-/// and VNMLS are not fused: their result is FPAdd(d, FPMul(n, m)), which rounds twice as two instructions do. UDF is
-/// how gcc traps.
+/// Arm's manual, F6: VFMA, VFMS, VFNMA, VFNMS, VFMAL, VFMSL, VFMAB, VFMAT, VCMLA, VDOT and VMMLA of BF16. VMLA, VMLS,
+/// VNMLA and VNMLS are not fused: their result is FPAdd(d, FPMul(n, m)), which rounds twice as two instructions do. UDF
+/// is how gcc traps.
 constexpr Rules kArm = {"vfn?m[as]\\S*|vcmla\\S*|v(dot|mmla)\\.bf16", "", "\\.inst\\S*|undefined|;|<unknown>"};
 /// Advanced SIMD of 32-bit state calculates with the standard FPSCR value, which flushes subnormals; its floats are in
 /// d and q registers, while VFP's, which obey the FPSCR, are in s registers.

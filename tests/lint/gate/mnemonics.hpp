@@ -1,4 +1,4 @@
-// Which instructions are of concern, by the names that GNU's and LLVM's objdump print.
+// The instructions of concern, by the names that GNU's and LLVM's objdump print.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,10 +8,10 @@
 
 namespace isostep_lint {
 
-/// Of a disassembler's "file format" line: "elf64-x86-64", "pe-x86-64", "elf64-littleaarch64", "wasm", ...
+/// The set of a disassembler's "file format" line: "elf64-x86-64", "pe-x86-64", "elf64-littleaarch64", "wasm", ...
 InstructionSet instruction_set_of(std::string_view format);
 
-/// What is the matter with an instruction; `operands` as the disassembler prints them (x86: AT&T's order and suffixes).
+/// The concern about an instruction; `operands` as the disassembler prints them (x86: AT&T's order and suffixes).
 Concern concern_of(InstructionSet set, std::string_view mnemonic, std::string_view operands);
 
 /// A part of the instruction that follows it: "rep", "lock".

@@ -1,4 +1,4 @@
-// What the runners' test runs: a program that says what it was given, reads files, and ends as it was told.
+// The program that the runners' test runs: it says what it was given, reads files, and ends as it was told.
 // SPDX-License-Identifier: MIT
 #include <time.h>
 

@@ -48,7 +48,8 @@ TYPED_TEST(CellGrids, TheMapHasALevelForEverySizeAndTheGridOneForMostAndOneForTh
   EXPECT_EQ(of_grid.keys, of_map.keys);
 }
 
-/// Beside the tree of boxes, whose sweeps are held to brute force: enough boxes that sweeps go from cell to cell.
+/// Compares with the tree of boxes, whose sweeps are held to brute force: enough boxes that sweeps go from cell to
+/// cell.
 template <class Structure, class S> void hold_long_sweeps() {
   Pcg32 random = Pcg32::seeded(51);
   Structure grid;

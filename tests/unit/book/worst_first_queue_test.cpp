@@ -12,7 +12,7 @@
 namespace isostep::test {
 namespace {
 
-/// What a step's solver leaves of a world's bodies and contacts.
+/// The hash of a world's bodies and contacts after a step's solver.
 template <class S, class Queue> std::uint64_t hash_of_step(const World<S>& world) {
   Systems<S> systems(world);
   StepTools<S> tools = {};

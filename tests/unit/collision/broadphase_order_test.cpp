@@ -18,7 +18,7 @@ constexpr Order kOrders[] = {Order::rows,      Order::line,    Order::reverse,  
                              Order::scattered, Order::halving, Order::one_place, Order::both_ends,
                              Order::pyramid,   Order::walls,   Order::walk};
 
-/// [m] Where the box of that number lies, in quarters.
+/// [m] The place of the box of that number, in quarters.
 struct Places {
   Order order;
   int count;

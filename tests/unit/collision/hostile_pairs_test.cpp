@@ -17,7 +17,7 @@ namespace {
 
 using Scalars = testing::Types<float, double, TrapQ16, TrapQ32>;
 
-/// [m] What collide() says of extents and distances.
+/// [m] The limit that collide() states for extents and distances.
 template <class S> constexpr double documented_extent() {
   return std::is_same_v<S, TrapQ32> || std::is_same_v<S, double> ? 1000 : 100;
 }
@@ -36,7 +36,7 @@ constexpr const char* kFlawNames[] = {"not a manifold", "beyond the margin", "po
 
 constexpr int kPairs = 1000;  // of every two types
 
-/// What is known to break: how many of kPairs, in the worst scalar. Every other number is 0.
+/// A flaw that is known: how many of kPairs break, in the worst scalar. Every other number is 0.
 struct KnownFlaw {
   unsigned a, b;  // of the types
   Flaw flaw;
@@ -185,7 +185,7 @@ template <class S> class HostilePairs : public testing::Test {
     }
     tally.hold(not_mirrored, same ? 0 : 1, n);
   }
-  /// Where points are, and of convex shapes how deep.
+  /// Checks where points are, and of convex shapes how deep.
   static void check_places(const Part<S>& a, const Part<S>& b, const Manifold<S>& m, Point normal, double margin,
                            Tally& tally, int n) {
     const PlacedShape in_a = a.placed(), in_b = b.placed();

@@ -1,4 +1,4 @@
-// What tests of pair kernels share: the instruction sets, and whether two manifolds have the same bits.
+// The common part of the tests of pair kernels: the instruction sets, and whether two manifolds have the same bits.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -32,19 +32,19 @@ template <class S> Primitive<S> any_primitive(Random& random, int type, double l
   const Point normal = random.direction();
   return half_space_of<S>(normal, random.in(-largest, largest));
 }
-/// What rounding is relative to [m].
+/// [m] The length that rounding is relative to.
 double scale(const Solid& a, const Solid& b) {
   const double planes = (a.type == ShapeType::half_space ? std::abs(a.offset) : 0) +
                         (b.type == ShapeType::half_space ? std::abs(b.offset) : 0);
   return length3(a.half) + length3(b.half) + a.radius + b.radius + length3(b.centre - a.centre) + planes;
 }
-/// How far a shape reaches along a direction from its centre.
+/// The reach of a shape along a direction from its centre.
 double support(const Solid& s, Point n) {
   double reach = s.radius;
   for (std::size_t k = 0; k < 3; ++k) reach += s.half[k] * std::abs(dot3(s.axes[k], n));
   return reach;
 }
-/// Touching along one axis to within a centimetre, often exactly; or anywhere.
+/// The pair touches along one axis to within a centimetre, often exactly; or lies anywhere.
 template <class S> Pair<S> any_pair(Random& random, double largest) {
   const int type_a = random.below(4), type_b = type_a == 3 ? random.below(3) : random.below(4);
   Pair<S> pair;

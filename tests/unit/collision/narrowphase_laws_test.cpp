@@ -45,7 +45,7 @@ template <class S> Pair<S> random_pair(Random& random) {
 bool is(const Solid& a, const Solid& b, ShapeType x, ShapeType y) {
   return (a.type == x && b.type == y) || (a.type == y && b.type == x);
 }
-/// What the preference of faces over edges, and of face normals over a capsule's, may cost in depth [m]; see
+/// [m] The depth that the preference of faces over edges, and of face normals over a capsule's, may cost; see
 /// axis_tolerance (1/128 of the smallest half extent, once for b's faces and once for edges) and collide_box_capsule
 /// (1/512 of the radii).
 double preference(const Solid& a, const Solid& b) {

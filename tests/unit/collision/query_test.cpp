@@ -30,7 +30,7 @@ template <class S> Primitive<S> any_half_space(oracle::Random& random) {
   return primitive_of(HalfSpace<S>{{u.x, u.y, u.z}, from_double<S>(random.in(-2, 2))});
 }
 
-/// Marching by the distance field: the way along a ray to the surface, or the least distance on a ray that misses.
+/// A march by the distance field: the way along a ray to the surface, or the least distance on a ray that misses.
 struct March {
   bool hit;
   double way;

@@ -1,4 +1,4 @@
-// Who is inside twice is told; in builds with assertions a second thread ends the program. This file has them.
+// A call inside another is told; in builds with assertions a second thread ends the program. This file has them.
 // SPDX-License-Identifier: MIT
 #if !defined(ISOSTEP_ASSERTS)
 #define ISOSTEP_ASSERTS

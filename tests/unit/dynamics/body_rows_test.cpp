@@ -18,7 +18,7 @@ namespace {
 constexpr std::int32_t kHz = 60, kRate = 240;
 constexpr double kRapid = kHz / 16.0, kSubstep = 1.0 / kRate;
 
-/// What a step leaves beside the states.
+/// The rows that a step leaves beside the states.
 template <class S> struct After {
   std::vector<MotionRow<Velocity<S>>> displacement;
   std::vector<SolverMass<S>> mass;
@@ -162,7 +162,7 @@ TYPED_TEST(BodyRowsOf, EveryWidthAndEveryPieceGiveTheBitsOfOneLane) {
   }
 }
 
-/// [m/s] What a step may round: in Q16.16 a factor of damping is wrong by 2^-17, four times, of 20 m/s.
+/// [m/s] The rounding of a step: in Q16.16 a factor of damping is wrong by 2^-17, four times, of 20 m/s.
 template <class S> constexpr double kRounding = std::is_same_v<S, Q16_16> ? 0x1p-10 : 0x1p-16;
 
 TYPED_TEST(BodyRowsOf, MovesAndDampingFollowTheirFormulas) {

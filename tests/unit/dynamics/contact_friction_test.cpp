@@ -1,4 +1,4 @@
-// How a contact's coefficient is chosen, the table of pairs, and the presets.
+// The choice of a contact's coefficient, the table of pairs, and the presets.
 // SPDX-License-Identifier: MIT
 #include "isostep/dynamics/contact_friction.hpp"
 

@@ -16,7 +16,7 @@ template <class S> class Direct : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
 TYPED_TEST_SUITE(Direct, Scalars, ScalarName);
 
-/// Of scalars of 32 and of 64 bits.
+/// The number for scalars of 32 or of 64 bits.
 template <class S> double narrow_or_wide(double narrow, double wide) { return sizeof(S) == 4 ? narrow : wide; }
 
 TYPED_TEST(Direct, JointsOfAHangingChainBearTheWeightsBelowThem) {

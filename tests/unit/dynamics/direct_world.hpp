@@ -98,7 +98,7 @@ template <class S> class DirectWorld {
     const Vec3<S>& c = states[b].centre;
     return {to_double(c.x), to_double(c.y), to_double(c.z)};
   }
-  /// [N] of an impulse a sub-step between two bodies.
+  /// [N] The force of an impulse a sub-step between two bodies.
   double force(V impulse, std::uint32_t a, std::uint32_t b) const {
     const auto inverse = [&](std::uint32_t body) { return body == kNoBody ? 0 : 1 / to_double(properties[body].mass); };
     return to_double(impulse) * hz * substeps / (inverse(a) + inverse(b));

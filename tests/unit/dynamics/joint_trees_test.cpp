@@ -252,7 +252,7 @@ TYPED_TEST(JointTreesTest, TreesOfOneShapeShareBatchesAndTheRestIsOne) {
   EXPECT_EQ(world.trees.batch_count(), 0u);
 }
 
-/// [rad] How far `axis` of a body turns in a step that begins with its joint free of its limit and the body flying past
+/// [rad] The turn of a body's `axis` in a step that begins with its joint free of its limit and the body flying past
 /// the joint: in the first sub-step it turns by 0.65 rad, unless the limit stops it. Axes of cones begin 0.25 rad
 /// apart: aligned ones have no row.
 template <class S> double turned_in_a_step(Simd simd, JointType type, std::uint32_t flags, D3 velocity, int axis) {

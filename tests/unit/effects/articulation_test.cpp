@@ -1,4 +1,4 @@
-// What an articulation refuses, tells and writes.
+// Refusals, reports and files of articulations.
 // SPDX-License-Identifier: MIT
 #include "isostep/articulation/articulation.hpp"
 

@@ -1,5 +1,5 @@
-// What the tests of articulations share: links of bars and points, and energy and momentum reckoned in double from what
-// an articulation tells of its links.
+// The common part of the tests of articulations: links of bars and points, and energy and momentum reckoned in double
+// from what an articulation tells of its links.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -54,7 +54,7 @@ template <class S> Articulation<S> built(const ArticulationDefinition<S>& defini
   return a;
 }
 
-/// Of all links, about the world's origin.
+/// The motion of all links, about the world's origin.
 struct Motion {
   double kinetic = 0, potential = 0;  // [J] of gravity and springs, armatures included
   D3 momentum = {0, 0, 0}, angular = {0, 0, 0}, centre = {0, 0, 0};

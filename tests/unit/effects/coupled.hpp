@@ -1,4 +1,4 @@
-// What the tests of particles among bodies share: both worlds, a frame of them, and short definitions.
+// The common part of the tests of particles among bodies: both worlds, a frame of them, and short definitions.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -66,7 +66,7 @@ template <class S> struct Coupled {
   D3 speed(ParticleId id) const { return real(particles.velocity(id)); }
   D3 speed(BodyId id) const { return real(bodies.velocity(id)); }
 
-  /// [m] by which the surface of any particle lies inside a box of these half extents, at most.
+  /// [m] The greatest depth at which the surface of a particle lies inside a box of these half extents.
   double deepest_in(BodyId body, D3 half, double radius) const {
     const Transform<S> place = Transform<S>::of(bodies.pose(body));
     double deepest = 0;

@@ -15,7 +15,7 @@ GridPoint point_within(Pcg32& random, std::int32_t most, int flat = 0) {
   p.z = random_between(random, -most, most);
   return p;
 }
-/// Of 4 to 60 points up to 2^19 steps away, a third of them boxes, some of them flat.
+/// A solid of 4 to 60 points up to 2^19 steps away, a third of them boxes, some of them flat.
 Result<GridHull> random_solid(Pcg32& random, std::int32_t most) {
   const int flat = random_between(random, -6, 6);
   const std::int32_t kind = random_between(random, 0, 2);
@@ -40,7 +40,7 @@ std::vector<FracturePattern> random_patterns(Pcg32& random, GridVector grain) {
   return {EightBoxes{}, planes, cracks, cells};
 }
 
-/// [steps] How far the pieces reach out.
+/// [steps] The distance by which the pieces reach out.
 double reach_out_of(const GridHull& solid, const Fracture& fracture) {
   double out = -1;
   for (std::size_t f = 0; f < solid.hull.faces.size(); ++f) {
@@ -52,7 +52,7 @@ double reach_out_of(const GridHull& solid, const Fracture& fracture) {
   }
   return out;
 }
-/// [steps^2] Of its box, which is no less than its own: it is convex.
+/// [steps^2] The area of its box, which is no less than its own: it is convex.
 double area_around(const FracturePiece& piece) {
   const D3 h = {double(piece.half_extents.x), double(piece.half_extents.y), double(piece.half_extents.z)};
   return 2 * (h.x * h.y + h.y * h.z + h.z * h.x);

@@ -1,4 +1,4 @@
-// What fracture makes of solids: pieces that add up, stay inside, keep apart, and are the same everywhere.
+// The pieces of a fracture: they add up, stay inside, keep apart, and are the same everywhere.
 // SPDX-License-Identifier: MIT
 #include "isostep/fracture/fracture.hpp"
 
@@ -10,7 +10,7 @@
 namespace isostep::test {
 namespace {
 
-/// [steps] of the corners' shift from the exact ones, along a direction: sqrt(3) 5/8.
+/// [steps] The shift of the corners from the exact ones, along a direction: sqrt(3) 5/8.
 constexpr double kReach = 1.1;
 
 Fracture broken(const GridHull& solid, const FracturePattern& pattern, std::uint64_t seed = 1,

@@ -1,4 +1,4 @@
-// What the tests of fracture share: solids, patterns, and pieces as points in metres.
+// The common part of the tests of fracture: solids, patterns, and pieces as points in metres.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -1,4 +1,4 @@
-// What the tests of static geometry have in common: a terrain, random boxes, and what all triangles say of a box.
+// The common part of the tests of static geometry: a terrain, random boxes, and what all triangles say of a box.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -117,7 +117,7 @@ template <class G> std::vector<std::uint32_t> queried(const G& geometry, const M
   return ids;
 }
 
-/// Ascending. Its own comparison of boxes: neither ends before the other begins.
+/// The triangles in a box by brute force, ascending. It compares boxes by itself: neither ends before the other begins.
 template <class G> std::vector<std::uint32_t> by_brute_force(const G& geometry, const MeshBox& box) {
   std::vector<std::uint32_t> ids;
   for (std::uint32_t id = 0; id < geometry.triangle_count(); ++id) {

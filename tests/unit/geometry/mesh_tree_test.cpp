@@ -23,7 +23,7 @@ TEST(MeshTree, queries_find_what_all_triangles_say) {
   expect_queries_find_all(triangle_mesh(surface.points, surface.triangles, {}, 10).value(), 4, 500);
 }
 
-/// Over the whole range of the grid, where nodes lose nine bits.
+/// Triangles over the whole range of the grid, where nodes lose nine bits.
 Soup far_soup(Random& random, int count) {
   Soup soup;
   const auto draw = [&] { return static_cast<std::int32_t>(random() % (2u * kFar + 1)) - kFar; };

@@ -67,7 +67,8 @@ class Random {
 
 static_assert(kShapeTypes == 9, "an oracle knows each shape by itself: see signed_distance() and cloud_of()");
 
-/// In the half-plane of a point x from a cone's axis: the side's line, else the nearest of the outline's two segments.
+/// The distance in the half-plane of a point x from a cone's axis: the side's line, else the nearest of the outline's
+/// two segments.
 inline double cone_distance(double r, double h, double x, double y) {
   const double slant = std::hypot(2 * h, r);
   const double within = std::fmax((2 * h * x + r * (y - h)) / slant, -y - h);
@@ -80,7 +81,7 @@ inline double cone_distance(double r, double h, double x, double y) {
   return std::fmin(to_segment(0, -h, r, -h), to_segment(r, -h, 0, h));
 }
 
-/// Signed distance of p, in the primitive's frame: exact everywhere.
+/// The signed distance of p, in the primitive's frame: exact everywhere.
 inline double signed_distance(const Primitive<double>& s, D3 p) {
   if (s.type == ShapeType::half_space) return dot(s.normal, p) - s.offset;
   if (s.type == ShapeType::sphere) return length(p) - s.radius;

@@ -1,4 +1,4 @@
-// At the published limits nothing overflows: geometry and queries with formats that stop the program if anything does.
+// The range of geometry: at the published limits nothing overflows, by formats that stop the program if anything does.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 

@@ -43,7 +43,7 @@ template <class S> class RoundedHull : public ::testing::Test {
   Contents<S> contents() const { return {contents_.data()}; }
   ShapeView<S> view() const { return contents().view(child_.primitive); }
   Transform<S> place() const { return Transform<S>::of(child_.pose); }
-  /// Of a point in the hull's frame.
+  /// The signed distance of a point in the hull's frame.
   double signed_distance(D3 p) const {
     double most = -1e9, outside = 1e9;
     for (std::size_t f = 0; f < exact_->normals.size(); ++f) {

@@ -42,7 +42,8 @@ template <class S> struct Solid {
   ShapeView<S> view() const { return Contents<S>{contents.data()}.view(child.primitive); }
 };
 
-/// Allowed of the share, of what slices measure and of the rest; of the centre times the share over the size the same.
+/// The errors allowed of the share, of what slices measure and of the rest; of the centre times the share over the size
+/// the same.
 template <class S> struct Promise;
 template <> struct Promise<float> { static constexpr double sliced = 2e-6, exact = 2e-6; };
 template <> struct Promise<double> { static constexpr double sliced = 1e-7, exact = 1e-12; };
@@ -73,7 +74,8 @@ template <class S> Solid<S> drawn(oracle::Random& random, int kind) {
   return solid;
 }
 
-/// What is below the plane of a triangle's tetrahedron with a point of the plane: of the corners below it in turn.
+/// Adds the part below the plane of a triangle's tetrahedron with a point of the plane: of the corners below it in
+/// turn.
 void add_cut(Part& part, D3 a, D3 b, D3 c, D3 up, double level) {
   std::vector<D3> kept;
   const D3 corner[3] = {a, b, c};

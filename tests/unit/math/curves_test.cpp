@@ -16,7 +16,7 @@ constexpr Real kPi = 3.14159265358979323846264338327950288L;
 
 template <class S> class CurvesTest : public testing::Test {
  protected:
-  /// In [0, 1].
+  /// A number in [0, 1].
   static Unit<S> part(Draw& draw) { return abs(draw.number<Unit<S>>(0)); }
 };
 TYPED_TEST_SUITE(CurvesTest, Scalars);

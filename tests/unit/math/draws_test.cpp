@@ -15,7 +15,7 @@ namespace {
 using namespace test;
 
 constexpr int kMany = 40000;
-/// Of a mean of kMany numbers of deviation 1: five of its own deviations.
+/// The bound of a mean of kMany numbers of deviation 1: five of its own deviations.
 constexpr double kMeanBound = 5.0 / 200;
 
 template <class S> class DrawsTest : public testing::Test {};

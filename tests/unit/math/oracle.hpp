@@ -43,8 +43,8 @@ template <class T> Real half_ulp(Real size) {
   if constexpr (kIsFixed<T>) return std::ldexp(Real(0.5), -T::kFracBits);
   if constexpr (!kIsFixed<T>) return size * std::numeric_limits<T>::epsilon() / 2;
 }
-/// What an operation may be off whose exact sums fixed point rounds `fixed` times and float `floating` times, every
-/// number on the way at most `size`. The oracle's own rounding is on top.
+/// The greatest error of an operation whose exact sums fixed point rounds `fixed` times and float `floating` times,
+/// every number on the way at most `size`. The oracle's own rounding is on top.
 template <class T> Real bound(int fixed, int floating, Real size) {
   return half_ulp<T>(size) * (kIsFixed<T> ? fixed : floating) * Real(1.0001) + 16 * kRealEpsilon * size;
 }
@@ -55,7 +55,7 @@ class Draw {
   explicit Draw(std::uint64_t seed) : state_(seed) {}
 
   std::uint64_t bits() { return splitmix64(state_); }
-  /// In [-2^exponent, 2^exponent].
+  /// A number in [-2^exponent, 2^exponent].
   template <class T> T number(int exponent) {
     const auto word = static_cast<std::int64_t>(bits());
     if constexpr (kIsFixed<T>) {

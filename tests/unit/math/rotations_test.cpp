@@ -14,9 +14,9 @@ constexpr Real kPi = 3.14159265358979323846264338327950288L;
 
 template <class S> class RotationsTest : public testing::Test {
  protected:
-  /// Of an angle up to pi that went through S and U.
+  /// The bound of an angle up to pi that went through S and U.
   static Real angle_bound() { return half_ulp<S>(4) * 4 + bound<Unit<S>>(24, 32, 1); }
-  /// Whether two quaternions are one rotation.
+  /// Expects that two quaternions are one rotation.
   static void expect_same(const RealQuat& a, const RealQuat& b, Real tolerance) {
     const bool flips = a.coeffs().dot(b.coeffs()) < 0;
     expect_near(a, flips ? RealQuat(-b.coeffs()) : b, tolerance);

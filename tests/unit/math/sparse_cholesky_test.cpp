@@ -37,7 +37,7 @@ template <class S> class SparseCholeskyOf : public testing::Test {
     for (std::uint32_t i = 0; i < n; ++i) cholesky_.add_diagonal(i, diagonal(0.5 + ground));
     for (std::uint32_t i = 0; i < n; ++i) cholesky_.add_pair(i, diagonal(-0.25));
   }
-  /// Of the loop: a wave along it is an eigenvector, with eigenvalue ground + (1 - cos) / 2.
+  /// Expects a wave along the loop to be an eigenvector, with eigenvalue ground + (1 - cos) / 2.
   void expect_wave(int waves) {
     std::vector<Vec3<Number>> b, x;
     const double turn = 2 * std::acos(-1.0) * waves / n_;

@@ -1,4 +1,4 @@
-// Finding contacts, merging them with the last step's, and storing them; links and touches beside them.
+// Contacts of particles: found, merged with the last step's, and stored; links and touches beside them.
 // SPDX-License-Identifier: MIT
 #include "isostep/particles/step/contacts.hpp"
 
@@ -15,7 +15,7 @@ template <class S> class ContactsTest : public testing::Test {
   ParticleRows<S> rows_{scene_.state, scene_.step};
   ParticleContacts<S> contacts_{scene_.state, scene_.step, search_, rows_};
 
-  /// As a solver leaves them: what was met pressed with an impulse.
+  /// Leaves rows as a solver does: what was met pressed with an impulse.
   void press(double impulse) {
     for (ParticleConstraint<S>& row : rows_.contacts()) {
       row.impulse = row.impulse_seen = from_double<V>(impulse);

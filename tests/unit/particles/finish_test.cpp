@@ -1,4 +1,4 @@
-// Where particles end a step: limits of speed and position, and numbers that are none.
+// The end of a step of particles: limits of speed and position, and numbers that are none.
 // SPDX-License-Identifier: MIT
 #include "isostep/particles/step/finish.hpp"
 

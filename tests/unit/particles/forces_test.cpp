@@ -17,7 +17,7 @@ template <class S> class ForcesTest : public testing::Test {
   PairSearch<S> search_{scene_.state, scene_.step};
   ParticleForces<S> forces_{scene_.state, scene_.step, flight_, springs_};
 
-  /// Where sums end: of floating formats at infinity, which velocities are then cut to their limit from.
+  /// The end of sums: of floating formats at infinity, which velocities are then cut to their limit from.
   static S end() {
     if constexpr (kIsFixed<S>) return highest<S>();
     else return std::numeric_limits<S>::infinity();

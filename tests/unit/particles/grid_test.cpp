@@ -82,7 +82,7 @@ Cloud<S> box_of(std::uint64_t seed, std::uint32_t count, Vec3<S> centre, Vec3<S>
   return cloud;
 }
 
-/// Where worlds of floats end [m].
+/// [m] The end of worlds of floats.
 template <class S> S far_out() { return from_double<S>(std::is_same_v<S, float> ? 65536 : 1e9); }
 
 template <class S> class Grid : public testing::Test {};

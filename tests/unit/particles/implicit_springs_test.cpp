@@ -21,7 +21,7 @@ using test::SpringNetwork;
 
 template <class S> class ImplicitSpringsOf : public testing::Test {
  protected:
-  /// What one rounding of a velocity of size v may lose, and a little for a direction's own rounding.
+  /// The error that one rounding of a velocity of size v may leave, and a little for a direction's own rounding.
   static double tolerance(double v) {
     if constexpr (kIsFixed<S>) return 1.01 * to_double(resolution<Velocity<S>>()) + 1e-14 * v;
     return 4 * to_double(resolution<S>()) * v + 1e-30;

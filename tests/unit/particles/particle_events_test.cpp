@@ -1,4 +1,4 @@
-// What a step of particles tells: expiry, yielding springs, contacts that begin, impulses on what was touched; and how
+// Events of a step of particles: expiry, yielding springs, contacts that begin, impulses on what was touched; and how
 // pinned particles behave.
 // SPDX-License-Identifier: MIT
 #include "unit/particles/particle_worlds.hpp"

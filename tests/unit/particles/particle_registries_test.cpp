@@ -29,7 +29,7 @@ template <class S> class ParticleRegistries : public ::testing::Test {
     EXPECT_EQ(world.hash(), before);
     EXPECT_TRUE(world.remove(good));
   }
-  /// The same for numbers that only floating point has.
+  /// Expects a refusal of the numbers that only floating point has.
   template <class Record, class Member> void expect_no_number(Record record, S Member::*which) {
     if constexpr (!kIsFixed<S>) {
       for (const S x : {not_a_number<S>(), endless<S>(), -endless<S>()})

@@ -1,4 +1,5 @@
-// What the tests of particle worlds share: short definitions, numbers of a seed, and whether a state obeys its rules.
+// The common part of the tests of particle worlds: short definitions, numbers of a seed, and whether a state obeys its
+// rules.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -19,7 +20,7 @@ class Chance {
   explicit Chance(std::uint64_t seed) : random_(Pcg32::seeded(seed)) {}
   std::uint32_t below(std::uint32_t n) { return random_below(random_, n); }
   bool one_in(std::uint32_t n) { return below(n) == 0; }
-  /// In whole thousandths.
+  /// A number in whole thousandths.
   double in(double low, double high) { return low + (high - low) * below(1000) / 1000; }
   D3 point(double reach) {
     const double x = in(-reach, reach), y = in(-reach, reach), z = in(-reach, reach);
@@ -48,7 +49,7 @@ template <class S> ParticleDefinition<S> pinned_at(D3 position, D3 velocity = {0
   d.pinned = true;
   return d;
 }
-/// Of what collides.
+/// The material of particles that collide.
 template <class S> ParticleMaterial<S> ball_material(double radius, double restitution = 0, double friction = 0) {
   ParticleMaterial<S> m;
   m.radius = num<S>(radius);

@@ -1,4 +1,4 @@
-// How particles leave: with all that names them, at once or when their lifetimes are over.
+// The removal of particles: with all that names them, at once or when their lifetimes are over.
 // SPDX-License-Identifier: MIT
 #include "isostep/particles/removal.hpp"
 

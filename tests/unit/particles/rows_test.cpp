@@ -1,4 +1,4 @@
-// Where constraints stand: normals and separations of links, contacts and touches.
+// The geometry of constraints: normals and separations of links, contacts and touches.
 // SPDX-License-Identifier: MIT
 #include "isostep/particles/step/rows.hpp"
 

@@ -19,7 +19,7 @@ template <class S, template <class> class Solver> struct SolverScene : StepScene
   ParticleRows<S> rows{this->state, this->step};
   Solver<S> solver{this->state, this->step, rows, integration};
 
-  /// Between two particles, or with collider 0 where `b` is null.
+  /// Adds a contact between two particles, or with collider 0 where `b` is null.
   void add_contact(ParticleId a, ParticleId b, double radius, double restitution, double share_a) {
     ParticleConstraint<S> row = {};
     row.kind = ConstraintKind::contact;

@@ -9,8 +9,8 @@
 namespace isostep {
 namespace {
 
-/// Without gravity; its one material has no damping, and nothing collides. Numbers go in and come
-/// out as doubles.
+/// A scene without gravity; its one material has no damping, and nothing collides. Numbers go in and come out as
+/// doubles.
 template <class S> struct StepScene {
   using V = Velocity<S>;
   ParticleState<S> state;
@@ -50,7 +50,7 @@ template <class S> struct StepScene {
     state.link_impulses.push_back(V(0));
     return state.links.add(link);
   }
-  /// Of everything, which is balls from now on.
+  /// Makes everything balls from now on.
   void make_balls(double radius, double restitution = 0) {
     ParticleMaterial<S>& material = state.materials.change_all()[0];
     material.radius = from_double<S>(radius);
@@ -68,7 +68,7 @@ template <class S> struct StepScene {
   double h() const { return 1.0 / (state.settings.hz * state.settings.substeps); }
 };
 
-/// What roundings may leave of numbers of this size, by the coarsest format that has them.
+/// The error that roundings may leave of numbers of this size, by the coarsest format that has them.
 template <class S> double grain(double size) {
   return kIsFixed<S> ? to_double(resolution<S>()) : to_double(resolution<S>()) * size;
 }

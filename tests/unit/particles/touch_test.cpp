@@ -22,7 +22,7 @@ template <class S> class TouchOf : public ::testing::Test {
     d.mass = num<S>(mass);
     return world_.create(d);
   }
-  /// Of something above.
+  /// A touch of something above.
   static ParticleTouch<S> above(ParticleId particle, double gap, double speed, double inverse_mass) {
     ParticleTouch<S> touch = {};
     touch.particle = particle;

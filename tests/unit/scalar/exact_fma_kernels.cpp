@@ -1,4 +1,5 @@
-// Built with -O3 -mfma -ffp-contract=fast. No test framework here: its inline functions would carry the flags along.
+// Kernels built with -O3 -mfma -ffp-contract=fast. No test framework here: its inline functions would carry the flags
+// along.
 // SPDX-License-Identifier: MIT
 #include "exact_fma_kernels.hpp"
 

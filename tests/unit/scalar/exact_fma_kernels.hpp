@@ -7,7 +7,7 @@ namespace isostep::test {
 /// a b + c over T itself: the control, which is expected to fuse.
 float bare_float(float a, float b, float c);
 double bare_double(double a, double b, double c);
-/// The same over Exact<T>, in every shape a compiler fuses: a b + c, a b - c, c - a b, and through variables.
+/// The sums, over Exact<T> too, in every shape that a compiler fuses: a b + c, a b - c, c - a b, and through variables.
 struct FloatSums {
   float plus, minus, from, twice;
 };

@@ -18,7 +18,7 @@ using Q24_40 = Fixed<std::int64_t, 40>;
 using Q62_2 = Fixed<std::int64_t, 2>;
 using TrapQ16_16 = Fixed<std::int32_t, 16, Overflow::trap>;
 
-/// Promised errors in ulp, as in scalar/README.md: 128 bits inside leave 2^-11 for the widest formats.
+/// The errors promised, in ulp, as in scalar/README.md: 128 bits inside leave 2^-11 for the widest formats.
 template <class S> constexpr double bound() {
   if constexpr (std::same_as<S, float>) return 0.5000001;
   if constexpr (std::same_as<S, double>) return 0.50001;
@@ -81,7 +81,7 @@ template <class S> std::vector<S> exponents() {
   return result;
 }
 
-/// Above 0: random magnitudes; numbers near 1 at every distance; powers of two, borders of cells, the ends.
+/// Numbers above 0: random magnitudes; numbers near 1 at every distance; powers of two, borders of cells, the ends.
 template <class S> std::vector<S> positives() {
   std::vector<S> all;
   Random random;

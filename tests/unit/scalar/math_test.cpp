@@ -69,7 +69,7 @@ template <class S> std::vector<S> sines() {
   return result;
 }
 
-/// Promised errors in ulp, as in scalar/README.md.
+/// The errors promised, in ulp, as in scalar/README.md.
 struct Bounds {
   double circular, inverse, rsqrt, direction, length, quaternion;
 };

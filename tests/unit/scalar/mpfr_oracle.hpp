@@ -1,4 +1,4 @@
-// What tests of elementary functions share: MPFR as oracle, errors in ulp, arguments of every magnitude.
+// The common part of the tests of elementary functions: MPFR as oracle, errors in ulp, arguments of every magnitude.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -1,4 +1,4 @@
-// What tests of decimal text read with, and exact decimals.
+// The reader of the tests of decimal text, and exact decimals.
 // SPDX-License-Identifier: MIT
 #pragma once
 

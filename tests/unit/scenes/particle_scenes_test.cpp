@@ -49,7 +49,7 @@ template <class S> struct Game : ParticleGame<S> {
     }
     return speed;
   }
-  /// How much too long a cable is, or how wrong a rod, of all.
+  /// The greatest length by which a cable is too long, or a rod wrong.
   double worst_link() const {
     double worst = 0;
     for (const Link<S>& link : this->world.state().links.all()) {

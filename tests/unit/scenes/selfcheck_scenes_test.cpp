@@ -21,7 +21,7 @@ TYPED_TEST_SUITE(SelfcheckScenes, Scalars);
 
 constexpr int kFrames = 180;
 
-/// What a run of the medley met.
+/// The things that a run of the medley met.
 template <class S> struct Sights {
   std::set<JointType> joints;
   std::set<ShapeType> shapes;               // of bodies in contact

@@ -81,7 +81,7 @@ inline Match make_match(const SessionConfig& config, std::size_t ballast = 40000
       config, [ballast] { return std::make_unique<Game>(ballast); }, bot);
 }
 
-/// What the first word of a client of `config` is, as the session itself would say it.
+/// The first word of a client of `config`, as the session itself would say it.
 inline Hello hello_of(const SessionConfig& config) {
   Hello hello;
   hello.identity = config.identity;

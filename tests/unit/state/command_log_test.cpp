@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "isostep/state/command_recorder.hpp"
+#include "random/splitmix64.hpp"
 #include "toy_world.hpp"
 
 namespace {
@@ -15,7 +16,7 @@ namespace {
 using namespace isostep;
 using namespace toy;
 
-/// What playing a command log was told, and how far it came.
+/// The commands that playing a log was told, and how far it came.
 struct Heard {
   std::vector<ToyCommand> commands;
   std::vector<std::size_t> steps;  // after so many commands
@@ -37,7 +38,43 @@ TEST(CommandLog, ACommandIsItsPlaceInTheListAndItsFields) {
   write_command<ToyCommand>(writer, Clear{});
   EXPECT_EQ(log, (Buffer{1}));
   write_command<ToyCommand>(writer, Push{0x01020304, Q32_32(1.5)});
-  EXPECT_EQ(log, (Buffer{1, 0, 4, 3, 2, 1, 0, 0, 0, 0x80, 1, 0, 0, 0}));
+  EXPECT_EQ(log, (Buffer{1, 0, 0x84, 0x86, 0x88, 0x08, 0, 0, 0, 0x80, 1, 0, 0, 0}));
+}
+
+TEST(CommandLog, ANumberHasOneFormAndAnotherIsCorrupt) {
+  const Buffer by(8, 0);
+  for (const Buffer& to : {Buffer{0x80, 0x00}, Buffer{0x85, 0x80, 0x00}, Buffer{0xff, 0xff, 0xff, 0xff, 0x1f},
+                           Buffer{0xff, 0xff, 0xff, 0xff, 0xff, 0x01}}) {
+    Buffer log = {0};
+    log.insert(log.end(), to.begin(), to.end());
+    log.insert(log.end(), by.begin(), by.end());
+    const Heard heard{log};
+    EXPECT_EQ(heard.result.error().code, ErrorCode::corrupt);
+    EXPECT_TRUE(heard.commands.empty());
+  }
+  EXPECT_TRUE(Heard(Buffer{0, 0xff, 0xff, 0xff, 0xff, 0x0f, 0, 0, 0, 0, 0, 0, 0, 0}).result.ok());
+}
+
+TEST(CommandLog, IsWhatItsCommandsAreWrittenAs) {
+  // Any bytes that are read are those that writing the same commands gives: a frame has one log.
+  std::uint64_t state = 7;
+  std::uint32_t read = 0;
+  for (int round = 0; round < 200000; ++round) {
+    Buffer log(1 + isostep::test::splitmix64(state) % 24);
+    for (std::uint8_t& byte : log) {
+      const std::uint64_t word = isostep::test::splitmix64(state);
+      byte = static_cast<std::uint8_t>(word % 4 == 0 ? word >> 8 : (word >> 8) % 4);
+    }
+    const Heard heard{log};
+    if (!heard.result.ok() || !heard.steps.empty()) continue;
+    Buffer again;
+    Writer writer(again);
+    for (const ToyCommand& command : heard.commands)
+      std::visit([&](const auto& one) { write_command<ToyCommand>(writer, one); }, command);
+    ASSERT_EQ(again, log);
+    ++read;
+  }
+  EXPECT_GT(read, 1000u);
 }
 
 TEST(CommandLog, ACommandOfVaryingLengthWritesItself) {

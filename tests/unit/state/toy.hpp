@@ -57,7 +57,7 @@ class Game {
     std::vector<Thing> things;
   };
 
-  /// From this frame on the game is another one, by one bit.
+  /// The game is another one, by one bit, from this frame on.
   std::uint64_t bug_at = ~std::uint64_t{0};
 
   void save(Snapshot& to) const { to = {random_, frames_, things_}; }

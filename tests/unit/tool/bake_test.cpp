@@ -19,7 +19,7 @@ namespace {
 
 class Bake : public CommandLine {
  protected:
-  /// Whether a file of that ending can be read; if not, the answer says what to install, and nothing is written.
+  /// A file of that ending cannot be read: then the answer says what to install, and nothing is written.
   bool is_refused_for_lack(const std::string& ending) {
     write("probe." + ending, "");
     const Answer answer = run({"bake", path("probe." + ending), "-o", path("probe.blob")});
@@ -33,7 +33,7 @@ class Bake : public CommandLine {
     words.insert(words.end(), more.begin(), more.end());
     return run(words);
   }
-  /// What `--json` says of an OBJ file with this text.
+  /// The output of `--json` for an OBJ file with this text.
   nlohmann::json baked(const std::string& obj, std::vector<std::string> more = {}) {
     write("a.obj", obj);
     more.push_back("--json");

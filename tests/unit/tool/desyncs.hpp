@@ -33,7 +33,7 @@ template <class S> BodyState<S>& far_body(Arena<S>& arena) {
 }
 
 template <class S> struct Peer {
-  /// What goes wrong at kFault: before the commands, before one of its steps, after a stage of that step, or last.
+  /// The fault at kFault: before the commands, before one of its steps, after a stage of that step, or last.
   std::function<void(Arena<S>&)> before, between, at_end;
   std::function<void(Arena<S>&)> outside;  // between the frame before kFault and kFault
   std::function<void(Arena<S>&, Stage)> inside;
@@ -80,7 +80,7 @@ class Desync : public OwnFolder {
     ASSERT_TRUE(write_bundle(sink_to(bytes), peer.history, "arena", settings).ok());
     tool::write_file(path(name), Bytes(bytes));
   }
-  /// After both played beyond the fault, with windows that start at different frames.
+  /// Writes bundles after both played beyond the fault, with windows that start at different frames.
   template <class S> void bundles(Peer<S>& a, Peer<S>& b, std::uint32_t states = 16) {
     a.play(45);
     b.play(44);

@@ -101,7 +101,7 @@ Arrays with(Arrays arrays, const Arrays& more) {
   arrays.insert(arrays.end(), more.begin(), more.end());
   return arrays;
 }
-/// What does not depend on the solver, and what its stages add.
+/// The arrays that do not depend on the solver, and those that its stages add.
 std::map<std::string, Arrays> rigid_scratch(const Arrays& colour, const Arrays& prepare, const Arrays& solve) {
   const Arrays rows = {"solver_velocity", "solver_displacement"}, joints = {"joint_constraints"};
   return {
@@ -227,7 +227,7 @@ TEST_F(Recorded, OwnersAreThoseOfTheWorld) {
   EXPECT_EQ(tool::owner_of(fields, "joint_constraints[2].point_impulse.x"), joint);
 }
 
-/// What it says of one stage is not the hash of the fields that it shows.
+/// A side whose hash of one stage is not that of the fields that it shows.
 class OtherHash : public tool::StageSide {
  public:
   OtherHash(const OrderlySide& side, std::size_t point) : side_(side), point_(point) {}

@@ -36,7 +36,7 @@ inline std::string array_of(const std::string& path) {
   return end != 0 ? array.substr(0, end) : array.substr(0, array.find('.'));
 }
 
-/// Where no fault may be injected: it is shared, or how much there is to look at.
+/// The field takes no fault: it is shared, or says how much there is to look at.
 inline bool is_read_only(const std::string& path) {
   const auto begins = [&](const char* name) { return path.rfind(name, 0) == 0; };
   const bool length = path.size() > 6 && path.compare(path.size() - 6, 6, ".count") == 0;
@@ -48,7 +48,7 @@ struct Found {
   std::uint64_t frame;
   NamedField field;
 };
-/// Of every stage every array: where it first has a field, and the last one that it has then.
+/// Every array of every stage: where it first has a field, and the last one that it has then.
 using Survey = std::map<std::pair<std::string, std::string>, Found>;
 
 template <class W> class Surveyor {

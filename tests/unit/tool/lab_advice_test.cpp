@@ -14,7 +14,7 @@
 namespace isostep::tool::lab {
 namespace {
 
-/// What the tolerance's reader says; empty when it accepts.
+/// The words of the tolerance's reader; empty when it accepts.
 std::string refusal(const std::string& text) {
   try {
     parse_tolerance(text);

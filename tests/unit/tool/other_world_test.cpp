@@ -1,4 +1,4 @@
-// What the tool asks of a kind of world that is not rigid bodies, and of files whose kind this build lacks.
+// The tool on a kind of world that is not rigid bodies, and on files whose kind this build lacks.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 

@@ -68,7 +68,7 @@ struct Wedges {
   double at = 0;  // [m] height of the next
 };
 
-/// What a page holds between its element of surfaces and the next.
+/// The part of a page between its element of surfaces and the next.
 std::string surfaces_in(const std::string& page) {
   const std::string open = "id=\"surfaces\">";
   const std::size_t from = page.find(open) + open.size();

@@ -1,5 +1,5 @@
-// What strangers and machines on the line say to EnetTransports: it cuts nobody off, keeps nobody out, and gets no more
-// bytes than it brings.
+// Forgeries of strangers and machines on the line against EnetTransports: they cut nobody off, keep nobody out, and get
+// no more bytes than they bring.
 // SPDX-License-Identifier: MIT
 #include "isostep/core/random.hpp"
 #include "transport/enet_guard.hpp"
@@ -9,7 +9,7 @@
 namespace isostep::transport {
 namespace {
 
-/// What ENet 1.3.17 itself sends, without our tags: to a peer of this number and session.
+/// A packet as ENet 1.3.17 itself sends it, without our tags: to a peer of this number and session.
 Bytevec bare_disconnect(std::uint32_t peer, std::uint32_t session) {
   const std::uint32_t header = peer | session << 12;
   return {static_cast<std::uint8_t>(header >> 8), static_cast<std::uint8_t>(header), 0x44, 0xff, 0, 1, 0, 0, 0, 0};

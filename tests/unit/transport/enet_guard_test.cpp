@@ -1,4 +1,4 @@
-// Which ENet packets pass: those written here by the protocol's own layout, and none that bend it.
+// The ENet packets that pass: those written here by the protocol's own layout, and none that bend it.
 // SPDX-License-Identifier: MIT
 #include "transport/enet_guard.hpp"
 

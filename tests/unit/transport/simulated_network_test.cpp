@@ -22,7 +22,7 @@ constexpr EndpointId kHost = SimulatedNetwork::kHost;
 
 NetworkProfile profile(const char* text) { return parse_profile(text).value(); }
 
-/// What an endpoint heard, and when.
+/// The arrivals that an endpoint heard, and when.
 struct Heard {
   Time time;
   EndpointId endpoint;
@@ -40,7 +40,7 @@ void drain(SimulatedNetwork& network, EndpointId endpoint, std::vector<Heard>& l
     log.push_back({network.now(), endpoint, arrival->kind, arrival->peer, arrival->channel, bytes});
   }
 }
-/// Until `end`, stopping at each event, so that the times heard are exact.
+/// Listens until `end`, stopping at each event, so that the times heard are exact.
 std::vector<Heard> listen(SimulatedNetwork& network, EndpointId endpoints, Time end) {
   std::vector<Heard> log;
   const auto drain_all = [&] {

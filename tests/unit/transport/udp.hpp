@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "isostep/session/frame.hpp"
+#include "isostep/session/timeline/frame.hpp"
 
 namespace isostep::transport {
 

@@ -1,4 +1,4 @@
-// What bodies do in a world: kinds of body, compounds, gravity, damping, locks, filters, and where the world ends.
+// Bodies in a world: kinds of body, compounds, gravity, damping, locks, filters, and where the world ends.
 // SPDX-License-Identifier: MIT
 
 #include "unit/world/worlds.hpp"

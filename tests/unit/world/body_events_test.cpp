@@ -1,4 +1,4 @@
-// What a world reports of bodies: who is inside a sensor, which contacts begin and end, and with what impulse.
+// Events of bodies: who is inside a sensor, which contacts begin and end, and with what impulse.
 // SPDX-License-Identifier: MIT
 
 #include "unit/world/worlds.hpp"

@@ -69,8 +69,9 @@ TYPED_TEST(CommandLogs, a_log_is_numbers_of_commands_their_fields_and_markers) {
   writer.write(number(detail::kNumberOf<SetGravity<S>, Command>));
   for (const int i : {1, 2, 3}) writer.write(S(i));
   writer.write(number(detail::kNumberOf<RemoveShape, Command>));
-  writer.write(shape.slot);
-  writer.write(shape.generation);
+  writer.write_short(shape);
+  EXPECT_EQ(shape.generation, 1u);
+  EXPECT_EQ(expected.back(), 1u);
   EXPECT_EQ(log, expected);
 }
 

@@ -26,7 +26,7 @@ template <class S> class ContactEventsOf : public ::testing::Test {
     Contact<S> c = {};
     c.key = {a, b, 0, child};
     c.count = 1;
-    c.flags = touching ? contact_flag::kTouching : 0u;
+    c.flags = contact_flag::kReported | (touching ? contact_flag::kTouching : 0u);
     return {c};
   }
   static ContactGeometry<S> rows(std::uint32_t a, std::uint32_t b) {
@@ -40,7 +40,7 @@ template <class S> class ContactEventsOf : public ::testing::Test {
   World<S> world{settings<S>(0)};
   BodyId bodies[3];
   Systems<S> systems;
-  ContactEvents<S> contact_events{systems.state};
+  ContactEvents<S> contact_events{systems.state, systems.map};
   Events<S> events;
 };
 TYPED_TEST_SUITE(ContactEventsOf, SystemScalars);
@@ -79,7 +79,7 @@ TYPED_TEST(ContactEventsOf, a_touch_ends_with_its_contact_or_with_its_impulse_in
   const std::vector<Contact<S>> now = this->contact(0, 2, false);
   const std::vector<ContactGeometry<S>> geometry = {this->rows(0, 2)};
   const std::vector<Velocity<S>> impulses = {Velocity<S>(0)};
-  this->events.contact_end.push_back({this->bodies[1], this->bodies[2]});  // that a command made
+  this->events.contact_end.push_back({this->bodies[1], this->bodies[2], 0, 0});  // that a command made
   this->contact_events.collect({old, now, geometry, impulses}, this->events);
   ASSERT_EQ(this->events.contact_end.size(), 3u);
   EXPECT_EQ(this->events.contact_end[0].b, this->bodies[1]);

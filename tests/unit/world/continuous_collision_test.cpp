@@ -19,7 +19,7 @@ template <class S> class ContinuousCollisions : public ::testing::Test {
   BodyId add_wall(double half = 0.03125) { return world.create(still<S>(add_box(world, half, 2, 2))); }
   BodyId add_ball_at(D3 at) { return world.create(moving<S>(add_ball(world, 0.125), at)); }
 
-  /// As a step does it: from where the body is in the world to `to`, and turned by `by`.
+  /// Moves as a step does: from where the body is in the world to `to`, and turned by `by`.
   void move(BodyId body, D3 to, const Quat<Unit<S>>& by = Quat<Unit<S>>::identity()) {
     begin();
     BodyState<S>& state = systems->awake(body);

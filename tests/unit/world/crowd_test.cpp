@@ -15,7 +15,7 @@ template <class S> Settings<S> with_budget(std::int32_t most_pairs, double gravi
   s.most_pairs = most_pairs;
   return s;
 }
-/// So many balls of radius 0.25 with their centres in one place.
+/// Adds so many balls of radius 0.25 with their centres in one place.
 template <class S> std::vector<BodyId> add_crowd(World<S>& world, int count, BodyDefinition<S> ball) {
   ball.shape = add_ball(world, 0.25);
   std::vector<BodyId> crowd;

@@ -140,6 +140,25 @@ TYPED_TEST(DebugDraws, PlacesPartsOfCompoundAndTurnedBodies) {
 }
 
 /// Every line of a shape lies on its surface or within it, and on each axis the outline reaches as far as the shape.
+TYPED_TEST(DebugDraws, TellsWhichPartsSense) {
+  using S = TypeParam;
+  World<S> w{settings<S>()};
+  Child<S> parts[] = {{primitive_of(Sphere<S>{S(0.5)}), Pose<S>::identity()},
+                      {primitive_of(Sphere<S>{S(1)}), Pose<S>::identity()}};
+  parts[1].traits.with(part_flag::kSensor);
+  const ShapeId shape = w.add_shape(std::span<const Child<S>>(parts));
+  BodyDefinition<S> zone = still<S>(shape, {4, 0, 0});
+  zone.sensor = true;
+  w.create(still<S>(shape, {0, 0, 0}));
+  w.create(zone);
+  const Told all = told(w);
+  ASSERT_EQ(all.parts.size(), 4u);
+  EXPECT_FALSE(all.parts[0].part.sensor);
+  EXPECT_TRUE(all.parts[1].part.sensor);
+  EXPECT_TRUE(all.parts[2].part.sensor) << "as its body";
+  EXPECT_TRUE(all.parts[3].part.sensor);
+}
+
 TYPED_TEST(DebugDraws, OutlinesPartsByLines) {
   using S = TypeParam;
   const std::pair<Primitive<S>, D3> cases[] = {{primitive_of(Sphere<S>{S(0.5)}), {0.5, 0.5, 0.5}},

@@ -54,7 +54,7 @@ D3 placed(const DrawnPose& pose, D3 point) {
   const float(&q)[4] = pose.orientation;
   return rotated<double>({q[0], q[1], q[2], q[3]}, point) + real(pose.position);
 }
-/// [m] From a point to the nearest end of a line.
+/// [m] The distance from a point to the nearest end of a line.
 double gap_to_ends(std::span<const DrawnLine> lines, D3 point) {
   double least = length(point - real(lines[0].from));
   for (const DrawnLine& line : lines)

@@ -41,7 +41,7 @@ template <class S> class DestructionOrder : public ::testing::Test {
       if (i % 4 == 0 && spring.a != spring.b) made.w.add(spring);
     }
   }
-  /// What a body's joints and the body leave, one after the other.
+  /// Destroys a body's joints and then the body, one after the other.
   static void destroy_by_hand(Made& made, BodyId body) {
     std::vector<JointId> own;
     for (const JointId joint : made.joints) {

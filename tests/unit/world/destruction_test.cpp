@@ -16,7 +16,7 @@ template <class S> class Destructions : public ::testing::Test {
       Contact<S> contact = {};
       contact.key = {balls[i].slot, balls[i + 1].slot, 0, 0};
       contact.count = 1;
-      contact.flags = contact_flag::kTouching;
+      contact.flags = contact_flag::kTouching | contact_flag::kReported;
       systems.state.contacts.push_back(contact);
     }
     systems.state.overlaps = {{balls[2].slot, balls[0].slot}};

@@ -1,5 +1,5 @@
-// What commands end and wake, as the next step tells it: also where the world was saved and loaded in between; and what
-// sensors see.
+// Events of what commands end and wake, as the next step tells it: also where the world was saved and loaded in
+// between; and what sensors see.
 // SPDX-License-Identifier: MIT
 #include "unit/world/worlds.hpp"
 

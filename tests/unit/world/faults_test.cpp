@@ -1,4 +1,4 @@
-// What a world says of calls that make no sense: which call, which field, what it expects. No harm comes of them.
+// Faults of calls that make no sense: which call, which field, what the world expects. No harm comes of them.
 // SPDX-License-Identifier: MIT
 #include <limits>
 #include <string>

@@ -1,4 +1,4 @@
-// What names a method that this build leaves out is refused by name; where nothing is left out, nothing is.
+// A method that this build leaves out is refused by name; where nothing is left out, nothing is.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <string>

@@ -1,4 +1,4 @@
-// What a scalar's limits mean for a world: speeds and places that it takes, what a step cuts, what it writes and reads.
+// The limits of a scalar in a world: speeds and places that it takes, what a step cuts, what it writes and reads.
 // SPDX-License-Identifier: MIT
 #include "unit/world/refusing_world.hpp"
 

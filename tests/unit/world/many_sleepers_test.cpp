@@ -34,7 +34,7 @@ template <class S> class ManySleepers : public ::testing::Test {
 };
 TYPED_TEST_SUITE(ManySleepers, AllScalars);
 
-/// Written down and rebuilt: nothing cached is left of its past.
+/// The world written down and rebuilt: nothing cached is left of its past.
 template <class S> World<S> rebuilt(const World<S>& world) {
   std::vector<std::uint8_t> bytes;
   Writer writer(bytes);

@@ -17,7 +17,7 @@ template <class S> class PartPairsOf : public ::testing::Test {
  protected:
   PartPairsOf() : world(settings<S>(0)) {}
 
-  /// Of the world as it is now. Returns how many pairs of compounds lack parts.
+  /// Gathers the pairs of the world as it is now. Returns how many pairs of compounds lack parts.
   std::uint32_t gather() {
     systems = std::make_unique<Systems<S>>(world);
     systems->find_pairs();
@@ -31,7 +31,7 @@ template <class S> class PartPairsOf : public ::testing::Test {
     for (std::size_t i = 0; i < pairs->groups(); ++i) count += pairs->group(i).parts.size();
     return count;
   }
-  /// So many small boxes in a row from the origin on.
+  /// Adds so many small boxes in a row from the origin on.
   ShapeId add_row(int count, double apart = 1) {
     std::vector<Child<S>> children;
     for (int i = 0; i < count; ++i) {

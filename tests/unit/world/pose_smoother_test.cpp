@@ -15,21 +15,21 @@ namespace {
 
 using namespace test;
 
-/// What a smoother asks of a world.
+/// The part of a world that a smoother asks of.
 struct Stage {
   std::vector<RenderPose> poses;
   const std::vector<RenderPose>& poses_float(float) { return poses; }
 };
 constexpr BodyId kBody = {3, 1};
 
-/// At x [m], turned by `angle` [rad] about y.
+/// The pose at x [m], turned by `angle` [rad] about y.
 RenderPose at(double x, double angle = 0, BodyId body = kBody) {
   return {body,
           {static_cast<float>(x), 1, 2},
           {0, static_cast<float>(std::sin(angle / 2)), 0, static_cast<float>(std::cos(angle / 2))}};
 }
 Stage only(const RenderPose& pose) { return {{pose}}; }
-/// Between two orientations [rad].
+/// [rad] The angle between two orientations.
 double angle(const RenderPose& p, const RenderPose& q) {
   double dot = 0;
   for (int i = 0; i < 4; ++i) dot += double{p.orientation[i]} * q.orientation[i];
@@ -49,7 +49,7 @@ bool same(const std::vector<RenderPose>& p, const std::vector<RenderPose>& q) {
   return equal;
 }
 
-/// Believed there after frame `present`, and after a rollback by some frames found here.
+/// Corrects: believed there after frame `present`, and after a rollback by some frames found here.
 void correct(PoseSmoother& smoother, Stage there, Stage here, Frame present = 9, Frame back = 3) {
   smoother.after_step(present, there);
   Stage past;  // what is seen on the way is of no interest

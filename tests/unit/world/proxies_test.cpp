@@ -33,8 +33,13 @@ template <class S> class ProxiesOf : public ::testing::Test {
     made.filter = Filter{};
     return made;
   }();
+  StoredShapes<S> shapes = [] {
+    StoredShapes<S> one;
+    one.push_back(std::make_shared<const StoredShape<S>>(StoredShape<S>{.traits = {.any_solid = true}}));
+    return one;
+  }();
   std::vector<Contact<S>> contacts;
-  Proxies<S> proxies;
+  Proxies<S> proxies{shapes};
 };
 TYPED_TEST_SUITE(ProxiesOf, SystemScalars);
 

@@ -85,7 +85,7 @@ template <class S> class QueryWorld {
     d.filter.category = 3;
     world.create(d);
   }
-  /// So many parts that they have a tree, one of them without an end.
+  /// Adds so many parts that they have a tree, one of them without an end.
   static void add_fence(std::vector<Child<S>>& children) {
     children.push_back(
         {primitive_of(HalfSpace<S>{{Unit<S>(0), Unit<S>(1), Unit<S>(0)}, num<S>(-3)}), Pose<S>::identity()});

@@ -1,4 +1,4 @@
-// What worlds refuse by name: parts of shapes, limits that never act, rays without length, masses beyond the format.
+// Refusals of worlds by name: parts of shapes, limits that never act, rays without length, masses beyond the format.
 // SPDX-License-Identifier: MIT
 #include <limits>
 #include <string>

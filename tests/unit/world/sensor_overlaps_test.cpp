@@ -24,7 +24,7 @@ template <class S> class Overlaps : public ::testing::Test {
   }
   std::vector<SensorOverlap> with(std::initializer_list<std::uint32_t> others) {
     std::vector<SensorOverlap> list;
-    for (const std::uint32_t other : others) list.push_back({bodies[0].slot, other});
+    for (const std::uint32_t other : others) list.push_back({bodies[0].slot, other, 0, 0});
     return list;
   }
 
@@ -58,7 +58,7 @@ TYPED_TEST(Overlaps, those_of_bodies_that_nobody_looked_at_stay) {
 
 TYPED_TEST(Overlaps, ends_are_in_order_with_those_that_commands_made) {
   this->systems.state.overlaps = this->with({1});
-  this->events.sensor_end.push_back({this->bodies[0], this->bodies[2]});
+  this->events.sensor_end.push_back({this->bodies[0], this->bodies[2], 0, 0});
   std::vector<SensorOverlap> found;
   this->sensors.update(found, this->events);
   ASSERT_EQ(this->events.sensor_end.size(), 2u);

@@ -28,7 +28,7 @@ struct ChangeOne {
     }
   }
 };
-/// How many fields there are.
+/// Returns how many fields there are.
 template <class Settings> int expect_all_count() {
   int fields = 1;
   for (int i = 0; i < fields; ++i) {

@@ -20,7 +20,7 @@ template <class S> class StillSensors : public ::testing::Test {
     d.sensor = true;
     return w.create(d);
   }
-  /// Whether the next step tells that the sensor sees the crate from now on, or no longer.
+  /// Expects whether the next step tells that the sensor sees the crate from now on, or no longer.
   void expect_step(bool begins, bool ends) {
     w.step();
     EXPECT_EQ(w.events().sensor_begin.size(), begins ? 1u : 0u);

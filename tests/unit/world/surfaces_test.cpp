@@ -23,7 +23,7 @@ double valley(int i, int k) { return -roof(i, k); }
 
 template <class S> class Surfaces : public testing::TestWithParam<int> {
  protected:
-  /// Of `heights` [m], centred on the world's origin.
+  /// A ground of `heights` [m], centred on the world's origin.
   static Child<S> ground(Heights heights, bool field, std::vector<BlobRef>& blobs) {
     std::vector<double> sheet;
     std::vector<D3> points;

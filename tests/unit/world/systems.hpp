@@ -1,4 +1,4 @@
-// What the tests of systems share: a state with its caches, without a world around it.
+// The common part of the tests of systems: a state with its caches, without a world around it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace isostep::test {
 
-/// Of float and of fixed point: systems hold no code of one scalar alone.
+/// The scalars are a float and a fixed point: systems hold no code of one scalar alone.
 using SystemScalars = ::testing::Types<float, Q32_32>;
 
 template <class S> struct Systems {
@@ -22,7 +22,7 @@ template <class S> struct Systems {
 
   WorldState<S> state;
   BodyMap<S> map{state};
-  Proxies<S> proxies;
+  Proxies<S> proxies{state.shapes};
   StateLoader<S> loader{state, map, proxies};
   IslandWake<S> wake{state, map, proxies};
 };

@@ -14,7 +14,7 @@ constexpr int kCells = 40, kSeam = kCells / 2;  // along a side; tiles meet at t
 constexpr std::uint32_t kExponent = 10, kPitch = 512;
 constexpr double kSide = 0.5 * kCells;  // [m]
 
-/// [1/1024 m] Over place (i, k).
+/// [1/1024 m] The height over place (i, k).
 using Ground = std::int16_t (*)(int i, int k);
 std::int16_t flat(int, int) { return 0; }
 std::int16_t ramp(int i, int) { return static_cast<std::int16_t>(i <= kSeam ? 0 : 100 * (i - kSeam)); }
@@ -83,7 +83,7 @@ struct Tile {
 
 template <class S> class Tiles : public testing::Test {
  protected:
-  /// In one body, or each in its own. The ground's middle is the world's origin.
+  /// Adds the ground in one body, or each part in its own. The ground's middle is the world's origin.
   static void add_ground(World<S>& world, Ground ground, Kind kind, Seam seam, bool one_body) {
     std::vector<Child<S>> children;
     std::vector<BlobRef> blobs;
@@ -129,7 +129,7 @@ template <class S> class Tiles : public testing::Test {
     }
     return bodies;
   }
-  /// [m/s] Of each body after each frame.
+  /// [m/s] The vertical speed of each body after each frame.
   static std::vector<double> vertical_speeds(Ground ground, Kind kind, Seam seam, bool one_body) {
     World<S> world(settings<S>(-10));
     add_ground(world, ground, kind, seam, one_body);
@@ -141,7 +141,7 @@ template <class S> class Tiles : public testing::Test {
     }
     return speeds;
   }
-  /// [m/s] Of the first `kinds` of every four bodies.
+  /// [m/s] The largest difference of the first `kinds` of every four bodies.
   static double difference(const std::vector<double>& a, const std::vector<double>& b, std::size_t kinds = 4) {
     double most = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {

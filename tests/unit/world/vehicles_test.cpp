@@ -73,7 +73,7 @@ template <class S> class VehicleRecords : public ::testing::Test {
     EXPECT_FALSE(w.set_input(id, input)) << field;
     EXPECT_STREQ(w.fault().field, field);
   }
-  /// Whether a state read from outside may have that.
+  /// A state read from outside may have that.
   template <class Change> bool is_valid_with(const Change& change) {
     WorldState<S> state = w.state();
     change(state.parts);

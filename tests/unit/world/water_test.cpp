@@ -18,7 +18,7 @@ template <class S> class Waters : public ::testing::Test {
     d.allow_sleep = sleeps_;
     return world_.create(d);
   }
-  /// Of 100 kg a cubic metre, which Q16.16 can count too.
+  /// A pond of 100 kg a cubic metre, which Q16.16 can count too.
   static Water<S> pond(double drag = 4) {
     Water<S> water;
     water.density = S(100);

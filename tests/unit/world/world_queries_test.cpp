@@ -1,4 +1,4 @@
-// What worlds answer about space, against a search of every body; and worlds that move and tell their stages.
+// Queries of worlds about space, against a search of every body; and worlds that move and tell their stages.
 // SPDX-License-Identifier: MIT
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What the tests of worlds share: numbers in and out of a scalar, short definitions, tolerances by scalar.
+// The common part of the tests of worlds: numbers in and out of a scalar, short definitions, tolerances by scalar.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -54,6 +54,7 @@ template <class S> BodyDefinition<S> moving(ShapeId shape, D3 position, D3 veloc
   d.shape = shape;
   d.position = vec<S>(position);
   d.velocity = vec<S>(velocity);
+  d.report_contacts = true;
   return d;
 }
 template <class S> BodyDefinition<S> still(ShapeId shape, D3 position = {0, 0, 0}) {

@@ -27,7 +27,7 @@ template <class S> struct AnySweepVisit { Unit<S> operator()(std::uint32_t slot,
 /// A structure over boxes that the caller names by small integers (slots), each at most once.
 ///
 /// The structure is a means, not state: its shape depends on what was inserted and moved before, and so does the order
-/// of visits, which is never stated. The set of what is visited depends on the boxes alone, and is that of brute force:
+/// of visits, which is never stated. The set of visits depends on the boxes alone, and is that of brute force:
 ///   insert(slot, box)        the slot is free;  update(slot, box), remove(slot): it is taken
 ///   optimise()               restores quality after changes: once, before many questions. Answers do not need it.
 ///   clear()                  forgets the boxes, keeps the memory
@@ -39,7 +39,7 @@ template <class S> struct AnySweepVisit { Unit<S> operator()(std::uint32_t slot,
 ///   overlapping_pairs_of(slots, matches, most, visit)  visit(slot, other) for every one of `slots` that is stored and
 ///                            every stored box that overlaps its own, itself included
 /// The latter two are false when they gave up, after `most` visits or what the structure counts as such; some pairs
-/// were not visited then. Whoever lets results depend on order sorts them: PairSet does, and all_pairs below.
+/// were not visited then. A caller whose results depend on order sorts: PairSet does, and all_pairs below.
 /// Touching boxes overlap. Boxes have low <= high and coordinates within 4 position limits (geometry/limits.hpp).
 /// No operation allocates once the structure has seen its greatest slot and size.
 template <class B, class S>
@@ -76,7 +76,8 @@ template <class S> struct AllPairs {
   typename AabbTree<S>::Matches matches;
 };
 
-/// Every two stored boxes that overlap, in canonical order: pairs.keys. The same for every structure over these boxes.
+/// Every two stored boxes that overlap, in canonical order: pairs.keys. They are the same for every structure over
+/// these boxes.
 /// Source:  Millington 2007, Game Physics Engine Development, ch. 12: the potential contacts of a hierarchy or
 ///          partition.
 template <class S, BroadPhase<S> B> ISO_INLINE void all_pairs(const B& structure, AllPairs<S>& pairs) {

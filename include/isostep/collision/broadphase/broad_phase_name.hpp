@@ -9,8 +9,8 @@
 #include "isostep/core/book.hpp"
 #include "isostep/scalar/platform.hpp"
 
-/// ISO_FOR_EACH_BROAD_PHASE(X) expands X(name, Structure): in BroadPhaseName and of the structure that it names;
-/// ISO_FOR_EACH_BUILT_BROAD_PHASE(X) for those that this build holds.
+/// ISO_FOR_EACH_BROAD_PHASE(X) expands X(name, Structure): the name in BroadPhaseName and the structure that it names;
+/// ISO_FOR_EACH_BUILT_BROAD_PHASE(X) does so for those that this build holds.
 // clang-format off
 #define ISO_BROAD_PHASES(X, BOOK)                                 \
   X(box_tree, AabbTree) BOOK(sphere_tree, SphereTree)             \
@@ -39,7 +39,8 @@ ISO_INLINE std::optional<BroadPhaseName> broad_phase_named(std::string_view name
   return std::nullopt;
 }
 
-/// Null for a structure that this build holds, and for what is none: core/book.hpp.
+/// The expectation that a fault names for a structure that this build leaves out (core/book.hpp). Null for one that it
+/// holds, and for a number that names none.
 ISO_INLINE constexpr const char* expected_instead_of(BroadPhaseName name) {
   constexpr const char* kExpected[] = {ISO_BROAD_PHASES(ISO_NOT_LEFT_OUT, ISO_LEFT_OUT)};
   const auto index = static_cast<std::uint32_t>(name);

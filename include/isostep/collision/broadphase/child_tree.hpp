@@ -89,8 +89,14 @@ template <class S> class ChildTree {
   bool has_surfaces_ = false;
 };
 
-#define ISO_EXTERN(S) extern template class ChildTree<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+/// The leaf of that index of a shape's children. `tree` is theirs, or null.
+template <class S>
+ISO_INLINE Leaf leaf_at(const ChildTree<S>* tree, std::span<const Child<S>> children, Contents<S> contents,
+                        std::uint32_t index) {
+  return tree != nullptr ? tree->leaf_at(index) : leaf_at(children, contents, index);
+}
+
+#define ISO_CHILD_TREE_OF(extern, S) extern template class ChildTree<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CHILD_TREE_OF)
 
 }  // namespace isostep

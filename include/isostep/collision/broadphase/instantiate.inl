@@ -6,7 +6,7 @@
 #include "isostep/collision/broadphase/pairs.inl"
 #include "isostep/collision/broadphase/tree.inl"
 
-#define ISO_BOX_TREES_OF(S)    \
-  template class AabbTree<S>;  \
-  template class ChildTree<S>; \
+#define ISO_BOX_TREES_OF(S)   \
+  template class AabbTree<S>; \
+  ISO_CHILD_TREE_OF(, S)      \
   template class PairSet<S>;

@@ -20,28 +20,28 @@ ISO_INLINE constexpr std::uint32_t pair_b(std::uint64_t key) { return static_cas
 
 /// Holds { (a, b) : a < b, the stored boxes of a and b overlap, may_collide(a, b) }, ascending. After `update` that set
 /// depends on the boxes and on the predicate alone, not on what happened before nor on the structure that holds the
-/// boxes, any BroadPhase (broad_phase.hpp), as long as every slot whose box, presence or filter changed was marked. Not
-/// state: a loaded world clears it and marks all.
-/// That set is held while it has `most` pairs or fewer. Beyond, or where the search takes too many steps to tell,
-/// keys() are what the caller `choose`s instead, at every update, until it says that they are the whole set again.
+/// boxes, any BroadPhase (broad_phase.hpp), as long as every slot whose box, presence or filter changed was marked. The
+/// set is not state: a loaded world clears it and marks all. That set is held while it has `most` pairs or fewer.
+/// Beyond, or where the search takes too many steps to tell, keys() are what the caller `choose`s instead, at every
+/// update, until it says that they are the whole set again.
 /// Cost: O(pairs + marked log n); from a third of the leaves on, one join of the tree with itself (measured break-even
 /// 0.33 to 0.41). Memory and time end at a few times `most` and the leaves. No allocation once warm.
 template <class S> class PairSet {
  public:
-  /// The slot's box changed, or it was inserted, or what the predicate says of it changed. Repeats are free.
+  /// The slot's box changed, it was inserted, or the predicate's answer for it changed. Repeats are free.
   void mark_moved(std::uint32_t slot);
   /// The slot left the structure. It may be inserted again before `update`, and is then marked moved as well.
   void mark_removed(std::uint32_t slot);
   /// Brings the pairs up to date. may_collide(a, b) -> bool, a < b, is called only for overlapping pairs.
-  /// False: the caller is to choose.
+  /// Returns false when the caller is to choose.
   template <class Structure, class Predicate>
   ISO_INLINE bool update(const Structure& boxes, const Predicate& may_collide, std::uint64_t most = kAnyNumber);
-  /// Takes the place of the pairs, ascending; whole: they are all that there are.
+  /// Replaces the pairs by `keys`, ascending. `whole`: they are all pairs that there are.
   void choose(std::vector<std::uint64_t>& keys, bool whole);
   /// Forgets pairs and marks, keeps the memory.
   void clear();
 
-  /// Ascending `pair_key`s.
+  /// The `pair_key`s of all pairs, ascending.
   ISO_INLINE const std::vector<std::uint64_t>& keys() const { return keys_; }
 
  private:

@@ -21,16 +21,16 @@ template <class S> struct Sweep {
 };
 
 namespace detail {
-/// overlap() as 0 or 1 and without branches: in a join every second result is a surprise, and a mispredicted branch
-/// costs more than six comparisons.
+/// overlap() as 0 or 1, without branches: in a join every second result is a surprise, and a mispredicted branch costs
+/// more than six comparisons.
 template <class S> ISO_INLINE std::uint32_t overlap_flag(const Aabb<S>& a, const Aabb<S>& b) {
   return static_cast<std::uint32_t>(a.low.x <= b.high.x) & static_cast<std::uint32_t>(b.low.x <= a.high.x) &
          static_cast<std::uint32_t>(a.low.y <= b.high.y) & static_cast<std::uint32_t>(b.low.y <= a.high.y) &
          static_cast<std::uint32_t>(a.low.z <= b.high.z) & static_cast<std::uint32_t>(b.low.z <= a.high.z);
 }
 
-/// Whether a sweep may touch a box, by the separating axes of a segment and a box grown by `half`: the box's three,
-/// with the segment's own bounds, and their cross products with the displacement. Exact sums in fixed point.
+/// Tells whether a sweep may touch a box, by the separating axes of a segment and a box grown by `half`: the box's
+/// three, with the segment's own bounds, and their cross products with the displacement. Exact sums in fixed point.
 /// Error: in float, with coordinates up to f, the two sides of a cross product axis err by less than
 ///        14 eps f (|da| + |db|) together; the slack of 16 eps f on each half extent adds 32: no touched box is missed.
 template <class S> struct SweepTest {
@@ -72,7 +72,7 @@ template <class S> struct SweepTest {
 /// A binary tree of boxes over leaves that the caller names by small integers (slots), each at most once.
 ///
 /// The tree is a means, not state: its shape depends on what was inserted and moved before, so the order of visits does
-/// too. Which leaves `query` and `overlapping_pairs` visit does not. Whoever lets results depend on order sorts them.
+/// too. The leaves that `query` and `overlapping_pairs` visit do not. A caller whose results depend on order sorts.
 ///
 /// Siblings lie side by side (nodes 2k and 2k + 1; the root is node 0), a leaf is a node of height 0. `update` only
 /// enlarges ancestors and marks them; `optimise` takes the marked part apart and splits what hangs below it anew, so
@@ -90,11 +90,11 @@ template <class S> class AabbTree {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::uint32_t kMaxHeight = 80;
 
-  /// Two nodes.
+  /// Two nodes of a join whose boxes overlap.
   struct NodePair {
     std::uint32_t a, b;
   };
-  /// Working memory of a join; keep it from one to the next.
+  /// The working memory of a join; keep it from one to the next.
   struct Matches {
     std::vector<NodePair> now, next;
   };
@@ -107,7 +107,8 @@ template <class S> class AabbTree {
   /// Restores the tree's quality after inserts and updates; call it once, before many queries. Results do not need it.
   void optimise();
 
-  /// Bulk insertion: stage any number, then rebuild; between the two the tree may not be used otherwise.
+  /// stage() and rebuild() insert in bulk: stage any number, then rebuild; the tree may not be used otherwise in
+  /// between.
   void stage(std::uint32_t slot, const Aabb<S>& box);
   void rebuild();
 
@@ -116,7 +117,7 @@ template <class S> class AabbTree {
 
   ISO_INLINE std::uint32_t size() const { return size_; }
   ISO_INLINE std::uint32_t height() const { return size_ == 0 ? 0u : nodes_[kRoot].height; }
-  /// For tests: leaves and subtrees that all builds together were made over.
+  /// The number of leaves and subtrees that all builds together were made over, for tests.
   ISO_INLINE std::uint64_t built() const { return built_; }
   ISO_INLINE bool contains(std::uint32_t slot) const { return slot < leaf_of_.size() && leaf_of_[slot] != kNone; }
   ISO_INLINE const Aabb<S>& box(std::uint32_t slot) const { return nodes_[leaf_of_[slot]].box; }
@@ -125,27 +126,30 @@ template <class S> class AabbTree {
   /// A visitor of this class is a struct with an ISO_INLINE call operator wherever weak symbols matter.
   template <class Visit> ISO_INLINE void query(const Aabb<S>& box, Visit&& visit) const;
 
-  /// The same for the leaves that overlaps(box) -> bool reaches: those for which it is true of every box on the way and
-  /// of their own. False: visit wanted no more.
+  /// visit(slot) for the leaves that overlaps(box) -> bool reaches: those for which it is true of every box on the way
+  /// and of their own. Returns false when visit wanted no more.
   template <class Overlaps, class Visit> ISO_INLINE bool traverse(const Overlaps& overlaps, Visit&& visit) const;
 
   /// visit(slot) -> bool for the leaves that stand behind the slot's own in the tree's walk and whose boxes overlap its
-  /// box, nearest in the tree first; false ends it. enter(node) -> bool, of `fold`: whether to look at a node at all.
+  /// box, nearest in the tree first; false ends it. enter(node) -> bool tells by values of `fold` whether to look at a
+  /// node at all.
   template <class Enter, class Visit>
   ISO_INLINE void query_behind(std::uint32_t slot, const Enter& enter, const Visit& visit) const;
-  /// The same for all leaves, the slot's own among them, in the order of the walk.
+  /// query_behind() for all leaves, the slot's own among them, in the order of the walk.
   template <class Enter, class Visit>
   ISO_INLINE void query_all(std::uint32_t slot, const Enter& enter, const Visit& visit) const;
-  /// A value for every node: leaf(slot) of a leaf, both(a, b) of what its two children have. Of a tree just rebuilt.
+  /// A value for every node: leaf(slot) of a leaf, both(a, b) of what its two children have. The tree must just have
+  /// been rebuilt.
   template <class Value, class Leaf, class Both>
   ISO_INLINE void fold(std::vector<Value>& values, const Leaf& leaf, const Both& both) const;
 
-  /// visit(slot, slot) -> void once for every two leaves whose boxes overlap, in no stated order, either first. False:
-  /// given up after `most` overlaps, of leaves and of what is above them; some pairs were not visited.
+  /// visit(slot, slot) -> void once for every two leaves whose boxes overlap, in no stated order, either first. Returns
+  /// false when it gives up after `most` overlaps, of leaves and of nodes above them; some pairs were not visited then.
   template <class Visit> ISO_INLINE bool overlapping_pairs(Matches& matches, std::uint64_t most, Visit&& visit) const;
 
   /// visit(slot, other) -> void for every one of `slots` that is in the tree and every leaf, itself included, whose box
-  /// overlaps its own, in no stated order. Half the time of as many queries. False: given up, as above.
+  /// overlaps its own, in no stated order. It takes half the time of as many queries. Returns false when it gives up,
+  /// like overlapping_pairs().
   template <class Visit>
   ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches, std::uint64_t most,
                                        Visit&& visit) const;
@@ -155,7 +159,7 @@ template <class S> class AabbTree {
   /// prefers, of two hits at one fraction, the lower slot: then the nearest hit does not depend on the tree's shape.
   template <class Visit> ISO_INLINE void sweep(const Sweep<S>& sweep, Visit&& visit) const;
 
-  /// For tests: links, heights, marks, containment, free list and slots agree.
+  /// Checks that links, heights, marks, containment, free list and slots agree, for tests.
   bool validate() const;
 
  private:
@@ -163,7 +167,8 @@ template <class S> class AabbTree {
   static constexpr std::uint32_t kFreeHeight = 0xffffffffu;
   static constexpr std::uint32_t kMaxDepth = 32;
   static constexpr std::uint32_t kMaxGiants = 8;
-  /// Half as much again as the least height of so many leaves: an AVL tree is no higher, and few insertions rotate.
+  /// The height above which `insert` rotates: half as much again as the least height of so many leaves: an AVL tree is
+  /// no higher, and few insertions rotate.
   static ISO_INLINE std::uint32_t height_to_level(std::uint32_t leaves) {
     return 2u + 3u * static_cast<std::uint32_t>(std::bit_width(leaves)) / 2u;
   }
@@ -236,7 +241,7 @@ ISO_INLINE bool AabbTree<S>::traverse(const Overlaps& overlaps, Visit&& visit) c
   return true;
 }
 
-/// False: the visitor wants no more.
+/// Returns false when the visitor wants no more.
 template <class S>
 template <class Enter, class Visit>
 ISO_INLINE bool AabbTree<S>::query_below(std::uint32_t top, const Aabb<S>& box, const Enter& enter,
@@ -310,9 +315,9 @@ ISO_INLINE bool AabbTree<S>::overlapping_pairs_of(std::span<const std::uint32_t>
   return resolve(matches, count, most, visit);
 }
 
-/// Opens matches until both sides are leaves. Level by level rather than depth first: the matches of a level wait for
-/// nothing but memory, so the processor works on several at once; a stack makes each step wait for the one before
-/// (measured: twice the time).
+/// Opens matches until both sides are leaves. It goes level by level rather than depth first: the matches of a level
+/// wait for nothing but memory, so the processor works on several at once; a stack makes each step wait for the one
+/// before (measured: twice the time).
 template <class S>
 template <class Visit>
 ISO_INLINE bool AabbTree<S>::resolve(Matches& matches, std::uint32_t count, std::uint64_t most, Visit&& visit) const {

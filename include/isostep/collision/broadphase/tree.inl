@@ -25,7 +25,7 @@ template <class S> void AabbTree<S>::free_pair(std::uint32_t pair) {
   free_ = pair;
 }
 
-/// Moves a subtree's top to `at`, whose parent stays; whatever pointed to the top points to `at`.
+/// Moves a subtree's top to `at`, whose parent stays; links that pointed to the top point to `at`.
 template <class S> void AabbTree<S>::place(std::uint32_t at, const Node& node) {
   const std::uint32_t parent = nodes_[at].parent;
   nodes_[at] = node;
@@ -38,7 +38,7 @@ template <class S> void AabbTree<S>::place(std::uint32_t at, const Node& node) {
   }
 }
 
-/// Exact box and height of an inner node. Returns whether either changed.
+/// Sets the exact box and height of an inner node. Returns whether either changed.
 template <class S> bool AabbTree<S>::refit(std::uint32_t at) {
   Node& node = nodes_[at];
   const Node& left = nodes_[node.child];
@@ -50,7 +50,7 @@ template <class S> bool AabbTree<S>::refit(std::uint32_t at) {
   node.height = height;
   return true;
 }
-/// Does so from a node to the root, as far as anything changes.
+/// Refits every node from `at` to the root, as far as anything changes.
 template <class S> void AabbTree<S>::refit_from(std::uint32_t at) {
   while (at != kNone && refit(at)) at = nodes_[at].parent;
 }
@@ -75,11 +75,11 @@ template <class S> void AabbTree<S>::level_from(std::uint32_t at) {
   }
 }
 
-/// The node to pair a new leaf with: down the cheaper child while that adds less surface than stopping.
-/// Stopping at n costs area(n + box). Going on to child c costs n's growth and, for a leaf c, area(c + box); for an
-/// inner c at least its growth and area(box). What the ancestors of n grow is common to both; n's growth, taken from
-/// both, leaves area(n) against the child's part. Of what costs the same the lower: boxes in one place would make a
-/// list of the tree otherwise.
+/// The node to pair a new leaf with: down the cheaper child while that adds less surface than stopping. A stop at n
+/// costs area(n + box). Going on to child c costs n's growth and, for a leaf c, area(c + box); for an inner c at least
+/// its growth and area(box). The growth of n's ancestors is common to both; n's growth, taken from both, leaves area(n)
+/// against the child's part. The lower of two that cost the same wins: boxes in one place would make a list of the tree
+/// otherwise.
 template <class S> std::uint32_t AabbTree<S>::find_sibling(const Aabb<S>& box) const {
   const Sum<S> own = half_area(box);
   std::uint32_t at = kRoot;
@@ -182,7 +182,7 @@ template <class S> void AabbTree<S>::clear() {
   size_ = 0;
 }
 
-/// Takes the tree apart from the root: marked nodes, or all inner nodes, are freed, what hangs below becomes items.
+/// Takes the tree apart from the root: marked nodes, or all inner nodes, are freed, the subtrees below become items.
 template <class S> void AabbTree<S>::collect_items(bool all) {
   order_.clear();
   if (nodes_[kRoot].height == 0) {
@@ -201,11 +201,12 @@ template <class S> void AabbTree<S>::collect_items(bool all) {
       }
     }
   }
-  // Children first: freeing a pair overwrites its own link.
+  // Children are freed first: a pair that is freed overwrites its own link.
   for (std::size_t i = order_.size(); i-- > 0;) free_pair(nodes_[order_[i]].child);
 }
 
-/// Builds the tree over items_, top down; boxes and heights then bottom up, as every node is made before its children.
+/// Builds the tree over items_, top down; then sets boxes and heights bottom up, as every node is made before its
+/// children.
 /// Depth: kMaxDepth splits at the middle of space, then at most 32 at the middle of the list, stay below kMaxHeight as
 /// long as all items are leaves.
 template <class S> void AabbTree<S>::build() {
@@ -256,8 +257,9 @@ template <class S> void AabbTree<S>::build() {
   items_.clear();
 }
 
-/// Moves items of at least a quarter of the region of all centres (grounds, half-spaces) to the front, and says how
-/// many: hung near the root they blow up no box on the way down. A few only, as each makes the tree one level deeper.
+/// Moves items of at least a quarter of the region of all centres (grounds, half-spaces) to the front, and returns how
+/// many: near the root they enlarge no box on the way down. They are a few only, as each makes the tree one level
+/// deeper.
 template <class S> std::uint32_t AabbTree<S>::split_off_giants() {
   const std::uint32_t count = static_cast<std::uint32_t>(centres_.size());
   if (count <= 2 * kMaxGiants) return 0;
@@ -276,7 +278,7 @@ template <class S> std::uint32_t AabbTree<S>::split_off_giants() {
   return giants;
 }
 
-/// Splits a range of centres at the middle of its longest side; in half where that leaves one part empty.
+/// Splits a range of centres at the middle of its longest side, or by count where that leaves one part empty.
 template <class S> std::uint32_t AabbTree<S>::partition(std::uint32_t begin, std::uint32_t end) {
   Vec3<S> low = centres_[begin].twice;
   Vec3<S> high = low;

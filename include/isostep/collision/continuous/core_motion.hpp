@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// One point of the solid goes along a line at constant speed; the orientation is the normalised linear interpolation
+/// One point of the solid moves along a line at constant speed; the orientation is the normalised linear interpolation
 /// of the two, the shorter way round. That needs a root but no sine, and turns about one axis: a little faster in the
 /// middle than at the ends, by (turn / 2)^2 / 4 of the speed. Turns must be less than half a turn.
 template <class S> struct CoreMotion {
@@ -18,20 +18,20 @@ template <class S> struct CoreMotion {
 
 namespace detail {
 
-/// What `end` has to be to come the shorter way from `start`.
+/// The one of `end` and -`end`, the same orientation, that is the shorter way from `start`.
 template <class U> ISO_INLINE Quat<U> on_near_side(Quat<U> start, Quat<U> end) {
   const auto cosine =
       product(start.x, end.x) + product(start.y, end.y) + product(start.z, end.z) + product(start.w, end.w);
   return cosine < product(U(0), U(0)) ? Quat<U>{-end.x, -end.y, -end.z, -end.w} : end;
 }
-/// Not normalised; its length is 0.7 to 1.
+/// The interpolated orientation, not normalised; its length is 0.7 to 1.
 template <class U> ISO_INLINE Quat<U> between(Quat<U> start, Quat<U> end, U t) {
   return {start.x + (end.x - start.x) * t, start.y + (end.y - start.y) * t, start.z + (end.z - start.z) * t,
           start.w + (end.w - start.w) * t};
 }
 
-/// [m] No point within `reach` of what goes straight is ever further from where it would be by then on the line between
-/// its two ends: an eighth of the largest acceleration, which SweptCore has.
+/// [m] The bow of a point's way: no point within `reach` of the centre is ever further from its place, at that time, on
+/// the line between its two ends. It is an eighth of the largest acceleration, which SweptCore has.
 template <class S> ISO_INLINE S bow_of(const CoreMotion<S>& motion, S reach) {
   using U = Unit<S>;
   const Quat<U> turn =
@@ -41,7 +41,7 @@ template <class S> ISO_INLINE S bow_of(const CoreMotion<S>& motion, S reach) {
   const S squared = reach * (c * c);
   return (squared + squared * c) * S(16.25 / 8);
 }
-/// [m] What rounding makes of a box's sides, as SweepTest has it, and `margin`.
+/// [m] A box grown by `margin` and by the rounding of its sides, as SweepTest has it.
 template <class S> ISO_INLINE Aabb<S> grown_with_slack(const Aabb<S>& box, S margin) {
   const S step = resolution<S>() * S(16), farthest = max(max_abs(box.low), max_abs(box.high));
   return grow(box, margin + farthest * step + step);

@@ -12,17 +12,15 @@ template <class S> struct SolidPlane {
   Vec3<S> point;         // [m] of the surface, within Limits<S>::position() of the core
 };
 
-/// time_of_impact() against a plane: the same bound along its normal, which is given and needs no search. The normal of
-/// the result points from the core to the plane; its points are zero, but for `on_a` where they touch at the start: the
-/// lowest of the core.
+/// time_of_impact() against a plane: it takes the bound along the plane's normal, which is given and needs no search.
+/// The normal of the result points from the core to the plane; its points are zero, but for `on_a` where they touch at
+/// the start: the lowest of the core.
 template <class S>
 TimeOfImpact<S> plane_impact(const ConvexCore<S>& core, const CoreMotion<S>& motion, const SolidPlane<S>& plane,
                              S target);
 
 #define ISO_PLANE_IMPACT_OF(extern, S) \
   extern template TimeOfImpact<S> plane_impact<S>(const ConvexCore<S>&, const CoreMotion<S>&, const SolidPlane<S>&, S);
-#define ISO_EXTERN(S) ISO_PLANE_IMPACT_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PLANE_IMPACT_OF)
 
 }  // namespace isostep

@@ -8,17 +8,17 @@
 
 namespace isostep {
 
-/// A shape and where its frame is in another.
+/// A shape and its frame's place in another.
 template <class S> struct PlacedShape {
   ShapeView<S> shape;
   Transform<S> at;
 };
 
-/// [m] How deep another solid's middle may get into a shape and still be pushed out the way it came: its inner radius,
-/// at most 1 m. A surface without an inside has none.
+/// [m] The depth to which another solid's middle may get into a shape and still be pushed out the way it came: its
+/// inner radius, at most 1 m. A surface without an inside has none.
 template <class S> S thickness(const ShapeView<S>& shape);
 
-/// How far a solid gets.
+/// The part of its motion that a solid is free to make.
 template <class S> struct FreeWay {
   Unit<S> fraction;      // [1] 0 ... 1; 1: all the way
   bool is_held;          // only its middle is stopped there: it may turn
@@ -26,7 +26,7 @@ template <class S> struct FreeWay {
   Vec3<Unit<S>> normal;  // [1] where the middle may not go on, if it is held
 };
 
-/// Up to where, on its motion, `a`, a solid, does not pass `b`, which moves as well, if it is a solid; half-spaces and
+/// Finds how far `a`, a solid, moves before it would pass `b`. `b` moves as well if it is a solid; half-spaces and
 /// surfaces stay at the start of `of_b`. Both are placed in the frames of the poses.
 /// Method:  `a` is swept as a solid that is kGraze deep in it (a quarter of its inner radius, if that is less), up to
 ///          where the two overlap by half to three quarters of that: what does not touch the solid grazes. To stop
@@ -41,13 +41,13 @@ template <class S>
 FreeWay<S> free_way(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                     const CoreMotion<S>& of_b);
 
-/// True if `a`, a solid, overlaps `b` by more than kTooDeep, or half of its inner radius, if that is less. What touches
-/// less deep is left to contacts.
+/// Returns true if `a`, a solid, overlaps `b` by more than kTooDeep, or half of its inner radius, if that is less. A
+/// shallower overlap is left to contacts.
 template <class S>
 bool is_deep(const PlacedShape<S>& a, const Pose<S>& pose_of_a, const PlacedShape<S>& b, const Pose<S>& pose_of_b);
 
-/// Whether they touch at the start, apart or overlapping by half of kGraze or less; then `on_a` is where, at most
-/// kGraze deep in `a`.
+/// Returns true if they touch at the start, apart or overlapping by half of kGraze or less; `on_a` is then the place of
+/// the touch, at most kGraze deep in `a`.
 template <class S>
 bool touches_at_start(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                       const Pose<S>& pose_of_b, Vec3<S>& on_a);
@@ -65,8 +65,6 @@ template <class S> inline constexpr S kTooDeep = S(0.0078125);  // [m] twice as 
   extern template bool is_deep<S>(const PlacedShape<S>&, const Pose<S>&, const PlacedShape<S>&, const Pose<S>&); \
   extern template bool touches_at_start<S>(const PlacedShape<S>&, const CoreMotion<S>&, const PlacedShape<S>&,   \
                                            const Pose<S>&, Vec3<S>&);
-#define ISO_EXTERN(S) ISO_SHAPE_IMPACT_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SHAPE_IMPACT_OF)
 
 }  // namespace isostep

@@ -11,8 +11,9 @@
 namespace isostep {
 namespace detail {
 
-// What is met: a solid, or one of the shapes that only bodies at rest have, each with two functions of its own. A
-// surface of triangles joins here: the least fraction of those that the swept solid's box meets.
+// thickness_of() and impact_with() treat `b`: a solid, or one of the shapes that only bodies at rest have, each with
+// two functions of its own. A surface of triangles joins here: the least fraction of those that the swept solid's box
+// meets.
 
 template <class S, class Shape> ISO_INLINE S thickness_of(const Shape& shape) {
   static_assert(kIsSolid<Shape>, "a shape without an end needs thickness_of and impact_with here");
@@ -35,7 +36,7 @@ TimeOfImpact<S> impact_with(const HalfSpace<S>& space, const Transform<S>& at, c
   return plane_impact(core, motion, {normal, motion.start.position - normal * height}, target);
 }
 
-// A surface has no thickness: what its centre is behind of has passed it.
+// A surface has no thickness: a solid whose centre is behind it has passed it.
 template <class S, ShapeType Type, class G> ISO_INLINE S thickness_of(const SurfaceShape<S, Type, G>&) { return S(0); }
 template <class S, ShapeType Type, class G>
 TimeOfImpact<S> impact_with(const SurfaceShape<S, Type, G>& shape, const Transform<S>& at,
@@ -46,10 +47,10 @@ TimeOfImpact<S> impact_with(const SurfaceShape<S, Type, G>& shape, const Transfo
 
 template <class S> ISO_INLINE S graze_of(S inner) { return min(inner * S(0.25), kGraze<S>); }
 
-/// [1] of a motion. What would be deeper by kGraze sooner comes fast, at 7 m/s and more at 60 Hz, and waits for the
-/// contact that it begins with to stop it.
+/// [1] The fraction of a motion that gets on. A solid that would be deeper by kGraze sooner comes fast, at 7 m/s and
+/// more at 60 Hz, and waits for the contact that it begins with to stop it.
 template <class U> inline constexpr U kGettingOn = U(0.03125);
-/// [m] The way of a point of a solid.
+/// [m] The way of a point of a solid from the start to the end of its motion.
 template <class S> ISO_INLINE Vec3<S> way_of_point(const CoreMotion<S>& motion, Vec3<S> point) {
   return motion.end.position - motion.start.position + rotate(motion.end.orientation, point) -
          rotate(motion.start.orientation, point);
@@ -72,7 +73,7 @@ template <class S> class Passage {
   }
 
  private:
-  /// What is swept instead of the whole solid.
+  /// The part of the solid that is swept instead of the whole.
   struct Smaller {
     S inset;  // [m] so deep in it
     S ball;   // [m] not 0: the radius of a ball in its middle
@@ -114,8 +115,8 @@ template <class S> class Passage {
   ISO_INLINE FreeWay<S> up_to(Unit<S> fraction) const {
     return {fraction, false, Vec3<S>::zero(), Vec3<Unit<S>>::zero()};
   }
-  /// A ball that has come as near as it may goes nowhere but away. That of a surface's triangles that is met first says
-  /// it for all of them, so smaller balls, which may come nearer, are asked before.
+  /// A ball that has come as near as it may goes nowhere but away. The triangle of a surface that is met first decides
+  /// that for all of them, so smaller balls, which may come nearer, are asked before.
   template <class Shape> FreeWay<S> of_middle(const Shape& solid, S inner, S target) const {
     ShapeCore<S> core(solid, a_.at, S(0));
     core.become_ball(inner);

@@ -27,8 +27,8 @@ template <class S> struct TimeOfImpact {
   std::int32_t rounds;
 };
 
-/// Up to where two moving cores are at least half of `target` [m] apart, all the way. The target is at least 8
-/// gap_noise() of their size and distance and 4 resolutions of S: what is less counts as that.
+/// Finds how far two cores move while at least half of `target` [m] apart, all the way. The target is at least 8
+/// gap_noise() of their size and distance and 4 resolutions of S: a smaller one counts as that.
 /// Source:  Conservative advancement, Mirtich 1996, Impulse-based Dynamic Simulation of Rigid Body Systems, sec. 2.3.2.
 /// Differs: Along a plane's normal n that GJK found at t, the separation after d more is not less than
 ///            L(d) = (v_b - v_a).n d + min over b's vertices of r.(n + d n x w) - max over a's - B d^2 / 2,
@@ -47,8 +47,6 @@ TimeOfImpact<S> time_of_impact(const ConvexCore<S>& a, const CoreMotion<S>& of_a
 #define ISO_TIME_OF_IMPACT_OF(extern, S)                                                                              \
   extern template TimeOfImpact<S> time_of_impact<S>(const ConvexCore<S>&, const CoreMotion<S>&, const ConvexCore<S>&, \
                                                     const CoreMotion<S>&, S);
-#define ISO_EXTERN(S) ISO_TIME_OF_IMPACT_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_TIME_OF_IMPACT_OF)
 
 }  // namespace isostep

@@ -33,7 +33,7 @@ template <class S> class SweptCore {
     sines = sine + sine;
     reach = F(0);
     for (const Vec3<F>& v : core.vertices) reach = max(reach, length(v - centre));
-    // With c the tangent of a quarter of the turn, the angular speed is 4 c and its change 16 c^3 at most.
+    // c is the tangent of a quarter of the turn; the angular speed is 4 c and its change 16 c^3 at most.
     const F c = length(sine) / (F(1) + convert<F>(turn.w));
     bend = c * c * (F(1) + c) * reach * F(16.25);
   }
@@ -55,7 +55,7 @@ template <class S> class SweptCore {
   }
 };
 
-/// A lower bound of how far one core's lowest vertex along a direction is above its centre, and its slope.
+/// A lower bound of the height of one core's lowest vertex along a direction above its centre, and its slope.
 template <class F> struct HeightBound {
   F height;  // [m]
   F slope;   // [m] for a fraction of 1
@@ -77,7 +77,7 @@ template <class F> struct Turning {
   }
 };
 
-/// [1] of a motion: what gets so far gets on.
+/// [1] The fraction of a motion that counts as progress: a core that gets so far gets on.
 template <class U> inline constexpr U kAtOnce = U(0.125);
 
 /// L(d) of time_of_impact.hpp.
@@ -93,7 +93,7 @@ template <class F> struct GapBound {
     const F bent = bend * d;
     return {gap + speed * d + of_a.height + of_b.height - bent * d * F(0.5), speed + of_a.slope + of_b.slope - bent};
   }
-  /// How far the bound stays above 0 for sure, up to `rest`; it is `now` at 0.
+  /// Returns how far the bound stays above 0 for sure, up to `rest`; it is `now` at 0.
   ISO_INLINE U proved(F now, U rest) const {
     U d = rest;
     for (int round = 0;; ++round) {
@@ -107,7 +107,8 @@ template <class F> struct GapBound {
   }
 };
 
-/// Along the normal n [1], world axes, the lower side of a core is looked at where `up` is n, the upper where it is -n.
+/// The turning of a core's lower side along the normal n [1], world axes, where `up` is n, or of its upper side where
+/// it is -n.
 template <class S, class F = Finer<S>>
 ISO_INLINE Turning<F> turning_of(const SweptCore<S>& sweep, const Mat3<Unit<F>>& rotation, Vec3<F> up, Unit<F> t) {
   return {sweep.core.vertices, sweep.centre, transposed_times(rotation, up),
@@ -166,7 +167,7 @@ template <class S> class Advance {
   }
 
  private:
-  /// [m] What rounding makes of a separation: of the vertices, of directions in F's digits.
+  /// [m] The rounding error of a separation: that of the vertices and of directions in F's digits.
   ISO_INLINE F noise_at(F apart) const {
     return gap_noise(a_.core.extent + b_.core.extent + apart) + (a_.reach + b_.reach) * resolution<F>() * F(4);
   }

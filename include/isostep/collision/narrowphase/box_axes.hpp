@@ -63,7 +63,7 @@ ISO_INLINE void examine_crosses(const BoxPair<S>& p, unsigned candidates, S reac
   }
 }
 
-/// The separation along a's axis I [m]; fills in what of the pair it needs.
+/// The separation along a's axis I [m]; fills in the parts of the pair that it needs.
 template <int I, class S>
 ISO_INLINE S separation_of_a(BoxPair<S>& p, const Mat3<Unit<S>>& turn_a, const Mat3<Unit<S>>& turn_b, Vec3<S> gap) {
   const Vec3<Unit<S>> axis = turn_a.column(I);
@@ -73,14 +73,15 @@ ISO_INLINE S separation_of_a(BoxPair<S>& p, const Mat3<Unit<S>>& turn_a, const M
   return abs(p.offset[I]) - p.half_a[I] - dot(p.turn_size.rows[I], p.half_b);
 }
 
-/// True of two faces that look at each other, but for kNearFace: then either tells of the same points, and a's does,
-/// whatever trembling makes of how far they are apart.
+/// Returns true of two faces that look at each other to within kNearFace. Either gives the same points then, and a's
+/// does, however trembling changes their distance.
 template <class S> ISO_INLINE bool are_beside(const BoxPair<S>& p, int face_a, int face_b) {
   const bool below_a = p.offset[face_a] < S(0), below_b = dot(p.offset, p.turn.column(face_b)) < S(0);
   return negate_if(below_a != below_b, p.turn.rows[face_a][face_b]) >= Unit<S>(kNearFace);
 }
 
-/// Fills in the rest of the pair as it goes along: half of all pairs end at one of the first axes.
+/// Finds the best axis and fills in the rest of the pair as it goes along: half of all pairs end at one of the first
+/// axes.
 template <class S>
 ISO_INLINE BestAxis<S> best_axis(BoxPair<S>& p, const Transform<S>& ta, const Transform<S>& tb, S reach) {
   BestAxis<S> best = {-1, 0, S(0), Vec3<Unit<S>>::zero()};

@@ -19,7 +19,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
   using Batch = typename Pairs::Batch;
   using Bodies = typename Pairs::Bodies;
 
-  /// Both boxes in a's frame.
+  /// Two boxes of each pair, in a's frame.
   struct Boxes {
     Vec3<L> half_a, half_b;
     Mat3<U> turn_a, turn_b;  // to the world's axes
@@ -27,7 +27,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     Mat3<U> turn;            // rows: a's axes; columns: b's
     L tolerance;             // [m] axis_tolerance()
   };
-  /// Which face is best, and by how much.
+  /// The best face of each pair, and by how much.
   struct Best {
     Mask apart;
     Mask of_b, axis0, axis1;   // neither 0 nor 1: 2
@@ -35,7 +35,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     std::uint32_t crosses[9];  // a bit a lane: worth examining
     std::uint32_t examine;     // lanes with any
 
-    /// BestAxis::face.
+    /// The number of the face, as BestAxis::face has it.
     ISO_INLINE int face(int lane) const {
       const auto bit = [lane](Mask of) ISO_INLINE_LAMBDA { return static_cast<int>(to_bits(of) >> lane & 1u); };
       return 3 * bit(of_b) + 2 - 2 * bit(axis0) - bit(axis1);
@@ -84,7 +84,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     (weigh_cross<K>(boxes, q, worth, best), ...);
   }
 
-  /// Which of three is the largest: neither 0 nor 1: 2.
+  /// The index of the largest of three: neither 0 nor 1 means 2.
   struct Largest {
     Mask is0, is1;
 
@@ -109,7 +109,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     return less_equal(U::broadcast(Unit<S>(detail::kNearFace)), select(differ, -cosine, cosine));
   }
 
-  /// False when every pair is apart.
+  /// Finds the best axis of every pair. Returns false when every pair is apart.
   static ISO_INLINE bool find(const Batch& batch, const Bodies& p, S margin, Boxes& boxes, Best& best) {
     boxes.half_a = gather_half(batch.a);
     boxes.half_b = gather_half(batch.b);
@@ -154,7 +154,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     return true;
   }
 
-  /// Out of the lanes, for what is done one by one.
+  /// The lanes' values in memory, for the work that is done pair by pair.
   struct Rest {
     alignas(kLaneAlignment<S, W>) S separation[W], limit[W], offset[3][W];
     alignas(kLaneAlignment<S, W>) Unit<S> turn[3][3][W];
@@ -179,7 +179,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
   }
 
   /// Examines one by one the crosses that are worth it; collides the pairs of which one is the best axis or separates.
-  /// Returns which those are, a bit a lane.
+  /// Returns a bit for the lane of each of those.
   static ISO_INLINE std::uint32_t finish_crosses(const PairRun<S>& run, const Batch& batch, const Best& best,
                                                  const Rest& rest) {
     std::uint32_t done = 0;

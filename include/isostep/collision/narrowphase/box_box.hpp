@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// Separating axes, then clipping of the incident face.
+/// Collides two boxes by separating axes, then clips the incident face.
 /// Source:  Gottschalk, Lin, Manocha 1996, OBBTree, sec. 5 (the axes); Sutherland, Hodgman 1974, Reentrant Polygon
 ///          Clipping, CACM 17(1).
 /// Differs: crosses of edges are normalised only when, unnormalised, they could still be the best or separate; a face
@@ -24,10 +24,9 @@ template <class S>
 void collide_box_box(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b, const Transform<S>& tb,
                      S margin, Manifold<S>& out);
 
-#define ISO_EXTERN(S)                                                                                    \
+#define ISO_BOX_BOX_OF(extern, S)                                                                        \
   extern template void collide_box_box<S>(const Primitive<S>&, const Transform<S>&, const Primitive<S>&, \
                                           const Transform<S>&, S, Manifold<S>&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BOX_BOX_OF)
 
 }  // namespace isostep

@@ -15,10 +15,9 @@ template <class S>
 void collide_box_capsule(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b, const Transform<S>& tb,
                          S margin, Manifold<S>& out);
 
-#define ISO_EXTERN(S)                                                                                        \
+#define ISO_BOX_CAPSULE_OF(extern, S)                                                                        \
   extern template void collide_box_capsule<S>(const Primitive<S>&, const Transform<S>&, const Primitive<S>&, \
                                               const Transform<S>&, S, Manifold<S>&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BOX_CAPSULE_OF)
 
 }  // namespace isostep

@@ -9,7 +9,7 @@
 namespace isostep {
 namespace detail {
 
-/// By how far p lies outside the box, axis by axis [m]; zero inside.
+/// The vector by which p lies outside the box, axis by axis [m]; zero inside.
 template <class S> ISO_INLINE Vec3<S> excess(Vec3<S> half, Vec3<S> p) { return p - max(min(p, half), -half); }
 
 /// The search for the s at which the squared distance to the box, convex in s, has the slope zero: 2 excess . d.
@@ -39,10 +39,8 @@ template <class S> struct SlopeSearch {
   }
 };
 
-/// Where the segment is closest to the box; the middle of that stretch where it runs along or through the box.
-/// The slope is linear between the (at most six) s at which the segment crosses a face's plane; its signs there narrow
-/// s down to one linear piece. On it excess = e + (s - low) d over the axes outside the box, and the slope's root is
-/// divided by lengths, never squares.
+/// Returns the s at which the segment is closest to the box; the middle of that stretch where it runs along or through
+/// the box.
 template <class S> ISO_INLINE S closest_to_box(const Segment<S>& core, Vec3<S> half) {
   using U = Unit<S>;
   const Vec3<U> d = core.direction;
@@ -76,7 +74,8 @@ struct Region {
   int side[3];
 };
 
-/// Beside a face, or beside an edge and nearly parallel to it: within 3.6 degrees, as between two capsules.
+/// Returns true beside a face, or beside an edge and nearly parallel to it: within 3.6 degrees, as between two
+/// capsules.
 template <class U> ISO_INLINE bool lies_along(Region region, Vec3<U> direction) {
   const int sides = (region.side[0] != 0) + (region.side[1] != 0) + (region.side[2] != 0);
   const int along = region.side[0] == 0 ? 0 : region.side[1] == 0 ? 1 : 2;
@@ -95,16 +94,16 @@ template <class S> ISO_INLINE Stretch<S> stretch_beside(const Segment<S>& core, 
     const Unit<S> d = abs(core.direction[k]);
     const S c = negate_if(falls, core.centre[k]), reach = core.half * d;
     if (abs(c) > half[k] + reach) return {core.half, -core.half};
-    // Numerators within reach, so quotients within the half length, and none where d is zero.
+    // Numerators are within reach, so quotients are within the half length, and there is none where d is zero.
     if (half[k] - c < reach) stretch.high = min(stretch.high, divide_to<S>(half[k] - c, d));
     if (-half[k] - c > -reach) stretch.low = max(stretch.low, divide_to<S>(-half[k] - c, d));
   }
   return stretch;
 }
 
-/// The two ends of that stretch against their projections on the face or edge, both with the normal `outward`, box
-/// frame. Points beyond the patch are left out. None when the stretch is short or misses what is `deepest` by more
-/// than 1/512 of the radii, which is what a tilt of 3.6 degrees costs.
+/// Adds the two ends of that stretch against their projections on the face or edge, both with the normal `outward`, box
+/// frame. Points beyond the patch are left out. It adds none when the stretch is short or misses the `deepest`
+/// separation by more than 1/512 of the radii, the cost of a tilt of 3.6 degrees.
 template <class S>
 ISO_INLINE void touch_stretch(const Primitive<S>& box, const Transform<S>& frame, const Segment<S>& core, S radius,
                               Region region, Vec3<Unit<S>> outward, S margin, S deepest, Manifold<S>& out) {
@@ -221,7 +220,7 @@ ISO_INLINE void touch_outside(const Primitive<S>& box, const Transform<S>& frame
   const Heading<S> heading = heading_of(gap);
   Vec3<U> across = heading.direction;
   Region region = {{side_of(gap.x), side_of(gap.y), side_of(gap.z)}};
-  // Within 2.5 degrees of a face's normal two points take that: a capsule that tips over an edge keeps both of them.
+  // Two points take a face's normal within 2.5 degrees of it: a capsule that tips over an edge keeps both of them.
   for (int k = 0; k < 3; ++k) {
     if (!(abs(heading.direction[k]) > U(0.9990234375))) continue;
     across = unit_axis<U>(k, gap[k] < S(0));

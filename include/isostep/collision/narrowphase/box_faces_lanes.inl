@@ -11,8 +11,8 @@ namespace {
 
 /// A convex polygon leaves each side of the reference face at most once, so its edges are known beforehand: 0..3 of the
 /// incident face, 4 + side along a side, from where the polygon leaves it to where it comes back. Every edge is cut by
-/// the sides in turn, as Sutherland and Hodgman cut a polygon's corners: the same numbers meet in the same order. What
-/// rounding makes of polygons that only touch a side, or are not convex, is reported as unclear, and left to
+/// the sides in turn, as Sutherland and Hodgman cut a polygon's corners: the same numbers meet in the same order. A
+/// polygon that only touches a side, or that rounding makes not convex, is reported as unclear and left to
 /// touch_faces().
 template <class S, int W, class Isa> struct BoxFacesLanes {
   using Pairs = PairLanes<S, W, Isa>;
@@ -30,7 +30,7 @@ template <class S, int W, class Isa> struct BoxFacesLanes {
     Mask there;
     std::uint32_t leaves[kSides], enters[kSides];  // a bit a lane: cut by that side at its end, at its beginning
   };
-  /// FacePair, and what a manifold says about it.
+  /// FacePair over lanes, and the numbers by which a manifold names its faces.
   struct Faces {
     L half[3], offset[3], incident_half[3];
     U turn[3][3];
@@ -112,7 +112,8 @@ template <class S, int W, class Isa> struct BoxFacesLanes {
     }
   }
 
-  /// Cuts off what lies beyond `Side` (0: u < -half, 1: u > half, 2, 3: v); `left` says which polygons left through it.
+  /// Cuts off the part of an edge beyond `Side` (0: u < -half, 1: u > half, 2, 3: v); `left` says which polygons left
+  /// through it.
   template <int Side> static ISO_INLINE void cut_edge(L half, Edge& edge, Edge& along, Mask& left, Mask& unclear) {
     constexpr int u = Side / 2, v = 1 - u;
     constexpr bool high = (Side & 1) != 0;
@@ -145,7 +146,7 @@ template <class S, int W, class Isa> struct BoxFacesLanes {
     along.there = left;
   }
 
-  /// The polygons of the pairs whose faces touch; `edges` say where they begin and end.
+  /// Clips the polygons of the pairs whose faces touch; `edges` say where they begin and end.
   static void clip(const typename Pairs::Bodies& p, const typename Axes::Boxes& boxes, const typename Axes::Best& best,
                    Faces& faces) {
     face_pair(p, boxes, best, faces);

@@ -44,13 +44,13 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
   }
 
  private:
-  /// By lane: what is said of a pair's polygon one by one.
+  /// The polygons' points by lane, for the work that is done pair by pair.
   struct Points {
     alignas(kLaneAlignment<S, W>) S at[W][kEdges][4];  // [m] where each edge begins, world axes; its separation
     std::uint32_t kept[kEdges];                        // a bit a lane: its beginning is a point
   };
 
-  /// Where every edge begins: midway between the surfaces, seen from a's centre of mass.
+  /// Sets where every edge begins: midway between the surfaces, seen from a's centre of mass.
   static ISO_INLINE void place_points(const typename Pairs::Bodies& p, const typename Axes::Boxes& boxes,
                                       const typename Axes::Best& best, const Faces& faces, S margin, Points& points) {
     const Mask of_b = best.of_b, m0 = best.axis0, m1 = best.axis1;

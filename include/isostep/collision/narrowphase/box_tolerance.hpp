@@ -16,13 +16,13 @@ template <class S> ISO_INLINE constexpr Unit<S> near_parallel() {
   return u4 + u4 + u4 + u4;
 }
 
-/// What an axis must be better by to replace one that is preferred [m]: 1/128 of the smallest half extent, so that
-/// small rocking of a stack does not change its reference face, and what rounding makes of `extent` [m].
+/// [m] The margin by which an axis must be better to replace one that is preferred: 1/128 of the smallest half extent,
+/// so that small rocking of a stack does not change its reference face, and the rounding of `extent` [m].
 template <class S> ISO_INLINE constexpr S axis_tolerance(S smallest, S extent) {
   const S rounding = extent * resolution<Unit<S>>();
   return smallest * S(0.0078125) + rounding * S(8) + resolution<S>() * S(4);
 }
-/// Of two solids, by their inner radii, whose origins are `apart` [m].
+/// The tolerance of two solids, by their inner radii, whose origins are `apart` [m].
 template <class S> ISO_INLINE constexpr S axis_tolerance(S inner_a, S inner_b, Vec3<S> apart) {
   return axis_tolerance(min(inner_a, inner_b), max_abs(apart) + inner_a + inner_b);
 }
@@ -36,12 +36,12 @@ template <class S> ISO_INLINE constexpr S axis_tolerance(Vec3<S> half_a, Vec3<S>
 
 /// Two faces look at each other within this cosine, of 3.6 degrees.
 inline constexpr double kNearFace = 0.998;
-/// [m] Of two faces that look at each other a's is the reference, unless both overlap by more: then the better axis is
-/// shorter to leave by.
+/// [m] The overlap up to which a's face is the reference of two that look at each other. In a deeper one the better
+/// axis is shorter to leave by.
 template <class S> inline constexpr S kMostBeside = S(1.0 / 64);
-/// [m] About what contacts sag, a quarter of the smallest half extent at most.
+/// [m] About the depth to which contacts sag, a quarter of the smallest half extent at most.
 template <class S> ISO_INLINE constexpr S face_slack(S smallest) { return min(smallest * S(0.25), S(1.0 / 1024)); }
-/// [m] By which the gap that faces tell of may differ from that of two edges which cross there: a heap that crossings
+/// [m] The difference that the gap of faces may have from that of two edges which cross there: a heap that crossings
 /// alone hold apart is a heap of pivots. 6 mm for crates of 40 cm; Box3D asks for 5.
 template <class S> ISO_INLINE constexpr S edge_slack(S smallest) { return face_slack(smallest) + smallest * S(0.025); }
 /// [m] Depths that differ by less are equal where a polygon is reduced to four of its corners: trembling may not change

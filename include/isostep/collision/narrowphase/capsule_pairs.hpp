@@ -14,10 +14,9 @@ template <class S>
 void collide_capsule_capsule(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
                              const Transform<S>& tb, S margin, Manifold<S>& out);
 
-#define ISO_EXTERN(S)                                                                                            \
+#define ISO_CAPSULE_PAIRS_OF(extern, S)                                                                          \
   extern template void collide_capsule_capsule<S>(const Primitive<S>&, const Transform<S>&, const Primitive<S>&, \
                                                   const Transform<S>&, S, Manifold<S>&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CAPSULE_PAIRS_OF)
 
 }  // namespace isostep

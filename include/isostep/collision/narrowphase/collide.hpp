@@ -28,7 +28,7 @@ template <class S> struct LeafView {
   ShapeView<S> shape;
   std::uint32_t triangle;  // 0 of what is no surface
 };
-/// The same of leaves.
+/// collide() for leaves.
 template <class S>
 void collide_leaves(const LeafView<S>& a, const Transform<S>& ta, const LeafView<S>& b, const Transform<S>& tb,
                     S margin, Manifold<S>& out, CollidePolyhedra<S> polyhedra = collide_polyhedra<S>);
@@ -38,8 +38,6 @@ void collide_leaves(const LeafView<S>& a, const Transform<S>& ta, const LeafView
                                   Manifold<S>&, CollidePolyhedra<S>);                                      \
   extern template void collide_leaves<S>(const LeafView<S>&, const Transform<S>&, const LeafView<S>&,      \
                                          const Transform<S>&, S, Manifold<S>&, CollidePolyhedra<S>);
-#define ISO_EXTERN(S) ISO_COLLIDE_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_COLLIDE_OF)
 
 }  // namespace isostep

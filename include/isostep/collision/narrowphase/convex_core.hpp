@@ -17,7 +17,7 @@ template <class S> struct ConvexCore {
   S radius;                     // [m]
 };
 
-/// A polyhedron's: the memory that core() shows.
+/// The core of a polyhedron: the memory that core() shows.
 template <class S> class PolyhedronCore {
  public:
   ISO_INLINE explicit PolyhedronCore(const Polyhedron<S>& solid) : count_(solid.vertices.size()) {
@@ -38,7 +38,7 @@ namespace detail {
 template <class Out, class T> ISO_INLINE Vec3<Out> finer_of(Vec3<T> v) {
   return {finer<Out>(v.x), finer<Out>(v.y), finer<Out>(v.z)};
 }
-/// Never above a.
+/// `a` in the coarser format, rounded down: never above a.
 template <class Out, class In> ISO_INLINE Out coarser_down(In a) {
   const Out nearby = coarser<Out>(a);
   return finer<In>(nearby) > a ? nearby - resolution<Out>() : nearby;
@@ -53,7 +53,7 @@ template <class S> ISO_INLINE Transform<Finer<S>> finer_of(const Transform<S>& t
             finer_of<Unit<F>>(t.rotation.rows[2])}}};
 }
 
-/// b seen from a's frame; their distance is that of S, exact where it is fixed point.
+/// Frame b seen from a's frame; their distance is that of S, exact where it is fixed point.
 template <class S> ISO_INLINE Transform<Finer<S>> fine_relative(const Transform<S>& ta, const Transform<S>& tb) {
   using F = Finer<S>;
   const Transform<S> a = {Vec3<S>::zero(), ta.rotation}, b = {tb.position - ta.position, tb.rotation};

@@ -45,8 +45,6 @@ EpaPenetration<S> epa_penetration(const Polyhedron<S>& a, const Transform<S>& ta
                                                        const ConvexCore<S>&, const Transform<S>&); \
   extern template EpaPenetration<S> epa_penetration<S>(const Polyhedron<S>&, const Transform<S>&,  \
                                                        const Polyhedron<S>&, const Transform<S>&);
-#define ISO_EXTERN(S) ISO_EPA_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_EPA_OF)
 
 }  // namespace isostep

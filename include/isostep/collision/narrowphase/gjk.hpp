@@ -17,7 +17,7 @@ template <class S> struct GjkDistance {
   S separation;  // [m] of the two along the normal: what proves that they are apart; 0 where they overlap
 };
 
-/// All in the frame that both transforms lead to.
+/// Finds the distance and the nearest points, all in the frame that both transforms lead to.
 /// Source:  Gilbert, Johnson and Keerthi 1988, A fast procedure for computing the distance between complex objects.
 /// Differs: the nearest point of a simplex is found by unit normals and distances, never by ratios of fourth powers of
 ///          lengths, which fixed point has no room for. It ends by counting: where a support is a vertex pair that the
@@ -27,7 +27,7 @@ template <class S>
 GjkDistance<S> gjk_distance(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
                             const Transform<S>& tb);
 
-/// The same of the hulls of two cores, without their radii.
+/// gjk_distance() of the hulls of two cores, without their radii.
 template <class S>
 GjkDistance<S> gjk_distance(const ConvexCore<S>& a, const Transform<S>& ta, const ConvexCore<S>& b,
                             const Transform<S>& tb);
@@ -37,8 +37,6 @@ GjkDistance<S> gjk_distance(const ConvexCore<S>& a, const Transform<S>& ta, cons
                                                  const Transform<S>&);                                            \
   extern template GjkDistance<S> gjk_distance<S>(const ConvexCore<S>&, const Transform<S>&, const ConvexCore<S>&, \
                                                  const Transform<S>&);
-#define ISO_EXTERN(S) ISO_GJK_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_GJK_OF)
 
 }  // namespace isostep

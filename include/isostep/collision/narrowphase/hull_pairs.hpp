@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// b is the hull in all five. `polyhedra` as in collide().
+/// b is the hull in all five. `polyhedra` is that of collide().
 template <class S>
 void collide_sphere_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                          Manifold<S>& out);
@@ -34,8 +34,6 @@ void collide_hull_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, c
   ISO_HULL_PAIR(extern, collide_capsule_hull, S)                  \
   ISO_HULL_PAIR(extern, collide_half_space_hull, S)               \
   ISO_HULL_PAIR(extern, collide_hull_hull, S, CollidePolyhedra<S>)
-#define ISO_EXTERN(S) ISO_HULL_PAIRS_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_HULL_PAIRS_OF)
 
 }  // namespace isostep

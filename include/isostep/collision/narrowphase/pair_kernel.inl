@@ -12,8 +12,9 @@
 namespace isostep {
 namespace {
 
-/// How much of two boxes is done over lanes. Products and quotients of fixed point are hardly faster there, and one by
-/// one a pair ends at the first axis that separates it. Stage update_manifolds of S3 on Zen 5, g++ 12, AVX-512 [us]:
+/// The part of two boxes' work that is done over lanes. Products and quotients of fixed point are hardly faster there,
+/// and one by one a pair ends at the first axis that separates it. Stage update_manifolds of S3 on Zen 5, g++ 12,
+/// AVX-512 [us]:
 ///             alone    axes  polygons
 ///   float       610                310
 ///   double      690                450

@@ -36,11 +36,17 @@ template <class S> struct BodyFrame {
   std::uint32_t row;  // of SolverBodies: 0 unless awake
   PartKind kind;      // of the only part, if plain
   bool plain;         // one part, not moved
-  bool sensor, asleep;
+  bool sensor;        // the whole body
+  bool senses;        // the body, or a part of it
+  bool asleep;
   bool surfaces;     // among its parts: those are counted by leaves, see surface_pairs.hpp
+  bool traits;       // some part has some of its own: which pairs of parts meet is asked for each
+  bool varied;       // the material is that of a leaf: it has surfaces or traits
+  bool reports;      // the body, or a part of it, tells of its contacts
   bool mixes_alone;  // its material, see contact_friction.hpp
 
-  ISO_FIELDS(half, radius, centre, origin, child_count, slot, row, kind, plain, sensor, asleep, surfaces, mixes_alone)
+  ISO_FIELDS(half, radius, centre, origin, child_count, slot, row, kind, plain, sensor, senses, asleep, surfaces,
+             traits, varied, reports, mixes_alone)
 };
 
 /// Two bodies' parts that might touch. Frames are indices; parts are leaves, and of bodies without surfaces children.

@@ -48,7 +48,7 @@ template <class S, int W, class Isa> struct PairLanes {
     load_transposed<Words>(rows, out);
   }
 
-  /// Positions are relative to a's centre of mass, as origin_beside() has them.
+  /// Two bodies of each pair. Positions are relative to a's centre of mass, as origin_beside() has them.
   struct Bodies {
     L radius_a, radius_b;
     Vec3<L> place_a, place_b;

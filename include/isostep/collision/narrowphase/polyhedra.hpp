@@ -11,7 +11,7 @@ namespace isostep {
 /// Contacts of a and b where they are nearer than `margin` [m]. Axes are the faces of both and those crosses of edges
 /// whose arcs on the Gauss map meet, which alone can be the best (Gregorius, The separating axis test between convex
 /// polyhedra, GDC 2013). Faces go before edges, and a before b, unless the other is better by 1/128 of the smaller
-/// inner radius. What is further apart than the margin along the line between the origins, too, has no contact; and a
+/// inner radius. Solids further apart than the margin along the line between the origins have no contact either; and a
 /// face that a vertex decides, nearer to no other face of its solid, goes before all others. Faces that look at each
 /// other, or tell of the depth of the best cross of edges, touch as those of boxes do (box_box.hpp).
 /// Features: faces: bit 31, bit 30 where b's face is the reference, that face, a vertex twice or both edges of another
@@ -25,8 +25,8 @@ using CollidePolyhedra = void (*)(const Polyhedron<S>& a, const Transform<S>& ta
                                   const Transform<S>& tb, S margin, Manifold<S>& out);
 
 /// A polyhedron on a half-space, dot(normal, p) <= offset in tb's frame: up to four vertices that are nearer than
-/// `margin` [m], the lowest among them, of the face that looks down most and those as flat: of a thin plate those above
-/// are no support, though they are near. Features: vertices.
+/// `margin` [m], the lowest among them, of the face that looks down most and those as flat: vertices of a thin plate
+/// above those are no support, though they are near. Features: vertices.
 template <class S>
 void collide_polyhedron_half_space(const Polyhedron<S>& a, const Transform<S>& ta, Vec3<Unit<S>> normal, S offset,
                                    const Transform<S>& tb, S margin, Manifold<S>& out);
@@ -36,8 +36,6 @@ void collide_polyhedron_half_space(const Polyhedron<S>& a, const Transform<S>& t
                                             const Transform<S>&, S, Manifold<S>&);                                   \
   extern template void collide_polyhedron_half_space<S>(const Polyhedron<S>&, const Transform<S>&, Vec3<Unit<S>>, S, \
                                                         const Transform<S>&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_POLYHEDRA_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_POLYHEDRA_OF)
 
 }  // namespace isostep

@@ -24,7 +24,7 @@ template <class S> struct FaceContact {
   Tangents<Unit<S>> across;  // of the face's normal
 };
 
-/// Of the faces around a vertex the one that looks most against a direction; of equals the first.
+/// The face around a vertex that looks most against a direction; of equals the first.
 template <class S>
 ISO_INLINE std::uint32_t face_against(const Polyhedron<S>& solid, std::uint32_t vertex, Vec3<Unit<S>> up) {
   std::uint32_t best = 0xffffffffu;
@@ -54,8 +54,8 @@ ISO_INLINE void project_face(const Polyhedron<S>& solid, std::uint32_t face, con
   } while (edge != solid.faces[face]);
 }
 
-/// visit(f) of a face and of those that look along it but for kFlat. What a solid lies on need not be one plane, and of
-/// two that differ by less than contacts sag each would tip it onto the other.
+/// Calls visit(f) for a face and for those that look along it to within kFlat. A solid need not lie on one plane, and
+/// each of two that differ by less than contacts sag would tip it onto the other.
 template <class S, class Visit>
 ISO_INLINE void visit_flat_faces(const Polyhedron<S>& solid, std::uint32_t face, const Visit& visit) {
   constexpr double kFlat = 1 - 1.0 / 1024;  // cosine, of 2.5 degrees
@@ -63,7 +63,7 @@ ISO_INLINE void visit_flat_faces(const Polyhedron<S>& solid, std::uint32_t face,
     if (f == face || dot(solid.normals[f], solid.normals[face]) >= Unit<S>(kFlat)) visit(f);
   }
 }
-/// Adds a point that is not there: corners that are named alike are one.
+/// Adds a point unless it is there: corners that are named alike are one.
 template <class S> ISO_INLINE void add_point(const ClipPoint<S>& p, FacePolygon<S>& points) {
   for (int i = 0; i < points.count; ++i) {
     if (points.points[i].before == p.before && points.points[i].after == p.after) return;
@@ -83,13 +83,13 @@ ISO_INLINE ClipPoint<S> named_by_vertex(const Polyhedron<S>& solid, std::uint32_
   return p;
 }
 
-/// What clip() does with lines at any angle.
+/// The cut of clip() for lines at any angle.
 inline constexpr auto kCutAcross = [](const auto& p, const auto& q, auto t, auto& at) ISO_INLINE_LAMBDA {
   at.u = p.u + (q.u - p.u) * t;
   at.v = p.v + (q.v - p.v) * t;
 };
 
-/// Cuts off what lies beyond an edge of the reference face, whose name is kReferenceEdge + its number.
+/// Cuts off the part beyond an edge of the reference face, whose name is kReferenceEdge + its number.
 inline constexpr std::uint32_t kReferenceEdge = 128;
 template <class S>
 ISO_INLINE bool clip_beyond(const Polyhedron<S>& solid, const Tangents<Unit<S>>& across, std::uint32_t half_edge,
@@ -104,7 +104,7 @@ ISO_INLINE bool clip_beyond(const Polyhedron<S>& solid, const Tangents<Unit<S>>&
   return clip(from, beyond, kReferenceEdge + half_edge / 2, kCutAcross, to);
 }
 
-/// Where rounding leaves nothing above the best face of solids that overlap.
+/// Takes the vertex below the face alone, where rounding leaves nothing above the best face of solids that overlap.
 template <class S> ISO_INLINE void take_deepest(const FaceContact<S>& contact, FacePolygon<S>& polygon) {
   const Vec3<S> p = contact.vertices.at(contact.axis.vertex);
   polygon.points[0] = {dot(contact.across.t, p), dot(contact.across.u, p), contact.axis.separation, contact.axis.vertex,
@@ -112,7 +112,7 @@ template <class S> ISO_INLINE void take_deepest(const FaceContact<S>& contact, F
   polygon.count = 1;
 }
 
-/// face: of the incident solid.
+/// Adds the points of the face polygon. face: of the incident solid.
 template <class S>
 ISO_INLINE void touch_faces(const FaceContact<S>& contact, std::uint32_t face, const Transform<S>& frame, S margin,
                             S tie, bool of_a, bool deepest, Manifold<S>& out) {
@@ -152,7 +152,7 @@ ISO_INLINE void touch_faces(const FaceContact<S>& contact, std::uint32_t face, c
   }
 }
 
-/// The edges of the best cross, and where they are nearest, in a's frame.
+/// The edges of the best cross and their nearest points, in a's frame.
 template <class S> struct EdgeContact {
   EdgeAxis<S> axis;
   Vec3<S> on_a, on_b;  // [m] zero where none was found
@@ -165,8 +165,9 @@ ISO_INLINE EdgeContact<S> contact_of(const PolyhedronPair<S, W, Isa>& pair, cons
   return {best, of_a.at(closest.s), of_b.at(closest.t)};
 }
 
-/// Whether the edges near both best faces have the best cross of all: solids that overlap have a point of one inside
-/// the other, and those that are apart along it points that are no further apart than that, but for the tolerance.
+/// Returns true if the edges near both best faces have the best cross of all: solids that overlap have a point of one
+/// inside the other, and those that are apart along it points that are no further apart than that, but for the
+/// tolerance.
 template <class S, int W, class Isa>
 ISO_INLINE bool is_best(const PolyhedronPair<S, W, Isa>& pair, const EdgeContact<S>& contact, S margin) {
   const S separation = contact.axis.separation;
@@ -175,8 +176,8 @@ ISO_INLINE bool is_best(const PolyhedronPair<S, W, Isa>& pair, const EdgeContact
   return height_over<S, W, Isa>(pair.a, contact.on_b) <= S(0);
 }
 
-/// The edges whose cross is better than both best faces by the tolerance, of those near both; known to be the best of
-/// all, or that there are none: `is_known`. `over_a` [m]: how high over a the vertex of b is that is lowest over a's
+/// The edges whose cross is better than both best faces by the tolerance, of those near both. `is_known`: they are
+/// proved the best of all, or there are none. `over_a` [m]: the height over a of b's vertex that is lowest over a's
 /// best face.
 template <class S, int W, class Isa>
 ISO_INLINE EdgeContact<S> near_edges(const PolyhedronPair<S, W, Isa>& pair, const FaceAxis<S>& face_a, S over_a,
@@ -187,7 +188,7 @@ ISO_INLINE EdgeContact<S> near_edges(const PolyhedronPair<S, W, Isa>& pair, cons
   if (is_known) return {{0, 0, Vec3<Unit<S>>::zero(), limit, false}, {}, {}};
   const EdgeContact<S> nearby = contact_of(pair, EdgeAxes<S, W, Isa>(pair, face_a, face_b, margin).best(limit, margin));
   const bool overlap = over_a <= S(0) || over_b <= S(0);
-  // Over a face of solids that are apart a contact has their true distance.
+  // A contact over a face of solids that are apart has their true distance.
   is_known = nearby.axis.found ? is_best(pair, nearby, margin) : best > S(0) || overlap;
   return nearby;
 }
@@ -195,7 +196,7 @@ template <class S, int W, class Isa>
 ISO_INLINE EdgeContact<S> all_edges(const PolyhedronPair<S, W, Isa>& pair, S best, S margin) {
   return contact_of(pair, EdgeAxes<S, W, Isa>(pair).best(best + pair.tolerance, margin));
 }
-/// Whether a point of the manifold, halfway between the surfaces, is inside both: they overlap.
+/// Returns true if a point of the manifold, halfway between the surfaces, is inside both: they overlap.
 template <class S, int W, class Isa>
 ISO_INLINE bool shares_a_point(const PolyhedronPair<S, W, Isa>& pair, const Transform<S>& ta, const Manifold<S>& m) {
   for (int i = 0; i < m.count; ++i) {
@@ -226,7 +227,7 @@ ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S
     touch_faces({reference, incident, vertices, face, tangents_of(normal)}, face_against(incident, face.vertex, up),
                 of_b ? tb : ta, margin, depth_tie(pair.tolerance, face_slack(smallest)), !of_b, deepest, out);
   };
-  // Where the vertex below the best face lies nearer to none of the others, no axis is better by the tolerance.
+  // No axis is better by the tolerance where the vertex below the best face lies nearer to none of the others.
   const S beyond_a = face_a.separation + pair.tolerance;
   const S over_a = height_over<S, W, Isa>(a, pair.vertices_b.at(face_a.vertex));
   if (over_a <= min(beyond_a, S(0))) {

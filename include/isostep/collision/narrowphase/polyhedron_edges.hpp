@@ -15,7 +15,8 @@ template <class S> struct EdgeAxis {
 
 /// The crosses of edges whose arcs meet. Edge 2 k of a has face L on its left and R on its right, and its direction is
 /// that of L x R; its arc leads from L to R, that of b's edge from -L to -R. They meet where the edge of each leads out
-/// of one face of the other's and into the other, in the same order. For each of a's, W of b's are looked at at once.
+/// of one face of the other's and into the other, in the same order. W edges of b are looked at at once for each of
+/// a's.
 ///
 /// Two edges that are the best axis of all are as far apart, or as deep in each other, as the solids are: `d`. So one
 /// has a point within |d| of the other solid, which is below each of its faces; and the other solid reaches down to the
@@ -50,7 +51,7 @@ template <class S, int W, class Isa> class EdgeAxes {
     turn_edges_of_b();
   }
 
-  /// Those better than `limit`; ends where one exceeds `reach`.
+  /// The best of those better than `limit`; the search ends where one exceeds `reach`.
   ISO_INLINE EdgeAxis<S> best(S limit, S reach) const {
     EdgeAxis<S> best = {0, 0, Vec3<U>::zero(), limit, false};
     for (std::uint32_t at = 0; at < edges_a_.count; ++at) {
@@ -81,7 +82,8 @@ template <class S, int W, class Isa> class EdgeAxes {
   static ISO_INLINE Plane plane_of(const Polyhedron<S>& solid, std::uint32_t face) {
     return {solid.normals[face], solid.offsets[face]};
   }
-  /// Edges that reach above one plane and below another; the second and `seen`, the vertices, in the other's frame.
+  /// Finds the edges that reach above one plane and below another; the second and `seen`, the vertices, are in the
+  /// other's frame.
   static ISO_INLINE void find_near(const Polyhedron<S>& solid, const Plane& floor,
                                    const Columns<S, ConvexHull::kMaxVertices>& seen, const Plane& ceiling,
                                    Edges& edges) {
@@ -118,7 +120,7 @@ template <class S, int W, class Isa> class EdgeAxes {
       columns.store(first, turn * columns.template load<UL>(first));
   }
 
-  /// Of W of b's edges those that meet edge i of a's, a bit each.
+  /// Those of W of b's edges that meet edge i of a's, a bit each.
   ISO_INLINE std::uint32_t meeting(std::uint32_t i, std::uint32_t first) const {
     const Polyhedron<S>& a = pair_.a;
     const UL zero = UL::zero();
@@ -135,7 +137,7 @@ template <class S, int W, class Isa> class EdgeAxes {
     return own & to_bits((out & less(zero, at_left) & less(at_right, zero)) |
                          (in & less(at_left, zero) & less(zero, at_right)));
   }
-  /// Edge i of a, and the edge of b that is at place k.
+  /// Examines edge i of a with the edge of b at place k.
   ISO_INLINE void examine(std::uint32_t i, std::uint32_t k, EdgeAxis<S>& best) const {
     const Polyhedron<S>& a = pair_.a;
     const std::uint32_t j = edges_b_.numbers[k];
@@ -148,8 +150,8 @@ template <class S, int W, class Isa> class EdgeAxes {
     const S separation = dot(n, gap);
     if (separation > best.separation) best = {i, j, n, separation, true};
   }
-  /// [m] with the sign of the separation: along a vector that is the point of the arc but for its length, at most 1/2.
-  /// Most arcs that meet look from one solid deep into the other, and need no more.
+  /// [m] A number with the sign of the separation: that along a vector of length at most 1/2 that leads to the point of
+  /// the arc. Most arcs that meet look from one solid deep into the other, and need no more.
   ISO_INLINE S side_of_arc(std::uint32_t i, Vec3<U> direction, Vec3<S> gap) const {
     const Polyhedron<S>& a = pair_.a;
     const Vec3<U> left = a.normals[a.half_edges[2 * i].face], right = a.normals[a.half_edges[2 * i + 1].face];
@@ -162,7 +164,7 @@ template <class S, int W, class Isa> class EdgeAxes {
 
   const Pair& pair_;
   Edges edges_a_, edges_b_;
-  // Of b's, in a's frame, each at its place in edges_b_.
+  // The columns are of b's edges, in a's frame, each at its place in edges_b_.
   Columns<U, kMost> directions_;
   Columns<U, kMost> left_, right_;  // normals of the faces beside
 };

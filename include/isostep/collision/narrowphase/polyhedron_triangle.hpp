@@ -26,8 +26,6 @@ void collide_polyhedron_triangle(const Polyhedron<S>& a, const Transform<S>& ta,
 #define ISO_POLYHEDRON_TRIANGLE_OF(extern, S)                                                    \
   extern template void collide_polyhedron_triangle<S>(const Polyhedron<S>&, const Transform<S>&, \
                                                       const SurfaceFrame<S>&, const BakedTriangle&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_POLYHEDRON_TRIANGLE_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_POLYHEDRON_TRIANGLE_OF)
 
 }  // namespace isostep

@@ -8,7 +8,7 @@
 namespace isostep {
 namespace detail {
 
-/// What decides how a polyhedron touches a triangle; all in the polyhedron's frame.
+/// The axis that decides how a polyhedron touches a triangle, all in the polyhedron's frame.
 template <class S> struct TriangleAxis {
   enum Kind { plane, face, edges, neighbour } kind;
   S separation;           // [m]
@@ -23,7 +23,7 @@ template <class S> class TriangleAxes {
  public:
   ISO_INLINE TriangleAxes(const Polyhedron<S>& a, const SurfaceTriangle<S>& triangle) : a_(a), triangle_(triangle) {}
 
-  /// False: a face is further off than `margin`.
+  /// Returns false when a face is further off than `margin`.
   ISO_INLINE bool are_faces_near(S margin, S limit) {
     for (std::uint32_t f = 0; f < a_.faces.size(); ++f) {
       S heights[3];
@@ -33,7 +33,7 @@ template <class S> class TriangleAxes {
     }
     return true;
   }
-  /// Faces that are better than `best` by the tolerance.
+  /// Takes faces that are better than `best` by the tolerance.
   ISO_INLINE void look_at_faces(S tolerance, TriangleAxis<S>& best) const {
     S limit = best.separation + tolerance;
     for (std::uint32_t f = 0; has_better_face_ && f < a_.faces.size(); ++f) {
@@ -44,7 +44,8 @@ template <class S> class TriangleAxes {
       limit = least;
     }
   }
-  /// Neighbours' planes whose outer side the centre is on. `lowest`: the vertex below the triangle's own normal.
+  /// Takes the planes of neighbours whose outer side the centre is on. `lowest`: the vertex below the triangle's own
+  /// normal.
   ISO_INLINE void look_at_neighbours(Vec3<S> centre, std::uint32_t lowest, S tolerance, TriangleAxis<S>& best) {
     const S limit = best.separation + (best.kind == TriangleAxis<S>::plane ? tolerance : S(0));
     for (int k = 0; k < 3; ++k) {
@@ -58,8 +59,8 @@ template <class S> class TriangleAxes {
         best = {TriangleAxis<S>::neighbour, separation, 0, k, edge.other};
     }
   }
-  /// After the neighbours. Where one vertex is lowest at both ends of an edge's arc it is so in between, and no edge of
-  /// the polyhedron has an arc that meets it.
+  /// Takes crosses of edges; it comes after the neighbours. A vertex that is lowest at both ends of an edge's arc is so
+  /// in between, and no edge of the polyhedron has an arc that meets it.
   ISO_INLINE void look_at_edges(S tolerance, TriangleAxis<S>& best) const {
     for (int k = 0; k < 3; ++k) {
       if (!has_arcs_[k]) continue;
@@ -81,7 +82,7 @@ template <class S> class TriangleAxes {
     }
     return least;
   }
-  /// Whether the surface can be touched from a direction, by its points that are lowest above a face.
+  /// Returns true if the surface can be touched from a direction, by its points that are lowest above a face.
   ISO_INLINE bool owns(Vec3<U> direction, const S (&heights)[3], S least) const {
     for (int k = 0; k < 3; ++k) {
       const bool along = abs(dot(direction, triangle_.edges[k].along)) <= U(kAlongEdge);
@@ -91,7 +92,8 @@ template <class S> class TriangleAxes {
     }
     return false;
   }
-  /// As EdgeAxes has it, with the arc from the triangle's normal to its neighbour's.
+  /// Returns true if the arcs of two edges meet, as EdgeAxes has it, with the arc from the triangle's normal to its
+  /// neighbour's.
   ISO_INLINE bool arcs_meet(std::uint32_t i, int k) const {
     const SurfaceEdge<S>& edge = triangle_.edges[k];
     const Vec3<U> along = a_.directions[i];
@@ -134,7 +136,7 @@ ISO_INLINE bool clip_to_edge(const SurfaceTriangle<S>& triangle, const Tangents<
   return clip(from, beyond, kTriangleEdge + static_cast<std::uint32_t>(k), kCutAcross, to);
 }
 
-/// Whether a corner is there because of flat edges alone.
+/// Returns true if a corner is there because of flat edges alone.
 template <class S> ISO_INLINE bool is_cut_flat(const SurfaceTriangle<S>& triangle, const ClipPoint<S>& p) {
   const bool before = p.before >= kTriangleEdge, after = p.after >= kTriangleEdge;
   if (!before && !after) return false;
@@ -142,7 +144,7 @@ template <class S> ISO_INLINE bool is_cut_flat(const SurfaceTriangle<S>& triangl
          (!after || triangle.edges[p.after - kTriangleEdge].flat);
 }
 /// The corners of a face that would be kept if the triangle went on in its plane, by the edge that begins there: its
-/// neighbours choose the same ones. All, of a face that is not level with it to `margin`.
+/// neighbours choose the same ones. A face that is not level with it to `margin` keeps all.
 template <class S> struct KeptCorners {
   bool kept[kTriangleEdge];
 
@@ -159,7 +161,7 @@ template <class S> struct KeptCorners {
   }
 };
 
-/// The polyhedron's lowest face over the triangle, and those that lie as flat.
+/// Adds the points of the polyhedron's lowest face over the triangle, and of those that lie as flat.
 template <class S>
 ISO_INLINE void touch_plane(const Polyhedron<S>& a, const Transform<S>& ta, const SurfaceTriangle<S>& triangle,
                             std::uint32_t lowest, S margin, S tie, Manifold<S>& out) {
@@ -201,7 +203,7 @@ ISO_INLINE void touch_plane(const Polyhedron<S>& a, const Transform<S>& ta, cons
   }
 }
 
-/// The triangle over a face of the polyhedron.
+/// Adds the points of the triangle over a face of the polyhedron.
 template <class S>
 ISO_INLINE void touch_face(const Polyhedron<S>& a, const Transform<S>& ta, const SurfaceTriangle<S>& triangle,
                            std::uint32_t face, S margin, Manifold<S>& out) {
@@ -231,8 +233,8 @@ ISO_INLINE void touch_face(const Polyhedron<S>& a, const Transform<S>& ta, const
   }
 }
 
-/// Where the edges cross. If what is nearest of them is not one above the other, to `slack` [m], they do not touch, nor
-/// do the shapes there.
+/// Adds the point where the edges cross. They do not touch, nor do the shapes there, if their nearest points are not
+/// one above the other, to `slack` [m].
 template <class S>
 ISO_INLINE void touch_edge(const Polyhedron<S>& a, const Transform<S>& ta, const SurfaceTriangle<S>& triangle,
                            const TriangleAxis<S>& axis, S slack, Manifold<S>& out) {

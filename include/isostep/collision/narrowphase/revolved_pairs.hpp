@@ -37,9 +37,7 @@ void collide_round_round(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b,
   ISO_ROUND_PAIR(extern, collide_half_space_round, S) \
   ISO_ROUND_PAIR(extern, collide_hull_round, S)       \
   ISO_ROUND_PAIR(extern, collide_round_round, S)
-#define ISO_EXTERN(S) ISO_ROUND_PAIRS_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ROUND_PAIRS_OF)
 
 namespace detail {
 /// The solid that a cylinder's or cone's record holds.

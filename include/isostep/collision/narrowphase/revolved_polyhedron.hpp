@@ -30,8 +30,6 @@ void collide_revolved_half_space(const detail::Revolved<S>& solid, const Transfo
                                                       const Polyhedron<S>&, const Transform<S>&, S, Manifold<S>&);    \
   extern template void collide_revolved_half_space<S>(const detail::Revolved<S>&, const Transform<S>&, Vec3<Unit<S>>, \
                                                       S, const Transform<S>&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_REVOLVED_POLYHEDRON_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_REVOLVED_POLYHEDRON_OF)
 
 }  // namespace isostep

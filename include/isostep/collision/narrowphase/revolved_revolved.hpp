@@ -31,8 +31,6 @@ void collide_capsule_revolved(S half_height, S radius, const Transform<S>& ta, c
                                                     const detail::Revolved<S>&, const Transform<S>&, S, Manifold<S>&); \
   extern template void collide_capsule_revolved<S>(S, S, const Transform<S>&, const detail::Revolved<S>&,              \
                                                    const Transform<S>&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_REVOLVED_REVOLVED_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_REVOLVED_REVOLVED_OF)
 
 }  // namespace isostep

@@ -21,8 +21,6 @@ void collide_revolved_triangle(const detail::Revolved<S>& solid, const Transform
 #define ISO_REVOLVED_TRIANGLE_OF(extern, S)                                                          \
   extern template void collide_revolved_triangle<S>(const detail::Revolved<S>&, const Transform<S>&, \
                                                     const SurfaceFrame<S>&, const BakedTriangle&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_REVOLVED_TRIANGLE_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_REVOLVED_TRIANGLE_OF)
 
 }  // namespace isostep

@@ -8,14 +8,14 @@
 
 namespace isostep {
 
-/// A sphere of `radius` [m] about ta's position. One point, named as NearestPoint::feature.
+/// Collides a sphere of `radius` [m] about ta's position: one point, named as NearestPoint::feature.
 template <class S>
 void collide_sphere_polyhedron(S radius, const Transform<S>& ta, const Polyhedron<S>& b, const Transform<S>& tb,
                                S margin, Manifold<S>& out);
 
-/// A capsule along y of ta: one point, or two where it lies along a face or an edge. Features: bit 31, the face, the
-/// edge that cuts the core there or 255, the end; bit 30 or 28, the face, the end; bit 29, the edge, the end; or an
-/// edge.
+/// Collides a capsule along y of ta: one point, or two where it lies along a face or an edge. Features: bit 31, the
+/// face, the edge that cuts the core there or 255, the end; bit 30 or 28, the face, the end; bit 29, the edge, the end;
+/// or an edge.
 template <class S>
 void collide_capsule_polyhedron(S half_height, S radius, const Transform<S>& ta, const Polyhedron<S>& b,
                                 const Transform<S>& tb, S margin, Manifold<S>& out);
@@ -25,8 +25,6 @@ void collide_capsule_polyhedron(S half_height, S radius, const Transform<S>& ta,
                                                     S, Manifold<S>&);                                                  \
   extern template void collide_capsule_polyhedron<S>(S, S, const Transform<S>&, const Polyhedron<S>&,                  \
                                                      const Transform<S>&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_ROUND_POLYHEDRON_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ROUND_POLYHEDRON_OF)
 
 }  // namespace isostep

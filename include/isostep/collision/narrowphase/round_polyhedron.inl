@@ -106,8 +106,8 @@ ISO_INLINE void touch_round(Vec3<S> on_core, S distance, Vec3<Unit<S>> normal, S
 
 inline constexpr double kAlong = 0.0625;  // sine of the angle, 3.6 degrees, within which a core lies along a feature
 
-/// Both ends of the stretch over a face that the core lies along, where the lower of them is no higher than `highest`.
-/// Cores up to `slack` beyond a side are over it.
+/// Adds both ends of the stretch over a face that the core lies along, where the lower of them is no higher than
+/// `highest`. Cores up to `slack` beyond a side are over it.
 template <class S>
 ISO_INLINE bool touch_along(const Polyhedron<S>& solid, std::uint32_t face, const Segment<S>& core, S highest, S slack,
                             S radius, S margin, const Transform<S>& frame, Manifold<S>& out) {
@@ -124,7 +124,7 @@ ISO_INLINE bool touch_along(const Polyhedron<S>& solid, std::uint32_t face, cons
   return out.count > 0;
 }
 
-/// Both ends of the stretch beside an edge that the core lies along.
+/// Adds both ends of the stretch beside an edge that the core lies along.
 template <class S>
 ISO_INLINE bool touch_beside(const Polyhedron<S>& solid, std::uint32_t k, const Segment<S>& core, Vec3<Unit<S>> normal,
                              S radius, S margin, const Transform<S>& frame, Manifold<S>& out) {

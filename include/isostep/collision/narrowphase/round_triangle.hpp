@@ -8,15 +8,16 @@
 
 namespace isostep {
 
-/// A sphere of `radius` [m] about ta's position, nearer to the triangle than `margin` [m]. The normal points into the
-/// surface. What touches an edge or a point from beyond its arc touches a neighbour, and is left to that one.
+/// Collides a sphere of `radius` [m] about ta's position, nearer to the triangle than `margin` [m]. The normal points
+/// into the surface. A sphere that touches an edge or a point from beyond its arc touches a neighbour, and is left to
+/// that one.
 /// Features: one, of the sphere alone.
 template <class S>
 void collide_sphere_triangle(S radius, const Transform<S>& ta, const SurfaceFrame<S>& frame, const BakedTriangle& baked,
                              S margin, Manifold<S>& out);
 
-/// A capsule along y of ta: its ends over the triangle, and where its core leaves it across an edge that is not flat;
-/// or a point, or two of a core that lies along it, of an edge.
+/// Collides a capsule along y of ta: its ends over the triangle, and where its core leaves it across an edge that is
+/// not flat; or a point, or two of a core that lies along it, of an edge.
 /// Features: an end, of the capsule alone; bit 27, the edge, the end; bit 26, the edge; bit 25, the edge, the end.
 template <class S>
 void collide_capsule_triangle(S half_height, S radius, const Transform<S>& ta, const SurfaceFrame<S>& frame,
@@ -27,8 +28,6 @@ void collide_capsule_triangle(S half_height, S radius, const Transform<S>& ta, c
                                                   const BakedTriangle&, S, Manifold<S>&);             \
   extern template void collide_capsule_triangle<S>(S, S, const Transform<S>&, const SurfaceFrame<S>&, \
                                                    const BakedTriangle&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_ROUND_TRIANGLE_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ROUND_TRIANGLE_OF)
 
 }  // namespace isostep

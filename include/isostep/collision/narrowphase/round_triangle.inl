@@ -8,7 +8,7 @@
 namespace isostep {
 namespace detail {
 
-/// Where the triangle's rim is nearest to a point over none of its inside.
+/// The point of the triangle's rim that is nearest to a point over none of its inside.
 template <class S> struct RimPoint {
   Vec3<S> apart;  // [m] from there to the point
   S distance;     // [m]
@@ -55,8 +55,8 @@ ISO_INLINE TriangleStretch<S> stretch_over(const SurfaceTriangle<S>& triangle, c
 }
 
 /// The best of the edges that a core may touch. One that it is under counts only where the core is as near as its
-/// radius, and where a stretch of it is over the triangle, `is_over`: what is deeper, or beside it, is beyond another
-/// side, or a face's to push out.
+/// radius, and where a stretch of it is over the triangle, `is_over`: a core that is deeper, or beside it, is beyond
+/// another side, or a face's to push out.
 template <class S> struct TriangleEdgeTouch {
   S separation;  // [m] of the core
   Vec3<Unit<S>> normal;
@@ -87,7 +87,7 @@ ISO_INLINE TriangleEdgeTouch<S> touched_edge(const SurfaceTriangle<S>& triangle,
   return best;
 }
 
-/// Both ends of the stretch beside an edge that the core lies along.
+/// Adds both ends of the stretch beside an edge that the core lies along.
 template <class S>
 ISO_INLINE bool touch_beside(const SurfaceTriangle<S>& triangle, const TriangleEdgeTouch<S>& touch,
                              const Segment<S>& core, S radius, S margin, const Transform<S>& ta, Manifold<S>& out) {

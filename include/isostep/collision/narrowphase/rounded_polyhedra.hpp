@@ -28,8 +28,8 @@ template <class S>
 void collide_rounded_polyhedra(const RoundedPolyhedron<S>& a, const Transform<S>& ta, const RoundedPolyhedron<S>& b,
                                const Transform<S>& tb, S margin, Manifold<S>& out, CollidePolyhedra<S> polyhedra);
 
-/// With one triangle of a surface; the normal points into it. Of a core that is apart from it the shortest way counts,
-/// if it leads out of the surface there: else the contact is that of a neighbour, as of a sphere.
+/// Collides with one triangle of a surface; the normal points into it. The shortest way of a core that is apart from it
+/// counts, if it leads out of the surface there: else the contact is that of a neighbour, as of a sphere.
 template <class S>
 void collide_rounded_triangle(const RoundedPolyhedron<S>& a, const Transform<S>& ta, const SurfaceFrame<S>& frame,
                               const BakedTriangle& baked, S margin, Manifold<S>& out);
@@ -40,8 +40,6 @@ void collide_rounded_triangle(const RoundedPolyhedron<S>& a, const Transform<S>&
                                                     CollidePolyhedra<S>);                                              \
   extern template void collide_rounded_triangle<S>(const RoundedPolyhedron<S>&, const Transform<S>&,                   \
                                                    const SurfaceFrame<S>&, const BakedTriangle&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_ROUNDED_POLYHEDRA_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ROUNDED_POLYHEDRA_OF)
 
 }  // namespace isostep

@@ -10,8 +10,8 @@
 namespace isostep {
 namespace detail {
 
-/// The edge that a solid reaches furthest along a direction with, both ends within `slack` [m] of how far it reaches at
-/// all; of equals the first.
+/// The edge by which a solid reaches furthest along a direction, both ends within `slack` [m] of its reach; of equals
+/// the first.
 template <class S> struct OuterEdge {
   std::uint32_t edge;
   bool found;
@@ -31,7 +31,7 @@ template <class S> ISO_INLINE OuterEdge<S> outer_edge(const Polyhedron<S>& solid
   return best;
 }
 
-/// Both ends of the stretch beside each other of two edges that face each other across the gap, if there are such.
+/// Adds both ends of the stretch that two edges run beside each other, facing across the gap, if there are such.
 template <class S>
 ISO_INLINE bool touch_edges_beside(const RoundedPolyhedron<S>& a, const Transform<S>& ta, const RoundedPolyhedron<S>& b,
                                    const Transform<S>& tb, const CoreGap<S>& gap, S slack, S margin, Manifold<S>& out) {
@@ -57,7 +57,7 @@ ISO_INLINE bool touch_edges_beside(const RoundedPolyhedron<S>& a, const Transfor
   return out.count > 0;
 }
 
-/// Whether a solid has a face that comes as near to a gap, out of the solid, as is_told_by asks.
+/// Returns true if a solid has a face that comes as near to a gap, out of the solid, as is_told_by asks.
 template <class S> ISO_INLINE bool has_face_across(const Polyhedron<S>& solid, Vec3<S> gap, S distance, S tolerance) {
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
     if (dot(solid.normals[f], gap) >= distance - tolerance) return true;
@@ -73,7 +73,7 @@ ISO_INLINE CoreGap<S> gap_between(const Polyhedron<S>& a, const Transform<S>& ta
   return gap_between(core_a.core(), ta, core_b.core(), tb);
 }
 
-/// Whether a face of a solid has a triangle further above it than `reach`.
+/// Returns true if a triangle is further above a face of a solid than `reach`.
 template <class S>
 ISO_INLINE bool is_beyond_face(const Polyhedron<S>& solid, const SurfaceTriangle<S>& triangle, S reach) {
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
@@ -84,7 +84,7 @@ ISO_INLINE bool is_beyond_face(const Polyhedron<S>& solid, const SurfaceTriangle
   return false;
 }
 
-/// Whether an edge's or a point's contact across a gap is the triangle's own, and no neighbour's.
+/// Returns true if an edge's or a point's contact across a gap is the triangle's own, and no neighbour's.
 template <class S> ISO_INLINE bool is_owned(const SurfaceTriangle<S>& triangle, const CoreGap<S>& gap) {
   const Vec3<Unit<S>> direction = -gap.normal;
   if (gap.corners == 1) return triangle.owns_at_point(static_cast<int>(gap.corner[0]), direction);
@@ -104,7 +104,7 @@ void collide_rounded_polyhedra(const RoundedPolyhedron<S>& a, const Transform<S>
   if (gap.distance - radii > margin) return;
   const S tolerance = axis_tolerance(a.core.inner_radius, b.core.inner_radius, tb.position - ta.position);
   const Vec3<S> gap_in_b = transposed_times(tb.rotation, ta.rotation * -gap.across());
-  // Most of the cost of a pair are its separating axes: they are asked only where they may decide.
+  // The separating axes are most of a pair's cost: they are asked only where they may decide.
   if (!gap.is_apart || has_face_across(a.core, gap.across(), gap.distance, tolerance) ||
       has_face_across(b.core, gap_in_b, gap.distance, tolerance)) {
     polyhedra(a.core, ta, b.core, tb, margin + radii, out);
@@ -145,7 +145,8 @@ void collide_rounded_triangle(const RoundedPolyhedron<S>& a, const Transform<S>&
   if (!gap.is_apart || gap.corners == 3 || gap.is_told_by(out, normal, tolerance))
     return grow_cores(out, a.radius, S(0), margin);
   const bool owned = is_owned(triangle, gap);
-  // An edge of the solid over one of the surface that nothing touches may be nearer than its corners over the triangle.
+  // An edge of the solid over an edge of the surface that no core may touch can be nearer than its corners over the
+  // triangle.
   constexpr double kUpright = 0x1p-8;  // [1]
   if (!owned && max_abs(normal + triangle.normal) <= Unit<S>(kUpright)) return grow_cores(out, a.radius, S(0), margin);
   out.clear();

@@ -18,8 +18,6 @@ void collide_rounded_revolved(const detail::Revolved<S>& solid, const Transform<
 #define ISO_ROUNDED_REVOLVED_OF(extern, S)                                                          \
   extern template void collide_rounded_revolved<S>(const detail::Revolved<S>&, const Transform<S>&, \
                                                    const RoundedPolyhedron<S>&, const Transform<S>&, S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_ROUNDED_REVOLVED_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ROUNDED_REVOLVED_OF)
 
 }  // namespace isostep

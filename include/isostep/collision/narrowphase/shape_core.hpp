@@ -7,15 +7,15 @@
 
 namespace isostep {
 
-/// A solid of a shape's file (`Sphere<S>`, `Box<S>` ...), or what is `inset` [m] deep in it, 0 up to its inner radius.
-/// The memory that core() shows.
+/// A solid of a shape's file (`Sphere<S>`, `Box<S>` ...), or its part `inset` [m] deep, 0 up to its inner radius. The
+/// memory that core() shows.
 template <class S> class ShapeCore {
  public:
-  /// In the frame that `t` leads to.
+  /// Takes the shape in the frame that `t` leads to.
   template <class Shape> ISO_INLINE ShapeCore(const Shape& shape, const Transform<S>& t, S inset) {
     radius_ = shape.visit_core(inset, [&](Vec3<S> v) ISO_INLINE_LAMBDA { add(to_world(t, v)); });
   }
-  /// In the shape's own frame.
+  /// Takes the shape in its own frame.
   template <class Shape> ISO_INLINE ShapeCore(const Shape& shape, S inset) {
     radius_ = shape.visit_core(inset, [&](Vec3<S> v) ISO_INLINE_LAMBDA { add(v); });
   }
@@ -31,7 +31,7 @@ template <class S> class ShapeCore {
     count_ = 1;
     radius_ = radius;
   }
-  /// Valid as long as this is.
+  /// The core, valid as long as this is.
   ISO_INLINE ConvexCore<S> core() const { return {{vertices_, count_}, radius_}; }
 
  private:
@@ -45,7 +45,7 @@ template <class S> class ShapeCore {
   S radius_;  // [m]
 };
 
-/// Whether a shape is convex and has an end: then it has a core and an inner radius, see Solid in shape.hpp.
+/// A shape is convex and has an end: then it has a core and an inner radius, see Solid in shape.hpp.
 template <class Shape> inline constexpr bool kIsSolid = Shape::kBounded;
 
 }  // namespace isostep

@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// visit(triangle) for the triangles of surface b whose boxes meet that of a, grown by `margin`, until it returns
+/// Calls visit(triangle) for the triangles of surface b whose boxes meet that of a, grown by `margin`, until it returns
 /// false. The order follows from the surface alone.
 template <class S, class Visit>
 ISO_INLINE bool visit_triangles_near(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb,
@@ -25,18 +25,18 @@ ISO_INLINE bool visit_triangles_near(ShapeView<S> a, const Transform<S>& ta, Sha
   });
 }
 
-/// A convex a against one triangle of surface b: round_triangle.hpp, polyhedron_triangle.hpp. The normal points from a
-/// into the surface.
+/// Collides a convex a with one triangle of surface b: round_triangle.hpp, polyhedron_triangle.hpp. The normal points
+/// from a into the surface.
 template <class S>
 void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, std::uint32_t triangle,
                            const Transform<S>& tb, S margin, Manifold<S>& out);
 
-/// The same against all triangles: the manifold that has the deepest point; of equals that of the lowest triangle.
+/// Collides with all triangles: the manifold that has the deepest point; of equals that of the lowest triangle.
 template <class S>
 void collide_with_surface(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                           Manifold<S>& out);
 
-/// The same for a convex b, which the list of shapes has after surfaces: the normal points out of surface a.
+/// Collides a convex b, which the list of shapes has after surfaces: the normal points out of surface a.
 template <class S>
 void collide_surface_with(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                           Manifold<S>& out);
@@ -48,8 +48,6 @@ void collide_surface_with(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b
                                                S, Manifold<S>&);                                                     \
   extern template void collide_surface_with<S>(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, \
                                                S, Manifold<S>&);
-#define ISO_EXTERN(S) ISO_SURFACE_PAIRS_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SURFACE_PAIRS_OF)
 
 }  // namespace isostep

@@ -9,7 +9,7 @@ namespace isostep::detail {
 
 enum class FaceCast { hit, miss, undecided };
 
-/// cast_convex() of a core of one vertex against a box, as far as a face that the ball starts above of decides it: the
+/// cast_convex() of a core of one vertex against a box, as far as a face below the ball at the start decides it: the
 /// box lies behind the plane of that face. So a ball that does not reach the plane misses the box, and one that meets
 /// the plane within the face meets nothing before it.
 /// Undecided: what starts near the face, inside of the box, or passes it by an edge.

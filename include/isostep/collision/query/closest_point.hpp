@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// Closest surface point to `query` [m], world frame, from outside or inside.
+/// Returns the surface point closest to `query` [m], world frame, from outside or inside.
 /// Error:  fixed: point and distance within 4 raw units; float, double: 4 ulp of the largest coordinate. The normal is
 ///         as good as that error over the distance to the core (centre, segment or box).
 /// Order:  where several points are closest, a box takes the lowest axis, towards plus from its very centre; a
@@ -17,8 +17,8 @@ namespace isostep {
 template <class S>
 ClosestPoint<S> closest_point(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> query);
 
-#define ISO_EXTERN(S) extern template ClosestPoint<S> closest_point<S>(ShapeView<S>, const Transform<S>&, Vec3<S>);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CLOSEST_POINT_OF(extern, S) \
+  extern template ClosestPoint<S> closest_point<S>(ShapeView<S>, const Transform<S>&, Vec3<S>);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CLOSEST_POINT_OF)
 
 }  // namespace isostep

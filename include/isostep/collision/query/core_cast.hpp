@@ -10,7 +10,7 @@
 
 namespace isostep::detail {
 
-/// As CastHit, in the frame of the cast; the normal points from a to b.
+/// CastHit in the frame of the cast; the normal points from a to b.
 template <class F> struct CoreHit {
   bool hit, inside;
   Unit<F> fraction;
@@ -26,7 +26,7 @@ template <class F> struct CoreWayOut {
   Vec3<F> on_b;
 };
 
-/// What a cast has to know of a core beside its search.
+/// The size of a core, which a cast has to know beside its search.
 template <class F> struct CoreSize {
   F radius, extent;  // [m] as FineCore has them
 };
@@ -55,7 +55,7 @@ template <class S> struct CoreCast {
         from(transposed_times(frame, finer_of<F>(at_b - at_a))),
         way(-transposed_times(frame, finer_of<F>(motion.translation))),
         end(finer<U>(motion.max_fraction)),
-        // A fraction is rounded down to a step of S: what gives the latest one is found whatever the rounding.
+        // A fraction is rounded down to a step of S: the latest one is found whatever the rounding.
         latest(min(finer<U>(motion.latest), U(1)) + finer<U>(isostep::resolution<Unit<S>>()) + U(0x1p-20)),
         touch(finer<F>(motion.touch)),
         resolution(finer<F>(isostep::resolution<S>())),
@@ -81,7 +81,7 @@ template <class S> struct CoreCast {
       const F closing = -dot(way, found.normal);
       if (found.distance != F(0)) {
         if (!(closing > F(0)) || gap >= closing * (end - t)) return missed(found.normal, gap + closing * t);
-        // Within `near` they touch, at t: how far the plane would let them go on is not asked.
+        // They touch at t within `nearby`: how far the plane would let them go on is not asked.
         const bool ends_later = gap > nearby && gap > closing * (latest - t) + isostep::resolution<F>() * F(4);
         if (latest < end && ends_later) return missed(found.normal, gap + closing * t);
         last.hit = true;
@@ -115,10 +115,10 @@ template <class S> struct CoreCast {
     miss.gap = gap;
     return miss;
   }
-  /// Whether the gap has a direction. Else that of the step before is right: its plane has just been reached.
+  /// Returns true if the gap has a direction. Else that of the step before is right: its plane has just been reached.
   static ISO_INLINE bool is_clear(const GjkDistance<F>& found, F noise) { return found.distance > noise * F(256); }
 
-  /// What a plane that they do not sink through decides for the whole way, as both are convex.
+  /// Decides the whole way by a plane that they do not sink through, as both are convex.
   template <class Search>
   ISO_INLINE CoreHit<F> from_touch(Search& search, const GjkDistance<F>& found, F nearby) const {
     CoreHit<F> start = {true, false, U(0), found.normal, found.on_b};

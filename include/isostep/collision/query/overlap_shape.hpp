@@ -1,4 +1,4 @@
-// Whether two primitives touch: the narrow phase asked for nothing but its sign.
+// overlaps: the narrow phase asked for nothing but its sign.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -6,7 +6,8 @@
 
 namespace isostep {
 
-/// True when the primitives share a point; touching counts. Two half-spaces never overlap here: they never collide.
+/// Returns true when the primitives share a point; touching counts. Two half-spaces never overlap here: they never
+/// collide.
 template <class S>
 ISO_INLINE bool overlaps(std::type_identity_t<ShapeView<S>> a, const Transform<S>& ta,
                          std::type_identity_t<ShapeView<S>> b, const Transform<S>& tb) {

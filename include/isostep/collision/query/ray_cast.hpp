@@ -35,7 +35,7 @@ template <class S> struct RayHitTaker {
 template <class S>
 bool ray_cast(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> origin,
               Vec3<S> translation, S max_fraction, RayHit<S>& hit, bool back_faces = false);
-/// All of them: every triangle that is entered, those on both sides of an edge that is passed; one of another shape.
+/// Takes all hits: every triangle that is entered, those on both sides of an edge that is passed; one of another shape.
 template <class S>
 void ray_cast_all(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> origin,
                   Vec3<S> translation, const RayReach<S>& reach, const RayHitTaker<S>& taker);
@@ -44,8 +44,6 @@ void ray_cast_all(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& 
   extern template bool ray_cast<S>(ShapeView<S>, const Transform<S>&, Vec3<S>, Vec3<S>, S, RayHit<S>&, bool);   \
   extern template void ray_cast_all<S>(ShapeView<S>, const Transform<S>&, Vec3<S>, Vec3<S>, const RayReach<S>&, \
                                        const RayHitTaker<S>&);
-#define ISO_EXTERN(S) ISO_RAY_CAST_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_RAY_CAST_OF)
 
 }  // namespace isostep

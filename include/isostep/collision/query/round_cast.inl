@@ -16,7 +16,7 @@ template <class F> ISO_INLINE Segment<F> segment_of(ArrayView<Vec3<F>> vertices)
   return {vertices[0] + half, way.direction, way.length};
 }
 
-/// For CoreCast, in b's rotation: a's core is a segment. `Still` is b's about its own position:
+/// A search for CoreCast, in b's rotation: a's core is a segment. `Still` is b's about its own position:
 ///   nearest(segment)  its point nearest to a segment, and the segment's
 ///   reach(direction)  [m] how far it goes from its centre, and `centre`
 ///   way_out(segment)  of one that goes through it, as CoreSearch has it; nothing: it cannot tell
@@ -25,7 +25,8 @@ template <class F, class Still> struct SegmentSearch {
   Still still;
   Vec3<F> seen_at = Vec3<F>::zero();  // [m] of b, where `nearest` was asked last
 
-  /// The plane across the shortest way parts them as far as the two reach along it: it is proved, not assumed.
+  /// The plane across the shortest way parts them by the two cores' reach along it: the separation is proved, not
+  /// assumed.
   template <class Enough> ISO_INLINE GjkDistance<F> nearest(Vec3<F> at, const Enough&) {
     seen_at = at;
     const Segment<F> seen = {moving.centre - at, moving.direction, moving.half};
@@ -53,7 +54,7 @@ template <class F> struct StillBox {
     const Vec3<F> on_a = segment.at(closest_to_box(segment, half));
     return {on_a, max(min(on_a, half), -half)};
   }
-  /// On the side of a face the point below the end that is in deepest; else that of the edge.
+  /// The way out by a face, at the point below the end that is in deepest; else that across the edge.
   ISO_INLINE std::optional<CoreWayOut<F>> way_out(const Segment<F>& segment) const {
     const Pierced<F> way = pierced(segment, half, F(0));
     const bool first = dot(segment.direction, way.outward) < Unit<F>(0);
@@ -95,7 +96,7 @@ ISO_INLINE RoundCast cast_round_at(const ConvexCore<S>& a, const Transform<S>& t
   if (found.is_open) return RoundCast::undecided;
   return cast.tell(found, hit) ? RoundCast::hit : RoundCast::miss;
 }
-/// Against a box.
+/// Casts against a box.
 template <class S>
 ISO_INLINE RoundCast cast_round(const ConvexCore<S>& a, const Transform<S>& ta, Vec3<S> half, const Transform<S>& tb,
                                 const CastMotion<S>& motion, CastHit<S>& hit) {
@@ -103,7 +104,7 @@ ISO_INLINE RoundCast cast_round(const ConvexCore<S>& a, const Transform<S>& ta, 
   const Vec3<F> fine = finer_of<F>(half);
   return cast_round_at(a, ta, StillBox<F>{fine}, {F(0), max_abs(fine)}, tb, motion, hit);
 }
-/// Against another core of one or two vertices.
+/// Casts against another core of one or two vertices.
 template <class S>
 ISO_INLINE RoundCast cast_round(const ConvexCore<S>& a, const Transform<S>& ta, const ConvexCore<S>& b,
                                 const Transform<S>& tb, const CastMotion<S>& motion, CastHit<S>& hit) {

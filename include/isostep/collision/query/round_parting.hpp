@@ -8,12 +8,12 @@
 
 namespace isostep {
 
-/// The axis of a ball or capsule and what is around it.
+/// The axis of a ball or capsule and the radius around it.
 template <class S> struct RoundCore {
   detail::Segment<S> axis;  // [m]
   S radius;                 // [m]
 };
-/// In the world's axes, about the position of the frame that `t` leads from. Of a core with one or two vertices.
+/// A core with one or two vertices, in the world's axes, about the position of the frame that `t` leads from.
 template <class S> ISO_INLINE RoundCore<S> round_core(const ConvexCore<S>& core, const Transform<S>& t) {
   const Vec3<S> first = t.rotation * core.vertices[0], last = t.rotation * core.vertices[core.vertices.size() - 1];
   const Vec3<S> half = (last - first) * S(0.5);
@@ -22,7 +22,8 @@ template <class S> ISO_INLINE RoundCore<S> round_core(const ConvexCore<S>& core,
 }
 
 namespace detail {
-/// Across the shortest way between two axes. `axis` from the position of what moves, `to` [m] from there to the other.
+/// The plane across the shortest way between two axes. `axis` is from the position of the mover, `to` [m] from there to
+/// the other.
 template <class S>
 ISO_INLINE Parting<S> part_axes(const Segment<S>& axis, S radii, const Segment<S>& other, Vec3<S> to, Vec3<S> at) {
   const Segment<S> there = {other.centre + to, other.direction, other.half};
@@ -31,8 +32,8 @@ ISO_INLINE Parting<S> part_axes(const Segment<S>& axis, S radii, const Segment<S
   const S reaches = axis.half * abs(dot(axis.direction, n)) + there.half * abs(dot(there.direction, n));
   return {n, at, dot(axis.centre - there.centre, n) - reaches - radii};
 }
-/// The face that the axis lies beyond by most; or, beyond none, across the way from the box to the axis' nearest point
-/// to its middle.
+/// The plane of the face that the axis lies beyond by most; or, beyond none, the plane across the way from the box to
+/// the axis' nearest point to its middle.
 template <class S>
 ISO_INLINE Parting<S> part_box(const RoundCore<S>& core, Vec3<S> half, const Transform<S>& t, Vec3<S> at) {
   const Vec3<S> centre = transposed_times(t.rotation, at + core.axis.centre - t.position);
@@ -53,7 +54,8 @@ ISO_INLINE Parting<S> part_box(const RoundCore<S>& core, Vec3<S> half, const Tra
 }
 }  // namespace detail
 
-/// `core` with its position at `at` [m]; what is parted from it at `t`: a half-space, too. Of other shapes no plane.
+/// The plane that parts `core`, its position at `at` [m], from a shape at `t`, a half-space included. Other shapes than
+/// those in closed form give no plane.
 /// Error: the gap [m] is never too wide.
 template <class S>
 ISO_INLINE Parting<S> part_round(const RoundCore<S>& core, Vec3<S> at, const ShapeView<S>& shape,

@@ -15,7 +15,8 @@ template <class S> struct SolidCast {
   Transform<S> start;  // [m] from there to the world
   CastMotion<S> motion;
   bool back_faces;  // meets triangles from behind too
-  /// Passes what it overlaps by more than motion.touch at the start; of a surface, every triangle that it touches then.
+  /// Passes shapes that it overlaps by more than motion.touch at the start; of a surface, every triangle that it
+  /// touches then.
   bool skip_inside;
 };
 
@@ -33,9 +34,9 @@ template <class S> struct SolidHitTaker {
   void (*take)(void* user, const SolidHit<S>& hit);
 };
 
-/// The first fraction at which the solid touches the shape: cast_convex for every shape of the list. `hit` is written
-/// only when the result is true; of triangles hit at once the lowest is reported.
-/// Half-spaces: their plane, in one step instead of a search.
+/// Finds the first fraction at which the solid touches the shape: cast_convex for every shape of the list. `hit` is
+/// written only when the result is true; of triangles hit at once the lowest is reported. Half-spaces: their plane, in
+/// one step instead of a search.
 /// Triangles:   are hit on the side that the solid moves against, which must be the outward one or `back_faces` asked
 ///              for. One that the solid overlaps from the start is hit if the mean of the solid's vertices is on that
 ///              side of it; the normal is the triangle's. What touches a triangle's plane at the start and moves along
@@ -43,13 +44,13 @@ template <class S> struct SolidHitTaker {
 /// Error:       that of cast_convex. Limits: its own, and surfaces within Limits<S>::extent().
 template <class S>
 bool cast_solid(const SolidCast<S>& cast, ShapeView<S> shape, const Transform<S>& transform, SolidHit<S>& hit);
-/// All of them: every triangle that it would hit if that were alone; one of another shape.
+/// Takes all hits: every triangle that it would hit if that were alone; one of another shape.
 template <class S>
 void cast_solid_all(const SolidCast<S>& cast, ShapeView<S> shape, const Transform<S>& transform,
                     const SolidHitTaker<S>& taker);
 
 namespace detail {
-/// [m] By how much a cast may be looked for beyond a box, more than what passes a shape that near can hit.
+/// [m] The margin around a box within which a cast may hit: more than the error by which a solid that passes hits.
 template <class S> ISO_INLINE S cast_margin(S farthest) { return gap_noise(farthest) * S(8); }
 }  // namespace detail
 
@@ -57,8 +58,6 @@ template <class S> ISO_INLINE S cast_margin(S farthest) { return gap_noise(farth
   extern template bool cast_solid<S>(const SolidCast<S>&, ShapeView<S>, const Transform<S>&, SolidHit<S>&); \
   extern template void cast_solid_all<S>(const SolidCast<S>&, ShapeView<S>, const Transform<S>&,            \
                                          const SolidHitTaker<S>&);
-#define ISO_EXTERN(S) ISO_SOLID_CAST_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SOLID_CAST_OF)
 
 }  // namespace isostep

@@ -9,7 +9,7 @@
 
 namespace isostep::detail {
 
-/// In the solid's frame, where triangles near the start have all their digits however large the surface.
+/// A cast in the solid's frame, where triangles near the start have all their digits however large the surface.
 template <class S, class G> class SurfaceCast {
  public:
   ISO_INLINE SurfaceCast(const SolidCast<S>& cast, const G& surface, const Transform<S>& t)
@@ -23,7 +23,7 @@ template <class S, class G> class SurfaceCast {
     for (const Vec3<S>& v : cast.core.vertices) extent_ = max(extent_, max_abs(v));
   }
 
-  /// found(hit) -> Unit<S>, the latest fraction that is of interest from then on.
+  /// Calls found(hit) -> Unit<S>, the latest fraction that is of interest from then on.
   template <class Found> ISO_INLINE void run(const Found& found) {
     const bool leaves = cast_.skip_inside && starts_inside();
     Unit<S> latest = cast_.motion.latest;
@@ -43,7 +43,7 @@ template <class S, class G> class SurfaceCast {
     for (const Vec3<S>& v : core.vertices) middle += v * share;
     return middle;
   }
-  /// Of the solid's box, in the surface's frame.
+  /// The sweep of the solid's box, in the surface's frame.
   ISO_INLINE Sweep<S> sweep_of(const Transform<S>& t) const {
     const Transform<S> placed = relative(t, cast_.start);
     Vec3<S> low = placed.rotation * cast_.core.vertices[0], high = low;
@@ -70,7 +70,7 @@ template <class S, class G> class SurfaceCast {
           return !touches(corners.bounds()) || each(id, corners);
         });
   }
-  /// Whether it overlaps some triangle deeply: those that it touches beside that one are no obstacle either.
+  /// Returns true if it overlaps some triangle deeply: those that it touches beside that one are no obstacle either.
   ISO_INLINE bool starts_inside() {
     bool inside = false;
     visit(Unit<S>(0), [&](std::uint32_t id, const TriangleCorners& corners) ISO_INLINE_LAMBDA {
@@ -93,7 +93,7 @@ template <class S, class G> class SurfaceCast {
     return test_.touches(bounds);
   }
 
-  /// How the solid lies over a triangle's plane, and moves against it.
+  /// The solid's place over a triangle's plane, and its motion against it.
   struct Approach {
     Vec3<Unit<S>> up;  // [1] of the side that it moves against
     S middle;          // [m] of the middle above it
@@ -110,7 +110,8 @@ template <class S, class G> class SurfaceCast {
     a.gap = lowest - cast_.core.radius - (behind ? -triangle.offset : triangle.offset);
     return a;
   }
-  /// What the plane alone decides: the solid does not come down to it, or touches it and moves along.
+  /// Returns true where the plane alone decides a miss: the solid does not come down to it, or touches it and moves
+  /// along.
   ISO_INLINE bool passes(const Approach& a, S nearby) const {
     const S fall = a.fall * cast_.motion.max_fraction, touch = max(cast_.motion.touch, nearby);
     if (a.gap > fall + nearby) return true;
@@ -147,8 +148,8 @@ template <class S, class G> class SurfaceCast {
            id};
     return true;
   }
-  /// Whether the normal that was found at an edge or corner is one of the surface there: whether the triangles about it
-  /// lie below the plane across that normal. Where they do not, the face is what was met.
+  /// Returns true if the normal found at an edge or corner is one of the surface there: the triangles about it lie
+  /// below the plane across that normal. Where they do not, the face was met.
   ISO_INLINE bool is_clear(std::uint32_t id, const BakedTriangle& baked, const SurfaceTriangle<S>& triangle,
                            const CastHit<S>& hit) const {
     bool at[3];

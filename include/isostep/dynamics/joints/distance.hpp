@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// Origins lower..upper apart (lower = upper: rod, lower = 0: rope). kSpring: a spring instead; with kLimit both.
-/// Two more drives stand across it: joint_sway.hpp.
+/// Origins stay lower..upper apart (lower = upper: rod, lower = 0: rope). kSpring puts a spring there instead; with
+/// kLimit both act. Two more drives stand across it: joint_sway.hpp.
 template <class S> struct DistanceJoint {
   static constexpr JointType kType = JointType::distance;
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kLimit | joint_flag::kSpring;

@@ -36,20 +36,20 @@ template <class S> struct JointConstraint {
   JointDrive<S> drives[kJointRows];  // drive_count of them, each in a row of its own; first the one of the properties
 };
 
-/// What the calls of one sub-step know. Row r > 0 of the bodies is states[r - 1].
+/// The values that the calls of one sub-step share. Row r > 0 of the bodies is states[r - 1].
 template <class S> struct JointStep {
   const BodyState<S>* states;
   SolverBodies<S>* bodies;
   S rate;     // [1/s] sub-steps a second
   Step<S> h;  // [s]
   Softness<S> softness;
-  // [rad/s] slower than rapid_angular_speed() or faster than angular_speed_to_follow(), arms count as straight
+  // [rad/s] Arms count as straight below rapid_angular_speed() and above angular_speed_to_follow().
   Velocity<S> rapid = Velocity<S>(0), fastest = highest<Velocity<S>>();
 };
 
-/// How soft joints are that no JointTrees solves at once, and how fast those that it does close their errors: a quarter
-/// of the sub-step rate as frequency, and a damping ratio of 5. On S6 ratios 1, 2, 5, 10 leave one-by-one joints (two
-/// sweeps) 0.52, 0.18, 0.09, 0.08 m apart and trees 1.3, 1.9, 3.4, 5.2 mm.
+/// The softness of joints that no JointTrees solves at once, and the rate at which those that it does close their
+/// errors: a quarter of the sub-step rate as frequency, and a damping ratio of 5. On S6 ratios 1, 2, 5, 10 leave
+/// one-by-one joints (two sweeps) 0.52, 0.18, 0.09, 0.08 m apart and trees 1.3, 1.9, 3.4, 5.2 mm.
 template <class S> ISO_INLINE constexpr Softness<S> joint_softness(S rate) {
   return soften(S(1.5707963267948966), S(5), rate);
 }
@@ -59,41 +59,41 @@ template <class S> struct JointRows {
   Vec3<Velocity<S>> point, angular;  // [m/s] of the two blocks
 };
 
-/// What a pass changes of a joint and its bodies.
+/// The state of a joint and its bodies that a pass changes.
 template <class S> struct JointStart {
   JointMotion<S> motion;
   JointRows<S> impulses;
   Velocity<S> drives[kJointRows];  // [m/s] their impulses
 };
 
-/// Once a step. Masses and rows must be gathered. `axes` are those of the joint, none twice.
+/// Prepares a joint once a step. Masses and rows must be gathered. `axes` are those of the joint, none twice.
 template <class S>
 void prepare_joint(const JointProperties<S>& properties, const JointState<S>& state, const JointEnd<S>& a,
                    const JointEnd<S>& b, const SolverBodies<S>& bodies, JointConstraint<S>& joint,
                    std::span<const JointAxisDrive<S>> axes = {});
-/// Jacobian and error from the poses of now.
+/// Finds the Jacobian and the errors of position at the present poses.
 template <class S> void linearise_joint(JointConstraint<S>& joint, const JointStep<S>& step);
-/// For velocities, after linearise_joint() and from the angular velocities of `step.bodies` as they are: how joints'
-/// arms curve. Not for solvers that close errors of position by themselves: what the arms curved then stays as speed.
+/// Sets how arms curve, for velocities: after linearise_joint(), from the angular velocities of `step.bodies`. Solvers
+/// that close errors of position by themselves do without: what the arms curved then stays as speed.
 template <class S> void curve_joint(JointConstraint<S>& joint, const JointStep<S>& step);
-/// What the rows move, for bodies that turn by kappa, and how strong springs are.
+/// Sets the turns that the rows give bodies with the inverse inertia kappa.
 template <class S> void weigh_joint(JointConstraint<S>& joint, const Mat3<S>& kappa_a, const Mat3<S>& kappa_b);
-/// Rows of the drives as their pieces ask, and the blocks' couplings with them.
+/// Places the drives' rows as their pieces ask, and finds the couplings within each block.
 template <class S> void couple_blocks(JointConstraint<S>& joint);
-/// The last sub-step's impulses; motors at their largest force give it anew.
+/// Applies the last sub-step's impulses; motors at their largest force give it anew.
 template <class S> void apply_impulses(JointConstraint<S>& joint, const JointStep<S>& step);
-/// What the rows of a block ask for: minus speed and bias.
+/// Returns the speeds [m/s] that the rows of a block ask for: minus speed and bias.
 template <class S>
 Vec3<Velocity<S>> right_side(const JointConstraint<S>& joint, std::uint32_t block, const JointMotion<S>& motion,
                              const JointStep<S>& step, bool relax);
 /// Adds to the impulses of all rows, as softly as asked, and to the bodies.
 template <class S>
 void push_joint(JointConstraint<S>& joint, const JointRows<S>& change, Softness<S> soft, SolverBodies<S>& bodies);
-/// Whether a drive is off its piece of the law. Without `may_hold` only those count that hold a speed and should not:
-/// they let go, and the pass ends.
+/// Returns whether a drive is off its piece of the law. Without `may_hold` only those count that hold a speed and
+/// should not: they let go, and the pass ends.
 template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<S>& step, bool relax, bool may_hold);
-/// Then the pass begins again with the next pieces, from what it began with: a piece that was wrong may ask for
-/// impulses that are far from any that are right. Blocks have to couple anew.
+/// These begin a pass again with the next pieces, from what it began with: a piece that was wrong may ask for impulses
+/// that are far from any that are right. Blocks have to couple anew.
 template <class S> JointStart<S> start_of(const JointConstraint<S>& joint, const SolverBodies<S>& bodies);
 template <class S> void restart_joint(JointConstraint<S>& joint, const JointStart<S>& start, SolverBodies<S>& bodies);
 template <class S> void change_pieces(JointConstraint<S>& joint, const JointStep<S>& step);
@@ -104,8 +104,8 @@ template <class S> void factor_joint(JointConstraint<S>& joint);
 template <class S> JointRows<S> substitute_joint(const JointConstraint<S>& joint, JointRows<S> right);
 template <class S> void solve_joint(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
 
-/// One joint after another in array order. Once a sub-step the first, then the second, biased and, after positions
-/// moved, relaxed.
+/// These solve one joint after another in array order: the first once a sub-step, then the second, biased and, after
+/// positions moved, relaxed.
 template <class S> void warm_start_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step);
 template <class S> void solve_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
 

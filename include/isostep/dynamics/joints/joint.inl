@@ -40,10 +40,10 @@ ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Velocity<S>> angular_vel
   return held_within(bent, most);
 }
 
-/// How far a spring came in the sub-step before. With its force taken there, at x - h v + h v', an undamped one keeps
-/// its energy whatever its frequency, as if its bodies were heavier by angle^2 of themselves. At x + h v', implicit
-/// Euler, it loses angle^2 of its energy in every sub-step. Beyond kSpringLag less is taken back: bodies on a fast
-/// spring would sag.
+/// Returns the way that a spring came in the sub-step before. An undamped spring whose force is taken there, at x - h v
+/// + h v', keeps its energy whatever its frequency, as if its bodies were heavier by angle^2 of themselves. At x + h
+/// v', implicit Euler, it loses angle^2 of its energy in every sub-step. Beyond kSpringLag less is taken back: bodies
+/// on a fast spring would sag.
 template <class S>
 ISO_INLINE Velocity<S> lagging_way(const JointRow<S>& row, S angle, const JointConstraint<S>& joint,
                                    const JointStep<S>& step) {
@@ -199,7 +199,7 @@ template <class S> void change_pieces(JointConstraint<S>& joint, const JointStep
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     JointDrive<S>& drive = joint.drives[i];
     drive.piece = drive.next;
-    // Of one that let go in an earlier round too: the restart has given it the impulse again with which it held.
+    // A drive that let go in an earlier round counts too: the restart has given it back the impulse with which it held.
     if (!detail::is_constant(drive, drive.piece)) continue;
     const Velocity<S> impulse = detail::motor_impulse(drive.piece, detail::most_impulse(drive, step.h));
     push.add(drive.row, impulse - drive.impulse);

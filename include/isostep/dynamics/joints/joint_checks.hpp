@@ -21,7 +21,7 @@ template <class S> ISO_INLINE JointRules<S> rules_of(const JointProperties<S>& j
   });
 }
 
-/// `substep_rate` [1/s].
+/// Finds the first fault of a joint's properties in a world of `substep_rate` [1/s].
 template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_t substep_rate) {
   if (static_cast<std::uint32_t>(j.type) >= kJointTypes) return {Fault::bad_argument, "", "type", "one of JointType"};
   const JointRules<S> rules = rules_of(j);

@@ -7,15 +7,15 @@
 
 namespace isostep::detail {
 
-/// Whether a kind of joint has one: a motor may drive it, or it holds two points a length apart. The length of a rod
-/// is none that moves, but settings of a joint may make a rope of it.
+/// A type of joint has a coordinate if a motor may drive it, or if it holds two points a length apart. The length of a
+/// rod does not move, but settings of a joint may make a rope of it.
 ISO_INLINE constexpr bool has_coordinate(JointType type) {
   return joins_two_points(type) || visit_joint_type(type, [](auto kind) ISO_INLINE_LAMBDA {
            return (decltype(kind)::template Of<float>::kFlags & joint_flag::kMotor) != 0;
          });
 }
 
-/// [rad] in (-pi, pi], the twist about z, or [m].
+/// The coordinate: the twist about z in (-pi, pi] [rad], the way along z [m] or the distance of two points [m].
 template <class S> ISO_INLINE S position_of(JointType type, const JointFrames<S>& f) {
   if (measure_of(type) == JointMeasure::angle) return twist_angle<S>(relative_rotation(f));
   return joins_two_points(type) ? length(f.between) : dot(f.between, to_matrix(f.a).column(2));

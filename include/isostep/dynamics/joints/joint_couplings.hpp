@@ -1,4 +1,4 @@
-// What the rows of joints move: their turns, and the entries of K between them.
+// The couplings of joints' rows: the turns that a row gives bodies, and the entries of K between two rows.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,7 +15,7 @@ template <class S> ISO_INLINE S self_coupling(const JointRow<S>& i, const JointR
   return share.a * coupling(i.linear, i.angular_a, j.linear, j.turn_a) +
          share.b * coupling(i.linear, i.angular_b, j.linear, j.turn_b);
 }
-/// The same of two rows that only turn.
+/// The coupling of two rows that only turn.
 template <class S> ISO_INLINE S turning_coupling(const JointRow<S>& i, const JointRow<S>& j, MassShare<S> share) {
   return share.a * round_to<S>(dot_sum(i.angular_a, j.turn_a)) + share.b * round_to<S>(dot_sum(i.angular_b, j.turn_b));
 }

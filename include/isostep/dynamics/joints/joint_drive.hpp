@@ -95,15 +95,15 @@ template <class S> ISO_INLINE DriveBounds<S> bounds_of(const JointDrive<S>& driv
 ISO_INLINE constexpr bool fixes_speed(DrivePiece piece) {
   return piece == DrivePiece::lower || piece == DrivePiece::upper || piece == DrivePiece::driven;
 }
-/// Whether the spring's force follows the speed on that piece: on others a stop takes it up, or a servo gives its most.
+/// The spring's force follows the speed on that piece: on others a stop takes it up, or a servo gives its most.
 template <class S> ISO_INLINE bool springs(const JointDrive<S>& drive, DrivePiece piece) {
   return !fixes_speed(piece) && drive.spring > S(0) && !(drive.servo && piece != DrivePiece::free);
 }
-/// Whether the drive's impulse is the same whatever its speed.
+/// The drive's impulse is the same whatever its speed.
 template <class S> ISO_INLINE bool is_constant(const JointDrive<S>& drive, DrivePiece piece) {
   return !fixes_speed(piece) && !springs(drive, piece);
 }
-/// What the motor gives on a piece of constant force.
+/// The motor's impulse on a piece of constant force.
 template <class V> ISO_INLINE V motor_impulse(DrivePiece piece, V most) {
   return piece == DrivePiece::forwards ? most : piece == DrivePiece::backwards ? -most : V(0);
 }
@@ -116,7 +116,7 @@ ISO_INLINE Velocity<S> fixed_speed(const JointDrive<S>& drive, DrivePiece piece,
   return piece == DrivePiece::lower ? bounds.low : piece == DrivePiece::upper ? bounds.high : drive.speed;
 }
 
-/// What a piece left over from other properties becomes: a limit that is gone, a motor that is new.
+/// The piece that replaces one left over from other properties: a limit may be gone, a motor new.
 template <class S> ISO_INLINE DrivePiece valid_piece(const JointDrive<S>& drive, DrivePiece piece) {
   const bool gone =
       (piece == DrivePiece::lower && !drive.bounded_below) || (piece == DrivePiece::upper && !drive.bounded_above) ||
@@ -164,7 +164,7 @@ ISO_INLINE DrivePiece next_piece(const JointDrive<S>& drive, Velocity<S> speed, 
   }
   const bool passes = drive.driven && ((drive.piece == DrivePiece::forwards && drive.speed + slack < speed) ||
                                        (drive.piece == DrivePiece::backwards && speed < drive.speed - slack));
-  // Where the limits allow the motor's speed, that is the neighbour of full force, and a limit comes only after it.
+  // The motor's speed is the neighbour of full force where the limits allow it; a limit comes only after it.
   if (passes && !(drive.speed < bounds.low) && !(bounds.high < drive.speed)) return DrivePiece::driven;
   if (speed < bounds.low - slack) return DrivePiece::lower;
   if (bounds.high + slack < speed) return DrivePiece::upper;
@@ -177,7 +177,7 @@ ISO_INLINE DrivePiece next_piece(const JointDrive<S>& drive, Velocity<S> speed, 
   return passes ? DrivePiece::driven : drive.piece;
 }
 
-/// [m/s] How far a drive is from its law: speed that is wrong, or impulse that is too much.
+/// [m/s] The distance of a drive from its law: speed that is wrong, or impulse that is too much.
 template <class S>
 ISO_INLINE Velocity<S> drive_residual(const JointDrive<S>& drive, Velocity<S> speed, const DriveBounds<S>& bounds,
                                       Velocity<S> most) {

@@ -45,8 +45,8 @@ ISO_INLINE DriveBounds<S> bounds_of(const JointDrive<S>& drive, const JointStep<
   return bounds_of(drive, step.rate, step.h, relax ? S(0) : step.softness.bias_rate);
 }
 
-/// Sets the piece to try next, given the speed along the row; whether it is another one. Without `may_hold` a drive may
-/// only let go of a speed that it holds.
+/// Sets the piece to try next, given the speed along the row. Returns whether it is another one. Without `may_hold` a
+/// drive may only let go of a speed that it holds.
 template <class S>
 ISO_INLINE bool judge_drive(JointDrive<S>& drive, Velocity<S> speed, const DriveBounds<S>& bounds, Step<S> h,
                             bool may_hold) {

@@ -1,4 +1,4 @@
-// Where a joint's two frames are now, and the rows that most kinds share.
+// A joint's two frames at the present poses, and the rows that most kinds share.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,7 +13,7 @@ template <class S> struct JointFrames {
   Quat<Unit<S>> a, b;    // frames to world
 };
 
-/// Orientations only where a kind needs them.
+/// Finds the frames; orientations only where a kind needs them.
 template <class S> ISO_INLINE JointFrames<S> joint_frames(const JointConstraint<S>& joint, const BodyState<S>* states) {
   const auto pose = [&](std::uint32_t row, const Pose<S>& fixed) ISO_INLINE_LAMBDA {
     return row == 0 ? fixed : Pose<S>{states[row - 1].centre, states[row - 1].orientation};
@@ -81,10 +81,10 @@ template <class S> ISO_INLINE void count_drive(JointConstraint<S>& joint) {
   drive.sprung = (flags & joint_flag::kSpring) != 0;
 }
 
-/// What properties or an AxisDrive ask of an angle in (-pi, pi]. A limited angle counts from the middle of its range,
-/// so that beyond a limit it is nearer to that one than to the other; without limits that of a spring from its target,
-/// to which it turns the shorter way: a jump of the stretch by a turn would give energy on every round. `goes_round`:
-/// not of a swing, which comes back at half a turn.
+/// Sets position, limits, target and speed of a drive from properties or an AxisDrive and an angle in (-pi, pi]. A
+/// limited angle counts from the middle of its range, so that beyond a limit it is nearer to that one than to the
+/// other. A spring's without limits counts from its target, to which it turns the shorter way: a jump of the stretch by
+/// a turn would give energy on every round. A swing does not go round (`goes_round`): it comes back at half a turn.
 template <class S, class Asked>
 ISO_INLINE void set_angle(JointDrive<S>& drive, const Asked& p, S angle, bool goes_round = true) {
   const S radius = drive.radius, turn = S(6.283185307179586);

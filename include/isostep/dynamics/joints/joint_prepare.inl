@@ -1,4 +1,4 @@
-// What a step finds out of a joint once: its rows, their levers, last impulses. Part of joint.hpp.
+// The preparation of a joint, once a step: its rows, their levers, last impulses. Part of joint.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,7 +15,7 @@ template <class S> ISO_INLINE S trace_bound(const SolverMass<S>& a, const Solver
   return max(entry(0), max(entry(1), entry(2)));
 }
 
-/// [1/m^2] how easily the pair turns about an axis of frame a.
+/// [1/m^2] The inverse inertia of the pair about an axis of frame a, times its reduced mass.
 template <class S>
 ISO_INLINE S turning_about(Vec3<S> axis, const SolverMass<S>& a, const SolverMass<S>& b, MassShare<S> share) {
   return share.a * dot(axis, a.kappa * axis) + share.b * dot(axis, b.kappa * axis);
@@ -49,8 +49,7 @@ ISO_INLINE void set_radii(const JointEnd<S>& end_a, const SolverMass<S>& a, cons
   }
 }
 
-/// How many blocks and drives a joint has, and where its drives stand: an angle in the last row, unless its kind says
-/// otherwise.
+/// Counts a joint's blocks and drives, and places the drives: an angle in the last row, unless its kind says otherwise.
 template <class S> ISO_INLINE void count_rows(JointConstraint<S>& joint) {
   JointDrive<S>& main = joint.drives[0];
   JointDrive<S>& swing = joint.drives[1];
@@ -64,7 +63,8 @@ template <class S> ISO_INLINE void count_rows(JointConstraint<S>& joint) {
   main.frequency = joint.properties.spring_frequency;
   main.damping = joint.properties.spring_damping;
 }
-/// [rad] 120 degrees; [1] tan of half of 3 degrees: narrower, an ellipse is a line for what a format resolves.
+/// [rad] The widest half axis of an ellipse, 120 degrees, and [1] the least: tan of half of 3 degrees. A narrower
+/// ellipse is a line for what a format resolves.
 template <class S> inline constexpr S kWidestSwing = S(2.0943951023931953);
 template <class S> inline constexpr S kLeastHalfTangent = S(0.026186);
 template <class S> ISO_INLINE void add_drive(const AxisDrive<S>& asked, JointConstraint<S>& joint) {
@@ -84,8 +84,8 @@ template <class S> ISO_INLINE void add_drive(const AxisDrive<S>& asked, JointCon
   drive.half_tangent = max(half.sin / half.cos, kLeastHalfTangent<S>);
 }
 
-/// What a row held as an equality before the joint's settings changed is let go where a drive stands now, and what it
-/// held as a drive where none stands.
+/// Loads the last impulses. A row that held as an equality before the joint's settings changed begins from nothing
+/// where a drive stands now, and so does one that held as a drive where none stands.
 template <class S> ISO_INLINE void load_impulses(const JointState<S>& state, JointConstraint<S>& joint) {
   joint.blocks[0].impulse = state.point;
   joint.blocks[1].impulse = state.angular;
@@ -103,11 +103,11 @@ template <class S> ISO_INLINE void load_impulses(const JointState<S>& state, Joi
   }
 }
 
-/// [N] or [N m] Most that a drive's motor or servo gives.
+/// [N] or [N m] The most that a drive's motor or servo gives.
 template <class S> ISO_INLINE S force_of(const JointDrive<S>& drive, const JointProperties<S>& p) {
   return drive.asked == nullptr ? p.motor_torque : drive.asked->force;
 }
-/// [kg] That impulses of the joint are counted for.
+/// [kg] The reduced mass for which impulses of the joint are counted.
 template <class S>
 ISO_INLINE S impulse_mass(const SolverMass<S>& a, const SolverMass<S>& b, const JointConstraint<S>& joint) {
   return a.mass > S(0) ? a.mass * joint.share.a : b.mass * joint.share.b;
@@ -126,7 +126,7 @@ ISO_INLINE void set_force(const SolverMass<S>& a, const SolverMass<S>& b, const 
   const S radius = drive.radius;
   if (!(radius > S(0))) return;  // nothing turns
   drive.force = divide_to<S>(force, reduced * radius);
-  // Alone, without what the point holds, it turns a body no faster than its points may move.
+  // The drive alone, without what the point holds, turns a body no faster than its points may move.
   const S reach = max(S(1), max(max_abs(p.frame_a.position), max_abs(p.frame_b.position)));
   const S turning = max(trace_bound(a, b, joint.share) * radius, S(1));
   drive.most = min(Limits<S>::speed(), Limits<S>::surface_speed() / reach / turning);
@@ -135,7 +135,7 @@ ISO_INLINE void set_force(const SolverMass<S>& a, const SolverMass<S>& b, const 
 /// [1] A spring acts as if made for no more than a million times the mass between its bodies, of which Q16.16 resolves
 /// 16384.
 template <class S> inline constexpr S kLeastSpringInverse = max(S(0x1p-20), S(4) * resolution<S>());
-/// Of a spring whose mass is named: along a row of unit length, or at the radius of a turn.
+/// Sets the inverse of a spring whose mass is named: along a row of unit length, or at the radius of a turn.
 template <class S>
 ISO_INLINE void set_spring_mass(const SolverMass<S>& a, const SolverMass<S>& b, const JointConstraint<S>& joint,
                                 JointDrive<S>& drive) {

@@ -1,4 +1,4 @@
-// What is stored of a joint: what commands change, and what the step changes. The kinds: joint_type.hpp.
+// The record of a joint: properties, which commands change, and state, which the step changes. Kinds: joint_type.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -30,7 +30,7 @@ inline constexpr std::uint32_t kLockTurns = kLockSwing | kLockTwist;
 
 inline constexpr std::uint32_t kNoBody = 0xffffffffu;  // as a joint's body: the world
 
-/// Which part of its law a drive is on. Kept from step to step: it is the first guess of the next sub-step.
+/// The part of its law that a drive is on. It is kept from step to step, as the first guess of the next sub-step.
 enum class DrivePiece : std::uint32_t {
   free,      // between the limits, no motor
   lower,     // stopped at the lower limit
@@ -51,12 +51,12 @@ template <class S> struct JointState {
   Vec3<Velocity<S>> angular;  // [m/s] on b about the axes of frame a, times the row's radius
 
   ISO_INLINE constexpr bool has_drive(std::uint32_t row) const { return role(row) != 0; }
-  /// Of a row that has one.
+  /// The piece of a row that has a drive.
   ISO_INLINE constexpr DrivePiece piece(std::uint32_t row) const { return static_cast<DrivePiece>(role(row) - 1); }
   ISO_INLINE constexpr void set_piece(std::uint32_t row, DrivePiece piece) {
     pieces |= (static_cast<std::uint32_t>(piece) + 1) << (4 * row);
   }
-  /// Whether every row's bits are ones of those that set_piece() writes.
+  /// Every row's bits are ones that set_piece() writes.
   ISO_INLINE constexpr bool has_known_pieces() const {
     for (std::uint32_t row = 0; row < kJointRows; ++row) {
       if (kDrivePieces < role(row)) return false;

@@ -39,8 +39,8 @@ template <class S> struct JointBlock {
 /// Velocities of the two bodies, worked on together; written back only where mass is.
 template <class S> struct JointMotion { MotionRow<Velocity<S>> a, b; };
 
-/// Held within half of the format: a pass whose drives are on wrong pieces leaves speeds that are far from any right
-/// ones.
+/// The speed along a row, held within half of the format: a pass whose drives are on wrong pieces leaves speeds that
+/// are far from any right ones.
 template <class S> ISO_INLINE Velocity<S> speed_along(const JointRow<S>& row, const JointMotion<S>& m) {
   const Vec3<Velocity<S>> between = saturating_subtract(m.b.linear, m.a.linear);
   return round_with_headroom<Velocity<S>>(dot_sum(row.linear, between) + dot_sum(row.angular_b, m.b.angular) -
@@ -136,12 +136,12 @@ ISO_INLINE void scatter(SolverBodies<S>& bodies, std::uint32_t a, std::uint32_t 
 namespace detail {
 /// [m/s] a joint's error is closed no faster than this.
 template <class S> inline constexpr Velocity<S> kJointPushSpeed = Velocity<S>(4);
-/// [1] of the diagonal of K: what keeps a block solvable in directions in which its bodies cannot move.
+/// [1] The compliance that K's diagonal gets: it keeps a block solvable in directions in which its bodies cannot move.
 template <class S> inline constexpr S kBlockCompliance = S(0x1p-20) + S(16) * resolution<S>();
-/// [1] what a format resolves to ten bits: 2^-6 for Q16.16, 2^-22 for Q32.32, 2^-13 for float.
+/// [1] The least value that a format resolves to ten bits: 2^-6 for Q16.16, 2^-22 for Q32.32, 2^-13 for float.
 template <class S> inline constexpr S kLeastCompliance = S(1024) * resolution<S>();
-/// [1] the softest that a tree may hold: 2^-7 for Q16.16, 2^-23 for Q32.32, 2^-14 for float. What rounding makes of it
-/// is a sixty-fourth: residuals are measured anew in every pass. Random trees of Q16.16 that hold 2^-9 fly apart.
+/// [1] The softest entry that a tree may hold: 2^-7 for Q16.16, 2^-23 for Q32.32, 2^-14 for float. Rounding makes a
+/// sixty-fourth of it: residuals are measured anew in every pass. Random trees of Q16.16 that hold 2^-9 fly apart.
 template <class S> inline constexpr S kTreeCompliance = S(512) * resolution<S>();
 /// [1] compliance of the end that closes a loop through the world: a bridge of hinges holds its width twice.
 template <class S> inline constexpr S kClosingCompliance = S(1.0 / 64);

@@ -7,8 +7,8 @@
 
 namespace isostep::detail {
 
-/// [1] (angular frequency h)^2 that explicit steps are left with across a taut rod: an eighth of what they can follow,
-/// for a light link hangs on two of them and its arms add as much.
+/// [1] The (angular frequency h)^2 that explicit steps keep across a taut rod: an eighth of what they can follow, for a
+/// light link hangs on two of them and its arms add as much.
 template <class S> inline constexpr S kSwayLimit = S(0.5);
 /// [m] a shorter rod pulls sideways as this.
 template <class S> inline constexpr S kShortestSway = S(0x1p-10);
@@ -30,7 +30,7 @@ template <class S> ISO_INLINE void add_sways(JointConstraint<S>& joint) {
   }
 }
 
-/// [m/s] What a rod, rope or spring pulls with: impulse of its own row, which is an equality or the first drive.
+/// [m/s] The tension of a rod, rope or spring: the impulse of its own row, which is an equality or the first drive.
 template <class S> ISO_INLINE Velocity<S> tension_of(const JointConstraint<S>& joint) {
   return joint.drives[0].sways ? -joint.blocks[0].impulse.x : -joint.drives[0].impulse;
 }
@@ -52,7 +52,7 @@ ISO_INLINE void set_sways(const JointFrames<S>& f, Vec3<Unit<S>> unit, S length,
   sways[0].sway = sways[1].sway = divide_to<S>(S(1) * h, max(length, kShortestSway<S>));
 }
 
-/// [1] h p / l as far as a sub-step is too long for it.
+/// [1] The part of h p / l for which a sub-step is too long.
 template <class S> ISO_INLINE S excess_sway(const JointDrive<S>& drive, Velocity<S> tension) {
   return saturate_to<S>(product(drive.sway, max(tension, Velocity<S>(0)))) - drive.sway_left;
 }

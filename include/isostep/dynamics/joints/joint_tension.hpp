@@ -30,7 +30,7 @@ template <class S> ISO_INLINE Mat3<S> across(Vec3<Unit<S>> n, S s) {
   const S xy = -(s * (n.x * n.y)), xz = -(s * (n.x * n.z)), yz = -(s * (n.y * n.z));
   return {{{s - s * (n.x * n.x), xy, xz}, {xy, s - s * (n.y * n.y), yz}, {xz, yz, s - s * (n.z * n.z)}}};
 }
-/// How a joint pulls at its bodies, by row. Rows that nothing pulled at before join `taut`.
+/// Adds the stiffness of a joint's pull to its bodies, by row. Rows that nothing pulled at before join `taut`.
 template <class S>
 ISO_INLINE void add_tension(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, Step<S> h,
                             std::vector<Mat3<S>>& tension, std::vector<std::uint32_t>& taut) {

@@ -14,7 +14,7 @@
 
 namespace isostep {
 
-/// Which joints are solved at once: all that form trees, or those trees alone that have a drive and close no loop.
+/// The joints that are solved at once: all that form trees, or those trees alone that have a drive and close no loop.
 enum class JointOrder : std::uint32_t { trees, driven_trees };
 
 /// Source:  Baraff 1996, Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH: a sparse factorisation ordered from
@@ -40,23 +40,23 @@ enum class JointOrder : std::uint32_t { trees, driven_trees };
 ///          may be warm-started and solved by a thread of its own, and in any order.
 template <class S> class JointTrees {
  public:
-  /// Once a step, after its joints are prepared. `wide` is not null where there are joints.
+  /// Plans the trees once a step, after its joints are prepared. `wide` is not null where there are joints.
   void plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>* wide,
             JointOrder order = JointOrder::trees);
   ISO_INLINE std::uint32_t batch_count() const {
     return static_cast<std::uint32_t>(batches_.size()) + (loose_.empty() ? 0u : 1u);
   }
-  /// Each sub-step: the state of the joints now, then last impulses; biased; and, after positions moved, relaxed.
+  /// A sub-step takes the joints' state and applies last impulses; solves biased; and, after positions moved, relaxed.
   void warm_start(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step);
   void solve(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
-  /// Once a step, after the last sub-step: impulses back to the joints.
+  /// Stores impulses in the joints once a step, after the last sub-step.
   void store(std::uint32_t batch, std::span<JointConstraint<S>> joints);
 
  private:
-  /// Twelve joints of two blocks. Elimination links all blocks of a body with each other, and costs the third power of
-  /// their number: what hangs on a body by itself takes 20 times as long with 24 as with 8.
+  /// The most blocks at a body: twelve joints of two. Elimination links all blocks of a body with each other, and costs
+  /// the third power of their number: joints on one body alone take 20 times as long with 24 blocks as with 8.
   static constexpr std::uint32_t kMaxBlocksAtBody = 24;
-  /// Of the joints solved one by one: a second sweep takes S6's worst separation from 0.6 m to 0.09, four to 0.087.
+  /// Sweeps over the joints solved one by one: a second takes S6's worst separation from 0.6 m to 0.09, four to 0.087.
   static constexpr int kLooseSweeps = 2;
   /// Relaxations of them and of the trees that they tie: what closed their errors would stay as speed where one is not
   /// enough. After one a grid of 10 by 10 bodies that hangs still swings at 10 m/s two seconds later.
@@ -67,7 +67,7 @@ template <class S> class JointTrees {
     std::uint32_t joint, block;
     std::uint32_t first_link, link_count;
   };
-  /// As a list that next_ links.
+  /// A tree, as a list that next_ links.
   struct Tree {
     std::uint64_t hash;    // of its joints' ends
     std::uint32_t active;  // of its joints, the first 32: those with a drive that is not free
@@ -86,7 +86,7 @@ template <class S> class JointTrees {
   struct ActiveOfTree {
     ISO_INLINE std::uint64_t operator()(const Tree& tree) const { return tree.active; }
   };
-  /// Where a shape's lists begin.
+  /// The places where a shape's lists begin, and their lengths.
   struct Shape {
     std::uint32_t first_joint, joint_count, first_node, node_count, first_link, link_count, first_drive, drive_count,
         first_body, body_count, row_blocks, stops;

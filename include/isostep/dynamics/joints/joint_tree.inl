@@ -26,7 +26,7 @@ void JointTrees<S>::solve(const Batch& batch, std::span<JointConstraint<S>> join
   if (relax) return batch.kernels->relax(run_of(batch, step.bodies), step);
   batch.kernels->solve(run_of(batch, step.bodies), step);
 }
-/// Where a drive stands that is a limit and nothing else.
+/// The piece of a drive that is a limit and nothing else.
 ISO_INLINE DrivePiece piece_of(const HeldLanes& held, std::uint32_t lane) {
   if ((held.below >> lane & 1u) != 0) return DrivePiece::lower;
   return (held.above >> lane & 1u) != 0 ? DrivePiece::upper : DrivePiece::free;

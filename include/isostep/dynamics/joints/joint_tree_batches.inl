@@ -11,7 +11,7 @@
 namespace isostep {
 
 namespace detail {
-/// Of a list, word by word: FNV-1a's step, with the high bits brought down.
+/// Adds a word to the hash of a list: FNV-1a's step, with the high bits brought down.
 ISO_INLINE constexpr std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t word) {
   hash = (hash ^ word) * 0x100000001b3u;
   return hash ^ (hash >> 29);

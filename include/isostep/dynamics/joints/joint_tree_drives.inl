@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// act(drive of the shape, its number, lane, whether the lane has a tree of its own), but for joints with stops.
+/// Calls act(drive of the shape, its number, lane, whether the lane has a tree), but for joints with stops.
 template <class S>
 template <class Act>
 void JointTrees<S>::each_drive(const Batch& batch, const TreeRun<S>& run, const Act& act) const {
@@ -20,7 +20,7 @@ void JointTrees<S>::each_drive(const Batch& batch, const TreeRun<S>& run, const 
   }
 }
 
-/// Rows, errors and springs of the joints that are more than a point and have no stops. What a rod pulls with stands in
+/// Writes rows, errors and springs of the joints that are more than a point and have no stops. A rod's pull stands in
 /// the lanes.
 template <class S>
 void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
@@ -39,7 +39,7 @@ void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::s
   }
 }
 
-/// Impulses, scales and yielding of the pieces on which drives are, and which nodes idle.
+/// Sets impulses, scales and yielding of the pieces on which drives are, and which nodes idle.
 template <class S>
 void JointTrees<S>::set_pieces(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
                                const JointStep<S>& step) {
@@ -59,7 +59,7 @@ void JointTrees<S>::set_pieces(const Batch& batch, const TreeRun<S>& run, std::s
   });
 }
 
-/// Where limits leave drives in a pass, whatever their pieces.
+/// Sets the speeds between which limits leave drives in a pass, whatever their pieces.
 template <class S>
 void JointTrees<S>::bound_drives(const Batch& batch, const TreeRun<S>& run, std::span<const JointConstraint<S>> joints,
                                  const JointStep<S>& step, bool relax) const {
@@ -87,8 +87,8 @@ void JointTrees<S>::ask_drives(const Batch& batch, const TreeRun<S>& run, std::s
   });
 }
 
-/// Whether a drive is off its piece of the law; `next` is the piece to try then. Without `may_hold` only those count
-/// that hold a speed and should not: they let go, and the pass ends.
+/// Returns whether a drive is off its piece of the law; `next` is the piece to try then. Without `may_hold` only those
+/// count that hold a speed and should not: they let go, and the pass ends.
 template <class S>
 bool JointTrees<S>::judge_drives(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
                                  const JointStep<S>& step, bool may_hold) const {
@@ -112,8 +112,8 @@ bool JointTrees<S>::judge_drives(const Batch& batch, const TreeRun<S>& run, std:
   return off;
 }
 
-/// With drives on the pieces where they are; then anew as long as one is off its piece. Trees that are on theirs go the
-/// same way again.
+/// Solves with drives on their present pieces, then anew as long as one is off its piece. Trees that are on theirs go
+/// the same way again.
 template <class S>
 void JointTrees<S>::solve_driven(const Batch& batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step,
                                  bool relax) {

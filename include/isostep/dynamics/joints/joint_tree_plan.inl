@@ -39,8 +39,8 @@ void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const
   set_mass_.resize(rows);
   set_lightest_.assign(rows, Limits<S>::mass());
   for (std::size_t row = 0; row < rows; ++row) set_mass_[row] = min(bodies.mass[row].mass, Limits<S>::mass());
-  // What hangs on the world comes first: of a loop through it the joint yields that ties two such sets together, not
-  // an end that bears one of them.
+  // Joints that hang on the world come first: of a loop through it the joint yields that ties two such sets together,
+  // not an end that bears one of them.
   for (const bool hangs : {true, false}) {
     for (std::uint32_t j = 0; j < joints.size(); ++j) {
       const JointConstraint<S>& joint = joints[j];
@@ -99,7 +99,7 @@ void JointTrees<S>::weigh_sets(std::span<const JointConstraint<S>> joints, const
     asked_[sets_.find(bodies.moves(joints[j].row_a) ? joints[j].row_a : joints[j].row_b)] = 1;
   }
   if (order == JointOrder::trees) return;
-  // What is solved once a step throws off what a tree is tied to besides.
+  // A tree that loose joints tie too is not solved at once: over a whole step each would throw off the other.
   for (std::uint32_t j = 0; j < joints.size(); ++j) {
     if (role_[j] != detail::kLoose) continue;
     for (const std::uint32_t row : {joints[j].row_a, joints[j].row_b}) {

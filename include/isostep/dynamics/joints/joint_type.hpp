@@ -33,7 +33,7 @@ inline constexpr const char* kJointNames[] = {ISO_FOR_EACH_JOINT(ISO_NAME)};
 #undef ISO_NAME
 inline constexpr std::uint32_t kJointTypes = sizeof kJointNames / sizeof kJointNames[0];
 
-/// What a joint's position is, and with it lower, upper and spring_target.
+/// The measure of a joint's position, and with it of lower, upper and spring_target.
 enum class JointMeasure : std::uint32_t {
   angle,  // [rad]
   length  // [m]

@@ -29,7 +29,7 @@ template <class S> struct PlanarJoint : detail::SlidingJoint<S> {
     detail::axle_block(f, a, h, joint);
     detail::linearise_turn(f, a, joint);
   }
-  /// Off the plane.
+  /// The distance off the plane [m].
   static ISO_INLINE S error(const JointProperties<S>&, const Pose<S>& a, const Pose<S>& b) {
     return abs(dot(b.position - a.position, to_matrix(a.orientation).column(2)));
   }

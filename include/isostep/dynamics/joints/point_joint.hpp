@@ -1,4 +1,4 @@
-// What joints have in common that hold the origins of their frames together: their first block is the point.
+// The members that joints share which hold the origins of their frames together: their first block is the point.
 // SPDX-License-Identifier: MIT
 #pragma once
 

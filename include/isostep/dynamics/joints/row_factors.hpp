@@ -50,7 +50,7 @@ ISO_INLINE SymmetricFactors<Lanes<S, W, Isa>> factor_rows(const Mat3<Lanes<S, W,
   return factors;
 }
 
-/// Of one block.
+/// Factors the coupling of one block.
 template <class S> ISO_INLINE SymmetricFactors<S> factor_block(const JointBlock<S>& block, S softness) {
   if (block.point) return factor_symmetric(block.coupling, softness);
   using L = Lanes<S, 1, isa::Portable>;

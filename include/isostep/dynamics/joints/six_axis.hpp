@@ -35,7 +35,7 @@ template <class S> struct SixAxisJoint : detail::SlidingJoint<S> {
     linearise_places(f, a, h, joint);
     detail::linearise_turns(f, a, h, joint);
   }
-  /// Off the axes that it locks.
+  /// The distance [m] along the axes that it locks.
   static ISO_INLINE S error(const JointProperties<S>& p, const Pose<S>& a, const Pose<S>& b) {
     Vec3<S> between = transposed_times(to_matrix(a.orientation), b.position - a.position);
     for (std::uint32_t i = 0; i < 3; ++i) {

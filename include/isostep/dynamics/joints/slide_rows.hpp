@@ -48,7 +48,7 @@ ISO_INLINE void linearise_slide(const JointFrames<S>& f, const Mat3<Unit<S>>& a,
   if (joint.drive_count > 0) set_way(f, a.column(2), joint.properties, joint, joint.drives[0]);
 }
 
-/// [m/s] world, on b: impulses of the first block's equalities.
+/// [m/s] The pull of the first block's equalities on b, world.
 template <class S> ISO_INLINE Vec3<Velocity<S>> pull_of_rows(const JointConstraint<S>& joint) {
   const JointBlock<S>& block = joint.blocks[0];
   return combine(block.rows[0].linear, block.rows[1].linear, block.rows[2].linear, block.impulse);
@@ -63,7 +63,7 @@ template <class S> struct SlidingJoint {
   static ISO_INLINE bool is_point(const JointProperties<S>&) { return false; }
   static ISO_INLINE bool is_free(const JointProperties<S>&, std::uint32_t) { return false; }
   static ISO_INLINE Vec3<Velocity<S>> pull(const JointConstraint<S>& joint) { return pull_of_rows(joint); }
-  /// Off a's z axis.
+  /// The distance off a's z axis [m].
   static ISO_INLINE S error(const JointProperties<S>&, const Pose<S>& a, const Pose<S>& b) {
     const Vec3<S> between = transposed_times(to_matrix(a.orientation), b.position - a.position);
     return direction_of(between.x, between.y, S(0)).length;

@@ -9,7 +9,7 @@ namespace isostep::detail {
 template <class S> ISO_INLINE bool is_soft(const AxisDrive<S>& asked) {
   return asked.limited && S(0) < asked.limit_frequency;
 }
-/// The spring of its own.
+/// Gives the drive its own spring.
 template <class S> ISO_INLINE void set_spring(const AxisDrive<S>& asked, JointDrive<S>& drive) {
   drive.sprung = S(0) < asked.spring_frequency;
   drive.servo = drive.sprung && !drive.driven && !asked.motor && S(0) < asked.force;
@@ -17,9 +17,9 @@ template <class S> ISO_INLINE void set_spring(const AxisDrive<S>& asked, JointDr
   drive.damping = asked.spring_damping;
 }
 
-/// Where a sub-step begins beyond a soft limit, the limit is a spring toward it beside the drive's own: stiffness and
-/// damping add up, w^2 = w1^2 + w2^2, d w = d1 w1 + d2 w2. There it takes up all of a servo, whose force has a bound
-/// that one spring of both would not know. The drive stands where `linearise` placed it.
+/// The limit is a spring toward itself, beside the drive's own, while a sub-step begins beyond it: stiffness and
+/// damping add up, w^2 = w1^2 + w2^2, d w = d1 w1 + d2 w2. It replaces a servo, whose force has a bound that one spring
+/// of both would not know. The drive stands where `linearise` placed it.
 /// Source:  PxJointLimitParameters of PhysX: a limit with stiffness acts where it is violated.
 /// Limits:  a body is beyond it by up to its speed times the sub-step before the limit begins. So the spring is taken
 ///          implicitly, without what `lagging_way` gives back: it loses at least the energy that it did not take on

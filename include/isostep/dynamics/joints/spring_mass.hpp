@@ -1,4 +1,4 @@
-// What a joint's spring weighs where no mass is named for it: the pair of its bodies, as the joint was made.
+// The mass of a joint's spring where none is named for it: that of the pair of its bodies, as the joint was made.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -20,7 +20,7 @@ template <class S> ISO_INLINE JointFrames<S> frames_as_made(const JointConstrain
   return f;
 }
 
-/// Mass of b turned with it to there.
+/// The kappa of b, turned with it to there.
 template <class S> ISO_INLINE Mat3<S> kappa_as_made(const JointConstraint<S>& joint, const Mat3<S>& kappa_b) {
   const Quat<Unit<S>> made = joint.pose_a.orientation * joint.properties.frame_a.orientation;
   const Quat<Unit<S>> now = joint.pose_b.orientation * joint.properties.frame_b.orientation;
@@ -48,9 +48,9 @@ template <class S> ISO_INLINE S felt_inverse(const JointConstraint<S>& joint, co
   return max(k - taken, k * kLeastCompliance<S>);
 }
 
-/// Once a step, before the pieces of drives are known: how strong springs without a named mass are. Whatever pose the
-/// joint is in, it is the same: a spring that followed the mass which it feels would give back, where that has grown,
-/// more than it took.
+/// Finds the strength of springs without a named mass, once a step, before the pieces of drives are known. It is the
+/// same whatever pose the joint is in: a spring that followed the mass which it feels would give back more than it took
+/// where that has grown.
 template <class S>
 ISO_INLINE void feel_springs(const SolverMass<S>& a, const SolverMass<S>& b, JointConstraint<S>& joint) {
   const auto feels = [](const JointDrive<S>& drive)

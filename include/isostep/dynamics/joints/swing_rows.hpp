@@ -8,7 +8,7 @@
 
 namespace isostep::detail {
 
-/// Where b's z axis points, in frame a, and how fast that changes.
+/// The direction of b's z axis in frame a, and the rate at which it changes.
 /// Symbols: d = z_b in a. s = (d_x, d_y) / (1 + d_z), of length tan(swing / 2). The swing about y is 2 atan(s_x), the
 ///          one about x is -2 atan(s_y): for a turn about one of the axes they are its angle. Their rates have no
 ///          trigonometry: d(2 atan(s_x))/dt = w . (d x g) 2 / (1 + s_x^2), g = gradient of s_x, w = w_b - w_a in a.
@@ -27,7 +27,7 @@ template <class S> struct SwingTwist {
     t.y = t.d.y * t.per;
     return t;
   }
-  /// [1] in a: w . rate is the rate of the swing about y, or of the one about x.
+  /// [1] The rates, in a: w . rate is the rate of the swing about y, or of the one about x.
   ISO_INLINE Vec3<S> rate_about_y() const { return rate({per, S(0), -(x * per)}, x); }
   ISO_INLINE Vec3<S> rate_about_x() const { return -rate({S(0), per, -(y * per)}, y); }
   /// [rad] The swings themselves.
@@ -54,7 +54,7 @@ template <class S> ISO_INLINE int tilting_swing(std::uint32_t flags, const AxisD
   }
   return -1;
 }
-/// Where b's z axis points, in frame a, as a tilt and a turn.
+/// The direction of b's z axis in frame a, as a tilt and a turn.
 /// Symbols: e = a's x axis where the swing about y tilts, -y where that about x does; rho = sin of the angle between d
 ///          and e. The tilt is asin(d . e), its rate w . (d x e) / rho. p = the axis turned about, x or y: the rate of
 ///          the turn is w . (p - (p . d) d) / rho^2.
@@ -80,7 +80,7 @@ template <class S> struct TiltTurn {
   }
 };
 
-/// As angular_row(), of an axis that need not be a direction.
+/// Makes an angular_row() of an axis that need not be a direction.
 template <class S> ISO_INLINE JointRow<S> turning_row(Vec3<S> axis, S radius) {
   const Vec3<S> angular = axis * radius;
   return {Vec3<S>::zero(), angular, angular, Vec3<S>::zero(), Vec3<S>::zero()};
@@ -95,7 +95,7 @@ ISO_INLINE constexpr int only_free_turn(std::uint32_t flags) {
                                                                        : -1;
 }
 
-/// [rad] in (-pi, pi], of an axis that is no length; `tilting`: see tilting_swing().
+/// [rad] The position in (-pi, pi] of an axis that is no length; `tilting`: see tilting_swing().
 template <class S> ISO_INLINE S angle_of(JointAxis axis, std::uint32_t flags, int tilting, const JointFrames<S>& f) {
   const int place = static_cast<int>(axis) - 3;
   const Quat<Unit<S>> q = relative_rotation(f);
@@ -109,7 +109,7 @@ template <class S> ISO_INLINE S angle_of(JointAxis axis, std::uint32_t flags, in
   const S up = S(1) + convert<S>(d.z);
   return place == 1 ? S(2) * atan2(convert<S>(d.x), up) : S(-2) * atan2(convert<S>(d.y), up);
 }
-/// [m] or [rad]
+/// [m] or [rad] The position of an axis.
 template <class S> ISO_INLINE S position_of(JointAxis axis, std::uint32_t flags, int tilting, const JointFrames<S>& f) {
   if (!is_length(axis)) return angle_of(axis, flags, tilting, f);
   return dot(f.between, to_matrix(f.a).column(static_cast<int>(axis)));
@@ -122,7 +122,7 @@ template <class S> ISO_INLINE JointDrive<S>* drive_of(JointConstraint<S>& joint,
   return nullptr;
 }
 
-/// Whether a twist beside a swing is locked, limited or sprung: one that only has a motor may be any.
+/// A twist beside a swing is locked, limited or sprung: one that only has a motor may be any.
 template <class S> ISO_INLINE bool holds_twist(JointConstraint<S>& joint) {
   const std::uint32_t flags = joint.properties.flags;
   if ((flags & joint_flag::kLockTurns) == joint_flag::kLockTurns || only_free_turn(flags) >= 0) return false;
@@ -130,7 +130,7 @@ template <class S> ISO_INLINE bool holds_twist(JointConstraint<S>& joint) {
   const JointDrive<S>* const twist = drive_of(joint, 2);
   return twist != nullptr && (twist->asked->limited || S(0) < twist->asked->spring_frequency);
 }
-/// Drives that nothing asks for, of swings that are to stop where the twist ends.
+/// Adds drives that nothing asks for, of swings that are to stop where the twist ends.
 template <class S> ISO_INLINE void add_swings(JointConstraint<S>& joint) {
   if (joint.properties.type != JointType::six_axis || !holds_twist(joint)) return;
   for (const std::uint32_t place : {0u, 1u}) {
@@ -178,7 +178,7 @@ template <class S> ISO_INLINE bool is_limited(const JointDrive<S>& drive) { retu
 template <class S> ISO_INLINE const AxisDrive<S>* asked_of(const JointDrive<S>* drive) {
   return drive == nullptr ? nullptr : drive->asked;
 }
-/// Whether the limits of both swings are an ellipse.
+/// The limits of both swings form an ellipse.
 template <class S> ISO_INLINE bool makes_cone(std::uint32_t flags, const JointDrive<S>* x, const JointDrive<S>* y) {
   return (flags & joint_flag::kCone) != 0 && x != nullptr && y != nullptr && is_limited(*x) && is_limited(*y);
 }
@@ -195,11 +195,11 @@ ISO_INLINE void set_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, J
   set(y, swing.rate_about_y(), swing.angle_about_y());
 }
 
-/// [1] of the ellipse, beyond which rows turn with the direction of the swing: nearer its middle no limit is near.
+/// [1] The part of the ellipse beyond which rows turn with the swing's direction: nearer its middle no limit is near.
 template <class S> inline constexpr S kConeBasis = S(0.5);
 
-/// [rad] What a spring of a swing is off its target, and [rad/s] what a motor of it runs at: without them nothing, for
-/// rows that turn with the swing mix both.
+/// [rad] The angle of a swing's spring off its target, and [rad/s] the speed of its motor; 0 without them, for rows
+/// that turn with the swing mix both.
 template <class S> ISO_INLINE S off_target(const JointDrive<S>* swing, S angle) {
   if (swing == nullptr || swing->asked == nullptr || !(S(0) < swing->asked->spring_frequency)) return S(0);
   return angle - swing->asked->spring_target;
@@ -237,7 +237,7 @@ template <class S> ISO_INLINE void stop_along(JointDrive<S>& drive, S angle, S m
   drive.bounded_above = true;
 }
 
-/// Such a drive ends where a twist that is held does. That does not yield.
+/// Stops such a drive where a twist that is held ends. The stop does not yield.
 template <class S> ISO_INLINE void stop_hard(JointDrive<S>& drive, S angle) {
   stop_along(drive, angle, kTwistEnds<S>);
   if (!drive.soft) return;
@@ -262,7 +262,7 @@ ISO_INLINE bool set_cone(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, Joi
   return true;
 }
 
-/// Beyond 120 degrees a joint whose twist is held has a stop along its swing, wherever that leads. It does not yield.
+/// Stops a joint whose twist is held along its swing beyond 120 degrees, wherever that leads. The stop does not yield.
 template <class S>
 ISO_INLINE void end_swing(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, JointDrive<S>* x, JointDrive<S>* y) {
   const Direction<S> n = direction_of(-swing.d.y, swing.d.x, S(0));
@@ -270,7 +270,7 @@ ISO_INLINE void end_swing(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, Jo
   stop_hard(x != nullptr ? *x : *y, atan2(n.length, swing.d.z));
 }
 
-/// [rad] and the row of the swing about x or y where it is near a limit beyond 120 degrees: its angle there.
+/// The row of the swing about x or y near a limit beyond 120 degrees, and the angle left until it.
 /// Symbols: the limit L of SwingTwist's angle is a plane that cuts the sphere of d: d . n = sin(L / 2), with n =
 ///          (cos(L / 2), -sin(L / 2)) along e and z. So it holds as asin(d . n), whose rate is w . (d x n) / |d x n|:
 ///          however near the z axes come to opposite directions, a row is as long as elsewhere.

@@ -14,7 +14,7 @@ template <class S> ISO_INLINE S reciprocal(S a) { return S(1) / a; }
 template <class T> struct SymmetricFactors {
   T l10, l20, l21, i0, i1, i2;
 
-  /// To multiply vectors with: relative to the result, an error of the format's times the largest over the least pivot.
+  /// The inverse, for products with vectors. Its relative error is the format's times the largest over the least pivot.
   ISO_INLINE Mat3<T> inverse() const {
     // L^-1 = [1; -l10 1; l10 l21 - l20, -l21, 1]
     const T n20 = l10 * l21 - l20;
@@ -46,7 +46,7 @@ ISO_INLINE SymmetricFactors<T> select(Mask mask, const SymmetricFactors<T>& a, c
           select(mask, a.i0, b.i0),   select(mask, a.i1, b.i1),   select(mask, a.i2, b.i2)};
 }
 
-/// Of a symmetric positive definite matrix plus `softness` times the identity, from the upper triangle.
+/// Factors a symmetric positive definite matrix plus `softness` times the identity, from the upper triangle.
 /// Method: pivots stay near one where a determinant would vanish in fixed point. One that rounding took below the
 ///         softness is held there: such a direction moves nothing.
 /// Error:  measured in tests/unit/dynamics/joints_test.cpp.

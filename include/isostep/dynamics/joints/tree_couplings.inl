@@ -1,5 +1,5 @@
-// What the rows of W trees move, and the entries of K between them. Part of tree_kernel.inl, with internal linkage like
-// it.
+// The couplings of the rows of W trees: the turns that they give bodies, and the entries of K between them. Part of
+// tree_kernel.inl, with internal linkage like it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,7 +8,7 @@
 namespace isostep {
 namespace {
 
-/// As joint_couplings.hpp, of lanes.
+/// The functions of joint_couplings.hpp, of lanes.
 /// Symbols: r = arm from a body's centre to the joint, kappa = mass times inverse inertia. An impulse p at r turns the
 ///          body by C p, row i of C = kappa_i x r; that moves the end of another arm q of the body by (C p) x q.
 template <class S, int W, class Isa> struct TreeCoupler : TreeStopper<S, W, Isa> {
@@ -124,12 +124,12 @@ template <class S, int W, class Isa> struct TreeCoupler : TreeStopper<S, W, Isa>
              {xy, one + mix(a.rows[1].y, b.rows[1].y), yz},
              {xz, yz, one + mix(a.rows[2].z, b.rows[2].z)}}};
   }
-  /// What a node's rows turn its body by, as columns.
+  /// The turns that a node's rows give its body, as columns.
   static ISO_INLINE Mat3<L> turn_columns(const TreeNode& node, bool is_a, Memory m) {
     if (node.is_point()) return load(is_a ? m.joints[node.joint].turn_a : m.joints[node.joint].turn_b);
     return transpose(load(is_a ? m.rows[node.rows].turn_a : m.rows[node.rows].turn_b));
   }
-  /// Of the halves of both at one body, without a share of mass and without the signs of the halves.
+  /// The coupling of the halves of both nodes at one body, without a share of mass and without the signs of the halves.
   static ISO_INLINE Mat3<L> at_body(const TreeNode& i, bool i_is_a, const TreeNode& j, bool j_is_a, Memory m) {
     const Mat3<L> turn = turn_columns(j, j_is_a, m);
     const bool meet = !i.of_angles && !j.of_angles;  // their linear parts

@@ -1,5 +1,5 @@
-// Where W trees are now, what their joints move, and K = L D L^T of it. Part of tree_kernel.inl, with internal linkage
-// like it.
+// W trees at their present poses: the rows of their joints, and K = L D L^T of them. Part of tree_kernel.inl, with
+// internal linkage like it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -28,7 +28,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
   using typename Base::U;
   using typename Base::V;
 
-  /// Of where bodies are now and what their joints ask.
+  /// Factorises K of the present poses of bodies and of what their joints ask.
   static ISO_INLINE void factorise(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints,
                                    const JointStep<S>& step) {
     Base::gather_rows(run, m, joints);
@@ -43,7 +43,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
       if (!Base::is_clear(run, node)) Base::set_turns(run.shape, node, m);
     }
   }
-  /// Of rows that turn bodies as before, with drives on the pieces where they are now.
+  /// Factorises K of rows that turn bodies as before, with drives on their present pieces.
   static ISO_INLINE void factorise(const TreeRun<S>& run, Memory m) {
     const TreeShape& shape = run.shape;
     for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
@@ -64,11 +64,11 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
       if (!idles(run, n)) eliminate(run, n, m);
     }
   }
-  /// Whether a node asks for nothing in any lane.
+  /// The node asks for nothing in any lane.
   static ISO_INLINE bool idles(const TreeRun<S>& run, std::size_t node) {
     return run.shape.nodes[node].may_idle && (run.idle[node] & Base::kAll) == Base::kAll;
   }
-  /// The lanes in which it does.
+  /// The lanes in which it asks for nothing.
   static ISO_INLINE Mask idle_lanes(const TreeRun<S>& run, std::size_t node) { return Mask::from_bits(run.idle[node]); }
 
   template <class A> static ISO_INLINE V times(A a, V b) { return round_to<V>(product(a, b)); }
@@ -99,7 +99,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
   }
 
  private:
-  /// Masses of those that spin, as BodyRows left them. Returns whether any does.
+  /// Gathers masses of bodies that spin, as BodyRows left them. Returns whether any does.
   static ISO_INLINE bool follow_masses(const TreeRun<S>& run, Memory m, Velocity<S> least) {
     bool some = false;
     for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
@@ -161,7 +161,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
     if (of.a_moves) pull(arm_a, -L::load(joint.share_a), a, joint.pull_a);
     if (of.b_moves) pull(arm_b, L::load(joint.share_b), b, joint.pull_b);
   }
-  /// [m/s] world, on b.
+  /// [m/s] The pull of a node's last impulse on b, world.
   static ISO_INLINE Vec3<V> pull_of(const TreeNode& node, Memory m, const Node& block) {
     const Vec3<V> impulse = load(block.impulse);
     if (node.is_point()) return impulse;

@@ -1,4 +1,4 @@
-// From joints and bodies to lanes and back, for the tree kernel. Part of tree_kernel.inl, with internal linkage like
+// Copies joints and bodies to lanes and back, for the tree kernel. Part of tree_kernel.inl, with internal linkage like
 // it.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -195,13 +195,13 @@ template <class S, int W, class Isa> struct TreeGatherer {
   static ISO_INLINE bool has_stops(const TreeRun<S>& run, const TreeNode& node) {
     return node.of_angles && run.shape.joints[node.joint].stops != TreeJoint::kNoStops;
   }
-  /// Whether a node consists of limits that are reached in no lane.
+  /// The node consists of limits that are reached in no lane.
   static ISO_INLINE bool is_clear(const TreeRun<S>& run, const TreeNode& node) {
     return node.may_idle && run.clear[node.joint] == kAll;
   }
 
  private:
-  /// For what joints do to their bodies in sum: joint_impulse.hpp.
+  /// Stores the rows that the sum of a joint's impulses on its bodies reads: joint_impulse.hpp.
   static ISO_INLINE void store_rows(const TreeRun<S>& run, const TreeNode& node, const Rows& rows, int lane,
                                     JointConstraint<S>& joint) {
     const auto row = [&](int r) ISO_INLINE_LAMBDA {
@@ -213,7 +213,7 @@ template <class S, int W, class Isa> struct TreeGatherer {
       joint.drives[drive.index].row.angular_b = row(static_cast<int>(drive.place));
     }
   }
-  /// For joints that are clear from the start of the step: what is not written yet is finite.
+  /// Clears the rows of joints that are clear from the start of the step: what is not written yet is finite.
   static ISO_INLINE void clear_rows(Rows& rows) {
     const L zero = L::zero();
     for (int i = 0; i < 9; ++i) {

@@ -118,7 +118,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
   static void end(const TreeRun<S>& run) { Base::scatter_velocities(run, Memory::of(run.memory, run.shape)); }
 
  private:
-  /// As the functions of these names in joint_rows.hpp.
+  /// These do what the functions of their names in joint_rows.hpp do.
   static ISO_INLINE Vec3<V> impulses(const Mat3<L>& a, Vec3<V> v) {
     const Velocity<S> most = most_joint_impulse<S>();
     return {round_within<V>(dot_sum(a.rows[0], v), most), round_within<V>(dot_sum(a.rows[1], v), most),
@@ -139,7 +139,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
     }
     tell_drives(run, m);
   }
-  /// Of K lambda = -(speed + bias), for velocities as they are before anything of this pass is applied.
+  /// Finds the right side of K lambda = -(speed + bias), for velocities before anything of this pass is applied.
   template <bool Relax>
   static ISO_INLINE void find_right_side(const TreeShape& shape, std::size_t n, Memory m, const JointStep<S>& step) {
     const TreeNode& of = shape.nodes[n];

@@ -38,26 +38,26 @@ template <class S> struct TreeRun {
 template <class S> struct TreeKernels {
   const char* name;
   std::int32_t width;
-  /// Once a step: from the constraints, and back.
+  /// Prepares the lanes from the constraints, once a step, and stores them back.
   void (*prepare)(const TreeRun<S>&, const JointConstraint<S>* joints);
   void (*store)(const TreeRun<S>&, JointConstraint<S>* joints);
-  /// Once a sub-step, first: where bodies are and how they move, and joints with stops as they are now.
+  /// Begins a sub-step: gathers the poses and velocities of bodies, and joints with stops as they are now.
   void (*place)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
-  /// Once a sub-step each, as JointTrees has them. Reads the constraints' rows, but of points and of joints with stops.
+  /// JointTrees calls each once a sub-step. They read the rows of constraints, but of points and of joints with stops.
   void (*warm_start)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
   void (*solve)(const TreeRun<S>&, const JointStep<S>& step);
   void (*relax)(const TreeRun<S>&, const JointStep<S>& step);
 
   void (*begin)(const TreeRun<S>&);
-  /// Speeds and impulses of drives; right-hand sides of equalities, without bias where relaxed.
+  /// Finds speeds and impulses of drives, and right-hand sides of equalities, without bias where relaxed.
   void (*find_right_sides)(const TreeRun<S>&, const JointStep<S>& step);
   void (*find_relaxed_right_sides)(const TreeRun<S>&, const JointStep<S>& step);
-  /// From the drives' right-hand sides to their new speeds and impulses.
+  /// Turns the drives' right-hand sides into their new speeds and impulses.
   void (*substitute)(const TreeRun<S>&);
-  /// Whether a drive of joints with stops is off its piece of the law, as JointTrees::judge_drives().
+  /// Returns whether a drive of joints with stops is off its piece of the law, as JointTrees::judge_drives() does.
   bool (*judge)(const TreeRun<S>&, const JointStep<S>& step, bool may_hold);
   bool (*judge_relaxed)(const TreeRun<S>&, const JointStep<S>& step, bool may_hold);
-  /// All as the pass began. Then, from the drives' impulses, scales and give of their next pieces, a new factorisation.
+  /// `restore` puts all back as the pass began; `resume` then factorises with impulses, scales and give of new pieces.
   void (*restore)(const TreeRun<S>&);
   void (*resume)(const TreeRun<S>&);
   void (*end)(const TreeRun<S>&);

@@ -49,7 +49,7 @@ template <class S, int W> struct TreeLinkLanes {
   S down[9][W];  // [1] K_ji, i = the node that has the link, j = `to`
   S up[9][W];    // [1] K_ij, then D_i^-1 K_ij
 };
-/// What a drive's law and the kernel tell each other.
+/// The values that a drive's law and the kernel exchange.
 template <class S, int W> struct TreeDriveLanes {
   Velocity<S> speed[W];    // [m/s] along the row
   Velocity<S> impulse[W];  // [m/s] accumulated
@@ -74,7 +74,7 @@ template <class S, int W> struct TreeStopLanes {
   Velocity<S> reach[W];                  // [rad] a quarter of what it may turn by without reaching a limit
 };
 
-/// [1] below any cosine.
+/// [1] A value below any cosine.
 template <class S> inline constexpr S kNoCosine = S(-2);
 
 template <class S, int W> struct TreeMemory {
@@ -137,7 +137,7 @@ template <class S> class TreeDriveView {
   std::size_t width_;
 };
 
-/// Likewise the impulses of its nodes.
+/// The impulses of the nodes of W trees, whatever W is.
 template <class S> class TreeNodeView {
  public:
   ISO_INLINE TreeNodeView(unsigned char* memory, const TreeShape& shape, std::size_t width)
@@ -158,12 +158,12 @@ template <class S> class TreeNodeView {
   std::size_t width_;
 };
 
-/// As TreeStopLanes.
+/// The limits of one joint with stops: the fields of TreeStopLanes.
 template <class S> struct TreeStopLimits {
   SinCos<Unit<S>> middle;
   S twist, twist_slope, swing, swing_slope, lower, upper, cone, radius, twist_radius, swing_radius;
 };
-/// Likewise its stops.
+/// The stops of W trees, whatever W is.
 template <class S> class TreeStopView {
  public:
   ISO_INLINE TreeStopView(unsigned char* memory, const TreeShape& shape, std::size_t width)

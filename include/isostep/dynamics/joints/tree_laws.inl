@@ -8,8 +8,8 @@
 namespace isostep {
 namespace {
 
-/// As the functions of these names in joint_drive.hpp, joint_drive_rows.hpp and joint_tree_drives.inl. The pieces of
-/// such a drive are free, lower and upper: HeldLanes.
+/// The functions of joint_drive.hpp, joint_drive_rows.hpp and joint_tree_drives.inl with these names, of lanes. The
+/// pieces of such a drive are free, lower and upper: HeldLanes.
 template <class S, int W, class Isa> struct TreeLaws : TreePusher<S, W, Isa> {
   using Base = TreePusher<S, W, Isa>;
   using Base::number;
@@ -65,7 +65,7 @@ template <class S, int W, class Isa> struct TreeLaws : TreePusher<S, W, Isa> {
       select(Mask::from_bits(run.held[d].below), V::load(drive.low) - speed, of_above).store(drive.right);
     }
   }
-  /// Pieces to try next; whether there are others than now in lanes with a tree.
+  /// Sets the pieces to try next. Returns whether there are others than now in lanes with a tree.
   static ISO_INLINE bool judge_drives(const TreeRun<S>& run, Memory m, bool may_hold) {
     bool off = false;
     for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {

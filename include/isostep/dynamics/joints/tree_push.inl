@@ -53,7 +53,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
 
   // ---- impulses
 
-  /// All impulses of a joint.
+  /// Applies all impulses of a joint.
   static ISO_INLINE void push_all(const TreeRun<S>& run, std::uint32_t j, Memory m) {
     const TreeJoint& of = run.shape.joints[j];
     const Vec3<V> none = {V::zero(), V::zero(), V::zero()};
@@ -116,7 +116,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     return round_with_headroom<V>(dot_sum(row_of(rows.linear, r), between) + turning);
   }
 
-  /// What a node's impulses grow by; a drive's solution counts as its row does.
+  /// The growth of a node's impulses; a drive's solution counts as its row does.
   static ISO_INLINE Vec3<V> add_solution(const TreeRun<S>& run, std::uint32_t n, Memory m) {
     const TreeNode& of = run.shape.nodes[n];
     Node& node = m.nodes[n];

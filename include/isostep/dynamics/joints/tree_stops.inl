@@ -52,7 +52,7 @@ template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa
       if (!Base::is_clear(run, node)) write_rows(run, j, f, m, h);
     }
   }
-  /// Whether a joint turns now so fast that it is clear no longer: then its rows are those of one that is not.
+  /// Returns whether a joint turns now so fast that it is clear no longer: its rows become those of one that is not.
   static ISO_INLINE bool find_reached(const TreeRun<S>& run, Memory m, Step<S> h) {
     bool some = false;
     for (std::size_t j = 0; j < run.shape.joints.size(); ++j) {
@@ -94,7 +94,7 @@ template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa
     const L twist = (one * max(along, -along) - L::load(stops.twist) * n) * L::load(stops.twist_slope);
     const L swing = (one - (e + e) - L::load(stops.swing)) * L::load(stops.swing_slope);
     const L most = half * (one - e);
-    // What rounding makes of orientations and cosines is less than 2^-8.
+    // Rounding changes orientations and cosines by less than 2^-8.
     return convert<V>(number(S(0.25)) * (min(most, min(twist, swing)) - number(S(0x1p-8))));
   }
   /// [rad] A quarter of what a joint's bodies turn by against each other in a sub-step, or more: a vector is shorter

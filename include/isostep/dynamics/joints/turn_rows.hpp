@@ -18,7 +18,7 @@ ISO_INLINE void weld_block(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step
   block.error = {bounded_error(twice * q.x, h), bounded_error(twice * q.y, h), bounded_error(twice * q.z, h)};
 }
 
-/// [1] `across` of two axes that are to coincide, `along` of the other one, with what keeps it from ending where they
+/// [1] The error `across` of two axes that are to coincide. `along`, of the other one, keeps it from ending where they
 /// point in opposite directions: there their cross product is zero, as where they coincide.
 template <class U> ISO_INLINE U part_across(U across, U along) {
   if (!(along < U(0))) return across;
@@ -55,7 +55,7 @@ template <class S> inline constexpr S kLeastTwistCosine = S(1.0 / 8);
 /// times as fast as bodies turn. Beyond half a turn b comes back with another twist, and what acts on it then would
 /// turn b with energy that it never took.
 template <class S> inline constexpr S kTwistEnds = S(2.6);
-/// [rad] Where the swing stops, of a joint with a cone or a twist that is held.
+/// [rad] The swing at which a joint stops that has a cone or a twist that is held.
 template <class S> ISO_INLINE S most_swing(const JointProperties<S>& p, bool holds_twist) {
   const bool cone = (p.flags & joint_flag::kCone) != 0;
   return !cone ? kTwistEnds<S> : holds_twist ? min(p.cone, kTwistEnds<S>) : p.cone;
@@ -84,7 +84,7 @@ ISO_INLINE void set_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<S
   drive.bounded_below = drive.bounded_above = limit && kLeastTwistCosine<S> < twist.cosine;
   set_angle(drive, asked, twist_angle<S>(relative_rotation(f)));
 }
-/// Nothing twists.
+/// Locks the twist about z.
 template <class S>
 ISO_INLINE void lock_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<S>> zb, Step<S> h,
                            JointConstraint<S>& joint) {

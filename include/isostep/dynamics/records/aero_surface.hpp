@@ -68,7 +68,20 @@ template <class S> struct RecordRules<AeroSurface<S>> : RecordDefaults<S> {
         .proper(within(a.control, S(1)), "control", kControl)
         .report();
   }
-  static NamedBodies<S> bodies(const AeroSurface<S>& a) { return named_point(a.body, a.point, "point"); }
+  static constexpr NamedBodies<S> bodies(const AeroSurface<S>& a) { return named_point(a.body, a.point, "point"); }
+  template <class Random> static void draw(AeroSurface<S>& a, Random& random) {
+    a.body = random.body();
+    const double mass = random.mass(a.body), unit = random.one_in(4) ? 100 * mass : mass;
+    a.point = random.point(0.0625);
+    a.orientation = random.turn();
+    for (Mat3<S>* tensor : {&a.tensor, &a.low, &a.high}) {
+      const S x = random.in(-2, 0, unit), y = random.in(-2, 0, unit);
+      *tensor = Mat3<S>::diagonal({x, y, random.in(-2, 0, unit)});
+    }
+    a.control = random.in(-1, 1);
+    a.is_quadratic = random.one_in(2);
+    a.is_under_water = random.one_in(3);
+  }
   template <class Forces> static void resist(const AeroSurface<S>& a, Forces& forces) {
     const auto end = forces.bodies.end_at(a.body, a.point);
     if (!forces.bodies.moves(end.row)) return;

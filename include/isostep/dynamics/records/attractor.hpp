@@ -44,8 +44,14 @@ template <class S> struct RecordRules<Attractor<S>> : RecordDefaults<S> {
         .proper(S(0) <= a.range, "range", "0 to Limits::position()")
         .report();
   }
-  static NamedBodies<S> bodies(const Attractor<S>& a) {
+  static constexpr NamedBodies<S> bodies(const Attractor<S>& a) {
     return {{{a.body, "body", true, MustBe::any, Vec3<S>::zero(), "point"}, {}}, 1};
+  }
+  template <class Random> static void draw(Attractor<S>& a, Random& random) {
+    if (random.one_in(2)) a.body = random.body();
+    a.point = random.point(3, 2);
+    a.strength = random.in(-2, 4);
+    a.range = random.in(1, 4);
   }
   /// It pulls every awake body.
   template <class Forces> static void act(const Attractor<S>& a, Forces& forces) {

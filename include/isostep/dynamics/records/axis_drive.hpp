@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
@@ -16,6 +17,10 @@ using AxisDriveId = Id<struct AxisDriveTag>;
 /// The axes of a six-axis joint, in the order of its rows: b's origin along x, y and z of frame a; the swing of b's z
 /// axis about x and y of a, and the twist about z.
 enum class JointAxis : std::uint32_t { x, y, z, swing_x, swing_y, twist };
+
+/// Words for it, in scene files and in C.
+inline constexpr const char* kJointAxisNames[] = {"x", "y", "z", "swing_x", "swing_y", "twist"};
+ISO_INLINE constexpr std::span<const char* const> words_of(JointAxis) { return kJointAxisNames; }
 inline constexpr std::uint32_t kJointAxes = kJointRows;
 
 ISO_INLINE constexpr bool is_length(JointAxis axis) { return axis < JointAxis::swing_x; }
@@ -62,7 +67,7 @@ template <class S> struct JointAxisDrive {
 
 namespace isostep::detail {
 
-/// Of a drive with the joint that it names.
+/// Checks a drive with the joint that it names.
 template <class S>
 FaultReport fault_of_joint(const AxisDrive<S>& d, const JointProperties<S>& joint, std::int32_t substep_rate) {
   const bool cone = (joint.flags & joint_flag::kCone) != 0 && d.limited &&
@@ -98,13 +103,13 @@ template <class S> struct RecordRules<AxisDrive<S>> : RecordDefaults<S> {
   }
   static constexpr OnlyOne only_one(const AxisDrive<S>&) { return {"axis", "an axis that has no record yet"}; }
   static RecordKey key(const AxisDrive<S>& d) { return {d.joint.slot, static_cast<std::uint32_t>(d.axis)}; }
-  static NamedJoints joints(const AxisDrive<S>& d) { return {{d.joint}, 1}; }
+  static constexpr NamedJoints joints(const AxisDrive<S>& d) { return {{d.joint}, 1}; }
   static FaultReport fault_at(const AxisDrive<S>& d, const RecordPlace<S>& place) {
     return fault_of_joint(d, *place.joints[0].properties, substep_rate(place.settings));
   }
 };
 
-/// Of all drives that a joint is to have.
+/// Checks all drives that a joint is to have.
 template <class S>
 FaultReport fault_of_drives(std::span<const AxisDrive<S>> drives, const JointProperties<S>& joint,
                             std::int32_t substep_rate) {

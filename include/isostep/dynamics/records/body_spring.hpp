@@ -71,7 +71,7 @@ template <class S> struct RecordRules<BodySpring<S>> : RecordDefaults<S> {
         .proper(!(s.a == s.b), "b", "another body than a")
         .report();
   }
-  static NamedBodies<S> bodies(const BodySpring<S>& s) {
+  static constexpr NamedBodies<S> bodies(const BodySpring<S>& s) {
     return {
         {{s.a, "a", false, MustBe::any, s.anchor_a, "anchor_a"}, {s.b, "b", true, MustBe::any, s.anchor_b, "anchor_b"}},
         2};
@@ -82,6 +82,17 @@ template <class S> struct RecordRules<BodySpring<S>> : RecordDefaults<S> {
     if (!moves(a) && !moves(b)) return {Fault::not_dynamic, "", "a, b", "a dynamic one"};
     const Settings<S>& settings = place.settings;
     return fault_of_rate(s, a, b, S(integration_rate(settings.solver, settings.hz, settings.substeps)));
+  }
+  template <class Random> static void draw(BodySpring<S>& s, Random& random) {
+    s.a = random.body();
+    if (!random.one_in(3)) s.b = random.body();
+    s.anchor_a = random.point(0.0625);
+    s.anchor_b = s.b ? random.point(0.0625) : random.beside(s.a, 0.5, 1);
+    const double mass = s.b ? min(random.mass(s.a), random.mass(s.b)) : random.mass(s.a);
+    s.rest_length = random.in(0.5, 2);
+    s.stiffness = random.in(0, 40, mass);
+    s.damping = random.in(0, 2, mass);
+    s.only_pulls = random.one_in(2);
   }
   template <class Forces> static void act(const BodySpring<S>& s, Forces& forces) {
     const auto& bodies = forces.bodies;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
@@ -11,8 +13,12 @@ namespace isostep {
 
 using BreakableId = Id<struct BreakableTag>;
 
-/// Of fracture_pattern.hpp, with numbers that follow from most_pieces.
+/// A pattern of fracture_pattern.hpp, with numbers that follow from most_pieces.
 enum class BreakPattern : std::uint32_t { eight_boxes, grain, radial, voronoi };
+
+/// Words for it, in scene files and in C.
+inline constexpr const char* kBreakPatternNames[] = {"eight_boxes", "grain", "radial", "voronoi"};
+ISO_INLINE constexpr std::span<const char* const> words_of(BreakPattern) { return kBreakPatternNames; }
 
 /// A dynamic body of one box or hull. A step in which the contacts with another body give it more than break_impulse,
 /// all along their normals together, marks it by a Blow; events().broke tells it. break_bodies(world)
@@ -74,9 +80,19 @@ template <class S> struct RecordRules<Breakable<S>> : RecordDefaults<S> {
                 "a vector of length 1, or 0")
         .report();
   }
-  static NamedBodies<S> bodies(const Breakable<S>& b) { return named_body<S>(b.body, MustBe::dynamic); }
+  static constexpr NamedBodies<S> bodies(const Breakable<S>& b) { return named_body<S>(b.body, MustBe::dynamic); }
   static constexpr OnlyOne only_one(const Breakable<S>&) { return kOneABody; }
   static RecordKey key(const Breakable<S>& r) { return {r.body.slot}; }
+  template <class Random> static void draw(Breakable<S>& b, Random& random) {
+    b.body = random.body();
+    b.break_impulse = random.in(0.5, 8, random.mass(b.body));
+    b.pattern = static_cast<BreakPattern>(random.below(4));
+    b.most_pieces = 8 + random.below(5);
+    b.depth = 1 + random.below(2);
+    b.seed = random.below(1u << 16);
+    b.small_mass = random.in(0, 1);
+    b.lifetime = random.below(60);
+  }
 };
 
 }  // namespace isostep::detail

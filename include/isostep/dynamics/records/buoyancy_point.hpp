@@ -46,7 +46,14 @@ template <class S> struct RecordRules<BuoyancyPoint<S>> : RecordDefaults<S> {
         .proper(S(0) <= b.density, "density", kZeroOrMore)
         .report();
   }
-  static NamedBodies<S> bodies(const BuoyancyPoint<S>& b) { return named_point(b.body, b.point, "point"); }
+  static constexpr NamedBodies<S> bodies(const BuoyancyPoint<S>& b) { return named_point(b.body, b.point, "point"); }
+  template <class Random> static void draw(BuoyancyPoint<S>& b, Random& random) {
+    b.body = random.body();
+    b.max_depth = random.in(0.125, 0.5);
+    b.volume = random.in(0, 2);
+    b.density = random.in(1, 1, random.mass(b.body));
+    b.surface_height = random.in(0, 2);
+  }
   template <class Forces> static void act(const BuoyancyPoint<S>& b, Forces& forces) {
     const auto end = forces.bodies.end_at(b.body, b.point);
     const Heading<S> down = heading_of(forces.bodies.gravity());

@@ -106,7 +106,9 @@ template <class S> struct RecordRules<CharacterSettings<S>> : RecordDefaults<S> 
         .proper(c.normal == Vec3<Unit<S>>::zero() || is_direction<S>(c.normal), "normal", "a vector of length 1, or 0")
         .report();
   }
-  static NamedBodies<S> bodies(const CharacterSettings<S>& c) { return named_body<S>(c.body, MustBe::kinematic); }
+  static constexpr NamedBodies<S> bodies(const CharacterSettings<S>& c) {
+    return named_body<S>(c.body, MustBe::kinematic);
+  }
   static constexpr OnlyOne only_one(const CharacterSettings<S>&) { return kOneABody; }
   static RecordKey key(const CharacterSettings<S>& r) { return {r.body.slot}; }
   /// It is cast, as one.
@@ -114,6 +116,15 @@ template <class S> struct RecordRules<CharacterSettings<S>> : RecordDefaults<S> 
     const bool one = place.parts.size() == 1;
     const bool walks = one && !is_surface(place.parts[0].primitive.type) && is_bounded(place.parts[0].primitive.type);
     return Checklist().ask(walks, Fault::bad_shape, "body", "one of a single convex part with an end").report();
+  }
+  template <class Random> static void draw(CharacterSettings<S>& c, Random& random) {
+    c.body = random.kinematic_body();
+    c.push_force = random.in(0, 200);
+    c.mass = random.in(0, 20);
+  }
+  template <class Random> static void draw(CharacterInput<S>& c, Random& random) {
+    c.move = random.arrow(0, 4);
+    if (random.one_in(3)) c.jump = random.in(1, 4);
   }
 };
 

@@ -27,7 +27,7 @@ template <class S> struct RecordRules<ContactReport<S>> : RecordDefaults<S> {
   static constexpr Acts kActs = Acts::not_here;
   static constexpr Wakes kWakes = Wakes::none;
   static FaultReport fault(const ContactReport<S>&) { return {}; }
-  static NamedBodies<S> bodies(const ContactReport<S>& r) { return named_body<S>(r.body, MustBe::any); }
+  static constexpr NamedBodies<S> bodies(const ContactReport<S>& r) { return named_body<S>(r.body, MustBe::any); }
   static constexpr OnlyOne only_one(const ContactReport<S>&) { return kOneABody; }
   static RecordKey key(const ContactReport<S>& r) { return {r.body.slot}; }
 };

@@ -108,7 +108,7 @@ template <class S> struct RecordRules<Coupling<S>> : RecordDefaults<S> {
                 "another joint than joint_a and joint_b")
         .report();
   }
-  static NamedJoints joints(const Coupling<S>& c) { return {{c.joint_a, c.joint_b, c.joint_c}, 3}; }
+  static constexpr NamedJoints joints(const Coupling<S>& c) { return {{c.joint_a, c.joint_b, c.joint_c}, 3}; }
   static FaultReport fault_at(const Coupling<S>& c, const RecordPlace<S>& place) {
     return fault_of_joints(c, joints(c), place.joints);
   }

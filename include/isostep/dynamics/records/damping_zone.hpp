@@ -52,6 +52,13 @@ template <class S> struct RecordRules<DampingZone<S>> : RecordDefaults<S> {
         .proper(S(0) <= z.angular, "angular", kRate)
         .report();
   }
+  template <class Random> static void draw(DampingZone<S>& z, Random& random) {
+    random.region(z);
+    z.linear = random.in(0, 4);
+    z.angular = random.one_in(4) ? S(kMaxRate) : random.in(0, 4);
+    z.priority = random.rank();
+    z.replaces = random.one_in(2);
+  }
   template <class Forces> static void slow(const DampingZone<S>& z, Forces& forces) {
     for (std::uint32_t row = 1; row < forces.bodies.rows(); ++row) {
       if (!forces.bodies.is_pushed(row, z.mask)) continue;

@@ -40,7 +40,14 @@ template <class S> struct RecordRules<BodyDrag<S>> : RecordDefaults<S> {
         .proper(S(0) <= d.angular, "angular", kZeroOrMore)
         .report();
   }
-  static NamedBodies<S> bodies(const BodyDrag<S>& d) { return named_body<S>(d.body, MustBe::dynamic); }
+  static constexpr NamedBodies<S> bodies(const BodyDrag<S>& d) { return named_body<S>(d.body, MustBe::dynamic); }
+  template <class Random> static void draw(BodyDrag<S>& d, Random& random) {
+    d.body = random.body();
+    const double mass = random.mass(d.body), unit = random.one_in(4) ? 100 * mass : mass;
+    d.linear = random.in(0, 2, unit);
+    d.quadratic = random.in(0, 1, unit);
+    d.angular = random.in(0, 0.25, unit);
+  }
   template <class Forces> static void resist(const BodyDrag<S>& d, Forces& forces) {
     const auto& resistance = forces.resistance;
     const std::uint32_t row = forces.bodies.row_of(d.body);

@@ -47,7 +47,7 @@ template <class S> struct Explosion {
   ISO_FIELDS(centre, begin, implosion_force, implosion_least, implosion_most, implosion_duration, wave_force,
              wave_speed, wave_width, wave_ramp, wave_duration, chimney_force, chimney_radius, chimney_height,
              chimney_duration, is_shielded, mask)
-  /// [s] from when it goes off.
+  /// [s] it lasts, from when it goes off.
   ISO_INLINE S duration() const { return implosion_duration + max(wave_duration, chimney_duration); }
 };
 
@@ -80,12 +80,12 @@ S seconds_since(std::uint64_t begin, std::uint64_t tick, std::int32_t hz, std::u
   constexpr std::uint64_t kMost = 16384;  // [s] more than any explosion lasts
   return S(static_cast<int>(min(whole, kMost))) + divide_to<S>(S(part), S(rate));
 }
-/// As the step of that tick begins.
+/// Whether an explosion is over as the step of that tick begins.
 template <class S> bool has_ended(const Explosion<S>& e, std::uint64_t tick, std::int32_t hz) {
   return e.duration() <= seconds_since<S>(e.begin, tick, hz, 0, hz);
 }
 
-/// What of a body a blast meets.
+/// The point of a body that a blast meets.
 template <class S> struct BlastTarget {
   S distance;      // [m] of the point from the centre
   S fleeing;       // [m/s] of the point, away from there
@@ -145,6 +145,22 @@ template <class S> struct RecordRules<Explosion<S>> : RecordDefaults<S> {
     return list.proper(Limits<S>::minimum_size() <= e.wave_speed, "wave_speed", "Limits::minimum_size() or more")
         .proper(Limits<S>::minimum_size() <= e.chimney_radius, "chimney_radius", "Limits::minimum_size() or more")
         .report();
+  }
+  template <class Random> static void draw(Explosion<S>& e, Random& random) {
+    const double weight = 10 * random.mass(random.body());
+    e.centre = random.point(2, 1);
+    e.begin = random.tick() + random.below(20);
+    e.implosion_force = random.in(0, 1, weight);
+    e.implosion_most = random.in(0, 4);
+    e.implosion_duration = random.in(0, 0.25);
+    e.wave_force = random.in(0, 20, weight);
+    e.wave_speed = random.in(4, 60);
+    e.wave_width = random.in(0, 1);
+    e.wave_ramp = random.in(0, 1);
+    e.wave_duration = random.in(0, 1);
+    e.chimney_force = random.in(0, 1, weight);
+    e.chimney_duration = random.in(0, 0.5);
+    e.is_shielded = random.one_in(2);
   }
   template <class Forces> static void act(const Explosion<S>& e, Forces& forces) {
     const auto& clock = forces.bodies.when();

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "isostep/core/fields.hpp"
 #include "isostep/core/id.hpp"
 #include "isostep/dynamics/records/record_rules.hpp"
@@ -12,6 +14,10 @@ namespace isostep {
 using ForceZoneId = Id<struct ForceZoneTag>;
 
 enum class ZoneShape : std::uint32_t { everywhere, sphere, box };
+
+/// Words for it, in scene files and in C.
+inline constexpr const char* kZoneShapeNames[] = {"everywhere", "sphere", "box"};
+ISO_INLINE constexpr std::span<const char* const> words_of(ZoneShape) { return kZoneShapeNames; }
 
 /// Bits of ForceZone::replaces.
 namespace zone_effect {
@@ -46,7 +52,7 @@ template <class S> struct ForceZone {
 
 namespace isostep::detail {
 
-/// Of a zone of any kind.
+/// Whether a point is in the region of a zone of any kind.
 template <class Zone, class S> ISO_INLINE bool is_inside(const Zone& zone, Vec3<S> point) {
   if (zone.shape == ZoneShape::everywhere) return true;
   const Vec3<S> from_middle = point - zone.pose.position;
@@ -74,7 +80,14 @@ template <class S> struct RecordRules<ForceZone<S>> : RecordDefaults<S> {
         .proper((z.replaces & ~zone_effect::kAll) == 0, "replaces", "bits of zone_effect")
         .report();
   }
-  /// On every awake body. What the zone does to wind, gravity and water others ask of it: Zones.
+  template <class Random> static void draw(ForceZone<S>& z, Random& random) {
+    random.region(z);
+    z.acceleration = random.arrow(0, 3);
+    z.wind = random.arrow(0, 3);
+    z.priority = random.rank();
+    z.replaces = random.below(zone_effect::kAll + 1);
+  }
+  /// It accelerates every awake body inside. What it does to wind, gravity and water others ask of it: Zones.
   template <class Forces> static void act(const ForceZone<S>& z, Forces& forces) {
     if (z.acceleration == Vec3<S>::zero()) return;
     for (std::uint32_t row = 1; row < forces.bodies.rows(); ++row) {

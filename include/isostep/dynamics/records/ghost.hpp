@@ -31,12 +31,16 @@ template <class S> struct RecordRules<Ghost<S>> : RecordDefaults<S> {
   static FaultReport fault(const Ghost<S>& g) {
     return Checklist().proper(!(g.a == g.b), "b", "another body than a").report();
   }
-  static NamedBodies<S> bodies(const Ghost<S>& g) {
+  static constexpr NamedBodies<S> bodies(const Ghost<S>& g) {
     return {{{g.a, "a", false, MustBe::any, Vec3<S>::zero(), ""}, {g.b, "b", false, MustBe::any, Vec3<S>::zero(), ""}},
             2};
   }
   static constexpr OnlyOne only_one(const Ghost<S>&) { return {"b", "a pair that has no record yet"}; }
   static RecordKey key(const Ghost<S>& g) { return {min(g.a.slot, g.b.slot), max(g.a.slot, g.b.slot)}; }
+  template <class Random> static void draw(Ghost<S>& g, Random& random) {
+    g.a = random.mover();
+    g.b = random.mover();
+  }
 };
 
 }  // namespace isostep::detail

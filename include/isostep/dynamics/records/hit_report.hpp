@@ -34,9 +34,13 @@ template <class S> struct RecordRules<HitReport<S>> : RecordDefaults<S> {
         .proper(S(0) <= h.speed, "speed", "0 to Limits::speed()")
         .report();
   }
-  static NamedBodies<S> bodies(const HitReport<S>& h) { return named_body<S>(h.body, MustBe::any); }
+  static constexpr NamedBodies<S> bodies(const HitReport<S>& h) { return named_body<S>(h.body, MustBe::any); }
   static constexpr OnlyOne only_one(const HitReport<S>&) { return kOneABody; }
   static RecordKey key(const HitReport<S>& r) { return {r.body.slot}; }
+  template <class Random> static void draw(HitReport<S>& h, Random& random) {
+    h.body = random.any_body();
+    h.speed = random.in(0, 4);
+  }
 };
 
 }  // namespace isostep::detail

@@ -50,7 +50,12 @@ template <class S> struct RecordRules<JointLoad<S>> : RecordDefaults<S> {
   }
   static constexpr OnlyOne only_one(const JointLoad<S>&) { return kOneAJoint; }
   static RecordKey key(const JointLoad<S>& l) { return {l.joint.slot}; }
-  static NamedJoints joints(const JointLoad<S>& l) { return {{l.joint}, 1}; }
+  static constexpr NamedJoints joints(const JointLoad<S>& l) { return {{l.joint}, 1}; }
+  template <class Random> static void draw(JointLoad<S>& l, Random& random) {
+    l.joint = random.joint();
+    if (random.one_in(2)) l.break_force = random.in(0, 400);
+    if (random.one_in(2)) l.break_torque = random.in(0, 100);
+  }
 };
 
 }  // namespace isostep::detail

@@ -39,6 +39,10 @@ template <class S> struct RecordRules<KindGhost<S>> : RecordDefaults<S> {
   }
   static constexpr OnlyOne only_one(const KindGhost<S>&) { return kOnePairOfKinds; }
   static RecordKey key(const KindGhost<S>& p) { return {kinds_key(p.kind_a, p.kind_b)}; }
+  template <class Random> static void draw(KindGhost<S>& g, Random& random) {
+    g.kind_a = random.kind();
+    g.kind_b = random.kind();
+  }
 };
 
 }  // namespace isostep::detail

@@ -77,6 +77,16 @@ template <class S> struct RecordRules<KindResponse<S>> : RecordDefaults<S> {
         .proper(place.settings.solver != SolverName::direct, "solver", "another solver than direct")
         .report();
   }
+  template <class Random> static void draw(KindResponse<S>& r, Random& random) {
+    r.kind_a = random.kind();
+    r.kind_b = random.kind();
+    if (r.kind_a != r.kind_b) {
+      const S scale = random.one_in(3) ? S(0) : random.in(0.0625, 1);
+      (random.one_in(2) ? r.inverse_mass_scale_a : r.inverse_mass_scale_b) = scale;
+      r.inverse_inertia_scale_a = random.in(0, 1);
+    }
+    if (random.one_in(2)) r.max_force = random.in(1, 200);
+  }
 };
 
 }  // namespace isostep::detail

@@ -56,6 +56,14 @@ template <class S> struct RecordRules<MaterialPair<S>> : RecordDefaults<S> {
   }
   static constexpr OnlyOne only_one(const MaterialPair<S>&) { return kOnePairOfKinds; }
   static RecordKey key(const MaterialPair<S>& p) { return {kinds_key(p.kind_a, p.kind_b)}; }
+  template <class Random> static void draw(MaterialPair<S>& p, Random& random) {
+    p.kind_a = random.kind();
+    p.kind_b = random.kind();
+    p.friction = random.in(0, 1.25);
+    p.static_friction = random.in(0, 2);
+    if (random.one_in(3)) p.restitution = random.in(0, 1);
+    if (random.one_in(3)) p.rolling_resistance = random.in(0, 0.0625);
+  }
 };
 
 }  // namespace isostep::detail

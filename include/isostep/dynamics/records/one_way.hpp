@@ -33,7 +33,7 @@ template <class S> struct OneWay {
   ISO_FIELDS(body, axis, least_cosine)
 };
 
-/// One of them as a step begins.
+/// A OneWay record as a step begins.
 template <class S> struct Way {
   std::uint32_t body;    // slot
   Vec3<Unit<S>> axis;    // [1] world
@@ -47,7 +47,7 @@ template <class S> struct Way {
   }
 };
 
-/// Ascending by the body's slot. Keeps nothing from step to step but memory.
+/// All OneWay records as a step begins, ascending by the body's slot. Keeps nothing from step to step but memory.
 template <class S> class Ways {
  public:
   /// orientation_of(slot)
@@ -93,9 +93,14 @@ template <class S> struct RecordRules<OneWay<S>> : RecordDefaults<S> {
         .proper(S(0) < w.least_cosine && w.least_cosine <= S(1), "least_cosine", "above 0, up to 1")
         .report();
   }
-  static NamedBodies<S> bodies(const OneWay<S>& w) { return named_body<S>(w.body, MustBe::any); }
+  static constexpr NamedBodies<S> bodies(const OneWay<S>& w) { return named_body<S>(w.body, MustBe::any); }
   static constexpr OnlyOne only_one(const OneWay<S>&) { return kOneABody; }
   static RecordKey key(const OneWay<S>& r) { return {r.body.slot}; }
+  template <class Random> static void draw(OneWay<S>& w, Random& random) {
+    w.body = random.mover();
+    if (random.one_in(2)) w.axis = {Unit<S>(1), Unit<S>(0), Unit<S>(0)};
+    w.least_cosine = random.in(0.25, 0.75);
+  }
 };
 
 }  // namespace isostep::detail

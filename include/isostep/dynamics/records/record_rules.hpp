@@ -15,13 +15,15 @@
 
 // Each kind specialises RecordRules<Record>, from RecordDefaults<S>, with
 //   fault(record)            what its numbers must be; has no default
-//   bodies(record), joints(record)   what it names: it goes with them
+//   bodies(record), joints(record)   constexpr: names its members that are BodyId and JointId; it goes with them
 //   fault_at(record, place)  what the bodies and joints that it names must be like
 //   only_one(record), key(record)    two records of a kind may not have one key; what is said of the second
 //   kNoCarrier               the first body of one record may not be the second of another; what is said of the two
 //   kWakes, kTies, kBears    see RecordDefaults
 //   kActs                    what it does in a sub-step, with the functions that Acts names; has no default either
-// Commands, the validator of foreign states, sleep and random worlds ask these; a kind without rules does not compile.
+//   draw(record, random)     what random worlds of the tests make of it; else its values follow from its fields
+// Commands, the validator of foreign states, sleep and random worlds ask these. Rules that are missing or contradict
+// the record do not compile: rule_checks.hpp.
 
 namespace isostep {
 
@@ -42,10 +44,10 @@ enum class Wakes {
   all        // it acts on more than it names
 };
 
-/// What a kind does to bodies in a sub-step. Its rules have the functions that its word here names and no others, else
-/// RecordStore does not compile: acts_as_it_says(). They are `template <class Forces> static void`, and Forces is
-/// RecordForces<S> (systems/forces/record_forces.hpp), a parameter, for that is above a kind's file. What slows has a
-/// priority: the highest record is asked first.
+/// An act of a kind is what it does to bodies in a sub-step. Its rules have the functions that its word here names and
+/// no others, else RecordStore does not compile: rule_checks.hpp. They are `template <class Forces> static void`, and
+/// Forces is RecordForces<S> (systems/forces/record_forces.hpp), a parameter, for that is above a kind's file. What
+/// slows has a priority: the highest record is asked first.
 enum class Acts {
   not_here,            // it only tells, or other systems read it
   pushes,              // act(record, Forces&): whatever else acts
@@ -72,11 +74,11 @@ template <class S> struct NamedBodies {
   int count;
 };
 /// The record is about a body as a whole.
-template <class S> ISO_INLINE NamedBodies<S> named_body(BodyId body, MustBe must_be) {
+template <class S> ISO_INLINE constexpr NamedBodies<S> named_body(BodyId body, MustBe must_be) {
   return {{{body, "body", false, must_be, Vec3<S>::zero(), ""}, {}}, 1};
 }
 /// The record acts at a point of a dynamic body.
-template <class S> ISO_INLINE NamedBodies<S> named_point(BodyId body, Vec3<S> point, const char* field) {
+template <class S> ISO_INLINE constexpr NamedBodies<S> named_point(BodyId body, Vec3<S> point, const char* field) {
   return {{{body, "body", false, MustBe::dynamic, point, field}, {}}, 1};
 }
 ISO_INLINE constexpr bool is_as_asked(BodyType type, MustBe must_be) {
@@ -93,7 +95,7 @@ struct NamedJoints {
   JointId all[3] = {};
   int count = 0;
 
-  ISO_INLINE const char* field(int i) const {
+  ISO_INLINE constexpr const char* field(int i) const {
     constexpr const char* kFields[] = {"joint_a", "joint_b", "joint_c"};
     return count == 1 ? "joint" : kFields[i];
   }
@@ -129,36 +131,26 @@ inline constexpr OnlyOne kOnePairOfKinds = {"kind_b", "a pair of kinds that has 
 
 template <class Record> struct RecordRules;
 
-/// Stands for the Forces of rules that are asked about and not called.
-struct NoForces;
-/// Whether the rules of a kind have those functions of Acts that its kActs names, and no others.
-template <class Record> constexpr bool acts_as_it_says() {
-  using Rules = RecordRules<Record>;
-  constexpr bool kPushes = requires(const Record& r, NoForces& f) { Rules::act(r, f); };
-  constexpr bool kResists = requires(const Record& r, NoForces& f) { Rules::resist(r, f); };
-  constexpr bool kSlows = requires(const Record& r, NoForces& f) { Rules::slow(r, f); };
-  constexpr Acts kActs = Rules::kActs;
-  return kPushes == pushes(kActs) && kResists == resists(kActs) && kSlows == (kActs == Acts::slows);
-}
-
 template <class S> struct RecordDefaults {
+  using Scalar = S;
   static constexpr Wakes kWakes = Wakes::named;
   static constexpr bool kTies = false;   // bodies that it names sleep and wake together
   static constexpr bool kBears = false;  // it holds bodies up or back, and ends where they come to rest
-  template <class Record> static ISO_INLINE NamedBodies<S> bodies(const Record&) { return {{}, 0}; }
-  template <class Record> static ISO_INLINE NamedJoints joints(const Record&) { return {}; }
   template <class Record> static ISO_INLINE FaultReport fault_at(const Record&, const RecordPlace<S>&) { return {}; }
 };
 
-/// The bodies that a record names.
-template <class Record> ISO_INLINE BodyId first_body_of(const Record& record) {
-  return RecordRules<Record>::bodies(record).all[0].body;
+/// The bodies and joints that a record names.
+template <class Record> ISO_INLINE auto bodies_of(const Record& record) {
+  using Rules = RecordRules<Record>;
+  if constexpr (requires { Rules::bodies(record); }) return Rules::bodies(record);
+  else return NamedBodies<typename Rules::Scalar>{{}, 0};
 }
-template <class Record> ISO_INLINE BodyId second_body_of(const Record& record) {
-  return RecordRules<Record>::bodies(record).all[1].body;
-}
+template <class Record> ISO_INLINE BodyId first_body_of(const Record& record) { return bodies_of(record).all[0].body; }
+template <class Record> ISO_INLINE BodyId second_body_of(const Record& record) { return bodies_of(record).all[1].body; }
 template <class Record> ISO_INLINE NamedJoints joints_of(const Record& record) {
-  return RecordRules<Record>::joints(record);
+  using Rules = RecordRules<Record>;
+  if constexpr (requires { Rules::joints(record); }) return Rules::joints(record);
+  else return {};
 }
 
 // ---- what kinds ask of their numbers

@@ -7,6 +7,7 @@
 
 #include "isostep/core/registry.hpp"
 #include "isostep/dynamics/records/record_list.hpp"
+#include "isostep/dynamics/records/rule_checks.hpp"
 
 namespace isostep {
 
@@ -45,18 +46,19 @@ template <class IdType, class S> ISO_INLINE void renew_parts(RecordParts<S>& par
 }
 }  // namespace detail
 
-/// The store has a registry of each kind. Only commands change them: copies share them until one does.
+/// The store has a registry of each kind. Copies share them until one changes: by a command, or by a step in which an
+/// explosion ends, a ghost begins or ends, or a joint breaks.
 template <class S> struct RecordStore {
 #define ISO_REGISTRY(name, Record, Id, S) Registry<Record, Id> name##s;
   ISO_FOR_EACH_RECORD(ISO_REGISTRY, S)
 #undef ISO_REGISTRY
 
-  // As the compiler makes them, but in one place: inlined into every command that changes records they are minutes of
-  // compiling.
+  // These are as the compiler makes them, but in one place: inlined into every command that changes records they are
+  // minutes of compiling.
   RecordStore();
   RecordStore(const RecordStore&);
   ~RecordStore();
-  // No weak functions in each of the files that use them.
+  // These are inlined, so that no file that uses them has weak functions.
   ISO_INLINE RecordStore(RecordStore&&) = default;
   ISO_INLINE RecordStore& operator=(const RecordStore&) = default;
   ISO_INLINE RecordStore& operator=(RecordStore&&) = default;
@@ -86,10 +88,15 @@ template <class S> struct RecordStore {
   static constexpr std::uint32_t kKinds = 0 ISO_FOR_EACH_RECORD(ISO_COUNT, S);
 #undef ISO_COUNT
   static_assert(kKinds < 32, "kinds() has a bit for each");
-#define ISO_ACTS(name, Record, Id, S) \
+#define ISO_CHECK(name, Record, Id, S)                                                                               \
+  static_assert(detail::names_its_bodies<Record>(), #name ": bodies() of its rules has to name each BodyId in it");  \
+  static_assert(detail::names_its_joints<Record>(), #name ": joints() of its rules has to name each JointId in it"); \
+  static_assert(detail::names_bodies_and_joints_alone<Record>(),                                                     \
+                #name ": it names something else than bodies and joints, and would outlive it");                     \
+  static_assert(detail::has_a_key_for_only_one<Record>(), #name ": its rules have only_one() or key() alone");       \
   static_assert(detail::acts_as_it_says<Record>(), #name ": its rules have other functions than their kActs says");
-  ISO_FOR_EACH_RECORD(ISO_ACTS, S)
-#undef ISO_ACTS
+  ISO_FOR_EACH_RECORD(ISO_CHECK, S)
+#undef ISO_CHECK
   /// Bits of the kinds of which one was ever added: a state that has none hashes and writes nothing of them.
   ISO_INLINE std::uint32_t kinds() const {
     std::uint32_t kinds = 0, bit = 1;

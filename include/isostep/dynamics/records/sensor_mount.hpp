@@ -44,7 +44,7 @@ template <class S> struct RecordRules<SensorMount<S>> : RecordDefaults<S> {
         .proper(is_unit<S>(m.frame.orientation), "frame.orientation", kUnitLength)
         .report();
   }
-  static NamedBodies<S> bodies(const SensorMount<S>& m) {
+  static constexpr NamedBodies<S> bodies(const SensorMount<S>& m) {
     return {{{m.sensor, "sensor", false, MustBe::kinematic, Vec3<S>::zero(), ""},
              {m.on, "on", false, MustBe::any, Vec3<S>::zero(), ""}},
             2};

@@ -21,8 +21,8 @@ inline constexpr std::uint32_t kEveryPart = 0xffffffffu;
 /// be static, kinematic or dynamic; a dynamic one is pushed back. It adds to Material::surface_velocity, which is the
 /// same in the world's axes.
 /// Parts: a record with a `part` is about that child of the body's shape alone, and stands there in place of the whole
-/// body's, also where it does not run. One record a body and one a part. A body's shape does not change, so a part that
-/// is there stays.
+/// body's, also where it does not run. One record a body and one a part. A body that a record of a part names gets no
+/// shape without that part.
 /// A turning surface turns what lies on it and leads it round a circle: a sub-step aims at the end of its arc, as on a
 /// kinematic body that turns (carrying.hpp). A character rides on it.
 /// Sleep: a surface that runs keeps awake what touches it, what is held against a wall as well: the wall may go.
@@ -53,7 +53,7 @@ template <class S> struct RecordRules<SurfaceVelocity<S>> : RecordDefaults<S> {
         .in_range(no_longer(v.angular, Limits<S>::angular_speed()), "angular", "a length up to Limits::angular_speed()")
         .report();
   }
-  static NamedBodies<S> bodies(const SurfaceVelocity<S>& v) { return named_body<S>(v.body, MustBe::any); }
+  static constexpr NamedBodies<S> bodies(const SurfaceVelocity<S>& v) { return named_body<S>(v.body, MustBe::any); }
   static constexpr OnlyOne only_one(const SurfaceVelocity<S>& v) {
     return v.part == kEveryPart ? kOneABody : OnlyOne{"part", "a part that has no record yet"};
   }
@@ -63,6 +63,12 @@ template <class S> struct RecordRules<SurfaceVelocity<S>> : RecordDefaults<S> {
         .proper(v.part == kEveryPart || v.part < place.parts.size(), "part",
                 "kEveryPart, or a child of the body's shape")
         .report();
+  }
+  template <class Random> static void draw(SurfaceVelocity<S>& v, Random& random) {
+    v.body = random.any_body();
+    v.linear = random.arrow(0, 2);
+    if (random.moves(v.body)) v.angular = random.arrow(0, 0.5);  // the ground is wide
+    if (random.one_in(2)) v.part = random.below(random.parts(v.body));
   }
 };
 

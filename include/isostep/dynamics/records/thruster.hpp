@@ -29,7 +29,12 @@ template <class S> struct RecordRules<Thruster<S>> : RecordDefaults<S> {
   static FaultReport fault(const Thruster<S>& t) {
     return Checklist().also(fault_of_place(t.point, "point")).finite(t.force, "force").report();
   }
-  static NamedBodies<S> bodies(const Thruster<S>& t) { return named_point(t.body, t.point, "point"); }
+  static constexpr NamedBodies<S> bodies(const Thruster<S>& t) { return named_point(t.body, t.point, "point"); }
+  template <class Random> static void draw(Thruster<S>& t, Random& random) {
+    t.body = random.body();
+    t.point = random.point(0.0625);
+    t.force = random.arrow(0, 4, random.mass(t.body));
+  }
   template <class Forces> static void act(const Thruster<S>& t, Forces& forces) {
     const auto end = forces.bodies.end_at(t.body, t.point);
     if (end.row != 0) forces.sums.push(end, rotate(forces.bodies.state(end.row).orientation, t.force));

@@ -186,9 +186,17 @@ template <class S> struct RecordRules<VehicleSettings<S>> : RecordDefaults<S> {
         .finite(v.clutch_load, "clutch_load")
         .report();
   }
-  static NamedBodies<S> bodies(const VehicleSettings<S>& v) { return named_body<S>(v.body, MustBe::dynamic); }
+  static constexpr NamedBodies<S> bodies(const VehicleSettings<S>& v) { return named_body<S>(v.body, MustBe::dynamic); }
   static constexpr OnlyOne only_one(const VehicleSettings<S>&) { return kOneABody; }
   static RecordKey key(const VehicleSettings<S>& r) { return {r.body.slot}; }
+  template <class Random> static void draw(VehicleInput<S>& v, Random& random) {
+    v.throttle = random.in(-1, 1);
+    if (random.one_in(3)) v.brake = random.in(0, 1);
+    if (random.one_in(6)) v.handbrake = random.in(0, 1);
+    v.steer = random.in(-1, 1);
+    v.gear = random.below(3);
+    if (random.one_in(2)) v.clutch = random.in(0, 1);
+  }
 };
 
 template <class S> struct RecordRules<WheelSettings<S>> : RecordDefaults<S> {
@@ -235,7 +243,9 @@ template <class S> struct RecordRules<WheelSettings<S>> : RecordDefaults<S> {
     checks.list.finite(w.along, "along").finite(w.across, "across");
     return checks.list.report();
   }
-  static NamedBodies<S> bodies(const WheelSettings<S>& w) { return named_point(w.body, w.hard_point, "hard_point"); }
+  static constexpr NamedBodies<S> bodies(const WheelSettings<S>& w) {
+    return named_point(w.body, w.hard_point, "hard_point");
+  }
   /// Tyre and body are within the range of masses that one row bears.
   static FaultReport fault_at(const WheelSettings<S>& w, const RecordPlace<S>& place) {
     return Checklist()

@@ -91,7 +91,7 @@ WaterSurface<S> surface_at(const Water<S>& water, Vec3<S> at, Vec3<S> gravity, c
   const SinCos<S> wave = sin_cos(phase);
   const S height = water.wave_height, slope = saturate_to<S>(product(height * number, wave.cos));
   const Vec3<U> normal = normalise(convert<S>(up) - along * slope);
-  // Of deep water, at its surface: circles, forward on the crest.
+  // Deep water goes in circles at its surface, forward on the crest.
   const Vec3<S> circling = along * (height * speed * wave.sin) - up * (height * speed * wave.cos);
   return {normal, (depth + height * wave.sin) * dot(normal, up), saturating_add(water.current, circling)};
 }
@@ -137,6 +137,22 @@ template <class S> struct RecordRules<Water<S>> : RecordDefaults<S> {
         .proper(S(0) <= w.wave_height && w.wave_height * S(14) <= w.wave_length, "wave_height", "0 to wave_length / 14")
         .proper(is_direction<S>(way), "wave_direction", "a vector of length 1")
         .report();
+  }
+  template <class Random> static void draw(Water<S>& w, Random& random) {
+    w.surface_height = random.in(-1, 2);
+    w.density = random.in(0, 2, random.mass(random.body()));
+    w.middle = random.point(2);
+    if (random.one_in(2)) w.half = {random.in(1, 4), S(8), random.in(1, 4)};
+    w.current = random.arrow(0, 2);
+    w.linear_drag = random.in(0, 2);
+    w.quadratic_drag = random.in(0, 1);
+    w.angular_drag = random.in(0, 2);
+    w.wave_length = random.in(4, 20);
+    if (random.one_in(2)) w.wave_height = random.in(0, 0.25);
+    w.wave_period = random.in(1, 4);
+    w.wave_direction = random.direction();
+    w.priority = random.rank();
+    w.replaces = random.one_in(2);
   }
   template <class Forces> static void act(const Water<S>& w, Forces& forces) {
     const auto& bodies = forces.bodies;

@@ -54,7 +54,7 @@ template <class S, int W, class Isa> struct BodyKernel {
   static ISO_INLINE Quat<U> orientation(const BodyState<S>* states) {
     return load_rotation([states](int i) ISO_INLINE_LAMBDA -> const Quat<Unit<S>>& { return states[i].orientation; });
   }
-  /// Which of W bodies have the bit. The factor brings bit 8 i of eight bytes to bit 56 + i.
+  /// The bodies of W that have the bit, one bit each. The factor brings bit 8 i of eight bytes to bit 56 + i.
   static ISO_INLINE std::uint32_t which(const std::uint8_t* kinds, std::uint8_t bit) {
     constexpr int kBytes = W < 8 ? W : 8;
     std::uint32_t bits = 0;
@@ -179,7 +179,7 @@ template <class S, int W, class Isa> struct BodyKernel {
     const U rotation[4] = {q.x, q.y, q.z, q.w};
     store_rows<4, Unit<S>>([states](int i) ISO_INLINE_LAMBDA { return &states[i].orientation.x; }, rotation, moves);
   }
-  /// Over the sub-step: see BodyFlight.
+  /// The mean velocity over the sub-step: see BodyFlight.
   static ISO_INLINE Vec3<V> mean_velocity(const BodyFlight<S>* flights, Vec3<V> v) {
     V flight[8];
     load_rows<8, Velocity<S>>([flights](int i) ISO_INLINE_LAMBDA { return &flights[i].fallen.x; }, flight);

@@ -24,15 +24,15 @@ inline constexpr std::uint8_t kSolid = 32;   // its moments are those of a solid
 inline constexpr std::uint8_t kTilted = 64;  // its principal axes are not those of its frame
 }  // namespace body_kind
 
-/// What forces and damping do to a body in a sub-step.
+/// The parts of its velocities that damping leaves a body in a sub-step.
 template <class S> struct BodyFactors {
   S linear_keep, angular_keep;  // [1]
   S reserved[2];                // 0: rows of four numbers
 };
 
-/// What nothing but gravity moves in a sub-step goes along a parabola: by half of what it gains less than its new
-/// velocity says. So its energy stays, whatever the sub-steps. Other forces may depend on where a body is: taken so,
-/// they would drive it. Rows of four numbers.
+/// A body that nothing but gravity moves in a sub-step goes along a parabola: by half of what it gains less than its
+/// new velocity says. So its energy stays, whatever the sub-steps. Other forces may depend on where a body is: taken
+/// so, they would drive it. Rows of four numbers.
 template <class S> struct BodyFlight {
   Vec3<Velocity<S>> fallen;  // [m/s] velocity after a sub-step of gravity alone
   Velocity<S> pad0;

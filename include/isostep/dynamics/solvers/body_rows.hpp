@@ -18,27 +18,27 @@ namespace isostep {
 /// Threads: ranges of bodies that do not meet may be integrated side by side.
 template <class S> class BodyRows {
  public:
-  /// Once a step: velocities and masses of context.states, no displacement. Sub-steps take 1 / rate seconds.
-  /// `binds_joints`: energy_bound.hpp.
+  /// Gathers velocities and masses of context.states once a step, without displacement. Sub-steps take 1 / rate
+  /// seconds. `binds_joints`: energy_bound.hpp.
   void gather(const StepContext<S>& context, std::int32_t rate, bool binds_joints);
 
-  /// Before the velocities of a sub-step.
+  /// Renews forces before the velocities of a sub-step.
   ISO_INLINE void renew_forces(const StepContext<S>& context) const {
     if (context.forces.renew != nullptr) context.forces.renew(context.forces.forces, rows_, rate_);
   }
-  // Bodies first..end-1, by a sub-step.
+  // These move bodies first..end-1 by a sub-step.
   void integrate_velocities(const StepContext<S>& context, std::size_t first, std::size_t end);
-  /// Whether contacts are to follow any of them.
+  /// Returns whether contacts are to follow any of them.
   bool integrate_positions(const StepContext<S>& context, std::size_t first, std::size_t end);
 
-  /// Whether contacts follow the row's body, for it turns fast: contact_follow.hpp; any at all as the step began.
+  /// Contacts follow the row's body, for it turns fast: contact_follow.hpp; any at all as the step began.
   ISO_INLINE bool is_followed(const StepContext<S>& context, std::uint32_t row) const {
     const Velocity<S> turns = max_abs(rows_.velocity[row].angular);
     return row != 0 && angular_speed_to_renew<S>(context.hz, true) < turns &&
            is_uneven(context.properties[row - 1], context.hz, turns);
   }
   ISO_INLINE bool began_with_followed() const { return began_with_followed_; }
-  /// The row's inertia about the world's axes becomes that of now.
+  /// Renews the row's inertia about the world's axes.
   void renew_inertia(const StepContext<S>& context, std::uint32_t row);
 
   /// Free turning takes the row's angular velocity as it is: none of it is a push of the solver's (gyroscopic.hpp).
@@ -48,16 +48,16 @@ template <class S> class BodyRows {
     turns_[row - 1].known = transposed_times(axes, rows_.velocity[row].angular);
   }
 
-  /// Velocities back into context.states, after integration.
+  /// Stores velocities in context.states, after integration.
   void store(const StepContext<S>& context, std::size_t first, std::size_t end) const;
-  /// Then, of all of them at once.
+  /// The bound then holds the energy of all of them at once.
   ISO_INLINE bool has_bound() const { return bound_.any(); }
   ISO_INLINE void hold_energy(const StepContext<S>& context) const { bound_.hold(context, rows_); }
 
   /// See rigid_solver.hpp.
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage);
 
-  /// [m/s] What forces are to add to a row's velocity in the sub-step.
+  /// [m/s] The velocity that forces are to add to a row in the sub-step.
   ISO_INLINE Vec3<Velocity<S>> gain_of(const StepContext<S>& context, std::uint32_t row) const {
     if (!rows_.moves(row)) return Vec3<Velocity<S>>::zero();
     const Vec3<Velocity<S>> fall = flights_[row - 1].fall;

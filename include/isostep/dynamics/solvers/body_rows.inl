@@ -12,7 +12,7 @@ namespace isostep {
 
 namespace detail {
 
-/// No motion along and about locked axes, whatever pushed.
+/// Stops motion along and about locked axes, whatever pushed.
 template <class V> ISO_INLINE void hold_locks(std::uint32_t flags, MotionRow<V>& row) {
   if ((flags & body_flag::kAllLocks) == 0) return;
   for (int axis = 0; axis < 3; ++axis) {
@@ -32,7 +32,7 @@ template <class S> ISO_INLINE std::uint8_t kind_of(const BodyProperties<S>& body
   return kind;
 }
 
-/// Of what is not slow.
+/// The pace of a body that is not slow.
 template <class S> ISO_INLINE Pace pace_of(Velocity<S> angular_speed, std::int32_t hz, std::int32_t rate) {
   const Velocity<S> fast = max(angular_speed_to_follow<S>(rate), angular_speed_to_renew<S>(hz, false));
   return fast < angular_speed ? Pace::fast : Pace::brisk;
@@ -88,9 +88,9 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::
   }
 }
 
-/// Of the step, as the body turns now: contacts answer with one inertia for the whole of it. With that of its begin
-/// they answer late, and a barrel that rolls on its rim gains energy. What contacts follow has that of the first
-/// sub-step: it is renewed before the second.
+/// The principal axes in the middle of the step, as the body turns now: contacts answer with one inertia for the whole
+/// of it. They answer late with that of its begin, and a barrel that rolls on its rim gains energy. A body that
+/// contacts follow has the axes of the first sub-step: they are renewed before the second.
 template <class S> Mat3<Unit<S>> BodyRows<S>::axes_in_the_middle(const StepContext<S>& context, std::size_t i) const {
   const BodyState<S>& state = context.states[i];
   const bool followed = is_followed(context, static_cast<std::uint32_t>(i + 1));
@@ -149,7 +149,7 @@ template <class S> void BodyRows<S>::finish_velocity(const StepContext<S>& conte
   const Mat3<Unit<S>> axes = detail::world_axes(context.states[body].orientation, properties);
   if (!turned) {
     BodyTurn<S>& turn = turns_[body];
-    // What damping takes is no push: as one, of what it all but stops more would be taken back than is left.
+    // Damping is no push: as one, of what it all but stops more would be taken back than is left.
     const S kept = factors_[body].angular_keep;
     for (int axis = 0; axis < 3; ++axis) turn.known[axis] = round_to<V>(product(kept, turn.known[axis]));
     const Pace pace = detail::pace_of<S>(max_abs(row.angular), context.hz, rate_);
@@ -173,7 +173,7 @@ bool BodyRows<S>::integrate_positions(const StepContext<S>& context, std::size_t
   return any_followed;
 }
 
-/// Whether contacts are to follow the body.
+/// Returns whether contacts are to follow the body.
 template <class S> bool BodyRows<S>::limit_turn(const StepContext<S>& context, std::size_t body) {
   if (context.properties[body].type != BodyType::dynamic) return false;
   MotionRow<Velocity<S>>& row = rows_.velocity[body + 1];
@@ -186,7 +186,7 @@ template <class S> bool BodyRows<S>::limit_turn(const StepContext<S>& context, s
   return is_followed(context, static_cast<std::uint32_t>(body + 1));
 }
 
-/// As the kernel, and what is locked or fast too.
+/// Does what the kernel does, for bodies that are locked or fast too.
 template <class S> void BodyRows<S>::move(const StepContext<S>& context, std::size_t body) {
   using V = Velocity<S>;
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate_));
@@ -210,7 +210,7 @@ template <class S> void BodyRows<S>::move(const StepContext<S>& context, std::si
       integrate(state.orientation, Vec3<Unit<S>>{turn(v.angular.x), turn(v.angular.y), turn(v.angular.z)});
 }
 
-/// What is as easy to turn about each axis stays so however it turns.
+/// A body that turns as easily about each axis stays so however it turns.
 template <class S>
 bool BodyRows<S>::is_uneven(const BodyProperties<S>& body, std::int32_t hz, Velocity<S> angular_speed) {
   const Vec3<S> k = body.kappa;

@@ -103,7 +103,7 @@ template <class S> ISO_INLINE void set_spin(unsigned char* words, std::size_t wi
   std::memcpy(words + width * offsetof(Block, spin), &along, sizeof(along));
 }
 
-/// Which rows of SolverBodies a block's lanes read, and which of them they may write (one bit a lane).
+/// The rows of SolverBodies that a block's lanes read, and those of them that they may write (one bit a lane).
 struct BlockBodies {
   static constexpr int kMaxWidth = 16;
   std::uint32_t a[kMaxWidth];

@@ -26,7 +26,7 @@ template <class S> class LaneOfBlock {
     each_word([](unsigned char* own, unsigned char* shared) { std::memcpy(shared, own, sizeof(S)); });
   }
 
-  /// All numbers, or once they are prepared only what solving changes of them.
+  /// Visits all numbers, or, once they are prepared, only those that solving changes.
   template <class Visit> void visit(const Visit& visit, bool solved) {
     auto* words = rolling_ ? own_.bytes : own_.bytes + sizeof(RollingRows<S, 1>);
     auto& block = *reinterpret_cast<ContactBlock<S, 1, kMaxContactPoints>*>(own_.bytes + sizeof(RollingRows<S, 1>));

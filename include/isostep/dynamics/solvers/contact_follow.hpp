@@ -20,7 +20,7 @@ template <class S> class FollowedContact : public ContactLane<S> {
   ISO_INLINE FollowedContact(unsigned char* words, std::size_t width, std::int32_t points, bool rolling)
       : Lane(words, width, points, rolling) {}
 
-  /// No warm start: impulses of before met other axes, and one pass would not take all of them back.
+  /// Forgets the warm start: impulses of before met other axes, and one pass would not take all of them back.
   ISO_INLINE void forget_impulses() const {
     for (std::size_t p = 0; p < this->points(); ++p) {
       const std::size_t at = this->normal(p), total = at + offsetof(Normal, total_impulse);

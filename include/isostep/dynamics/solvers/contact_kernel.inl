@@ -140,10 +140,10 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     }
   }
 
-  /// Biased: overlap is pushed apart softly, at a bounded speed. Relaxed: no push, so that none of it stays as speed.
-  /// A gap may close in either, no more. Of what may bounce an open one only gives back in a relaxed pass: what closes
-  /// it is the next sub-step's, which sees it bounce. Of all else that would stop one corner of a flat fall and not
-  /// another, which rounding says is open.
+  /// A biased pass pushes overlap apart softly, at a bounded speed. A relaxed one does not, so that none of it stays as
+  /// speed. A gap may close in either, no more. An open gap of a contact that may bounce only gives back in a relaxed
+  /// pass: the next sub-step deals with what closes it, and sees it bounce. In all others that would stop one corner of
+  /// a flat fall and not another, which rounding says is open.
   template <bool Relax>
   static ISO_INLINE void solve_normals(ContactBlock<S, W, P>& c, const Shares& share, const PassLanes& pass,
                                        const Motion& da, const Motion& db, Motion& a, Motion& b) {

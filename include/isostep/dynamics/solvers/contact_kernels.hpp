@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// What one pass over the contacts needs to know.
+/// The values that one pass over the contacts needs.
 template <class S> struct ContactPass {
   Softness<S> softness;
   S rate;                      // [1/s] sub-steps a second

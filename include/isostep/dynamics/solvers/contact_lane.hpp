@@ -46,7 +46,7 @@ template <class S> class ContactLane {
   ISO_INLINE std::size_t points() const { return points_; }
   ISO_INLINE std::size_t block() const { return rolling_ ? sizeof(Rolling) : 0; }
   ISO_INLINE std::size_t normal(std::size_t p) const { return block() + offsetof(Block, normals) + p * sizeof(Normal); }
-  /// act(place, place of the direction along which the row pushes, or kTurns)
+  /// Calls act(place, place of the direction along which the row pushes, or kTurns).
   template <class Act> ISO_INLINE void each_row(const Act& act) const {
     for (std::size_t k = 0; rolling_ && k < 2; ++k) act(offsetof(Rolling, rows) + k * sizeof(Row), kTurns);
     for (std::size_t k = 0; k < 2; ++k) {

@@ -1,4 +1,4 @@
-// From contacts' geometry to the blocks their kernel reads: W contacts at once, written once for every scalar and
+// Makes the blocks that the kernel reads from contacts' geometry: W contacts at once, written once for every scalar and
 // instruction set. Part of contact_kernel.inl, with internal linkage like it.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -79,7 +79,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     separation = w[6];
     return {{w[0], w[1], w[2]}, {w[3], w[4], w[5]}};
   }
-  /// A word earlier, so that eight end with the record.
+  /// Reads from a word before the material, so that eight end with the record.
   static ISO_INLINE Materials gather_material(const Geometry* const* geometry) {
     L w[8];
     gather<8>(
@@ -130,7 +130,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
 
   // ---- rows
 
-  /// How a row of Jacobian meets the two bodies.
+  /// The masses of the two bodies that a row of Jacobian meets.
   struct RowMaker {
     const Mat3<L>& kappa_a;
     const Mat3<L>& kappa_b;
@@ -219,8 +219,8 @@ template <class S, int W, class Isa> struct ContactPreparer {
 
   // ---- a block
 
-  /// [m] 1.082 times the root mean square distance of the points from their middle: a square patch under even pressure
-  /// resists twisting as if all friction acted at 0.541 of its half diagonal.
+  /// [m] The patch's radius: 1.082 times the root mean square distance of the points from their middle. A square patch
+  /// under even pressure resists twisting as if all friction acted at 0.541 of its half diagonal.
   static ISO_INLINE L patch_radius(const Vec3<L>* arms_b, Vec3<L> middle, int points, L share) {
     auto sum = SumOf<L, L>::zero();
     for (int p = 0; p < points; ++p) {
@@ -310,7 +310,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     const L k = round_to<L>(dot_sum(n, make.kappa_a * n * make.share_a) + dot_sum(n, make.kappa_b * n * make.share_b));
     const Mask turns = less(zero, k);
     const L gyration = min(quotient_where<L>(turns, one, root(max(k, zero))), L::broadcast(Limits<S>::extent()));
-    // At four times that radius what is in contact spins no more as it is; the larger is no different and fits.
+    // A contact at four times that radius spins no more as it is; a larger one is no different, and this one fits.
     const L reach = max(patch, min(material.spin, gyration * L::broadcast(S(4))));
     const L radius = max(reach, gyration);
     const Vec3<L> twist = n * radius;
@@ -323,7 +323,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     // The rows' radius is the distance from the contact to the centre that rolls: it keeps the coefficients near one.
     const L zero = L::zero();
     const L radius = max(select(a.moves, abs(dot(arms.a, n)), zero), select(b.moves, abs(dot(arms.b, n)), zero));
-    // Along the rolling itself, so that the two rows' separate limits resist it as one.
+    // The rows lie along the rolling itself, so that their separate limits resist it as one.
     const Vec3<V> angular_velocity = flatten(b.angular_velocity - a.angular_velocity, n);
     const Mask rolls = less(V::broadcast(Velocity<S>(0.01)), max_abs(angular_velocity));  // [rad/s] slower is rest
     const Tangents<U> basis = basis_along(rolls, angular_velocity, n);
@@ -333,7 +333,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
       const Vec3<L> jacobian = axis * radius;
       make.angular(jacobian, jacobian, zero, V::zero(), rolling.rows[k]);
     }
-    // Beyond the radius itself a body does not roll at all; four times it is no different and fits.
+    // A body does not roll at all beyond the radius itself; four times it is no different and fits.
     const L lever = quotient_where<L>(less(zero, radius), resistance, radius);
     min(lever, L::broadcast(S(4))).store(rolling.lever);
   }

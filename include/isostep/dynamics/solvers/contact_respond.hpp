@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// After all contacts were prepared those that answer otherwise are changed, and after each pass those that give way
-/// are relieved: kernels know of neither, so that a world without them pays nothing.
+/// Contacts that answer otherwise are changed after all were prepared, and those that give way are relieved after each
+/// pass: kernels know of neither, so that a world without them pays nothing.
 template <class S> class RespondingContact : public ContactLane<S> {
   using Lane = ContactLane<S>;
   using typename Lane::Block, typename Lane::Rolling, typename Lane::Row, typename Lane::V;
@@ -23,8 +23,8 @@ template <class S> class RespondingContact : public ContactLane<S> {
     this->put(this->block() + offsetof(Block, share_b), share.b);
     this->turn_by(response.seen_a(a).kappa, response.seen_b(b).kappa);
   }
-  /// What the points press with beyond `most` [m/s] together is given back, of each the same part, and of friction,
-  /// twist and rolling what is beyond the cone of the rest.
+  /// Gives back what the points press with beyond `most` [m/s] together, of each the same part, and of friction, twist
+  /// and rolling what is beyond the cone of the rest.
   ISO_INLINE void relieve(V most, MotionRow<V>& a, MotionRow<V>& b) const {
     V load = V(0);
     for (std::size_t p = 0; p < this->points(); ++p) load = saturating_add(load, impulse_at(this->normal(p)));

@@ -1,5 +1,5 @@
-// From solved blocks back to the contacts: the impulses that the next step begins with. Part of contact_kernel.inl,
-// with internal linkage like it.
+// Stores solved blocks in the contacts: the impulses that the next step begins with. Part of contact_kernel.inl, with
+// internal linkage like it.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -7,7 +7,7 @@
 namespace isostep {
 
 namespace detail {
-/// [1] of an overlap that is to be gone after the sub-step, at kPushSpeed or slower.
+/// [1] The part of an overlap that is to be gone after the sub-step, at kPushSpeed or slower.
 template <class S> inline constexpr S kDirectContactShare = S(0.25);
 }  // namespace detail
 
@@ -64,7 +64,7 @@ void DirectSolver<S>::ask_contact(const StepContext<S>& context, Island& island,
     const NormalRow<S, 1>& row = block.normals[p];
     const V separation = row.separation[0] + speed_of(island, r, bodies_.rows().displacement);
     V wanted = V(0);
-    // Relaxed, a gap that is still open pushes nothing: what closes it is the next sub-step's, which may see it bounce.
+    // A gap that is still open pushes nothing in a relaxed pass: the next sub-step closes it, and may see it bounce.
     const bool opens = pass == Pass::relaxed && separation > V(0) && !(impulse_of(island, r) > V(0));
     if (separation > V(0)) wanted = -scaled(rate, opens ? farthest : min(separation, farthest));
     else if (pass == Pass::biased)
@@ -73,7 +73,7 @@ void DirectSolver<S>::ask_contact(const StepContext<S>& context, Island& island,
   }
 }
 
-/// Points that pushed push again and friction at its limit stays there. Of a contact that is new everything holds.
+/// Points that pushed push again and friction at its limit stays there. Everything holds in a contact that is new.
 template <class S> void DirectSolver<S>::guess_contact(const StepContext<S>& context, Island& island, std::uint32_t k) {
   Block& block = block_of(context, island.contacts[k]);
   const DirectPatch<N>& patch = island.system.patches()[k];

@@ -24,7 +24,7 @@ template <class N> void DirectSystem<N>::start_from_sweeps() {
   }
 }
 
-/// How far from `from` towards the answers bounds allow; the row that stops it is held there.
+/// Steps from `from` towards the answers as far as bounds allow; the row that stops it is held there.
 template <class N> void DirectSystem<N>::step_within_bounds() {
   N most = N(1);
   std::uint32_t stop = 0;
@@ -79,7 +79,7 @@ template <class N> bool DirectSystem<N>::descend() {
   return false;
 }
 
-/// What is bounded stays as it is; joints take what that leaves.
+/// Solves the equations alone: bounded rows stay as they are, and joints take what that leaves.
 template <class N> void DirectSystem<N>::solve_equations() {
   for (DirectBlock<N>& block : blocks_) {
     for (DirectRow<N>& row : block.rows) {
@@ -92,7 +92,7 @@ template <class N> void DirectSystem<N>::solve_equations() {
   holds_ = false;
 }
 
-/// Without what was found so far, which is of any size: sweeps from nothing stay near what is asked.
+/// Solves without the answers found so far, which are of any size: sweeps from nothing stay near what is asked.
 template <class N> void DirectSystem<N>::solve_anew() {
   for (DirectBlock<N>& block : blocks_) {
     for (DirectRow<N>& row : block.rows) row.answer = row.last = N(0);

@@ -9,19 +9,19 @@
 namespace isostep {
 
 namespace detail {
-/// [1] of an error that is to be gone after the sub-step: nothing has to converge, so half; all of it would answer the
-/// error of a curved path with its mirror image.
+/// [1] The part of an error that is to be gone after the sub-step: nothing has to converge, so half; all of it would
+/// answer the error of a curved path with its mirror image.
 template <class S> inline constexpr S kDirectJointShare = S(0.5);
 
-/// The same of limits, and the speed that they close with [m/s]: half a metre a second turns a limb at ten radians a
-/// second.
+/// [1] The part of a limit's error that is to be gone after the sub-step, and the speed that limits close with [m/s]:
+/// half a metre a second turns a limb at ten radians a second.
 template <class S> inline constexpr S kDirectLimitShare = S(0.125);
 template <class S> inline constexpr Velocity<S> kDirectLimitSpeed = Velocity<S>(0.5);
 
-/// Row of a drive's block.
+/// The rows of a drive's block.
 enum DriveRow : std::uint32_t { kSpringRow, kMotorRow, kLimitRow };
 
-/// Which bound of a drive is nearer: the only one that a sub-step can reach.
+/// The lower bound of a drive is the nearer one: the only one that a sub-step can reach.
 template <class S> ISO_INLINE bool is_lower(const JointDrive<S>& drive) {
   if (!drive.bounded_above) return true;
   return drive.bounded_below && drive.position - drive.lower < drive.upper - drive.position;
@@ -55,7 +55,7 @@ template <class S> void DirectSolver<S>::linearise_joints(const StepContext<S>& 
   }
 }
 
-/// As JointTrees.
+/// Stiffens bodies at taut joints, as JointTrees does.
 template <class S>
 void DirectSolver<S>::stiffen(Island& island, std::span<const JointConstraint<S>> joints, Step<S> h) {
   taut_.clear();
@@ -182,7 +182,7 @@ void DirectSolver<S>::keep_joint(JointConstraint<S>& joint, const Island& island
   }
 }
 
-/// Rods that came to pull much harder have their rows across placed anew: judge_sway(). Whether there are any.
+/// Places the rows across rods anew that came to pull much harder: judge_sway(). Returns whether there are any.
 template <class S> bool DirectSolver<S>::tighten(Island& island) {
   bool any = false;
   for (std::size_t k = 0; k < island.joints.size(); ++k) {

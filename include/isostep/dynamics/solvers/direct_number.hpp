@@ -60,12 +60,12 @@ template <> struct DirectNumber<Fixed<std::int64_t, 62>> {
     return N::from_raw(x.raw() < 0 ? -size : size);
   }
   static ISO_INLINE N root(N x) { return sqrt(x); }
-  /// Of x in [1/4, 1).
+  /// Takes x in [1/4, 1).
   static ISO_INLINE N inverse_root(N x, int& exponent) {
     exponent = 1;
     return divide_to<N>(N(0.5), sqrt(x));
   }
-  /// Of |a| < 2 |b|.
+  /// Takes |a| < 2 |b|.
   static ISO_INLINE N quotient(N a, N b) { return a / b; }
   static ISO_INLINE N bounded(N x) { return clamp(x, -kMost, kMost); }
 };

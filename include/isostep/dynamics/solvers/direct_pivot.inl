@@ -110,7 +110,7 @@ template <class N> bool DirectSystem<N>::solve_free() {
   return true;
 }
 
-/// What counts as zero: 2^-26 of the largest right-hand side, and what rounding leaves of the largest answer.
+/// Finds what counts as zero: 2^-26 of the largest right-hand side, and what rounding leaves of the largest answer.
 template <class N> void DirectSystem<N>::find_tolerances() {
   N right = N(0), answer = N(0);
   for (const DirectBlock<N>& block : blocks_) {
@@ -162,7 +162,7 @@ template <class N> bool DirectSystem<N>::takes_back(const DirectRow<N>& row, boo
   return firm || row.bound == DirectBound::equal;
 }
 
-/// Whether what rows yielded to is worth another pass.
+/// Returns whether the speeds to which rows yielded are worth another pass.
 template <class N> bool DirectSystem<N>::yielded(bool firm) const {
   for (const DirectBlock<N>& block : blocks_) {
     for (const DirectRow<N>& row : block.rows) {
@@ -218,7 +218,7 @@ template <class N> bool DirectSystem<N>::solve(bool firm, std::uint64_t most_wor
   return false;
 }
 
-/// Within bounds, and the motions that they give.
+/// Holds answers within bounds, and finds the motions that they give.
 template <class N> void DirectSystem<N>::settle_answers() {
   for (DirectBlock<N>& block : blocks_) {
     for (DirectRow<N>& row : block.rows) row.answer = clamped(row, row.answer);
@@ -226,8 +226,8 @@ template <class N> void DirectSystem<N>::settle_answers() {
   gather_motions(false);
 }
 
-/// Whether rows that hold are off by more than twice what was asked of any. Where a joint presses a body against what
-/// does not give way, loads grow to thousands of times what is asked, friction with them, and its limits never hold
+/// Returns whether rows that hold are off by more than twice what was asked of any. A joint that presses a body against
+/// an immovable one makes loads of thousands of times what is asked, and friction with them, whose limits never hold
 /// still: cut to the last, it no longer balances them. The way that is left to a contact asks for nothing.
 template <class N> bool DirectSystem<N>::is_violated() const {
   N asked = N(0), worst = N(0);

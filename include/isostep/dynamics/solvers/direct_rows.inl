@@ -62,7 +62,7 @@ typename DirectSolver<S>::End DirectSolver<S>::end_of(std::uint32_t row, const S
   end.linear_exponent = root.root_exponent;
   const S largest = max_abs(angular);
   if (!(largest > S(0))) return end;
-  // Halved, so that three products add up to less than two.
+  // The parts are halved, so that three products add up to less than two.
   const int exponent = System::exponent(System::value(largest)) + D::kRoom;
   const Vec3<N> a = {number(angular.x, exponent), number(angular.y, exponent), number(angular.z, exponent)};
   const Mat3<N>& t = root.turn;
@@ -142,7 +142,7 @@ typename DirectSolver<S>::Value DirectSolver<S>::answer_of(const Island& island,
   return System::product(System::value(impulse), island.ends[r / 3].reduced);
 }
 
-/// [m/s] held within the speed limit: as a state it must not wrap, and it is no more than a guess.
+/// [m/s] A row's impulse within the speed limit: as a state it must not wrap, and it is no more than a guess.
 template <class S>
 typename DirectSolver<S>::V DirectSolver<S>::impulse_of(const Island& island, std::uint32_t r) const {
   const DirectRow<N>& row = island.system.row(r);

@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// Which answers a row admits.
+/// The answers that a row admits.
 enum class DirectBound : std::uint8_t {
   absent,  // none: padding of its block
   equal,   // any
@@ -18,7 +18,7 @@ enum class DirectBound : std::uint8_t {
   below,   // x <= 0
   boxed    // |x| <= limit
 };
-/// What pivoting takes a row for.
+/// The state of a row in pivoting.
 enum class DirectState : std::uint8_t { free, at_low, at_high };
 
 /// A row of W = J M^-1/2, scaled so that |w|^2 is about one, and what is asked of it.
@@ -80,7 +80,7 @@ template <class N> class DirectSystem {
   static constexpr int kSweeps = 16, kLeastSweeps = 4;
   static constexpr std::uint64_t kSweepWork = 4;  // of a block in a sweep: three rows at two ends
 
-  /// No blocks.
+  /// Begins without blocks.
   void begin();
   std::uint32_t add_block(std::uint32_t body_a, std::uint32_t body_b);
   ISO_INLINE std::uint32_t block_count() const { return static_cast<std::uint32_t>(blocks_.size()); }
@@ -90,28 +90,28 @@ template <class N> class DirectSystem {
   /// u of a body.
   ISO_INLINE const DirectMotion<N>& motion(std::uint32_t body) const { return motions_[body]; }
 
-  /// Once all blocks between bodies 0..body_count are there. More than most_blocks, and blocks that meet too many
+  /// Ties blocks, once all between bodies 0..body_count are there. More than most_blocks, and blocks that meet too many
   /// others (a heap at one place) for kLeastPivots within most_work, are swept, never factorised.
   void tie(std::uint32_t body_count, std::uint32_t most_blocks, std::uint64_t most_work);
-  /// K from the rows as they are now.
+  /// Assembles K from the rows as they are now.
   void assemble();
-  /// Answers and limits times 2^by: the exponent that they share becomes another.
+  /// Multiplies answers and limits by 2^by: the exponent that they share becomes another.
   void rescale(int by);
-  /// What a patch's friction is taken for, from answers and load: at its limit or not; fresh: it holds.
+  /// Guesses the state of a patch's friction from answers and load: at its limit or not; fresh: it holds.
   void guess_friction(std::uint32_t patch, bool fresh);
-  /// Rows whose bound is now on the other side are held there.
+  /// Holds rows whose bound is now on the other side there.
   void settle();
-  /// From now on only what cannot give way is solved: neither friction nor motors nor springs.
+  /// Releases rows that can give way: neither friction nor motors nor springs are solved from now on.
   void release();
-  /// False: no end was found within most_work, or one that does not hold. Then, bounded answers are within bounds, and
-  /// joints hold unless all was swept, as often as that allows, and kLeastSweeps at least. Firm: contacts, too, are not
-  /// to yield, at the price of more passes. Equations never are.
+  /// Solves. False: no end was found within most_work, or one that does not hold. Then bounded answers are within
+  /// bounds, and joints hold unless all was swept, as often as that allows, and kLeastSweeps at least. Firm: contacts,
+  /// too, are not to yield, at the price of more passes. Equations never are.
   bool solve(bool firm, std::uint64_t most_work);
-  /// Projected Gauss-Seidel from the answers so far.
+  /// Sweeps by projected Gauss-Seidel from the answers so far.
   void sweep(int sweeps);
 
   ISO_INLINE int pivots() const { return pivots_; }  // of the last solve
-  /// Of a problem that is worth beginning with.
+  /// The work of the least solve that is worth beginning.
   ISO_INLINE std::uint64_t least_work() const { return kLeastPivots * elimination_work(); }
   /// Products of blocks that the last solve took, near enough: some 50 ns each in double.
   ISO_INLINE std::uint64_t work() const { return work_; }

@@ -47,13 +47,13 @@ template <class S> class Impacts {
   using Motion = MotionRow<V>;
 
  public:
-  /// Once a step, after bodies were gathered.
+  /// Begins a step, after bodies were gathered.
   void begin(const StepContext<S>& context, const SolverBodies<S>& bodies);
   /// True if any contact of the step may bounce.
   ISO_INLINE bool any() const { return !bouncing_.empty(); }
-  /// Before the velocities of a sub-step are integrated, after its forces are known.
+  /// Solves bounces before the velocities of a sub-step are integrated, after its forces are known.
   void bounce(const StepContext<S>& context, BodyRows<S>& bodies);
-  /// After the solver has stored the contacts' impulses: adds those of bounces.
+  /// Adds the impulses of bounces, after the solver has stored the contacts' own.
   void store(const StepContext<S>& context) const;
 
  private:

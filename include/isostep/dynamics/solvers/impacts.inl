@@ -62,7 +62,7 @@ template <class S> void Impacts<S>::bounce(const StepContext<S>& context, BodyRo
   }
 }
 
-/// After the first round what touches a body that the last one changed.
+/// Finds the contacts that bounce; after the first round only those on a body that the last one changed.
 template <class S> void Impacts<S>::find(const StepContext<S>& context, const BodyRows<S>& bodies, bool first) {
   touches_.clear();
   for (std::uint32_t i = 0; i < bouncing_.size(); ++i) {
@@ -124,7 +124,7 @@ template <class S> bool Impacts<S>::meets(V gap, V speed, V forced, std::int32_t
   return true;
 }
 
-/// With the inertia of now: one that is a few sub-steps old changes what an impact does to energy.
+/// The body as the contact sees it, with the inertia of now: one a few sub-steps old changes an impact's energy.
 template <class S>
 SolverMass<S> Impacts<S>::seen(const StepContext<S>& context, const SolverBodies<S>& bodies, const Bouncing& of,
                                bool is_a) const {
@@ -267,7 +267,7 @@ void Impacts<S>::apply_scales(const StepContext<S>& context, SolverBodies<S>& bo
   }
 }
 
-/// Friction, within the cone of what each point bore.
+/// Applies friction, within the cone of what each point bore.
 template <class S> void Impacts<S>::rub(const StepContext<S>& context, SolverBodies<S>& bodies) {
   for (const TouchRow<S>& touch : touches_) {
     const ContactGeometry<S>& g = geometry_of(context, touch);

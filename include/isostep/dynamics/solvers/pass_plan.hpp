@@ -1,4 +1,4 @@
-// How a pass over the contacts' blocks is shared out among threads: stages in order, pieces side by side.
+// Shares a pass over the contacts' blocks out among threads: stages in order, pieces side by side.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace isostep {
 
-/// How many pieces some work is worth: one a thread, none smaller than `least`; of much work four a thread, so that
-/// little waits for one that is interrupted.
+/// The number of pieces that some work is worth: one a thread, none smaller than `least`; four a thread for much work,
+/// so that little waits for one that is interrupted.
 ISO_INLINE std::uint32_t piece_count(std::uint32_t work, std::uint32_t least, std::uint32_t threads) {
   const std::uint32_t most = work / least;
   if (threads <= 1 || most <= 1) return 1;

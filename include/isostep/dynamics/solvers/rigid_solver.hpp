@@ -1,4 +1,4 @@
-// What a rigid solver is: the calls of one step, in their order.
+// The concept of a rigid solver: the calls of one step, in their order.
 // SPDX-License-Identifier: MIT
 #pragma once
 

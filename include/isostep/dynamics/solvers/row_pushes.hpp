@@ -75,7 +75,7 @@ ISO_INLINE JointRow<S> weighed_row(Vec3<S> linear, Vec3<S> angular_a, Vec3<S> an
                                    const SolverMass<S>& b, MassShare<S> share) {
   return {linear, angular_a, angular_b, (a.kappa * angular_a) * share.a, (b.kappa * angular_b) * share.b};
 }
-/// What an impulse along row j changes of the speed along row i; `linear`: of the two rows' linear parts.
+/// The change of the speed along row i by an impulse along row j; `linear`: of the two rows' linear parts.
 template <class S> ISO_INLINE S coupling_of(const JointRow<S>& i, const JointRow<S>& j, S linear) {
   return linear + round_to<S>(dot_sum(i.angular_a, j.turn_a) + dot_sum(i.angular_b, j.turn_b));
 }
@@ -84,7 +84,7 @@ template <class S> ISO_INLINE S coupling_of(const JointRow<S>& i, const JointRow
 template <class S> ISO_INLINE S mass_of(S coupling) {
   return S(0.125) < coupling ? divide_to<S>(S(1), coupling) : S(0);
 }
-/// By LDL^T, as invert_symmetric(): a determinant need not fit.
+/// Inverts a pair's coupling by LDL^T, as invert_symmetric() does: a determinant need not fit.
 template <class S> ISO_INLINE void invert_pair(TangentPair<S>& pair, S linear) {
   const S k0 = coupling_of(pair.rows[0], pair.rows[0], linear), k1 = coupling_of(pair.rows[1], pair.rows[1], linear);
   const S c = coupling_of(pair.rows[0], pair.rows[1], S(0));
@@ -98,9 +98,9 @@ template <class S> ISO_INLINE void invert_pair(TangentPair<S>& pair, S linear) {
 
 template <class V> struct PairChange { V x, y; };
 
-/// What brings a pair to rest; where that would leave a disc of radius `limit`, what brings the impulse towards the
-/// point of its rim that opposes the slip. There the step must be the same along both rows: the inverse coupling leads
-/// elsewhere, for a point off the centre is lighter across than along its arm.
+/// The change that brings a pair to rest; where that would leave a disc of radius `limit`, the one that brings the
+/// impulse towards the point of its rim that opposes the slip. There the step must be the same along both rows: the
+/// inverse coupling leads elsewhere, for a point off the centre is lighter across than along its arm.
 template <class S>
 ISO_INLINE PairChange<Velocity<S>> resting_change(const TangentPair<S>& pair, Velocity<S> limit, const Motion<S>& a,
                                                   const Motion<S>& b) {

@@ -44,8 +44,8 @@ template <class S> inline constexpr S kMostPenetrationBias = S(1.0 / 64);  // [m
 template <class S> inline constexpr S kDeepOverlap = S(1.0 / 64);  // [m]
 inline constexpr int kDeepRelaxations = 4;
 
-/// [1] of an error that Baumgarte's term asks to be closed in a step: Box2D's and Bullet's choice, below which errors
-/// stay and above which stacks jump.
+/// [1] The part of an error that Baumgarte's term asks to be closed in a step: Box2D's and Bullet's choice, below which
+/// errors stay and above which stacks jump.
 template <class S> inline constexpr S kBaumgarte = S(0.2);
 
 }  // namespace detail

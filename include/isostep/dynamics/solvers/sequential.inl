@@ -20,7 +20,7 @@ ISO_INLINE std::uint32_t depth_of(const ContactGeometry<S>& g, std::uint32_t poi
   return bodies.moves(g.row_a) && bodies.moves(g.row_b) ? kDeep : kPressed;
 }
 
-// [rows] With less to do in a pass a world stays on its thread: waking another costs more than it saves.
+// [rows] A world with less to do in a pass stays on its thread: waking another costs more than it saves.
 inline constexpr std::uint32_t kLeastShared = 512;
 
 }  // namespace detail
@@ -81,7 +81,7 @@ template <class S> void Sequential<S>::colour_constraints(const StepContext<S>& 
   }
   bucket_ends_[kUncolouredBucket] = total;
   for (std::size_t i = 0; i < count; ++i) order_[bucket_ends_[bucket_[i]]++] = static_cast<std::uint32_t>(i);
-  // What found no colour is solved one by one, in canonical order, at every width.
+  // Contacts that found no colour are solved one by one, in canonical order, at every width.
   const ContactKernels<S>& narrow = *contact_kernels<S>(Simd::scalar);
   for (std::uint32_t first = total; first < count;) {
     const std::uint32_t kind = kind_of(order_[first]);
@@ -93,8 +93,8 @@ template <class S> void Sequential<S>::colour_constraints(const StepContext<S>& 
   plan_passes(context.runner);
 }
 
-/// What found no colour is one piece by itself, however much it is: its order counts. A body counts as a row: to
-/// integrate it costs as much.
+/// Contacts that found no colour are one piece by themselves, however many they are: their order counts. A body counts
+/// as a row: to integrate it costs as much.
 template <class S> void Sequential<S>::plan_passes(const TaskRunner& runner) {
   const auto rows_of = [](const Run& run) {
     const detail::Variant shape = detail::Variant::of(run.variant);
@@ -242,7 +242,7 @@ template <class S> void Sequential<S>::respond(const StepContext<S>& context) {
     most_[i] = response.most_impulse(a.mass, b.mass, divide_to<Step<S>>(S(1), S(schedule_.rate)));
   }
 }
-/// In the contacts' order, of what a pass left.
+/// Relieves contacts that give way of what a pass left, in their order.
 template <class S> void Sequential<S>::relieve(const StepContext<S>& context) {
   SolverBodies<S>& bodies = bodies_.rows();
   for (std::size_t i = 0; i < responding_.size(); ++i) {

@@ -1,4 +1,4 @@
-// What each rigid solver leaves behind from stage to stage, by name: visit_scratch of rigid_solver.hpp.
+// The fields that each rigid solver leaves from stage to stage, by name: visit_scratch of rigid_solver.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -65,7 +65,7 @@ template <class S> template <class Visit> void PreparedJoints<S>::visit_scratch(
   });
 }
 
-/// What every solver has: its joints and its bodies.
+/// Visits the rows that every solver has: its joints and its bodies.
 template <class S, class Visit>
 void visit_rows(const Visit& visit, SolverStage stage, PreparedJoints<S>& joints, BodyRows<S>& bodies) {
   if (stage == SolverStage::colour || stage == SolverStage::solve)

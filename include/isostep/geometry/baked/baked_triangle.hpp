@@ -12,7 +12,7 @@ namespace isostep {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
-/// What the surface does at an edge of a triangle. It is the same seen from both triangles of the edge.
+/// The bend of the surface at an edge of a triangle. It is the same seen from both triangles of the edge.
 enum class EdgeKind : std::uint8_t {
   border,   // there is no neighbour
   flat,     // the neighbour goes on in the plane
@@ -21,11 +21,12 @@ enum class EdgeKind : std::uint8_t {
   fold      // the neighbour lies back on this triangle, in its plane: the rim of a sheet with two sides
 };
 
-/// In steps of its geometry's grid. The outward side is where its points run counter-clockwise.
+/// The corners of a triangle, in steps of its geometry's grid. The outward side is where its points run
+/// counter-clockwise.
 struct TriangleCorners {
   MeshPoint points[3];
 
-  /// [steps^2] Outward; its length is twice the area.
+  /// [steps^2] The outward normal; its length is twice the area.
   ISO_INLINE constexpr GridVector normal() const { return cross(points[1] - points[0], points[2] - points[0]); }
   ISO_INLINE constexpr MeshBox bounds() const {
     MeshBox box = MeshBox::empty();
@@ -33,7 +34,7 @@ struct TriangleCorners {
     return box;
   }
 };
-/// With what is beside it.
+/// A triangle with its neighbours' far vertices, the kinds of its edges and its material.
 struct BakedTriangle : TriangleCorners {
   MeshPoint
       opposite[3];  // the neighbour's vertex off edge k, which leads from points[k] to the next; 0, 0, 0 at a border
@@ -41,14 +42,15 @@ struct BakedTriangle : TriangleCorners {
   std::uint8_t material;
 
   ISO_INLINE constexpr bool has_neighbour(int k) const { return edges[k] != EdgeKind::border; }
-  /// [steps^2] Of the neighbour across edge k, which there is.
+  /// [steps^2] The normal of the neighbour across edge k, which there is.
   ISO_INLINE constexpr GridVector neighbour_normal(int k) const {
     const MeshPoint at = points[(k + 1) % 3];
     return cross(points[k] - at, opposite[k] - at);
   }
 };
 
-/// Of the edge from a to b of the triangle a, b, c, whose neighbour b, a has the vertex `opposite`. Both have an area.
+/// The kind of the edge from a to b of the triangle a, b, c, whose neighbour b, a has the vertex `opposite`. Both have
+/// an area.
 ISO_INLINE constexpr EdgeKind edge_kind(MeshPoint a, MeshPoint b, MeshPoint c, MeshPoint opposite) {
   const GridVector normal = cross(b - a, c - a);
   const Int128 height = wide_dot(normal, opposite - a);
@@ -67,8 +69,8 @@ struct AnyVisit {
 }  // namespace detail
 
 /// Triangles with ids 0 to triangle_count() - 1, not all of which need be there. Ghosts (kGhostMaterial) are neighbours
-/// and have corners, and else are not there: has_triangle is false, and neither query nor traverse visits them. So a
-/// tile that has the first triangles of the next one as ghosts is as smooth at its rim as inside.
+/// and have corners, but are not there otherwise: has_triangle is false, and neither query nor traverse visits them. So
+/// a tile that has the first triangles of the next one as ghosts is as smooth at its rim as inside.
 ///
 /// `query` calls visit(id) for every triangle whose own box touches the box. `traverse` descends where overlaps(box of
 /// a node) is true and calls visit(id) for the triangles of the leaves it reaches, whose own boxes it does not look at;

@@ -7,7 +7,8 @@
 namespace isostep {
 
 namespace detail {
-/// What convex_hull makes of eight corners: vertex 4 x + 2 y + z, where x, y, z are 1 on the positive sides.
+/// The half-edges that convex_hull makes of eight corners: vertex 4 x + 2 y + z, where x, y, z are 1 on the positive
+/// sides.
 inline constexpr HalfEdge kBoxHalfEdges[24] = {{0, 6, 0},  {1, 4, 2},  {0, 12, 1}, {2, 0, 0},  {0, 16, 2}, {4, 2, 1},
                                                {1, 11, 0}, {3, 8, 3},  {1, 20, 3}, {5, 1, 2},  {2, 14, 4}, {3, 3, 0},
                                                {2, 19, 1}, {6, 10, 4}, {3, 23, 4}, {7, 7, 3},  {4, 9, 2},  {5, 18, 5},
@@ -49,7 +50,7 @@ template <class S> class BoxSolid {
     for (int f = 0; f < 6; ++f) offsets_[f] = half[detail::kBoxFaceAxes[f]];
   }
 
-  /// Valid as long as this is.
+  /// The box as a Polyhedron, valid as long as this is.
   ISO_INLINE Polyhedron<S> polyhedron() const {
     using U = Unit<S>;
     return {{&vertices_, 8},

@@ -22,8 +22,8 @@ struct HalfEdge {
   }
 };
 
-/// Strictly convex: no three vertices of a face lie on a line, no two faces in a plane. It depends on the set of points
-/// alone, not on their order, nor on points inside of it.
+/// A strictly convex hull: no three vertices of a face lie on a line, no two faces in a plane. It depends on the set of
+/// points alone, not on their order, nor on points inside of it.
 struct ConvexHull {
   static constexpr std::uint32_t kMaxVertices = 128, kMaxEdges = 128, kMaxFaces = 128;  // indices are bytes
   static constexpr std::int64_t kLeastThickness = 4;  // [steps] below it, rounding to the grid would shape the faces
@@ -33,7 +33,7 @@ struct ConvexHull {
   std::vector<HalfEdge> half_edges;  // edges ascend by their vertices
   std::vector<std::uint8_t> faces;   // of each, its half-edge that starts at its lowest vertex; ascending
 
-  // As the compiler makes them, but no weak functions in each of the files that hold hulls.
+  // These are what the compiler would make, but without weak functions in each of the files that hold hulls.
   ISO_INLINE ConvexHull() = default;
   ISO_INLINE ConvexHull(const ConvexHull&) = default;
   ISO_INLINE ConvexHull(ConvexHull&&) = default;
@@ -42,17 +42,17 @@ struct ConvexHull {
   ISO_INLINE ~ConvexHull() = default;
 
   ISO_INLINE std::uint8_t destination(std::uint8_t half_edge) const { return half_edges[half_edge ^ 1u].origin; }
-  /// [steps^2] Outward, of one face; its length says nothing.
+  /// [steps^2] The outward normal of one face; its length says nothing.
   GridVector normal(std::uint8_t face) const;
 };
 
-/// By quickhull (Barber, Dobkin and Huhdanpaa 1996) in exact integers. Errors, whose place is "points":
+/// Runs quickhull (Barber, Dobkin and Huhdanpaa 1996) in exact integers. Errors, whose place is "points":
 /// ErrorCode::invalid for a coordinate not below GridPoint::kLimit and for points that are one, on a line or flat;
 /// ErrorCode::limit for more vertices, edges or faces than there may be, with the count.
 Result<ConvexHull> convex_hull(std::span<const GridPoint> points);
 
-/// At most `count` of the points, at least 4, ascending: those that reach furthest beyond the ones before. What they
-/// leave out of the hull is the caller's to judge. Errors as above.
+/// Chooses at most `count` of the points, at least 4, ascending: those that reach furthest beyond the ones before. The
+/// caller judges the part that they leave out of the hull. Errors are those of convex_hull().
 Result<std::vector<GridPoint>> simplified(std::span<const GridPoint> points, std::uint32_t count);
 
 }  // namespace isostep

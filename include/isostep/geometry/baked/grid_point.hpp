@@ -11,8 +11,8 @@ namespace isostep {
 
 /// Baked geometry is made of integers, so that every predicate is exact: all scalars and all machines get one topology.
 struct GridPoint {
-  /// [steps] Magnitude of a coordinate, exclusive. An edge then has 20 bits and a sign, six times the volume of a
-  /// tetrahedron 62.6 bits: a 64-bit integer holds it. Float and Q16.16 hold a coordinate.
+  /// [steps] The limit of a coordinate's magnitude, exclusive. An edge then has 20 bits and a sign, six times the
+  /// volume of a tetrahedron 62.6 bits: a 64-bit integer holds it. Float and Q16.16 hold a coordinate.
   static constexpr std::int32_t kLimit = 1 << 19;
 
   std::int32_t x, y, z;
@@ -22,14 +22,14 @@ struct GridPoint {
   friend ISO_INLINE constexpr bool operator==(GridPoint a, GridPoint b) {
     return a.x == b.x && a.y == b.y && a.z == b.z;
   }
-  /// Ascends by x, then y, then z.
+  /// A number that ascends by x, then y, then z.
   ISO_INLINE constexpr std::uint64_t key() const {
     const auto digit = [](std::int32_t v) ISO_INLINE_LAMBDA { return static_cast<std::uint64_t>(v + kLimit); };
     return digit(x) << 40 | digit(y) << 20 | digit(z);
   }
 };
 
-/// [steps] Differences of points, and what is made of them.
+/// [steps] A difference of points, or a product of two.
 struct GridVector {
   std::int64_t x, y, z;
 
@@ -41,7 +41,7 @@ struct GridVector {
     return a.x == b.x && a.y == b.y && a.z == b.z;
   }
 };
-/// Up to 2^83.6 of a face's normal.
+/// The squared length: up to 2^83.6 of a face's normal.
 ISO_INLINE constexpr Int128 squared_length(GridVector v) {
   return Int128(v.x) * v.x + Int128(v.y) * v.y + Int128(v.z) * v.z;
 }

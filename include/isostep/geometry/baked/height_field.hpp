@@ -14,7 +14,7 @@
 
 namespace isostep {
 
-/// Where the heights stand. Column i is at x = i pitch, row k at z = k pitch, a height h at y = h 2^height_shift, all
+/// The places of the heights. Column i is at x = i pitch, row k at z = k pitch, a height h at y = h 2^height_shift, all
 /// in steps: one grid for all three, the one of meshes.
 struct HeightGrid {
   std::uint32_t exponent;      // a step is 2^-exponent m
@@ -29,8 +29,8 @@ struct HeightGrid {
   ISO_FIELDS(exponent, height_shift, columns, rows, pitch)
 };
 
-/// A rectangle of a field's places and what stands there now: columns times rows heights, by rows; and of the cells
-/// between its places, (columns - 1) times (rows - 1), materials, or none at all: they stay.
+/// A rectangle of a field's places and its new heights: columns times rows of them, by rows; and the materials of the
+/// cells between its places, (columns - 1) times (rows - 1), or none at all: they stay.
 struct HeightPatch {
   std::uint32_t column, row;    // of its first place
   std::uint32_t columns, rows;  // places along each side
@@ -38,17 +38,17 @@ struct HeightPatch {
   std::span<const std::uint8_t> materials = {};
 };
 
-/// Immutable. Cell (i, k) is number k (columns - 1) + i and lies between columns i, i + 1 and rows k, k + 1. It is cut
-/// from (i + 1, k) to (i, k + 1); both triangles face up. Triangle 2 cell + half: half 0 has the corner (i, k) and the
-/// points (i, k), (i, k + 1), (i + 1, k); half 1 has (i + 1, k + 1), (i + 1, k), (i, k + 1).
-/// All but heights and materials is computed when it is asked for; of blocks of cells, least and greatest heights are
-/// kept, of blocks of blocks too.
+/// An immutable surface. Cell (i, k) is number k (columns - 1) + i and lies between columns i, i + 1 and rows k, k + 1.
+/// It is cut from (i + 1, k) to (i, k + 1); both triangles face up. Triangle 2 cell + half: half 0 has the corner (i,
+/// k) and the points (i, k), (i, k + 1), (i + 1, k); half 1 has (i + 1, k + 1), (i + 1, k), (i, k + 1).
+/// All but heights and materials is computed when it is asked for; least and greatest heights are kept of blocks of
+/// cells, and of blocks of blocks.
 class BakedHeightField {
  public:
   static constexpr std::uint32_t kMaxExponent = 16, kMaxHeightShift = 7, kMaxCells = 1u << 24;
   static constexpr std::uint8_t kHole = 255;  // material of a cell without triangles; kGhostMaterial: with ghosts
 
-  // As the compiler makes them, but no weak functions in the files that hold height fields.
+  // These are what the compiler would make, but without weak functions in the files that hold height fields.
   ISO_INLINE BakedHeightField(const BakedHeightField&) = default;
   ISO_INLINE BakedHeightField(BakedHeightField&&) = default;
   ISO_INLINE BakedHeightField& operator=(const BakedHeightField&) = default;
@@ -57,18 +57,18 @@ class BakedHeightField {
 
   ISO_INLINE const HeightGrid& grid() const { return grid_; }
   ISO_INLINE int exponent() const { return static_cast<int>(grid_.exponent); }
-  /// By rows.
+  /// All heights, by rows.
   ISO_INLINE std::span<const std::int16_t> heights() const { return heights_; }
-  /// By cells.
+  /// The materials, by cells.
   ISO_INLINE std::span<const std::uint8_t> materials() const { return materials_; }
   ISO_INLINE std::uint8_t material(std::uint32_t id) const { return materials_[id / 2]; }
   ISO_INLINE std::span<const SurfaceMaterial> table() const { return table_; }
-  /// Those of holes and ghosts included.
+  /// The number of triangles, those of holes and ghosts included.
   ISO_INLINE std::uint32_t triangle_count() const { return 2 * cells_x() * cells_z(); }
   ISO_INLINE MeshBox bounds() const { return box_of({0, 0, levels_ - 1}); }
 
   ISO_INLINE bool has_triangle(std::uint32_t id) const { return id < triangle_count() && is_solid(id / 2); }
-  /// Across edge k of a triangle that is there, or kNoTriangle.
+  /// The triangle across edge k of one that is there, or kNoTriangle.
   std::uint32_t neighbour(std::uint32_t id, int k) const;
   ISO_INLINE TriangleCorners corners(std::uint32_t id) const {
     const std::uint32_t i = id / 2 % cells_x(), k = id / 2 / cells_x();
@@ -116,14 +116,15 @@ class BakedHeightField {
     return true;
   }
 
-  /// The field with other heights, and other materials. ErrorCode::invalid: "heights", the rectangle leaves the field,
-  /// or there are not as many heights as it has places; "materials" of another count, or all that is left are holes.
+  /// Makes the field with other heights, and other materials. ErrorCode::invalid: "heights", the rectangle leaves the
+  /// field, or there are not as many heights as it has places; "materials" of another count, or all that is left are
+  /// holes.
   Result<BakedHeightField> with_heights(const HeightPatch& patch) const;
-  /// [steps] Of the cells that have one of the patch's places as a corner, as they are now; the rectangle must be
-  /// inside the field.
+  /// [steps] The box of the cells that have one of the patch's places as a corner, as they are now; the rectangle must
+  /// be inside the field.
   MeshBox bounds_about(const HeightPatch& patch) const;
 
-  /// [bytes] Of this object and all it holds.
+  /// [bytes] The size of this object and all it holds.
   std::size_t memory() const;
   /// The canonical content, little-endian: the fields of the grid, u32 each; heights i16; materials u8; if there is a
   /// table, its count u32 and u16 x 2 each.
@@ -139,7 +140,7 @@ class BakedHeightField {
   /// A block leaves three of its parts waiting and goes on with the fourth.
   static constexpr int kStack = 3 * kLevels + 1;
 
-  /// Heights of the cells of a block that are neither holes nor ghosts; low above high: there are none.
+  /// The heights of a block's cells that are neither holes nor ghosts; there are none where low is above high.
   struct Span {
     std::int16_t low, high;
   };
@@ -147,7 +148,7 @@ class BakedHeightField {
     std::uint32_t x, z;  // in blocks of its level
     std::uint32_t level;
   };
-  /// Of a triangle: its cell, and 1 for half 0, -1 for half 1.
+  /// The place of a triangle: its cell, and 1 for half 0, -1 for half 1.
   struct Place {
     std::uint32_t i, k;
     std::int32_t sign;
@@ -177,7 +178,7 @@ class BakedHeightField {
     return std::int64_t{height} * (1 << grid_.height_shift);
   }
   Place place_of(std::uint32_t id) const;
-  /// The number of the cell across edge k, of a ghost too, or kNoTriangle where it is outside or a hole.
+  /// The number of the cell across edge k, a ghost's too, or kNoTriangle where it is outside or a hole.
   std::uint32_t cell_across(Place place, int k) const;
 
   bool range_of(const MeshBox& box, CellRange& range) const;
@@ -267,7 +268,7 @@ class BakedHeightField {
   std::vector<Span> spans_;
 };
 
-/// `heights` has columns times rows numbers.
+/// Builds a height field. `heights` has columns times rows numbers.
 /// ErrorCode::invalid: "exponent" above 16; "height_shift" above 7; "columns" or "rows" below 2; "pitch" 0, or so large
 /// that a coordinate leaves the range of MeshPoint; "heights" or "materials" of another count; "materials" that are all
 /// holes or ghosts; at "table[i]" a material out of range. ErrorCode::limit: more "cells" than kMaxCells, or a longer
@@ -275,7 +276,7 @@ class BakedHeightField {
 Result<BakedHeightField> height_field(const HeightGrid& grid, std::span<const std::int16_t> heights,
                                       const SurfaceMaterials& materials);
 
-/// What `bytes` gave, from bytes nobody vouches for.
+/// Reads what `bytes` gave, from bytes nobody vouches for.
 Result<BakedHeightField> read_height_field(Bytes bytes);
 
 }  // namespace isostep

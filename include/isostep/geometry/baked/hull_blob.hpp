@@ -12,8 +12,8 @@
 
 namespace isostep {
 
-/// The vertices of a convex hull, ascending, and what a step of their grid is. As bytes: the exponent, the number of
-/// vertices, their coordinates; the rest of the hull follows from them.
+/// The vertices of a convex hull, ascending, and the step of their grid. Its bytes are the exponent, the number of
+/// vertices and their coordinates; the rest of the hull follows from them.
 struct GridHull {
   static constexpr int kFinest = 16;  // [1] exponent: 15 um, below which Q16.16 has no digits
 
@@ -21,20 +21,21 @@ struct GridHull {
   ConvexHull hull;
 };
 
-/// Errors: of convex_hull; ErrorCode::invalid, whose place is "exponent".
+/// Makes the blob of the points' hull. Errors: of convex_hull; ErrorCode::invalid, whose place is "exponent".
 Result<BlobRef> hull_blob(std::span<const GridPoint> points, int exponent, BlobHome home = BlobHome::carried);
-/// Errors: ErrorCode::corrupt, ::truncated or those above for anything but the bytes that hull_blob makes.
+/// Reads a hull's bytes. Errors: ErrorCode::corrupt, ::truncated or those above for anything but the bytes that
+/// hull_blob makes.
 Result<GridHull> read_hull(Bytes bytes);
 
 namespace detail {
-/// Beyond the coarsest grid.
+/// Returns true beyond the coarsest grid.
 template <class S> ISO_INLINE bool is_off_grids(S magnitude) {
   return exponent_above(magnitude) > 19 || floor_scaled(magnitude, 0) + 1 >= GridPoint::kLimit;
 }
 Error bad_hull_point(std::size_t index, const char* expected);
 }  // namespace detail
 
-/// The hull of points [m]. They are rounded to the finest grid that holds all of them: 2^-16 m up to 8 m from the
+/// Makes the hull of points [m]. They are rounded to the finest grid that holds all of them: 2^-16 m up to 8 m from the
 /// origin, 2^-15 m up to 16 m, and so on to 1 m below 524 287 m.
 /// Errors: as above; ErrorCode::invalid for a coordinate that is not finite or beyond the grid, with its point's index.
 template <class S>

@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// Of a homogeneous solid. Everything is rounded once, from exact integers.
+/// The content of a hull as a homogeneous solid. Everything is rounded once, from exact integers.
 template <class S> struct HullContent {
   ShapeFault fault = ShapeFault::none;  // else the rest is empty
   HullSolid<S> solid;
@@ -20,17 +20,17 @@ template <class S> struct HullContent {
   S half_width = S(0);                       // [m] half the largest of them
   Unit<S> filled = Unit<S>(0);               // [1] its volume over that of its box
   Vec3<S> centre_of_mass = Vec3<S>::zero();  // [m]
-  /// [1] inertia over mass and half_width^2, about the centre of mass.
+  /// [1] The inertia over mass and half_width^2, about the centre of mass.
   Mat3<Unit<S>> inertia = Mat3<Unit<S>>::diagonal(Vec3<Unit<S>>::zero());
-  /// [1] means of xx, yy, zz and of yz, zx, xy about the centre of mass, each coordinate over half the box's own width.
+  /// [1] The means of xx, yy, zz and of yz, zx, xy about the centre of mass, each coordinate over half the box's own
+  /// width.
   Vec3<Unit<S>> variance = Vec3<Unit<S>>::zero(), product = variance;
 
   static std::shared_ptr<const void> make(Bytes bytes);
   ISO_INLINE std::size_t memory() const { return sizeof *this + solid.memory(); }  // [bytes]
 };
 
-#define ISO_EXTERN(S) extern template struct HullContent<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_HULL_CONTENT_OF(extern, S) extern template struct HullContent<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_HULL_CONTENT_OF)
 
 }  // namespace isostep

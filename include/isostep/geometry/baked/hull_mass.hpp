@@ -8,8 +8,8 @@
 
 namespace isostep {
 
-/// Of a homogeneous solid. Sums of signed tetrahedra are exact in integers; the results are within two of their last
-/// digits.
+/// The mass of a hull as a homogeneous solid. Sums of signed tetrahedra are exact in integers; the results are within
+/// two of their last digits.
 struct HullMass {
   static constexpr int kFractionBits = 16;
 

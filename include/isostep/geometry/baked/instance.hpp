@@ -7,16 +7,16 @@
 
 namespace isostep {
 
-/// What is done to every point, in the geometry's own frame.
+/// The change of every point, in the geometry's own frame.
 struct Instance {
   bool mirror_x = false, mirror_y = false, mirror_z = false;  // the coordinate changes its sign
   int doublings = 0;                                          // then each is 2^doublings times as large; -1 halves
 };
 
-/// A blob of its own, whose name is that of its content: the one that the points so changed would have given. An odd
-/// number of mirrors turns a mesh's triangles round, so that their outward sides stay outward; ids, first vertices,
-/// materials and their table stay. No point is rounded, so mirroring twice gives the first blob. A larger one stays
-/// on its grid while the points fit, a smaller one takes a finer grid while there is one: of a blob on the finest grid
+/// Makes a blob of its own, whose name is that of its content: the one that the points so changed would have given. An
+/// odd number of mirrors turns a mesh's triangles round, so that their outward sides stay outward; ids, first vertices,
+/// materials and their table stay. No point is rounded, so mirroring twice gives the first blob. A larger one stays on
+/// its grid while the points fit, a smaller one takes a finer grid while there is one: of a blob on the finest grid
 /// that holds it, as all are that were made of metres, instances are on theirs, and halving undoes doubling.
 /// Error:  vertices, faces and volume of a mirrored hull are mirror images bit for bit; its other moments within the
 ///         digits of HullMass, contacts of its edges within the last digits of Unit<S>.

@@ -11,8 +11,8 @@ namespace isostep {
 
 /// A level is larger than a hull, so its grid is wider than that of GridPoint. Predicates are still exact, in 128 bits.
 struct MeshPoint {
-  /// [steps] Magnitude of a coordinate, exclusive: float holds it. An edge has 24 bits and a sign, a component of the
-  /// normal of a triangle 49, six times the volume of a tetrahedron 75.
+  /// [steps] The limit of a coordinate's magnitude, exclusive: float holds it. An edge has 24 bits and a sign, a
+  /// component of the normal of a triangle 49, six times the volume of a tetrahedron 75.
   static constexpr std::int32_t kLimit = 1 << 23;
 
   std::int32_t x, y, z;
@@ -32,11 +32,11 @@ struct MeshPoint {
   static ISO_INLINE constexpr bool in_range(std::int32_t v) { return -kLimit < v && v < kLimit; }
 };
 
-/// [steps] Closed: it holds its faces. Components are x, y, z.
+/// [steps] A closed box: it holds its faces. Components are x, y, z.
 struct MeshBox {
   std::int64_t low[3], high[3];
 
-  /// Holds nothing; what is added to it becomes the box.
+  /// A box that holds nothing; the first point added to it becomes the box.
   static ISO_INLINE constexpr MeshBox empty() {
     return {{INT64_MAX, INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN, INT64_MIN}};
   }

@@ -22,22 +22,22 @@ struct MeshNode {
 };
 static_assert(sizeof(MeshNode) == 64);
 
-/// Built from the boxes alone: splits by surface area (MacDonald and Booth 1990) over 16 bins while a node has many
-/// triangles, at the median when it has few or when the tree would become too deep.
+/// A tree built from the boxes alone: it splits by surface area (MacDonald and Booth 1990) over 16 bins while a node
+/// has many triangles, at the median when it has few or when the tree would become too deep.
 class MeshTree {
  public:
   static constexpr std::uint32_t kLeafTriangles = 6;
   static constexpr std::uint32_t kMaxTriangles = 1u << 22;
-  /// Nodes above one another, at most. 10 hold kMaxTriangles; the others are for uneven splits.
+  /// The most nodes above one another. 10 hold kMaxTriangles; the others are for uneven splits.
   static constexpr int kLevels = 16;
-  /// Triangles that fit below so many nodes above one another.
+  /// The triangles that fit below so many nodes above one another.
   static ISO_INLINE constexpr std::uint64_t capacity(int levels) {
     return std::uint64_t{kLeafTriangles} << (2 * levels);
   }
   /// A node leaves three of its children waiting and goes on with the fourth.
   static constexpr int kStack = 3 * kLevels + 1;
 
-  // As the compiler makes them, but no weak functions in the files that hold trees.
+  // These are what the compiler would make, but without weak functions in the files that hold trees.
   ISO_INLINE MeshTree() = default;
   ISO_INLINE MeshTree(const MeshTree&) = default;
   ISO_INLINE MeshTree(MeshTree&&) = default;
@@ -45,19 +45,19 @@ class MeshTree {
   ISO_INLINE MeshTree& operator=(MeshTree&&) = default;
   ISO_INLINE ~MeshTree() = default;
 
-  /// 1 to kMaxTriangles boxes, inside the range of MeshPoint. The tree has at most `levels`, 1 to kLevels, whose
-  /// capacity is not less than the number of boxes.
+  /// Builds a tree over 1 to kMaxTriangles boxes, inside the range of MeshPoint. The tree has at most `levels`, 1 to
+  /// kLevels, whose capacity is not less than the number of boxes.
   static MeshTree build(std::span<const MeshBox> boxes, int levels = kLevels);
 
   ISO_INLINE const MeshBox& bounds() const { return bounds_; }
   ISO_INLINE std::span<const MeshNode> nodes() const { return nodes_; }
-  /// Triangles as the leaves have them.
+  /// The triangles in the order of the leaves.
   ISO_INLINE std::span<const std::uint32_t> order() const { return order_; }
-  /// Triangle i of the leaves is ids[i] from now on; ids ascend.
+  /// Renames triangle i of the leaves to ids[i]; ids ascend.
   void rename(std::span<const std::uint32_t> ids);
   std::size_t memory() const;
 
-  /// visit(triangle) for all triangles of the leaves whose bounds touch the box. Ends when visit returns false.
+  /// Calls visit(triangle) for all triangles of the leaves whose bounds touch the box. Ends when visit returns false.
   template <class Visit> ISO_INLINE bool query(const MeshBox& box, Visit&& visit) const {
     Lanes lanes;
     if (!lanes_of(box, lanes)) return true;
@@ -79,13 +79,14 @@ class MeshTree {
     return true;
   }
 
-  /// visit(triangle) for all triangles of the leaves that overlaps(box) reaches. Ends when visit returns false.
+  /// Calls visit(triangle) for all triangles of the leaves that overlaps(box) reaches. Ends when visit returns false.
   template <class Overlaps, class Visit> ISO_INLINE bool traverse(Overlaps&& overlaps, Visit&& visit) const {
     return traverse_in_order([](std::uint32_t node, std::uint32_t* stack, int& size)
                                  ISO_INLINE_LAMBDA { push(node, stack, size); },
                              overlaps, visit);
   }
-  /// The same; of a node's children first that whose box begins first along `way`, whose components are below 2^32.
+  /// traverse() that takes first, of a node's children, that whose box begins first along `way`, whose components are
+  /// below 2^32.
   template <class Overlaps, class Visit>
   ISO_INLINE bool traverse(GridVector way, Overlaps&& overlaps, Visit&& visit) const {
     return traverse_in_order([&](std::uint32_t node, std::uint32_t* stack, int& size)
@@ -113,13 +114,13 @@ class MeshTree {
     return true;
   }
 
-  /// A box as the lanes of nodes have it, all four alike.
+  /// A box in the lanes of nodes, all four alike.
   struct Lanes {
     static constexpr std::uint64_t kTops = 0x8000800080008000u;
 
     std::uint64_t low[3], high[3];
 
-    /// The top bit of each lane: whether the child's bounds and the box have a point in common. A lane with its top
+    /// The top bit of each lane is set if the child's bounds and the box have a point in common. A lane with its top
     /// bit set, less 15 bits, borrows nothing from the next and keeps its top bit exactly if it is not less.
     ISO_INLINE std::uint64_t touching(const MeshNode& node) const {
       std::uint64_t all = kTops;
@@ -130,7 +131,7 @@ class MeshTree {
     }
   };
 
-  /// False: the box misses all triangles, or is empty.
+  /// Puts a box into lanes. Returns false when the box misses all triangles, or is empty.
   ISO_INLINE bool lanes_of(const MeshBox& box, Lanes& lanes) const {
     if (nodes_.empty() || !bounds_.touches(box)) return false;
     for (int axis = 0; axis < 3; ++axis) {
@@ -140,7 +141,7 @@ class MeshTree {
     }
     return true;
   }
-  /// Rounding down never turns an order round, so both ends of both boxes are rounded down: none that touch are lost.
+  /// Both ends of both boxes are rounded down: that never turns an order round, so no boxes that touch are lost.
   ISO_INLINE std::uint64_t every_lane(int axis, std::int64_t v) const { return 0x0001000100010001u * cell(axis, v); }
   ISO_INLINE std::uint64_t cell(int axis, std::int64_t v) const {
     return static_cast<std::uint64_t>(v - bounds_.low[axis]) >> shift_[axis];

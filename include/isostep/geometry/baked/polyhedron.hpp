@@ -11,8 +11,8 @@
 
 namespace isostep {
 
-/// What the collision of polyhedra reads. Directions are rounded from exact integers, so short edges and small faces
-/// have no worse ones than long and large do.
+/// The solid that the collision of polyhedra reads. Directions are rounded from exact integers, so short edges and
+/// small faces have no worse ones than long and large do.
 template <class S> struct Polyhedron {
   ColumnsView<S> vertices;          // [m]
   ArrayView<HalfEdge> half_edges;   // see ConvexHull
@@ -25,7 +25,7 @@ template <class S> struct Polyhedron {
 
   ISO_INLINE std::uint32_t origin(std::uint32_t half_edge) const { return half_edges[half_edge].origin; }
   ISO_INLINE std::uint32_t edges() const { return directions.size(); }
-  /// triangle(i, j, k) of vertices, for a face as a fan about its lowest.
+  /// Calls triangle(i, j, k) of vertices, for a face as a fan about its lowest.
   template <class Triangle> ISO_INLINE void visit_fan(std::uint32_t face, const Triangle& triangle) const {
     const std::uint32_t first = faces[face];
     std::uint32_t edge = half_edges[first].next;
@@ -34,7 +34,7 @@ template <class S> struct Polyhedron {
       edge = next;
     }
   }
-  /// visit(half_edge) for all that leave a vertex, around it.
+  /// Calls visit(half_edge) for all that leave a vertex, around it.
   template <class Visit> ISO_INLINE void visit_spokes(std::uint32_t vertex, const Visit& visit) const {
     const std::uint32_t first = spokes[vertex];
     std::uint32_t half_edge = first;
@@ -52,7 +52,7 @@ template <class S> class HullSolid {
   /// `exponent`: a step of the hull's grid is 2^-exponent m, 0 to 16. Coordinates must fit S.
   HullSolid(const ConvexHull& hull, int exponent);
 
-  /// Valid as long as this is.
+  /// The hull as a Polyhedron, valid as long as this is.
   ISO_INLINE Polyhedron<S> polyhedron() const {
     const ColumnsView<S> vertices = vertices_.view();
     const ColumnsView<Unit<S>> normals = normals_.view();
@@ -66,7 +66,7 @@ template <class S> class HullSolid {
             directions_.view(),
             inner_radius_};
   }
-  /// [bytes] that it points to.
+  /// [bytes] The size of the memory that it points to.
   std::size_t memory() const;
 
  private:
@@ -79,8 +79,7 @@ template <class S> class HullSolid {
   S inner_radius_ = S(0);
 };
 
-#define ISO_EXTERN(S) extern template class HullSolid<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_HULL_SOLID_OF(extern, S) extern template class HullSolid<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_HULL_SOLID_OF)
 
 }  // namespace isostep

@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// Where a polyhedron's surface is nearest to a point, in its own frame.
+/// The point of a polyhedron's surface that is nearest to another, in its own frame.
 template <class S> struct NearestPoint {
   Vec3<S> point;          // [m]
   S distance;             // [m] negative inside
@@ -21,7 +21,7 @@ template <class S> struct NearestPoint {
 };
 template <class S> NearestPoint<S> nearest_on(const Polyhedron<S>& solid, Vec3<S> query);
 
-/// Where a ray enters a polyhedron; it misses what it leaves. In the polyhedron's frame.
+/// Finds where a ray enters a polyhedron, in its frame; a ray that starts inside is reported as `inside`.
 template <class S> detail::LocalHit<S> cast_ray(const Polyhedron<S>& solid, const detail::LocalRay<S>& ray);
 
 namespace detail {
@@ -32,7 +32,7 @@ template <class S> ISO_INLINE Segment<S> edge_of(const Polyhedron<S>& solid, std
   return {from + half, solid.directions[k], dot(half, solid.directions[k])};
 }
 
-/// [m] by how far p is beyond the side of a face at one of its half-edges.
+/// [m] The distance by which p is beyond the side of a face at one of its half-edges.
 template <class S>
 ISO_INLINE S beyond_side(const Polyhedron<S>& solid, std::uint32_t half_edge, Vec3<Unit<S>> normal, Vec3<S> p) {
   const Vec3<Unit<S>> along = solid.directions[half_edge / 2];
@@ -44,8 +44,6 @@ ISO_INLINE S beyond_side(const Polyhedron<S>& solid, std::uint32_t half_edge, Ve
 #define ISO_POLYHEDRON_SURFACE_OF(extern, S)                                    \
   extern template NearestPoint<S> nearest_on<S>(const Polyhedron<S>&, Vec3<S>); \
   extern template detail::LocalHit<S> cast_ray<S>(const Polyhedron<S>&, const detail::LocalRay<S>&);
-#define ISO_EXTERN(S) ISO_POLYHEDRON_SURFACE_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_POLYHEDRON_SURFACE_OF)
 
 }  // namespace isostep

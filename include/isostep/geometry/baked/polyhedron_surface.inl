@@ -50,7 +50,7 @@ template <class S> NearestPoint<S> nearest_on(const Polyhedron<S>& solid, Vec3<S
       return {query - solid.normals[f] * height, height, solid.normals[f], f};
   }
   const Vec3<Unit<S>> normal = solid.normals[highest_face];
-  // Where a gap is a few digits long, so is its direction.
+  // A gap of a few digits has a direction of a few digits.
   if (most <= detail::gap_noise(max_abs(query)) * S(4)) return {query - normal * most, most, normal, highest_face};
   return detail::nearest_on_edges(solid, query);
 }
@@ -63,7 +63,7 @@ template <class S> detail::LocalHit<S> cast_ray(const Polyhedron<S>& solid, cons
     const S height = dot(solid.normals[f], ray.origin) - solid.offsets[f];
     const Unit<S> rise = dot(solid.normals[f], ray.direction);
     inside = inside && height <= S(0);
-    // Beyond the ray's length either way, the plane decides nothing else, and its distance may not fit S.
+    // The plane decides nothing else beyond the ray's length either way, and its distance may not fit S.
     if (rise < Unit<S>(0)) {
       if (height > ray.length * -rise) return detail::no_hit<S>();
       if (!(height > entry * -rise)) continue;

@@ -8,22 +8,21 @@
 
 namespace isostep {
 
-/// Where a ray enters the points within `radius` > 0 of a polyhedron; it misses what it leaves. In the polyhedron's
-/// frame. Their surface is the faces, moved outward, and parts of the cylinders around the edges and of the balls
-/// around the vertices: the first of those that the ray enters is exact to rounding, without a search.
+/// Finds where a ray enters the points within `radius` > 0 of a polyhedron, in its frame; a ray that starts inside is
+/// reported as `inside`. Their surface is the faces, moved outward, and parts of the cylinders around the edges and of
+/// the balls around the vertices: the first of those that the ray enters is exact to rounding, without a search.
 template <class S>
 detail::LocalHit<S> cast_rounded(const Polyhedron<S>& solid, S radius, const detail::LocalRay<S>& ray);
 
 #define ISO_ROUNDED_POLYHEDRON_OF(extern, S) \
   extern template detail::LocalHit<S> cast_rounded<S>(const Polyhedron<S>&, S, const detail::LocalRay<S>&);
-#define ISO_EXTERN(S) ISO_ROUNDED_POLYHEDRON_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ROUNDED_POLYHEDRON_OF)
 
 namespace detail {
 
-/// The faces moved outward by the radius; quarters of the arcs that join them across each edge; around each vertex the
-/// ends of its edges' arcs, as a fan about the mean of its faces' normals. Chords of what is round lie inside of it.
+/// A drawing of the faces moved outward by the radius; quarters of the arcs that join them across each edge; around
+/// each vertex the ends of its edges' arcs, as a fan about the mean of its faces' normals. Chords of round parts lie
+/// inside of them.
 template <class S> class RoundedDrawing {
   using U = Unit<S>;
   static constexpr int kArc = 4;  // chords

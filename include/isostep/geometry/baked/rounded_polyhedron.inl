@@ -8,7 +8,7 @@
 namespace isostep {
 namespace detail {
 
-/// Where a ray first meets one of several things.
+/// The point where a ray first meets one of several solids.
 template <class S> struct RoundEntry {
   S distance;            // [m] along the ray; while nothing is found, as far as is looked
   Vec3<Unit<S>> normal;  // [1]
@@ -17,7 +17,7 @@ template <class S> struct RoundEntry {
   ISO_INLINE bool is_sooner(S at) const { return found ? at < distance : at <= distance; }
 };
 
-/// From outside of the ball about `centre`.
+/// Enters the ball about `centre` from outside.
 template <class S> ISO_INLINE void enter_ball(const LocalRay<S>& ray, Vec3<S> centre, S radius, RoundEntry<S>& entry) {
   const Vec3<S> from = ray.origin - centre;
   S distance;
@@ -25,8 +25,9 @@ template <class S> ISO_INLINE void enter_ball(const LocalRay<S>& ray, Vec3<S> ce
   entry = {distance, normalise(from + ray.direction * distance), true};
 }
 
-/// In the plane across the segment it is a disc. Where the ray enters the endless cylinder decides: between the ends it
-/// is the side that is hit, beyond an end only that end's ball can be. As cast_capsule, without a frame of its own.
+/// Enters the points within `radius` of a segment, a disc in the plane across it. The place where the ray enters the
+/// endless cylinder decides: between the ends the side is hit, beyond an end only that end's ball can be. It is
+/// cast_capsule without a frame of its own.
 template <class S>
 ISO_INLINE void enter_around(const LocalRay<S>& ray, const Segment<S>& core, S radius, RoundEntry<S>& entry) {
   using U = Unit<S>;
@@ -61,7 +62,7 @@ detail::LocalHit<S> cast_rounded(const Polyhedron<S>& solid, S radius, const det
     const S height = dot(solid.normals[f], ray.origin) - solid.offsets[f] - radius;
     const Unit<S> rise = dot(solid.normals[f], ray.direction);
     within = within && height <= S(0);
-    // As in cast_ray.
+    // The plane decides nothing else beyond the ray's length, see cast_ray.
     if (rise < Unit<S>(0)) {
       if (height > ray.length * -rise) return no_hit<S>();
       if (!(height > entry * -rise)) continue;

@@ -17,8 +17,8 @@ namespace isostep {
 BlobRef mesh_blob(const TriangleMesh& mesh, BlobHome home = BlobHome::carried);
 BlobRef height_field_blob(const BakedHeightField& field, BlobHome home = BlobHome::carried);
 
-/// Triangles of points [m]; see triangle_mesh. Points are rounded to the finest grid that holds all of them: 2^-16 m up
-/// to 128 m from the origin, 2^-15 m up to 256 m, and so on.
+/// Makes a mesh of triangles of points [m]; see triangle_mesh. Points are rounded to the finest grid that holds all of
+/// them: 2^-16 m up to 128 m from the origin, 2^-15 m up to 256 m, and so on.
 /// Errors: of triangle_mesh; ErrorCode::invalid for a coordinate that is not finite or beyond 8388607 m.
 Result<BlobRef> mesh_blob(std::span<const Vec3<double>> points, std::span<const MeshTriangle> triangles,
                           const SurfaceMaterials& materials = {}, BlobHome home = BlobHome::carried);
@@ -34,7 +34,7 @@ struct HeightSheet {
 Result<BlobRef> height_field_blob(const HeightSheet& sheet, std::span<const double> heights,
                                   const SurfaceMaterials& materials = {}, BlobHome home = BlobHome::carried);
 
-/// What a blob's bytes are; the same for all scalars. No surface: they are none.
+/// The surface that a blob's bytes are, the same for all scalars. There is no surface where the bytes are none.
 template <class G> struct SurfaceContent {
   std::optional<G> surface;
   static std::shared_ptr<const void> make(Bytes bytes);

@@ -12,11 +12,11 @@
 
 namespace isostep {
 
-/// Number of a triangle of another surface that lies beside this one. Nothing touches or hits it; it only tells the
+/// The number of a triangle of another surface that lies beside this one. Nothing touches or hits it; it only tells the
 /// triangles beside it how the ground goes on, as any neighbour does: see TriangleGeometry.
 inline constexpr std::uint8_t kGhostMaterial = 254;
 
-/// What a number stands for, in place of what the body's material has; the rest is the body's.
+/// The material that a number stands for: it replaces friction and restitution of the body's; the rest is the body's.
 struct SurfaceMaterial {
   static constexpr int kBits = 10;  // a whole is 1 << kBits
   static constexpr std::uint16_t kMostFriction = 16 << kBits, kMostRestitution = 1 << kBits;
@@ -29,11 +29,12 @@ struct SurfaceMaterial {
   ISO_FIELDS(friction, restitution)
 };
 
-/// Rounded to 1/1024. ErrorCode::invalid: a friction that is not 0 to 16, a restitution that is not 0 to 1.
+/// Makes a material, rounded to 1/1024. ErrorCode::invalid: a friction that is not 0 to 16, a restitution that is not 0
+/// to 1.
 Result<SurfaceMaterial> surface_material(double friction, double restitution);
 
-/// What the builders of surfaces take. `numbers` has one a triangle or cell, or none at all, which is 0 for each.
-/// `table` has what number 0 stands for, then 1 ...; numbers beyond it stand for the body's own material.
+/// The materials that builders of surfaces take. `numbers` has one a triangle or cell, or none at all, which is 0 for
+/// each. `table` has the material of number 0, then 1 ...; numbers beyond it stand for the body's own material.
 struct SurfaceMaterials {
   static constexpr std::uint32_t kMost = kGhostMaterial;  // of a table
 

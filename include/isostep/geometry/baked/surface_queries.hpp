@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// What of a ray's way is of interest.
+/// The part of a ray's way that is of interest.
 template <class S> struct RayReach {
   S max_fraction = S(1);    // [1]
   bool back_faces = false;  // hits triangles from behind too: the normal is theirs turned round
@@ -22,18 +22,19 @@ template <class S> struct RayTaker {
   void (*take)(void* user, const detail::LocalHit<S>& hit);
 };
 
-/// Where a ray first enters a surface from its outward side; of triangles hit at once the one with the lowest id. In
-/// the surface's frame. Watertight: the ray is put on a grid once, and on which side of an edge it passes is an exact
+/// Finds where a ray first enters a surface from its outward side, in the surface's frame; of triangles hit at once the
+/// one with the lowest id. Surfaces are watertight: the ray is put on a grid once, and its side of an edge is an exact
 /// integer that both neighbours share. The reach decides what is found, never a bit of it.
 template <class G, class S>
 detail::LocalHit<S> cast_on_surface(const G& surface, const detail::LocalRay<S>& ray, const RayReach<S>& reach);
-/// Every triangle that the ray enters within its reach; where it passes an edge, those on both sides.
+/// Takes every triangle that the ray enters within its reach; where it passes an edge, those on both sides.
 template <class G, class S>
 void cast_through_surface(const G& surface, const detail::LocalRay<S>& ray, const RayReach<S>& reach,
                           const RayTaker<S>& taker);
 
-/// The point of a surface that is nearest to another, of equally near triangles that with the lowest id. Surfaces have
-/// no inside: the distance is never negative, and the normal leads to `query`; where that is on the surface, outward.
+/// Finds the point of a surface that is nearest to another; of equally near triangles the one with the lowest id.
+/// Surfaces have no inside: the distance is never negative, and the normal leads to `query`; where that is on the
+/// surface, outward.
 template <class G, class S> ClosestPoint<S> nearest_on_surface(const G& surface, Vec3<S> query);
 
 /// [m] The box of a surface in its frame.
@@ -48,8 +49,6 @@ template <class G, class S> Aabb<S> box_of_surface(const G& surface);
 #define ISO_SURFACE_QUERIES_OF(extern, S)             \
   ISO_SURFACE_QUERIES_OF_ONE(extern, TriangleMesh, S) \
   ISO_SURFACE_QUERIES_OF_ONE(extern, BakedHeightField, S)
-#define ISO_EXTERN(S) ISO_SURFACE_QUERIES_OF(extern, S)
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SURFACE_QUERIES_OF)
 
 }  // namespace isostep

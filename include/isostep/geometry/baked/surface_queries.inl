@@ -15,7 +15,7 @@ namespace detail {
 template <class S> ISO_INLINE Vec3<S> point_of_steps(MeshPoint p, int exponent) {
   return {from_lattice<S>(p.x, exponent), from_lattice<S>(p.y, exponent), from_lattice<S>(p.z, exponent)};
 }
-/// The stretch of a ray inside a box [m]. False: it misses.
+/// Finds the stretch of a ray inside a box [m]. Returns false when it misses.
 template <class S> ISO_INLINE bool clip_ray(const LocalRay<S>& ray, const Aabb<S>& box, S& entry, S& exit) {
   entry = S(0);
   exit = ray.length;
@@ -24,7 +24,7 @@ template <class S> ISO_INLINE bool clip_ray(const LocalRay<S>& ray, const Aabb<S
     const Unit<S> rise = u < Unit<S>(0) ? -u : u;
     const S to_near = u < Unit<S>(0) ? ray.origin[axis] - box.high[axis] : box.low[axis] - ray.origin[axis];
     const S to_far = u < Unit<S>(0) ? ray.origin[axis] - box.low[axis] : box.high[axis] - ray.origin[axis];
-    // Beyond the ray's length a plane decides nothing else, and its distance may not fit S.
+    // A plane decides nothing else beyond the ray's length, and its distance may not fit S.
     if (to_far < S(0) || to_near > ray.length * rise) return false;
     if (to_near > entry * rise) entry = divide_to<S>(to_near, rise);
     if (to_far < exit * rise) exit = divide_to<S>(to_far, rise);
@@ -41,7 +41,8 @@ struct GridRay {
     const std::int64_t scale = std::int64_t{1} << bits;
     return {p.x * scale - from.x, p.y * scale - from.y, p.z * scale - from.z};
   }
-  /// Separating axes: the box's, as far as `far` of 2^30 of the way, and the crosses of its edges with the way.
+  /// Tells by separating axes whether the way meets a box: the box's own axes, as far as `distant` of 2^30 of the way,
+  /// and the crosses of its edges with the way.
   ISO_INLINE bool meets(const MeshBox& box, std::int64_t distant) const {
     const std::int64_t scale = std::int64_t{1} << bits;
     const std::int64_t at[3] = {from.x, from.y, from.z}, to[3] = {way.x, way.y, way.z};
@@ -65,7 +66,7 @@ struct GridRay {
     std::int64_t at;  // in 2^-30 of the way; negative: the way does not pass it
     bool from_behind;
   };
-  /// Where the way passes a triangle from its outward side, or from either.
+  /// The place where the way passes a triangle from its outward side, or from either.
   ISO_INLINE Entry enter(const TriangleCorners& triangle, bool back_faces) const {
     constexpr Entry kMissed = {-1, false};
     const GridVector p[3] = {on_grid(triangle.points[0]), on_grid(triangle.points[1]), on_grid(triangle.points[2])};
@@ -153,7 +154,7 @@ template <class G, class S> class SurfaceCrossing {
     if (meets_) grid_ = grid_ray(surface, ray, entry_, exit_);
   }
 
-  /// By fraction, then by id: places are finer than fractions, so the nearest place alone does not tell.
+  /// The first hit by fraction, then by id: places are finer than fractions, so the nearest place alone does not tell.
   ISO_INLINE LocalHit<S> first(const RayReach<S>& reach) const {
     std::int64_t most = most_of(reach.max_fraction), alike = -1;
     std::uint32_t triangle = kNoTriangle;
@@ -177,7 +178,7 @@ template <class G, class S> class SurfaceCrossing {
   }
 
  private:
-  /// Those entered by `most`, which may become less on the way; the nearest first, as a rule.
+  /// Visits the triangles entered by `most`, which may become less on the way; the nearest first, as a rule.
   template <class Visit> ISO_INLINE void visit(bool back_faces, const std::int64_t& most, const Visit& found) const {
     if (!meets_ || most < 0) return;
     surface_.traverse(
@@ -191,7 +192,7 @@ template <class G, class S> class SurfaceCrossing {
   ISO_INLINE S fraction_of(std::int64_t at) const {
     return min((entry_ + (exit_ - entry_) * from_lattice<Unit<S>>(at, 30)) / ray_.length, S(1));
   }
-  /// No less than any place whose fraction is not more: fractions ascend with places, so a guess needs one check.
+  /// A place no less than any whose fraction is not more: fractions ascend with places, so a guess needs one check.
   ISO_INLINE std::int64_t most_of(S max_fraction) const {
     if (!meets_ || !(max_fraction < S(1)) || !(ray_.length > S(0))) return kWhole;
     if (fraction_of(0) > max_fraction) return -1;
@@ -200,9 +201,9 @@ template <class G, class S> class SurfaceCrossing {
     const std::int64_t guess = min(floor_scaled(divide_to<Unit<S>>(part, whole), 30) + 1, kWhole);
     return fraction_of(guess) > max_fraction ? guess : kWhole;
   }
-  /// [m] Places further apart than this have other fractions.
+  /// [m] The distance beyond which two places have different fractions.
   ISO_INLINE S noise_of_fractions() const { return gap_noise(ray_.length) + resolution<S>() * ray_.length; }
-  /// No fewer places than may have one fraction.
+  /// An upper bound of the places that may have one fraction.
   ISO_INLINE std::int64_t most_alike() const {
     const S whole = exit_ - entry_, noise = noise_of_fractions();
     return noise < whole ? floor_scaled(divide_to<Unit<S>>(noise, whole), 30) + 1 : kWhole;

@@ -25,7 +25,7 @@ struct MeshTriangle {
   ISO_FIELDS(vertices)
 };
 
-/// What is across an edge of a triangle.
+/// The triangle across an edge of another, and the kind of the edge.
 class MeshEdge {
  public:
   ISO_INLINE constexpr MeshEdge() : bits_(0) {}
@@ -35,7 +35,7 @@ class MeshEdge {
   ISO_INLINE constexpr EdgeKind kind() const { return static_cast<EdgeKind>(bits_ & 7u); }
   /// The neighbour, or kNoTriangle.
   ISO_INLINE constexpr std::uint32_t triangle() const { return kind() == EdgeKind::border ? kNoTriangle : bits_ >> 5; }
-  /// Which edge of the neighbour it is.
+  /// The number of the edge in the neighbour.
   ISO_INLINE constexpr std::uint32_t edge() const { return bits_ >> 3 & 3u; }
 
  private:
@@ -45,15 +45,15 @@ struct MeshEdges {
   MeshEdge edges[3];
 };
 
-/// Immutable. A triangle's id is its place in the builder's input, and its first vertex stays the first. Points are
-/// kept once each, in the order in which the triangles first name them: so neither equal points, nor points without a
-/// triangle, nor the order of points make another mesh.
+/// An immutable surface. A triangle's id is its place in the builder's input, and its first vertex stays the first.
+/// Points are kept once each, in the order in which the triangles first name them: so neither equal points, nor points
+/// without a triangle, nor the order of points make another mesh.
 class TriangleMesh {
  public:
   static constexpr int kMaxExponent = 16;
   static constexpr std::uint32_t kMaxTriangles = MeshTree::kMaxTriangles, kMaxPoints = 3 * kMaxTriangles;
 
-  // As the compiler makes them, but no weak functions in the files that hold meshes.
+  // These are what the compiler would make, but without weak functions in the files that hold meshes.
   ISO_INLINE TriangleMesh(const TriangleMesh&) = default;
   ISO_INLINE TriangleMesh(TriangleMesh&&) = default;
   ISO_INLINE TriangleMesh& operator=(const TriangleMesh&) = default;
@@ -71,7 +71,7 @@ class TriangleMesh {
   ISO_INLINE const MeshTree& tree() const { return tree_; }
   ISO_INLINE MeshBox bounds() const { return tree_.bounds(); }
 
-  /// Across edge k, from vertex k to the one after it.
+  /// The edge k, from vertex k to the one after it, and what is across.
   ISO_INLINE MeshEdge edge(std::uint32_t triangle, int k) const { return edges_[triangle].edges[k]; }
   ISO_INLINE std::uint32_t neighbour(std::uint32_t triangle, int k) const { return edge(triangle, k).triangle(); }
   ISO_INLINE bool has_triangle(std::uint32_t id) const {
@@ -96,7 +96,7 @@ class TriangleMesh {
     return tree_.traverse(way, overlaps, visit);
   }
 
-  /// [bytes] Of this object and all it holds.
+  /// [bytes] The size of this object and all it holds.
   std::size_t memory() const;
   /// The canonical content, little-endian: exponent u32; count u32 and points i32 x 3; count u32 and vertices u32 x 3;
   /// materials u8; if there is a table, its count u32 and u16 x 2 each. All else follows from it.
@@ -107,7 +107,7 @@ class TriangleMesh {
                                             const SurfaceMaterials&, int);
   ISO_INLINE TriangleMesh() = default;
 
-  /// Beyond the range of points nothing changes.
+  /// Clamps a coordinate to the range of points; beyond it nothing changes.
   static ISO_INLINE std::int32_t clamped(std::int64_t v) {
     constexpr std::int32_t kLimit = MeshPoint::kLimit;
     return v < -kLimit ? -kLimit : v > kLimit ? kLimit : static_cast<std::int32_t>(v);
@@ -115,7 +115,7 @@ class TriangleMesh {
   static ISO_INLINE MeshPoint clamped(const std::int64_t (&at)[3]) {
     return {clamped(at[0]), clamped(at[1]), clamped(at[2])};
   }
-  /// Whether the box of the triangle has a point between the two.
+  /// Returns true if the box of the triangle has a point between the two.
   ISO_INLINE bool touches(std::uint32_t id, MeshPoint low, MeshPoint high) const {
     const MeshTriangle& triangle = triangles_[id];
     const MeshPoint a = points_[triangle.vertices[0]], b = points_[triangle.vertices[1]],
@@ -124,7 +124,8 @@ class TriangleMesh {
                                 is_apart(a.z, b.z, c.z, low.z, high.z);
     return apart == 0;
   }
-  /// 0 or 1. Without branches: which triangles of a leaf touch is as good as random.
+  /// Returns 1 if the triangle's box is beyond the range on this axis, else 0. It has no branches: it is as good as
+  /// random which triangles of a leaf touch.
   static ISO_INLINE std::uint32_t is_apart(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t low,
                                            std::int32_t high) {
     const std::int32_t least = a < b ? a : b, most = a < b ? b : a;
@@ -141,16 +142,16 @@ class TriangleMesh {
   MeshTree tree_;  // of what is no ghost
 };
 
-/// Points with equal coordinates become one, points without a triangle are dropped. Borders may be open.
+/// Builds a mesh. Points with equal coordinates become one, points without a triangle are dropped. Borders may be open.
 /// ErrorCode::invalid: "exponent" above 16; "materials" of another count, or all ghosts; at "table[i]" a material out
 /// of range; "triangles" that are none; at "points[i]" a coordinate out of range; at "triangles[i]" a vertex that is no
-/// point, a triangle without area (exactly), one that is
-/// there already, more than two triangles at an edge, two that run along an edge in the same direction.
+/// point, a triangle without area (exactly), one that is there already, more than two triangles at an edge, two that
+/// run along an edge in the same direction.
 /// ErrorCode::limit: more "points" or "triangles" than there may be, or a longer "table".
 Result<TriangleMesh> triangle_mesh(std::span<const MeshPoint> points, std::span<const MeshTriangle> triangles,
                                    const SurfaceMaterials& materials, int exponent);
 
-/// What `bytes` gave, from bytes nobody vouches for. Accepts no others than `bytes` gives: one content, one form.
+/// Reads what `bytes` gave, from bytes nobody vouches for. It accepts nothing else: one content, one form.
 Result<TriangleMesh> read_triangle_mesh(Bytes bytes);
 
 }  // namespace isostep

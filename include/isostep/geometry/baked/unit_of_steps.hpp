@@ -8,12 +8,12 @@
 
 namespace isostep::detail {
 
-/// Rounded once, whatever its length, for what is baked. Components below 2^51.
+/// The direction rounded once, whatever its length, for geometry that is baked. Components are below 2^51.
 template <class U> ISO_INLINE Vec3<U> exact_unit_of_steps(GridVector v) {
   const auto d = exact_lattice_direction<U>(v.x, v.y, v.z);
   return {d.x, d.y, d.z};
 }
-/// To the last digits of U, for what is found in every step.
+/// The direction to the last digits of U, for vectors found in every step.
 template <class U> ISO_INLINE Vec3<U> unit_of_steps(GridVector v) {
   const auto d = lattice_direction<U>(v.x, v.y, v.z);
   return {d.x, d.y, d.z};

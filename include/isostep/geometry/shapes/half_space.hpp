@@ -6,7 +6,7 @@
 
 namespace isostep {
 
-/// All points p with normal . p <= offset, in the body's frame. For static bodies.
+/// All points p with normal . p <= offset, in the body's frame. It is for static bodies.
 template <class S = Literal> struct HalfSpace {
   static constexpr ShapeType kType = ShapeType::half_space;
   static constexpr bool kBounded = false;
@@ -33,8 +33,8 @@ template <class S = Literal> struct HalfSpace {
     if (detail::is_unit(normal.x, normal.y, normal.z, Unit<S>(0))) return *this;
     return {normalise(normal), offset};
   }
-  /// The cube of twice the position limit, which holds every body with its extent; where it faces along a world axis
-  /// exactly, as floors do, its surface bounds it too and bodies far above it make no pair.
+  /// The cube of twice the position limit, which holds every body with its extent; a half-space that faces exactly
+  /// along a world axis, like a floor, is bounded by its surface too, and bodies far above it make no pair.
   ISO_INLINE constexpr Aabb<S> bounds(const Transform<S>& t) const {
     const S edge = Limits<S>::position() + Limits<S>::position();
     Aabb<S> box = {{-edge, -edge, -edge}, {edge, edge, edge}};
@@ -47,13 +47,13 @@ template <class S = Literal> struct HalfSpace {
     return box;
   }
 
-  // Nothing moves it.
+  // A half-space has no mass: nothing moves it.
   ISO_INLINE S mass(S) const { return S(0); }
   ISO_INLINE Vec3<S> kappa() const { return Vec3<S>::zero(); }
   ISO_INLINE Unit<S> relative_volume(S) const { return Unit<S>(0); }
   ISO_INLINE Vec3<Unit<S>> relative_inertia(S) const { return Vec3<Unit<S>>::zero(); }
 
-  /// In the frame outside: nothing is gained by rotating the ray first.
+  /// Casts in the frame outside: a ray rotated first gains nothing.
   ISO_INLINE detail::LocalHit<S> cast(const Transform<S>& t, Vec3<S> origin, Vec3<S> translation) const {
     const Vec3<Unit<S>> n = t.rotation * normal;
     const auto height = dot_sum(n, origin - t.position) - widen<SumOf<Unit<S>, S>>(offset);

@@ -1,4 +1,4 @@
-// SurfaceShape: what meshes and height fields have in common, which is all but their blobs.
+// SurfaceShape: the shape that meshes and height fields have in common, all but their blobs.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace isostep {
 namespace detail {
 
-/// All points of a surface are within the extent of a shape.
+/// The fault of a surface: all its points must be within the extent of a shape.
 template <class S, class G> ISO_INLINE ShapeFault fault_of_surface(const G& surface) {
   const MeshBox box = surface.bounds();
   const std::int64_t extent = floor_scaled(Limits<S>::extent(), surface.exponent());
@@ -26,7 +26,7 @@ template <class S> ISO_INLINE Aabb<S> box_of_steps(const MeshBox& box, int expon
   }
   return metres;
 }
-/// Around a box in another frame.
+/// The box around a box in another frame.
 template <class S> ISO_INLINE Aabb<S> turned_box(const Aabb<S>& box, const Transform<S>& t) {
   Vec3<S> low = t.rotation * box.low, high = low;
   for (int corner = 1; corner < 8; ++corner) {
@@ -54,7 +54,7 @@ template <class S, class G, class Visit> ISO_INLINE void visit_points_of_surface
     visit(id, points);
   }
 }
-/// Each edge once: by its triangle of the lower id, or by the only one that is there.
+/// Visits each edge once: by its triangle of the lower id, or by the only one that is there.
 template <class S, class G, class Line> ISO_INLINE void visit_lines_of_surface(const G& surface, const Line& line) {
   visit_points_of_surface<S>(surface, [&](std::uint32_t id, const Vec3<S>(&p)[3]) ISO_INLINE_LAMBDA {
     for (int k = 0; k < 3; ++k) {
@@ -66,8 +66,8 @@ template <class S, class G, class Line> ISO_INLINE void visit_lines_of_surface(c
 
 }  // namespace detail
 
-/// G: TriangleMesh or BakedHeightField, which its blob holds. Of static and kinematic bodies. It is touched from its
-/// outward side alone: what has its centre behind a triangle passes it.
+/// A shape of static and kinematic bodies. G is the TriangleMesh or BakedHeightField that its blob holds. It is touched
+/// from its outward side alone: a solid with its centre behind a triangle passes it.
 template <class S, ShapeType Type, class G> struct SurfaceShape {
   static constexpr ShapeType kType = Type;
   static constexpr bool kBounded = false;
@@ -94,7 +94,7 @@ template <class S, ShapeType Type, class G> struct SurfaceShape {
   ISO_INLINE const G& surface() const { return *content->surface; }
   ISO_INLINE Aabb<S> bounds(const Transform<S>& t) const { return detail::bounds_of_surface(surface(), t); }
 
-  // Nothing moves it.
+  // A surface has no mass: nothing moves it.
   ISO_INLINE S mass(S) const { return S(0); }
   ISO_INLINE Vec3<S> kappa() const { return Vec3<S>::zero(); }
   ISO_INLINE Unit<S> relative_volume(S) const { return Unit<S>(0); }

@@ -27,8 +27,7 @@ template <class S> struct BlobDefinition {
 /// x, then y, then z.
 template <class S> ParticleBody build(ParticleWorld<S>& world, const BlobDefinition<S>& definition);
 
-#define ISO_EXTERN(S) extern template ParticleBody build<S>(ParticleWorld<S>&, const BlobDefinition<S>&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_BLOB_OF(extern, S) extern template ParticleBody build<S>(ParticleWorld<S>&, const BlobDefinition<S>&);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BLOB_OF)
 
 }  // namespace isostep

@@ -27,8 +27,7 @@ template <class S> struct BridgeDefinition {
 /// from particle i to i + 2, then a support cable for each particle, then a rod across each column.
 template <class S> ParticleBody build(ParticleWorld<S>& world, const BridgeDefinition<S>& definition);
 
-#define ISO_EXTERN(S) extern template ParticleBody build<S>(ParticleWorld<S>&, const BridgeDefinition<S>&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_BRIDGE_OF(extern, S) extern template ParticleBody build<S>(ParticleWorld<S>&, const BridgeDefinition<S>&);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BRIDGE_OF)
 
 }  // namespace isostep

@@ -56,7 +56,7 @@ template <class S> class BodyBuilder {
   void link(const Link<S>& link) {
     if (good()) keep(body_.links, world_.add(link));
   }
-  /// Between particles by their order, a distance apart or, for 0, as far as they are now.
+  /// Adds a link between particles by their order, `length` long or, for 0, as far as they are apart now.
   void link(LinkType type, std::size_t a, std::size_t b, S length = S(0), S restitution = S(0)) {
     if (!good()) return;
     Link<S> l;
@@ -67,7 +67,7 @@ template <class S> class BodyBuilder {
     l.restitution = restitution;
     link(l);
   }
-  /// As long as it is now.
+  /// Adds a spring whose rest length is the distance now.
   void spring(const SpringKind<S>& kind, std::size_t a, std::size_t b) {
     if (!good() || !kind.present) return;
     Spring<S> s;

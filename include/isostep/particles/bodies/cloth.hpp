@@ -26,8 +26,7 @@ template <class S> struct ClothDefinition {
 /// rows, then along the columns; shear, two a cell; bend along the rows, then along the columns.
 template <class S> ParticleBody build(ParticleWorld<S>& world, const ClothDefinition<S>& definition);
 
-#define ISO_EXTERN(S) extern template ParticleBody build<S>(ParticleWorld<S>&, const ClothDefinition<S>&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CLOTH_OF(extern, S) extern template ParticleBody build<S>(ParticleWorld<S>&, const ClothDefinition<S>&);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CLOTH_OF)
 
 }  // namespace isostep

@@ -9,11 +9,11 @@
 #include "isostep/particles/bodies/rope.inl"
 #include "isostep/particles/bodies/soft_box.inl"
 
-#define ISO_INSTANTIATE_PARTICLE_BODIES(S)                                         \
-  template void remove<S>(ParticleWorld<S>&, ParticleBody&);                       \
-  template ParticleBody build<S>(ParticleWorld<S>&, const RopeDefinition<S>&);     \
-  template ParticleBody build<S>(ParticleWorld<S>&, const BridgeDefinition<S>&);   \
-  template ParticleBody build<S>(ParticleWorld<S>&, const PlatformDefinition<S>&); \
-  template ParticleBody build<S>(ParticleWorld<S>&, const ClothDefinition<S>&);    \
-  template ParticleBody build<S>(ParticleWorld<S>&, const SoftBoxDefinition<S>&);  \
-  template ParticleBody build<S>(ParticleWorld<S>&, const BlobDefinition<S>&);
+#define ISO_INSTANTIATE_PARTICLE_BODIES(S) \
+  ISO_PARTICLE_BODY_OF(, S)                \
+  ISO_ROPE_OF(, S)                         \
+  ISO_BRIDGE_OF(, S)                       \
+  ISO_PLATFORM_OF(, S)                     \
+  ISO_CLOTH_OF(, S)                        \
+  ISO_SOFT_BOX_OF(, S)                     \
+  ISO_BLOB_OF(, S)

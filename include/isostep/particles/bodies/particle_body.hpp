@@ -8,9 +8,9 @@
 
 namespace isostep {
 
-/// What every `build` returns. A builder gives commands and remembers nothing: the ids are the caller's to keep. At
-/// the first command that the world refuses it stops and takes back what it made; then all lists are empty and `fault`
-/// is the world's reason, or bad_argument for counts that make no body.
+/// The ids that every `build` returns. A builder gives commands and remembers nothing: the ids are the caller's to
+/// keep. At the first command that the world refuses it stops and takes back what it made; then all lists are empty and
+/// `fault` is the world's reason, or bad_argument for counts that make no body.
 struct ParticleBody {
   std::vector<ParticleId> particles;  // each body says in which order
   std::vector<SpringId> springs;
@@ -36,11 +36,10 @@ template <class S> struct SpringKind {
   S damping = S(0);    // [N s/m]
 };
 
-/// Of a body, and of a row of it.
+/// Limits of a body, and of a row of it.
 inline constexpr std::uint32_t kMostBodyParticles = 1u << 20, kMostBodyRow = 1u << 14;
 
-#define ISO_EXTERN(S) extern template void remove<S>(ParticleWorld<S>&, ParticleBody&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_BODY_OF(extern, S) extern template void remove<S>(ParticleWorld<S>&, ParticleBody&);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_BODY_OF)
 
 }  // namespace isostep

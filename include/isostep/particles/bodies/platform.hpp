@@ -19,8 +19,8 @@ template <class S> struct PlatformDefinition {
 /// +z first. 15 rods: of (i, j), i < j, in lexical order.
 template <class S> ParticleBody build(ParticleWorld<S>& world, const PlatformDefinition<S>& definition);
 
-#define ISO_EXTERN(S) extern template ParticleBody build<S>(ParticleWorld<S>&, const PlatformDefinition<S>&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PLATFORM_OF(extern, S) \
+  extern template ParticleBody build<S>(ParticleWorld<S>&, const PlatformDefinition<S>&);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PLATFORM_OF)
 
 }  // namespace isostep

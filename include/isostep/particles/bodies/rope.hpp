@@ -8,7 +8,7 @@ namespace isostep {
 
 /// Links are hard constraints, so that a rope is stable at any mass and rate.
 template <class S> struct RopeDefinition {
-  Vec3<S> start = {S(0), S(0), S(0)}, end = {S(4), S(0), S(0)};  // [m] where the first and last particle are
+  Vec3<S> start = {S(0), S(0), S(0)}, end = {S(4), S(0), S(0)};  // [m] places of the first and the last particle
   std::uint32_t particles = 17;                                  // at least 2
   S length = S(0);                  // [m] along the rope; 0: taut, the distance of its ends
   S mass = S(1);                    // [kg] of the whole
@@ -21,8 +21,7 @@ template <class S> struct RopeDefinition {
 /// Particles from start to end, evenly on the straight line; link i joins particles i and i + 1.
 template <class S> ParticleBody build(ParticleWorld<S>& world, const RopeDefinition<S>& definition);
 
-#define ISO_EXTERN(S) extern template ParticleBody build<S>(ParticleWorld<S>&, const RopeDefinition<S>&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_ROPE_OF(extern, S) extern template ParticleBody build<S>(ParticleWorld<S>&, const RopeDefinition<S>&);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ROPE_OF)
 
 }  // namespace isostep

@@ -21,8 +21,8 @@ template <class S> struct SoftBoxDefinition {
 /// rest as they are made: those of the first particle to its later neighbours, then of the second, and so on.
 template <class S> ParticleBody build(ParticleWorld<S>& world, const SoftBoxDefinition<S>& definition);
 
-#define ISO_EXTERN(S) extern template ParticleBody build<S>(ParticleWorld<S>&, const SoftBoxDefinition<S>&);
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SOFT_BOX_OF(extern, S) \
+  extern template ParticleBody build<S>(ParticleWorld<S>&, const SoftBoxDefinition<S>&);
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SOFT_BOX_OF)
 
 }  // namespace isostep

@@ -13,7 +13,7 @@ inline constexpr std::int32_t kLaterNeighbours[13][3] = {{1, 0, 0},  {-1, 1, 0},
                                                          {0, -1, 1}, {1, -1, 1}, {-1, 0, 1}, {0, 0, 1}, {1, 0, 1},
                                                          {-1, 1, 1}, {0, 1, 1},  {1, 1, 1}};
 
-/// Where along an axis a neighbour is; `count` or more: nowhere.
+/// The place of a neighbour along an axis; `count` or more: there is none.
 ISO_INLINE std::uint32_t beside(std::uint32_t place, std::int32_t offset) {
   return place + static_cast<std::uint32_t>(offset);
 }

@@ -25,7 +25,7 @@ template <class S> class ParticleSoftStep {
   void begin_step();
   /// Integration, and the rows held.
   void solve_substep();
-  /// What came fast goes back as its restitution says, once, after the step.
+  /// Gives back, once after the step, the speed at which contacts and cables met, by their restitution.
   void apply_restitution();
 
   template <class Visit> void visit_scratch(const Visit& visit);
@@ -57,8 +57,7 @@ template <class S> class ParticleSoftStep {
   Axes<V> shift_;   // [m/s] with which overlaps are pushed apart; no velocity that lasts
 };
 
-#define ISO_EXTERN(S) extern template class ParticleSoftStep<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_SOFT_STEP_OF(extern, S) extern template class ParticleSoftStep<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_SOFT_STEP_OF)
 
 }  // namespace isostep

@@ -15,7 +15,7 @@ template <class S> inline constexpr S kParticleContactDamping = S(10);
 /// link is stretched by 0.4 h^2 of the acceleration that it holds back: 0.07 mm for 10 m/s^2 and four sub-steps.
 template <class S> inline constexpr S kLinkAngle = S(1.5707963267948966);
 template <class S> inline constexpr S kLinkDamping = S(2);
-/// [m/s] at most, with which overlaps are pushed apart.
+/// [m/s] The greatest speed with which overlaps are pushed apart.
 template <class V> inline constexpr V kParticlePushSpeed = V(4);
 }  // namespace detail
 
@@ -57,7 +57,8 @@ template <class S> void ParticleSoftStep<S>::warm_start() {
   }
 }
 
-/// Biased: friction before the normal, for what may not overlap has the last word. Relaxed: the other way round.
+/// A biased pass solves friction before the normal, for what may not overlap has the last word; a relaxed pass the
+/// other way round.
 template <class S> void ParticleSoftStep<S>::solve(bool biased) {
   for (Row& row : rows_.all()) {
     const Softness<S>& softness = !biased || is_shifted(row)            ? rigid_softness_
@@ -112,7 +113,7 @@ template <class S> ISO_INLINE void ParticleSoftStep<S>::push_apart(Row& row) {
     change = -saturating_add(saturating_add(shift, detail::separating_speed(row, state_.velocity)),
                              saturate_to<V>(product(row.separation, step_.rate)));
   } else {
-    // What bears a load gives way under it, as a spring does.
+    // A contact under load gives way, as a spring does.
     const V push = saturate_to<V>(product(row.separation, contact_softness_.bias_rate));
     const V wanted = saturating_add(moving, max(push, -detail::kParticlePushSpeed<V>));
     change = -saturating_add(round_to<V>(product(wanted, contact_softness_.mass_scale)),
@@ -135,7 +136,7 @@ template <class S> ISO_INLINE void ParticleSoftStep<S>::solve_friction(Row& row)
   const Vec3<V> slip =
       saturating_subtract(saturating_subtract(b, v), row.normal * detail::separating_speed(row, state_.velocity));
   const Vec3<V> old = row.friction_impulse;
-  // So that it has a length in the format.
+  // It is held, so that it has a length in the format.
   Vec3<V> next = held_within(saturating_subtract(old, slip), passing_speed<S>());
   const V limit = saturate_to<V>(product(row.impulse, row.friction));
   const Heading<V> way = heading_of(next);
@@ -152,8 +153,9 @@ template <class S> ISO_INLINE void ParticleSoftStep<S>::note_work(Row& row, V be
   const auto most = product(fastest, fastest);
   row.work = clamp(row.work + (product(after, after) - product(before, before)), -most, most);
 }
-/// As fast as wanted, or as what the row has taken from the motion pays for: between several, or past a corner, one
-/// speed may come back along more than one normal. Within 2^-12, from below; rounding alone costs nothing.
+/// The wanted speed, or the greatest for which what the row has taken from the motion pays: between several, or past a
+/// corner, one speed may come back along more than one normal. It is within 2^-12, from below; rounding alone costs
+/// nothing.
 template <class S> ISO_INLINE Velocity<S> ParticleSoftStep<S>::most_bounce(const Row& row, V speed, V wanted) const {
   const auto paid = product(speed, speed) - row.work;
   const V least = max(wanted - speed_tolerance<S>(wanted), V(0));
@@ -211,7 +213,7 @@ template <class S> void ParticleSoftStep<S>::apply_restitution() {
     const V wanted = most_bounce(row, speed, -round_to<V>(product(row.approach, row.restitution)));
     const V change = max(saturating_subtract(wanted, speed), -row.impulse);
     detail::give(row, state_.velocity, row.normal * change);
-    // What leaves has nothing to begin the next step with: a blow is not a load.
+    // A particle that leaves has nothing to begin the next step with: a blow is not a load.
     row.impulse = V(0);
     row.friction_impulse = Vec3<V>::zero();
   }

@@ -1,4 +1,4 @@
-// When two sides of a contact that move in straight lines touch, as a share of the way.
+// The time at which two sides of a contact that move in straight lines touch, as a share of the way.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace isostep::detail {
 
-/// When a point that moves from p by `way` comes within `radius` of the origin, as a share of the way; 1 for never.
-/// Lengths along and across the way, so that nothing is squared that might not fit.
+/// The time at which a point that moves from p by `way` comes within `radius` of the origin, as a share of the way; 1
+/// for never. Lengths are taken along and across the way, so that nothing is squared that might not fit.
 template <class S> ISO_INLINE Unit<S> time_to_sphere(Vec3<S> p, Vec3<S> way, S radius) {
   using U = Unit<S>;
   const Heading<S> along = heading_of(way);
@@ -43,7 +43,7 @@ template <class S> ISO_INLINE Unit<S> time_to_line(const Collider<S>& line, Vec3
   return S(0) <= there && there <= axis.length ? min(first, when) : first;
 }
 
-/// Until a point that moves from p by `way` comes within `radius` of scenery.
+/// The time at which a point that moves from p by `way` comes within `radius` of scenery, as a share of the way.
 template <class S> ISO_INLINE Unit<S> time_to_scenery(const Collider<S>& collider, Vec3<S> p, Vec3<S> way, S radius) {
   return collider.type == ColliderType::plane ? time_to_plane(collider, p, way, radius)
                                               : time_to_line(collider, p, way, radius);

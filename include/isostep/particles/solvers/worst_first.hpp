@@ -15,7 +15,7 @@
 
 namespace isostep {
 
-/// What a call is told beside its rows.
+/// The terms of a call beside its rows.
 template <class S> struct ResolverTerms {
   S rate;                                   // [1/s] gained [m/s] is what forces give in 1 / rate
   bool lags;                                // velocities without gained are those of half that time ago
@@ -48,7 +48,7 @@ template <class S> class WorstFirst {
   using V = Velocity<S>;
 
  public:
-  /// As many as the book allows, of an island of so many rows.
+  /// The number of iterations that the book allows an island of so many rows.
   static ISO_INLINE std::uint32_t default_iterations(std::uint32_t count) {
     return count > 0x7fffffffu ? 0xffffffffu : 2u * count;
   }
@@ -57,16 +57,16 @@ template <class S> class WorstFirst {
   /// would take the cube of its number.
   static ISO_INLINE std::uint64_t most_looks(std::uint32_t count) { return (1u << 20) + std::uint64_t{64} * count; }
 
-  /// After the integration of a sub-step, or between its velocity and its position. Returns how many rows are still
-  /// unsettled when the iterations or looks have run out.
-  /// `displacement` [m] is the way since the rows' separation was measured, the integration's part too; it is moved,
-  /// separation stays. `gained` [m/s] is what forces have added to velocity in 1 / terms.rate s, 0 of pinned particles.
-  /// Rows' impulses are those of this call, approach is lowered.
-  /// Where positions are integrated first, gravity's way along a slope, g h^2 a sub-step, is not friction's to undo.
+  /// Resolves rows after the integration of a sub-step, or between its velocity and its position. Returns how many rows
+  /// are still unsettled when the iterations or looks have run out. `displacement` [m] is the way since the rows'
+  /// separation was measured, the integration's part too; it is moved, separation stays. `gained` [m/s] is what forces
+  /// have added to velocity in 1 / terms.rate s, 0 of pinned particles. Rows' impulses are those of this call, approach
+  /// is lowered. Where positions are integrated first, gravity's way along a slope, g h^2 a sub-step, is not friction's
+  /// to undo.
   std::uint32_t resolve(ParticleConstraint<S>* rows, std::uint32_t count, Axes<V>& velocity, Axes<V>& displacement,
                         const Axes<V>& gained, const ResolverTerms<S>& terms);
 
-  /// Of the last call: rows resolved, and looks at rows for their urgency.
+  /// The counts of the last call: rows resolved, and looks at rows for their urgency.
   ISO_INLINE std::uint32_t iterations() const { return iterations_; }
   ISO_INLINE std::uint64_t looks() const { return looks_; }
 

@@ -43,7 +43,7 @@ template <class S>
 ISO_INLINE Vec3<Velocity<S>> WorstFirst<S>::friction_change(const Row& row, Sides sides, V speed) const {
   const Vec3<V> relative = velocity_of_b(row, sides) - points_[sides.a].velocity;
   const Vec3<V> slip = saturating_subtract(relative, row.normal * speed);
-  // Held, so that it has a length in the format.
+  // It is held, so that it has a length in the format.
   const Vec3<V> wanted = held_within(saturating_subtract(row.friction_impulse, slip), passing_speed<S>());
   const V limit = saturate_to<V>(product(row.friction, row.impulse));
   const Heading<V> way = heading_of(wanted);
@@ -85,7 +85,7 @@ ISO_INLINE void WorstFirst<S>::push(const Row& row, Sides sides, Vec3<V> change,
   b = held_within(saturating_add(b, change * row.share_b), most);
 }
 
-/// What is touched from outside reacts too.
+/// Gives the impulse to both sides: a surface that was touched from outside reacts too.
 template <class S> ISO_INLINE void WorstFirst<S>::hit(Row& row, Sides sides, Vec3<V> change) {
   const V most = passing_speed<S>();
   push(row, sides, change, &Point::velocity, most);
@@ -259,7 +259,7 @@ void WorstFirst<S>::gather(const Row* rows, std::uint32_t count, const Axes<V>& 
   }
 }
 
-/// Only rows that a resolved one can change: a million contacts with one pinned particle are no neighbours.
+/// Lists only rows that a resolved one can change: a million contacts with one pinned particle are no neighbours.
 template <class S> void WorstFirst<S>::list_neighbours(const Row* rows, std::uint32_t count) {
   const std::size_t points = points_.size();
   first_.assign(points + 2, 0);  // counted two places on: filling leaves each list's start where it is looked for

@@ -63,12 +63,11 @@ template <class S> class WorstFirstStep {
   std::uint64_t looks_left_ = 0;  // of the step's
   Axes<V> start_;                 // [m] displacement where the sub-step began
   Axes<V> before_;                // [m/s] velocity before constraints
-  Axes<V> gained_;                // [m/s] what forces added in the sub-step
+  Axes<V> gained_;                // [m/s] speed that forces added in the sub-step
   Axes<V> way_;                   // [m] of the sub-step, if nothing is met
 };
 
-#define ISO_EXTERN(S) extern template class WorstFirstStep<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_WORST_FIRST_STEP_OF(extern, S) extern template class WorstFirstStep<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_WORST_FIRST_STEP_OF)
 
 }  // namespace isostep

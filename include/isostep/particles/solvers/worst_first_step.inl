@@ -27,7 +27,7 @@ template <class S> void WorstFirstStep<S>::solve_substep() {
     step_.follow_constraints(state_.velocity, before_);
   }
   if (!integration_.arrives()) return;
-  // What presses with the other half of the forces must not leave with it.
+  // A contact that is pressed by the other half of the forces must not leave with it.
   before_ = state_.velocity;
   integration_.arrive(!rows_.empty());
   note_gained();
@@ -48,7 +48,7 @@ template <class S> void WorstFirstStep<S>::integrate_velocities() {
   step_.displacement = start_;
   integration_.place();
 }
-/// What forces added to the velocities since `before_`, which are `before_` from now on.
+/// Notes what forces added to the velocities since `before_`, which are `before_` from now on.
 template <class S> void WorstFirstStep<S>::note_gained() {
   gained_.resize(state_.material.size());
   for (std::uint32_t i = 0; i < state_.material.size(); ++i) {
@@ -95,8 +95,8 @@ template <class S> void WorstFirstStep<S>::spend(std::uint64_t looks) {
   looks_left_ -= min(looks, looks_left_);
 }
 
-/// What came back out of an overlap has its speed from where it was. Where the forces that it was pushed against are
-/// stronger at the surface than they were there, the difference is to be paid too.
+/// A particle that came back out of an overlap has its speed from where it was. Where the forces that it was pushed
+/// against are stronger at the surface than they were there, the difference is to be paid too.
 template <class S> void WorstFirstStep<S>::pay_for_ways() {
   const auto pays = [](const Row& row) {
     return V(0) < row.shift && S(0) < row.restitution && V(0) < row.impulse && row.kind != ConstraintKind::rod;
@@ -140,7 +140,7 @@ template <class S> void WorstFirstStep<S>::divide_way() {
   }
   travel(U(1));
 }
-/// What was resolved goes another way for the rest of the sub-step.
+/// Turns the way of particles whose velocity was resolved for the rest of the sub-step.
 template <class S> void WorstFirstStep<S>::turn_ways(U left) {
   const auto turn = [&](std::uint32_t slot) {
     if (slot == kNoParticle || state_.velocity[slot] == before_[slot]) return;
@@ -152,7 +152,7 @@ template <class S> void WorstFirstStep<S>::turn_ways(U left) {
     turn(row.b);
   }
 }
-/// Of what is left of the sub-step, until the row's sides touch; 1: they do not, or they touch already.
+/// The share of what is left of the sub-step until the row's sides touch; 1: they do not, or they touch already.
 template <class S> Unit<S> WorstFirstStep<S>::time_to(const Row& row) const {
   const Vec3<S> a = step_.now[row.a], way_a = convert<S>(way_[row.a]);
   if (row.kind == ConstraintKind::contact && row.b != kNoParticle)
@@ -160,7 +160,7 @@ template <class S> Unit<S> WorstFirstStep<S>::time_to(const Row& row) const {
   if (row.other == kNoParticle || row.kind != ConstraintKind::contact) return U(1);
   return detail::time_to_scenery(state_.colliders.all()[row.other], a, way_a, row.radius);
 }
-/// When the first contact comes about that does not touch yet; false for none.
+/// Finds the time of the first contact that does not touch yet; false for none.
 template <class S> bool WorstFirstStep<S>::find_next_contact(U& when) {
   bool any = false;
   when = U(1);

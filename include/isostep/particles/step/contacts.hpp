@@ -50,8 +50,7 @@ template <class S> class ParticleContacts {
   std::vector<ParticleContact<S>> old_contacts_;  // of the last step
 };
 
-#define ISO_EXTERN(S) extern template class ParticleContacts<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_CONTACTS_OF(extern, S) extern template class ParticleContacts<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_CONTACTS_OF)
 
 }  // namespace isostep

@@ -8,7 +8,7 @@
 namespace isostep {
 
 namespace detail {
-/// How both sides of a row share an impulse. Two pinned ends share nothing.
+/// Sets the share of an impulse that each side of a row takes. Two pinned ends share nothing.
 template <class S> ISO_INLINE void set_shares(ParticleConstraint<S>& row, InverseMass<S> a, InverseMass<S> b) {
   using U = Unit<S>;
   const InverseMass<S> both = saturating_add(a, b);
@@ -101,7 +101,7 @@ template <class S> void ParticleContacts<S>::add_scenery(std::uint32_t slot, std
   }
 }
 
-/// Whether the last step had it; `old` goes on to where it was or would be. Both lists ascend by key.
+/// The last step had it; `old` goes on to where it was or would be. Both lists ascend by key.
 template <class S>
 ISO_INLINE bool ParticleContacts<S>::is_old(const ParticleContact<S>& contact, std::size_t& old) const {
   while (old < old_contacts_.size() && old_contacts_[old].key() < contact.key()) ++old;

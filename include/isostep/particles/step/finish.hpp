@@ -13,8 +13,8 @@ template <class S> class ParticleFinish {
  public:
   ParticleFinish(ParticleState<S>& state, ParticleStep<S>& step, FreeFlight<S>& flight);
 
-  /// Nothing leaves the scalar's range and no NaN enters the state: what would is cut, put back or stopped, and
-  /// reported.
+  /// Finishes a step. Nothing leaves the scalar's range and no NaN enters the state: what would is cut, put back or
+  /// stopped, and reported.
   void finalise();
 
  private:
@@ -29,8 +29,7 @@ template <class S> class ParticleFinish {
   FreeFlight<S>& flight_;
 };
 
-#define ISO_EXTERN(S) extern template class ParticleFinish<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_FINISH_OF(extern, S) extern template class ParticleFinish<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_FINISH_OF)
 
 }  // namespace isostep

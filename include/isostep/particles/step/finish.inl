@@ -50,7 +50,7 @@ template <class S> void ParticleFinish<S>::hold_at_edge(std::uint32_t slot, Vec3
   }
   ++step_.report.clamped_position;
 }
-/// What held a stopped particle bears impulses that are no numbers either.
+/// A constraint of a stopped particle may bear impulses that are no numbers either.
 template <class S> void ParticleFinish<S>::forget_broken_impulses() {
   for (V& impulse : state_.link_impulses) {
     if (!is_finite(impulse)) impulse = V(0);

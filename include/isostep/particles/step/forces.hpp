@@ -13,17 +13,17 @@
 
 namespace isostep {
 
-/// In the order of kinds and slots, whatever the order of registration: gravity and drag of materials, springs, forces
-/// of single particles, cohesions, what the game asked for. Stiff springs are no forces.
+/// Adds forces in the order of kinds and slots, whatever the order of registration: gravity and drag of materials,
+/// springs, forces of single particles, cohesions, what the game asked for. Stiff springs are no forces.
 template <class S> class ParticleForces {
  public:
   ParticleForces(ParticleState<S>& state, ParticleStep<S>& step, FreeFlight<S>& flight, ParticleSprings<S>& springs);
 
   /// Reports what the game asked for beyond the limits.
   void begin_step();
-  /// Once a step: which particles may come within each other's reach in it.
+  /// Finds, once a step, which particles may come within each other's reach in it.
   void find_cohering(PairSearch<S>& search);
-  /// Whether there are any besides those of materials.
+  /// There are forces besides those of materials.
   bool any() const;
   void accelerate();
 
@@ -45,8 +45,7 @@ template <class S> class ParticleForces {
   Bitset cut_;                              // slots that the report's clamped_force has counted
 };
 
-#define ISO_EXTERN(S) extern template class ParticleForces<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_FORCES_OF(extern, S) extern template class ParticleForces<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_FORCES_OF)
 
 }  // namespace isostep

@@ -30,7 +30,7 @@ template <class S> bool ParticleForces<S>::any() const {
 }
 
 namespace detail {
-/// As long as the format allows: one force or their sum was cut there.
+/// The vector is as long as the format allows: one force or their sum was cut there.
 template <class S> ISO_INLINE bool is_cut(Vec3<S> a) {
   const S most = highest<S>();
   if (lies_within(a, most * S(0.5))) return false;  // the largest component of such a length is above 0.57 of it

@@ -17,11 +17,11 @@ template <class S> class FreeFlight {
  public:
   FreeFlight(ParticleState<S>& state, ParticleStep<S>& step);
 
-  /// Of this width from now on.
+  /// Takes kernels of this width from now on.
   ISO_INLINE void use(const FlightKernels<S>& kernels) { kernels_ = &kernels; }
   ISO_INLINE const FlightKernels<S>& kernels() const { return *kernels_; }
 
-  /// What materials mean for a sub-step of this step.
+  /// Computes the numbers of materials for a sub-step of this step.
   void prepare();
   /// Accelerations are those of gravity and drag.
   ISO_INLINE void accelerate() { kernels_->accelerate(run()); }
@@ -35,7 +35,7 @@ template <class S> class FreeFlight {
   /// anything leaves the range or is no number, or the number of slots.
   ISO_INLINE std::uint32_t finish(std::uint32_t first) { return kernels_->finish(run(first)); }
 
-  /// Of a particle that moves freely, with its material's damping.
+  /// Sets the velocity of a particle that moves freely, with its material's damping.
   ISO_INLINE void keep_velocity(std::uint32_t slot, Vec3<Velocity<S>> velocity) {
     if (!(InverseMass<S>(0) < state_.inverse_mass[slot])) return;
     const Step<S> keep = rows_[state_.material[slot]].keep;
@@ -53,8 +53,7 @@ template <class S> class FreeFlight {
   std::vector<FlightRow<S>> rows_;  // by material
 };
 
-#define ISO_EXTERN(S) extern template class FreeFlight<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_FREE_FLIGHT_OF(extern, S) extern template class FreeFlight<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_FREE_FLIGHT_OF)
 
 }  // namespace isostep

@@ -24,12 +24,12 @@ template <class S> class ParticleIntegration {
   /// velocities constraints have to do; arrive() then makes them those of the sub-step's end. A second stage that saw
   /// where forces alone would take the particles would feed the spring beside a rod with energy.
   void integrate(bool constrained);
-  /// Whether the method's velocities at the end are not those of the way.
+  /// The method's velocities at the end are not those of the way.
   ISO_INLINE bool arrives() const {
     const Integrator integrator = state_.settings.integrator;
     return integrator == Integrator::velocity_verlet || integrator == Integrator::rk4;
   }
-  /// Of such a method.
+  /// Makes the velocities those of the sub-step's end, for such a method.
   void arrive(bool constrained);
   /// A sub-step of particles that springs and forces join, but no constraint.
   void fly();
@@ -38,7 +38,7 @@ template <class S> class ParticleIntegration {
   ISO_INLINE void place() { flight_.place(); }
   /// All forces where displacements have taken the particles, those of stiff springs too.
   void accelerate_all();
-  /// Whether there are any besides those of materials.
+  /// There are forces besides those of materials.
   ISO_INLINE bool has_forces() const { return forces_.any(); }
 
  private:
@@ -61,8 +61,7 @@ template <class S> class ParticleIntegration {
   Axes<V> mean_, end_;                  // [m/s] weighted mean of their velocities; the velocity after the sub-step
 };
 
-#define ISO_EXTERN(S) extern template class ParticleIntegration<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_INTEGRATION_OF(extern, S) extern template class ParticleIntegration<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_INTEGRATION_OF)
 
 }  // namespace isostep

@@ -94,7 +94,7 @@ template <class S> void ParticleIntegration<S>::drift_rk4() {
     state_.velocity.set(i, mean);
   }
 }
-/// Its slopes into the means, and on to where the next stage looks.
+/// Adds a stage's slopes to the means, and moves on to where the next stage looks.
 template <class S> void ParticleIntegration<S>::add_stage(int stage) {
   const bool outer = stage == 0 || stage == 3;
   const Step<S> ahead = stage == 2 ? step_.h : step_.h * Step<S>(0.5);

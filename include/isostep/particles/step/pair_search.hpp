@@ -25,9 +25,9 @@ template <class S> class PairSearch {
  public:
   PairSearch(const ParticleState<S>& state, ParticleStep<S>& step);
 
-  /// Before the first search of a step: how far springs may carry particles in it.
+  /// Finds, before the first search of a step, how far springs may carry particles in it.
   void begin_step();
-  /// How far a particle may come in a step [m], more or less: what it meets sooner is found now.
+  /// [m] The way that a particle may come in a step, more or less: what it meets sooner is found now.
   ISO_INLINE S reach_of(std::uint32_t slot) const {
     using V = Velocity<S>;
     const Vec3<V> v = state_.velocity[slot];
@@ -36,10 +36,10 @@ template <class S> class PairSearch {
     return pulls_.empty() ? way : min(saturating_add(way, pulls_[slot]), ParticleLimits<S>::position());
   }
 
-  /// Whether any material has particles that collide with each other.
+  /// Some material has particles that collide with each other.
   bool any_collides() const;
   void clear();
-  /// In ascending order of slots; `reach` [m] from where the particle is as the step begins.
+  /// Adds a particle, in ascending order of slots; `reach` [m] from where the particle is as the step begins.
   ISO_INLINE void add(std::uint32_t slot, S reach) {
     slots_.push_back(slot);
     reaches_.push_back(reach);
@@ -60,8 +60,7 @@ template <class S> class PairSearch {
   std::vector<S> reaches_;            // [m] of those
 };
 
-#define ISO_EXTERN(S) extern template class PairSearch<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PAIR_SEARCH_OF(extern, S) extern template class PairSearch<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PAIR_SEARCH_OF)
 
 }  // namespace isostep

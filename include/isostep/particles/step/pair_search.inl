@@ -15,11 +15,11 @@ template <class S> bool PairSearch<S>::any_collides() const {
   }
   return false;
 }
-/// Whether any particle may meet anything but touches and links.
+/// Some particle may meet anything but touches and links.
 template <class S> bool PairSearch<S>::may_meet() const {
   return any_collides() || !state_.colliders.all().empty() || !state_.cohesions.all().empty();
 }
-/// How far springs may carry their ends in a step beside their velocity: k h^2 / m of the extension, and to its other
+/// Springs may carry their ends in a step so far beside their velocity: k h^2 / m of the extension, and to its other
 /// side at most.
 template <class S> void PairSearch<S>::begin_step() {
   pulls_.clear();

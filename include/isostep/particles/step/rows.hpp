@@ -22,7 +22,7 @@ template <class S> class ParticleRows {
 
   ParticleRows(const ParticleState<S>& state, const ParticleStep<S>& step);
 
-  // Made anew every step, kind after kind.
+  // The rows are made anew every step, kind after kind.
   void clear();
   ISO_INLINE void add(const Row& row) { rows_.push_back(row); }
   ISO_INLINE void end_links() { first_contact_ = first_touch_ = static_cast<std::uint32_t>(rows_.size()); }
@@ -37,9 +37,9 @@ template <class S> class ParticleRows {
   /// Normals and separations where particles are now: a passing particle must not meet the plane through where
   /// something was.
   void look();
-  /// What is touched gains the velocity that a sub-step gives it.
+  /// Adds to each touched surface the velocity that a sub-step gives it.
   void accelerate_surfaces();
-  /// What is touched goes on at its own pace, as the impulses changed it.
+  /// Moves each touched surface on at its own pace, as the impulses changed it.
   void move_surfaces();
 
   template <class Visit> void visit_kinds(const Visit& visit);  // where each kind of row begins
@@ -56,8 +56,7 @@ template <class S> class ParticleRows {
   std::uint32_t first_contact_ = 0, first_touch_ = 0;
 };
 
-#define ISO_EXTERN(S) extern template class ParticleRows<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_ROWS_OF(extern, S) extern template class ParticleRows<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_ROWS_OF)
 
 }  // namespace isostep

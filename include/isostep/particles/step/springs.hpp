@@ -14,7 +14,7 @@ template <class S> class ParticleSprings {
  public:
   ParticleSprings(ParticleState<S>& state, ParticleStep<S>& step);
 
-  /// Once a step: what pulls in it.
+  /// Lists, once a step, what pulls in it.
   void prepare();
   /// Adds what springs give their ends, where these are now.
   void pull(const FlightKernels<S>& kernels);
@@ -30,8 +30,7 @@ template <class S> class ParticleSprings {
   bool may_yield_ = false;  // any of the world's
 };
 
-#define ISO_EXTERN(S) extern template class ParticleSprings<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PARTICLE_SPRINGS_OF(extern, S) extern template class ParticleSprings<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PARTICLE_SPRINGS_OF)
 
 }  // namespace isostep

@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// After everything else has moved its ends as if it were not there, a stiff spring moves them on by what its motion
+/// A stiff spring moves its ends, after everything else has moved them as if it were not there, by what its motion
 /// differs from that: the exact one where nothing else holds its ends. A constraint would undo the velocity of the
 /// exact motion's end, which says nothing about the way, and give the energy back as displacement: there the spring is
 /// taken by backward Euler, whose end velocity is that of the way.
@@ -24,9 +24,9 @@ template <class S> class StiffSprings {
 
   StiffSprings(ParticleState<S>& state, ParticleStep<S>& step);
 
-  /// Once a step: how each moves, by whether constraints or other stiff springs hold its ends too.
+  /// Chooses, once a step, how each moves, by whether constraints or other stiff springs hold its ends too.
   void prepare(std::span<const ParticleConstraint<S>> rows);
-  /// After the integration of a sub-step: velocities and displacements of all ends.
+  /// Changes velocities and displacements of all ends after the integration of a sub-step.
   void swing();
   /// Adds them as forces, which they otherwise are not.
   void pull();
@@ -45,8 +45,7 @@ template <class S> class StiffSprings {
   std::vector<std::uint32_t> holds_;            // by particle's slot: stiff springs and constraints, 2 for more
 };
 
-#define ISO_EXTERN(S) extern template class StiffSprings<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_STIFF_SPRINGS_OF(extern, S) extern template class StiffSprings<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_STIFF_SPRINGS_OF)
 
 }  // namespace isostep

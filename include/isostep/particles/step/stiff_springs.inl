@@ -10,7 +10,7 @@ namespace isostep {
 template <class S>
 StiffSprings<S>::StiffSprings(ParticleState<S>& state, ParticleStep<S>& step) : state_(state), step_(step) {}
 
-/// What holds each particle besides forces: stiff springs and constraints.
+/// Counts what holds each particle besides forces: stiff springs and constraints.
 template <class S> void StiffSprings<S>::count_holds(std::span<const ParticleConstraint<S>> rows) {
   holds_.assign(state_.material.size(), 0);
   const auto hold = [this](std::uint32_t slot) { holds_[slot] = min(holds_[slot] + 1u, 2u); };

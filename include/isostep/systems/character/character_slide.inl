@@ -6,12 +6,12 @@
 
 namespace isostep {
 
-/// What may be in a character's way, the firmest first: what stays where it is, what walks, what is pushed aside.
+/// The obstacles in a character's way, the firmest first: fixed ones, other walkers, bodies that are pushed aside.
 namespace detail::obstacle {
 inline constexpr std::uint8_t kFixed = 0, kWalks = 1, kDynamic = 2;
 }
 
-/// [m] up to a skin before what it met.
+/// [m] The way up to a skin before the obstacle that it met.
 template <class S> S CharacterWalk<S>::travel(const Hit& hit, const Direction<S>& along) const {
   const S cosine = -dot(convert<S>(detail::unit_of<S>(along)), hit.normal);
   const S room = along.length * hit.fraction - character_.skin / max(cosine, detail::kGrazing<S>);
@@ -25,14 +25,14 @@ template <class S> void CharacterWalk<S>::touch(BodyId body, Vec3<S> point, Vec3
   if (touch_count_ < detail::kMostPlanes) touches_[touch_count_++] = {body, point, normal};
 }
 
-/// The same plane without its slope; of a ceiling and what looks straight up the plane itself.
+/// The plane without its slope; a ceiling, and a plane that looks straight up, as it is.
 template <class S> Vec3<Unit<S>> CharacterWalk<S>::upright(Vec3<Unit<S>> normal) const {
   const Vec3<S> across = flat(convert<S>(normal));
   const Direction<S> d = detail::heading<S>(across);
   return d.length > detail::kGrazing<S> ? detail::unit_of<S>(d) : normal;
 }
 
-/// Along one plane, or along the edge between two; a corner of three is the end, and so is what would lead back.
+/// The way along one plane, or along the edge between two; a corner of three ends it, and so would a way back.
 template <class S> Vec3<S> CharacterWalk<S>::clipped(Vec3<S> way, const Planes& planes) {
   const auto against = [&](Vec3<S> v) {
     for (int i = 0; i < planes.count; ++i) {
@@ -60,7 +60,7 @@ template <class S> Vec3<S> CharacterWalk<S>::clipped(Vec3<S> way, const Planes& 
   return Vec3<S>::zero();
 }
 
-/// The same way over the horizontal, up or down a floor.
+/// The way up or down a floor that is the same over the horizontal.
 template <class S> Vec3<S> CharacterWalk<S>::along_floor(Vec3<S> way, Vec3<Unit<S>> normal) const {
   const S slope = dot(convert<S>(normal), up_);
   return slope < detail::kGrazing<S> ? way : way - convert<S>(up_) * (dot(way, normal) / slope);
@@ -75,8 +75,8 @@ Vec3<S> CharacterWalk<S>::turned(Vec3<S> way, Vec3<S> point, Vec3<Unit<S>> norma
   return clipped(steep || gait != Gait::walks ? way : along_floor(way, normal), planes);
 }
 
-/// What it touches turns it without a cast, what it runs into most first. Floors turn nobody who walks: the edge of the
-/// next tile is near, but not in the way.
+/// Turns a way by what it touches, without a cast, what it runs into most first. Floors turn nobody who walks: the edge
+/// of the next tile is near, but not in the way.
 template <class S>
 Vec3<S> CharacterWalk<S>::turned_by(std::span<const NearContact<S>> touching, Vec3<S> way, Gait gait, Planes& planes) {
   const Vec3<S> asked = way;
@@ -107,7 +107,7 @@ auto CharacterWalk<S>::slide(Vec3<S> way, Gait gait, std::span<const NearContact
   for (int casts = 0; casts < detail::kMostSlides && planes.count < detail::kMostPlanes; ++casts) {
     const Direction<S> along = detail::heading<S>(way);
     if (!(detail::kLeastWay<S> < along.length)) break;
-    // Beyond its end by two skins: what is in its way is met a skin before.
+    // The cast reaches two skins beyond the way's end: an obstacle is met a skin before.
     const Direction<S> reach = {along.x, along.y, along.z, along.length + S(2) * character_.skin};
     const std::optional<Hit> hit = cast(detail::along<S>(reach, reach.length));
     const S gone = hit ? min(travel(*hit, reach), along.length) : along.length;

@@ -15,26 +15,26 @@ inline constexpr int kMostSlides = 5;   // casts of a move
 inline constexpr int kMostPlanes = 8;   // that a move runs along
 inline constexpr int kMostWaysOut = 8;  // moves out of an overlap, of each look at what is near
 inline constexpr int kMostLooks = 3;    // at what is near, on a way out
-/// [m] a step that it leaves an overlap by, besides what its ground moved it by.
+/// [m] The way a step by which it leaves an overlap, besides that of its ground.
 template <class S> inline constexpr S kMostWayOut = S(0.125);
-/// [m] less is rounding, and no way.
+/// [m] A shorter way is rounding.
 template <class S> inline constexpr S kLeastWay = S(0x1p-16);
-/// [1] least cosine by which a skin counts along a way.
+/// [1] The least cosine by which a skin counts along a way.
 template <class S> inline constexpr S kGrazing = S(0.125);
-/// [1] of a skin: what is no farther away touches.
+/// [1] The part of a skin within which contacts touch.
 template <class S> inline constexpr S kTouchingSkins = S(1.0625);
-/// [m] a step up is worth taking from so much more way on.
+/// [m] The gain of way on from which a step up is worth taking.
 template <class S> inline constexpr S kWorthAStep = S(0x1p-10);
-/// [1] least sine of the angle between two planes that have an edge.
+/// [1] The least sine of the angle between two planes that have an edge.
 template <class S> inline constexpr S kLeastEdge = S(1.0 / 64);
-/// [1] of a way of one metre into a plane that is rounding.
+/// [1] The part of a way of one metre into a plane that is rounding.
 template <class S> inline constexpr S kPlaneSlack = S(0x1p-10);
-/// [1] cosine of the angle between normals of one plane.
+/// [1] The cosine of the angle between normals of one plane.
 template <class S> inline constexpr S kOnePlane = S(1 - 0x1p-12);
-/// [m] of height above step_height that is rounding.
+/// [m] The height above step_height that is rounding.
 template <class S> inline constexpr S kStepSlack = S(0x1p-11);
 
-/// [1] and `size` [m] along it.
+/// The direction [1], and `size` [m] along it.
 template <class S> ISO_INLINE Vec3<Unit<S>> unit_of(const Direction<S>& d) { return {d.x, d.y, d.z}; }
 template <class S> ISO_INLINE Vec3<S> along(const Direction<S>& d, S size) {
   return {size * d.x, size * d.y, size * d.z};
@@ -45,14 +45,14 @@ template <class S> ISO_INLINE Direction<S> heading(Vec3<S> v) { return direction
 /// A character as a step moves it: what it is, what it is to do, how it was left. The walk writes the last two.
 template <class S> struct Walker : CharacterSettings<S>, CharacterInput<S>, CharacterState<S> {};
 
-/// What a character met that may be pushed.
+/// A body that a character met and may push.
 template <class S> struct CharacterTouch {
   BodyId body;
   Vec3<S> point;         // [m] world
   Vec3<Unit<S>> normal;  // [1] towards the character
 };
 
-/// What walks use again, one after the other.
+/// The memory that walks use again, one after the other.
 template <class S> struct WalkMemory {
   std::vector<NearContact<S>> contacts, first;  // as they are now, and as they were at the first look
 };
@@ -76,7 +76,7 @@ template <class S> class CharacterWalk {
 
   ISO_INLINE Vec3<S> way() const { return at_ - start_; }
   ISO_INLINE std::span<const CharacterTouch<S>> touches() const { return {touches_, touch_count_}; }
-  /// [m] on the ground, world.
+  /// [m] The foot's point on the ground, world.
   ISO_INLINE Vec3<S> foot() const { return foot_; }
 
  private:
@@ -115,8 +115,8 @@ template <class S> class CharacterWalk {
   // character_slide.inl
   std::optional<Hit> cast(Vec3<S> way) { return around_.cast(at_, way); }
   S travel(const Hit& hit, const Direction<S>& along) const;
-  /// Moves along `way` as far as it goes. Who does not fall finds slopes upright that are too steep; who walks goes up
-  /// the others as fast as on the level.
+  /// Moves along `way` as far as it goes. A character that does not fall finds slopes upright that are too steep; one
+  /// that walks goes up the others as fast as on the level.
   enum class Gait { falls, rises, walks };
   Planes slide(Vec3<S> way, Gait gait, std::span<const NearContact<S>> touching);
   Vec3<S> turned_by(std::span<const NearContact<S>> touching, Vec3<S> way, Gait gait, Planes& planes);

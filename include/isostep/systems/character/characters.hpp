@@ -43,7 +43,7 @@ template <class S> class Characters {
   };
   using Place = typename CharacterWalk<S>::Place;
   void walk(std::uint32_t slot);
-  /// Who is asked for its surroundings.
+  /// The shape and pose that asks for its surroundings.
   struct Asking {
     ShapeId shape;
     Pose<S> pose;  // of the body's origin
@@ -51,7 +51,7 @@ template <class S> class Characters {
   static QueryFilter seen_by(const Walker<S>& character);
   void find_passed(const Walker<S>& character, const Asking& asking);
   bool is_above(const Walker<S>& character, const Asking& asking, const OneWay<S>& way);
-  S highest_of(BodyId body, Vec3<Unit<S>> axis) const;
+  S highest_of(const Walker<S>& character, BodyId body, Vec3<Unit<S>> axis) const;
   Vec3<S> local_to(BodyId body, Vec3<S> point) const;
   void push_touched(const CharacterWalk<S>& walk, const Walker<S>& character);
   void bear(const Walker<S>& character);
@@ -74,8 +74,7 @@ template <class S> class Characters {
   std::vector<std::uint32_t> passed_kinds_;  // likewise
 };
 
-#define ISO_EXTERN(S) extern template class Characters<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CHARACTERS_OF(extern, S) extern template class Characters<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CHARACTERS_OF)
 
 }  // namespace isostep

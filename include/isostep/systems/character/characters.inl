@@ -15,12 +15,21 @@
 namespace isostep {
 
 namespace detail {
+/// Whether a part of another body carries and stops the character: neither a sensor nor filtered out.
+template <class S>
+bool is_solid_for(const BodyMap<S>& map, const Walker<S>& character, const BodyProperties<S>& other,
+                  const Child<S>& part) {
+  const PartTraits<S> plain = {};
+  return parts_collide(part.traits, other.filter, plain, map.properties_of(character.body)->filter);
+}
 /// The part of its ground whose surface is nearest to its foot, of equals the first.
 template <class S> std::uint32_t part_under(const BodyMap<S>& map, const Walker<S>& character) {
-  const std::span<const Child<S>> parts = map.children_of(map.properties_of(character.ground)->shape);
+  const BodyProperties<S>& ground = *map.properties_of(character.ground);
+  const std::span<const Child<S>> parts = map.children_of(ground.shape);
   std::uint32_t nearest = 0;
   S least = highest<S>();
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
+    if (!is_solid_for(map, character, ground, parts[i])) continue;
     const ShapeView<S> view = map.contents().view(parts[i].primitive);
     const S gap = abs(closest_point<S>(view, Transform<S>::of(parts[i].pose), character.foot).distance);
     if (!(gap < least)) continue;
@@ -54,7 +63,7 @@ Vec3<S> carried_by_belt(const WorldState<S>& state, const BodyMap<S>& map, const
   const Step<S> h = divide_to<Step<S>>(S(1), S(state.settings.hz));
   return to_matrix(map.origin_pose_at(belt->body.slot).orientation) * (speed * h);
 }
-/// [m] how far the point of the ground has moved that the character stands on. What is fixed does not, but for belts.
+/// [m] The way of the ground's point on which the character stands. Fixed ground does not move, but for belts.
 template <class S>
 Vec3<S> carried_by_ground(const WorldState<S>& state, const BodyMap<S>& map, const Walker<S>& character) {
   if (!state.body_slots.holds(character.ground)) return Vec3<S>::zero();
@@ -63,7 +72,7 @@ Vec3<S> carried_by_ground(const WorldState<S>& state, const BodyMap<S>& map, con
   const Pose<S> pose = map.origin_pose_at(character.ground.slot);
   return pose.position + to_matrix(pose.orientation) * character.foot - character.foot_at + by_belt;
 }
-/// [N] from a push that ends at a speed: no more than `most`, and than the body then has after a step.
+/// [N] The force of a push that ends at a speed: no more than `most`, and no faster than that after a step.
 template <class S> S push_on(S mass, S lacks, std::int32_t hz, S most) {
   if (!(S(0) < lacks)) return S(0);
   const S change = lacks * S(hz);  // [m/s^2]
@@ -124,7 +133,7 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
   moves_.push_back({slot, character, walk.way()});
 }
 
-/// All that it does not pass.
+/// The filter of bodies that the character meets.
 template <class S> QueryFilter Characters<S>::seen_by(const Walker<S>& character) {
   QueryFilter filter;
   filter.mask = character.mask;
@@ -132,7 +141,7 @@ template <class S> QueryFilter Characters<S>::seen_by(const Walker<S>& character
   return filter;
 }
 
-/// Its ghosts, kinds that its own passes, and the one-way bodies that it is not above of.
+/// Lists its ghosts, kinds that its own passes, and the one-way bodies that it is not above of.
 template <class S> void Characters<S>::find_passed(const Walker<S>& character, const Asking& asking) {
   passed_.clear();
   passed_kinds_.clear();
@@ -151,8 +160,8 @@ template <class S> void Characters<S>::find_passed(const Walker<S>& character, c
   }
 }
 
-/// By the highest point of the body along its axis; or, where the body is not flat, by what is near. A body that rises
-/// may have overtaken the character's lowest point in this step.
+/// Judges by the highest point of the body along its axis; or, where the body is not flat, by what is near. A body that
+/// rises may have overtaken the character's lowest point in this step.
 template <class S>
 bool Characters<S>::is_above(const Walker<S>& character, const Asking& asking, const OneWay<S>& way) {
   if (character.footing == Footing::floor && character.ground == way.body) return true;
@@ -164,7 +173,7 @@ bool Characters<S>::is_above(const Walker<S>& character, const Asking& asking, c
   const S slack = character.skin * S(0.5) + rises;
   const S lowest =
       dot(asking.pose.position - pose.position, axis) - queries_.reach_of(asking.shape, asking.pose.orientation, -axis);
-  if (!(lowest < highest_of(way.body, way.axis) - slack)) return true;
+  if (!(lowest < highest_of(character, way.body, way.axis) - slack)) return true;
   if (!knows_contacts_) {
     const S way_of_step = (max_abs(character.velocity) + max_abs(character.move)) / hz;
     around_.begin(asking.shape, asking.pose, seen_by(character), map_.properties_of(character.body)->filter);
@@ -180,12 +189,14 @@ bool Characters<S>::is_above(const Walker<S>& character, const Asking& asking, c
   return in_front;
 }
 
-/// [m] along an axis in the body's frame, from its origin.
-template <class S> S Characters<S>::highest_of(BodyId body, Vec3<Unit<S>> axis) const {
+/// [m] The highest point along an axis in the body's frame, from its origin, of what the character meets.
+template <class S> S Characters<S>::highest_of(const Walker<S>& character, BodyId body, Vec3<Unit<S>> axis) const {
   const Vec3<Unit<S>> y = {Unit<S>(0), Unit<S>(1), Unit<S>(0)};
   const Transform<S> upright = Transform<S>::of({Vec3<S>::zero(), rotation_between(axis, y)});
   S highest = -Limits<S>::position();
-  for (const Child<S>& child : map_.children_of(map_.properties_at(map_.location(body.slot)).shape)) {
+  const BodyProperties<S>& properties = map_.properties_at(map_.location(body.slot));
+  for (const Child<S>& child : map_.children_of(properties.shape)) {
+    if (!detail::is_solid_for(map_, character, properties, child)) continue;
     const Transform<S> at = compose(upright, Transform<S>::of(child.pose));
     highest = max(highest, bounds(map_.contents().view(child.primitive), at).high.y);
   }
@@ -198,7 +209,7 @@ template <class S> Vec3<S> Characters<S>::local_to(BodyId body, Vec3<S> point) c
   return transposed_times(to_matrix(pose.orientation), point - pose.position);
 }
 
-/// Against what is in its way, until that is as fast as the character wants to be.
+/// Pushes bodies in its way, until they are as fast as the character wants to be.
 template <class S> void Characters<S>::push_touched(const CharacterWalk<S>& walk, const Walker<S>& character) {
   const Vec3<S> wanted = character.footing == Footing::floor ? character.move : character.velocity;
   for (const CharacterTouch<S>& touch : walk.touches()) {
@@ -223,8 +234,8 @@ template <class S> void Characters<S>::bear(const Walker<S>& character) {
   pushes_.push_back({character.ground, detail::along<S>(down, weight), character.foot_at});
 }
 
-/// As a command that sets its pose, but drawn on its way: it goes there, it does not appear. So its fat box stays where
-/// it is for as long as it holds the body.
+/// Puts the body as a command that sets its pose does, but drawn on its way: it goes there, it does not appear. So its
+/// fat box stays where it is for as long as it holds the body.
 template <class S> void Characters<S>::put(const Move& move) {
   if (move.way == Vec3<S>::zero()) return;
   const std::uint32_t slot = move.character.body.slot;

@@ -33,8 +33,7 @@ template <class S> class ContactResponses {
   std::vector<ContactResponse<S>> all_;
 };
 
-#define ISO_EXTERN(S) extern template class ContactResponses<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CONTACT_RESPONSES_OF(extern, S) extern template class ContactResponses<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CONTACT_RESPONSES_OF)
 
 }  // namespace isostep

@@ -10,11 +10,16 @@ template <class S> void ContactResponses<S>::update() {
   all_.clear();
   table_.update(state_.records->kind_responses);
   if (table_.empty()) return;
-  const auto kind = [&](std::uint32_t slot) { return map_.properties_at(map_.location(slot)).material.kind; };
+  const auto kind = [&](std::uint32_t slot, std::uint32_t leaf) {
+    const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
+    if (!map_.traits_of(body.shape).has(part_flag::kOwnMaterial)) return body.material.kind;
+    const std::uint32_t child = map_.leaf_of(slot, leaf).child;
+    return map_.children_of(body.shape)[child].traits.material_or(body.material).kind;
+  };
   for (std::uint32_t i = 0; i < state_.contacts.size(); ++i) {
     const ContactKey& key = state_.contacts[i].key;
-    const std::uint32_t a = kind(key.body_a);
-    const KindResponse<S>* const found = table_.find(a, kind(key.body_b));
+    const std::uint32_t a = kind(key.body_a, key.child_a);
+    const KindResponse<S>* const found = table_.find(a, kind(key.body_b, key.child_b));
     if (found == nullptr) continue;
     const KindResponse<S>& r = *found;
     const ContactResponse<S> as_named = {i,

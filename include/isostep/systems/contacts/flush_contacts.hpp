@@ -65,8 +65,7 @@ template <class S> class FlushContacts {
   bool any_left_out_ = false;
 };
 
-#define ISO_EXTERN(S) extern template class FlushContacts<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_FLUSH_CONTACTS_OF(extern, S) extern template class FlushContacts<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_FLUSH_CONTACTS_OF)
 
 }  // namespace isostep

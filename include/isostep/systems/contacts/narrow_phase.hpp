@@ -32,7 +32,7 @@ template <class S> struct ContactRules {
 template <class S> class NarrowPhase {
  public:
   ISO_INLINE NarrowPhase(WorldState<S>& state, const BodyMap<S>& map)
-      : state_(state), part_pairs_(state, map), flush_(state, map) {}
+      : state_(state), map_(map), part_pairs_(state, map), flush_(state, map) {}
 
   /// Returns how many pairs of compounds lack parts, because the budget is used up. A step with many pairs is shared
   /// among the threads of `tools`.
@@ -74,16 +74,23 @@ template <class S> class NarrowPhase {
   void join_flat(const PairRun<S>& run) const;
   std::uint32_t join_flat(const PairRun<S>& run, std::uint32_t begin) const;
   bool lie_alike(const PartPair& x, const PartPair& y) const;
+  /// Whether one of the two is a sensor: they have no contact.
+  ISO_INLINE bool is_sensed(const PartPair& pair) const {
+    const BodyFrame<S>&a = part_pairs_.frames()[pair.frame_a], &b = part_pairs_.frames()[pair.frame_b];
+    return (a.senses || b.senses) && (is_sensor_leaf(a, pair.child_a) || is_sensor_leaf(b, pair.child_b));
+  }
   std::size_t place_group(std::size_t group, const std::uint8_t* counts);
   void merge_group(std::size_t group, const std::uint8_t* counts, const Manifold<S>* manifolds, std::size_t next,
                    std::size_t& old_cursor);
   std::size_t first_old_contact(std::size_t group) const;
   void fill_contact(const PartPair& parts, const Manifold<S>& manifold, Contact<S>& contact, ContactGeometry<S>& g,
                     std::size_t& old_cursor) const;
+  std::uint32_t reported_flag(const BodyFrame<S>& a, const BodyFrame<S>& b, const ContactKey& key) const;
   void settle_friction(const PartPair& parts, const Contact<S>& contact, ContactGeometry<S>& g) const;
   std::span<const Contact<S>> old_contacts_of(const ContactKey& key, std::size_t cursor) const;
 
   WorldState<S>& state_;
+  const BodyMap<S>& map_;
   PartPairs<S> part_pairs_;
   FlushContacts<S> flush_;
   MaterialTable<S> material_table_;
@@ -100,8 +107,7 @@ template <class S> class NarrowPhase {
   std::vector<SensorOverlap> overlaps_;
 };
 
-#define ISO_EXTERN(S) extern template class NarrowPhase<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_NARROW_PHASE_OF(extern, S) extern template class NarrowPhase<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_NARROW_PHASE_OF)
 
 }  // namespace isostep

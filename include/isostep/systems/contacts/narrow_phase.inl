@@ -83,7 +83,7 @@ void inherit_across_edges(const TriangleContacts<S>& old, const ContactGeometry<
     const Contact<S>* const holder = old.holder_of(contact.key, feature, point);
     if (holder == nullptr) continue;
     contact.normal_impulse[p] = holder->normal_impulse[point];
-    contact.flags |= holder->flags;
+    contact.flags |= holder->flags & contact_flag::kTouching;
     if (!is_new) continue;
     const Velocity<S> share = Velocity<S>(static_cast<std::int32_t>(holder->count));
     for (int axis = 0; axis < 3; ++axis) contact.friction_impulse[axis] += holder->friction_impulse[axis] / share;
@@ -189,7 +189,7 @@ template <class S> void NarrowPhase<S>::collide_others(const PairRun<S>& run) co
   for (std::uint32_t i = run.begin; i < run.end; ++i) {
     const PartPair& pair = run.pairs[run.order[i]];
     const BodyFrame<S>&a = run.frames[pair.frame_a], &b = run.frames[pair.frame_b];
-    const S margin = a.sensor || b.sensor ? S(0) : run.margin;
+    const S margin = is_sensed(pair) ? S(0) : run.margin;
     Manifold<S>& out = run.manifolds[run.order[i]];
     collide_parts(kernels_->polyhedra, a, pair.child_a, b, pair.child_b, margin, out);
     run.counts[run.order[i]] = static_cast<std::uint8_t>(out.count);
@@ -203,7 +203,7 @@ template <class S> void NarrowPhase<S>::join_flat(const PairRun<S>& run) const {
   while (i < run.end) {
     const PartPair& pair = run.pairs[run.order[i]];
     const BodyFrame<S>&a = run.frames[pair.frame_a], &b = run.frames[pair.frame_b];
-    i = (a.surfaces || b.surfaces) && !(a.sensor || b.sensor) ? join_flat(run, i) : i + 1;
+    i = (a.surfaces || b.surfaces) && !is_sensed(pair) ? join_flat(run, i) : i + 1;
   }
 }
 /// Joins those of two bodies; returns where those of the next two begin.
@@ -243,6 +243,8 @@ template <class S> bool NarrowPhase<S>::lie_alike(const PartPair& x, const PartP
   const std::uint32_t leaf_x = of_a ? x.child_a : x.child_b, leaf_y = of_a ? y.child_a : y.child_b;
   if (belts_ != nullptr && belts_->find(ground.slot, leaf_x) != belts_->find(ground.slot, leaf_y)) return false;
   const Leaf p = detail::leaf_at(ground, leaf_x), q = detail::leaf_at(ground, leaf_y);
+  const bool as_body = (ground.children[p.child].traits.flags | ground.children[q.child].traits.flags) == 0;
+  if (p.child != q.child && !as_body) return false;
   const ShapeView<S> of_p = detail::part(ground, p.child), of_q = detail::part(ground, q.child);
   if (!is_surface(of_p.primitive.type) || !is_surface(of_q.primitive.type)) return false;
   const SurfaceMaterial *const m = listed_material(of_p, p.triangle), *const n = listed_material(of_q, q.triangle);
@@ -262,9 +264,9 @@ ISO_INLINE void NarrowPhase<S>::fill_contact(const PartPair& parts, const Manifo
   g.row_b = b.row;
   g.normal = manifold.normal;
   const Material<S>&of_a = materials[parts.frame_a], &of_b = materials[parts.frame_b];
-  g.material = a.surfaces   ? mix(material_of_leaf(a, parts.child_a, of_a), of_b)
-               : b.surfaces ? mix(of_a, material_of_leaf(b, parts.child_b, of_b))
-                            : mix(of_a, of_b);
+  g.material = a.varied || b.varied
+                   ? mix(material_of_leaf(a, parts.child_a, of_a), material_of_leaf(b, parts.child_b, of_b))
+                   : mix(of_a, of_b);
   const Vec3<S> from_a_to_b = b.centre - a.centre;
   if (part_pairs_.any_throng() && a.kind == PartKind::sphere && b.kind == PartKind::sphere &&
       from_a_to_b == Vec3<S>::zero())
@@ -279,15 +281,26 @@ ISO_INLINE void NarrowPhase<S>::fill_contact(const PartPair& parts, const Manifo
   const bool is_new = old_cursor == old_contacts_.size() || !(old_contacts_[old_cursor].key == contact.key);
   if (!is_new) {
     const Contact<S>& old = old_contacts_[old_cursor];
-    contact.flags = old.flags;
+    contact.flags = old.flags & contact_flag::kTouching;
     contact.friction_impulse = old.friction_impulse;
     contact.twist_impulse = old.twist_impulse;
     detail::inherit_impulses(old, contact);
   }
   if (a.surfaces || b.surfaces)
     detail::inherit_across_edges<S>({old_contacts_of(contact.key, old_cursor), b.surfaces}, g, is_new, contact);
+  if (a.reports || b.reports) contact.flags |= reported_flag(a, b, contact.key);
   if (belts_ != nullptr) add_belts(*belts_, contact.key, contact.count, g);
   if (!a.mixes_alone || !b.mixes_alone) settle_friction(parts, contact, g);
+}
+
+/// Of a contact of bodies that report, or of whose parts some do.
+template <class S>
+std::uint32_t NarrowPhase<S>::reported_flag(const BodyFrame<S>& a, const BodyFrame<S>& b, const ContactKey& key) const {
+  const auto reports = [&](const BodyFrame<S>& body, std::uint32_t leaf) {
+    return body.reports &&
+           map_.reports(map_.properties_at(map_.location(body.slot)), detail::leaf_at(body, leaf).child);
+  };
+  return reports(a, key.child_a) || reports(b, key.child_b) ? contact_flag::kReported : 0u;
 }
 
 /// Of a contact of a material that does not mix alone: by its pair's record, if there is one, and as it slips.
@@ -296,8 +309,8 @@ void NarrowPhase<S>::settle_friction(const PartPair& parts, const Contact<S>& co
   using Arms = detail::ContactArms<S>;
   const BodyFrame<S>&a = part_pairs_.frames()[parts.frame_a], &b = part_pairs_.frames()[parts.frame_b];
   Material<S> of_a = part_pairs_.materials()[parts.frame_a], of_b = part_pairs_.materials()[parts.frame_b];
-  if (a.surfaces) of_a = material_of_leaf(a, parts.child_a, of_a);
-  else if (b.surfaces) of_b = material_of_leaf(b, parts.child_b, of_b);
+  if (a.varied) of_a = material_of_leaf(a, parts.child_a, of_a);
+  if (b.varied) of_b = material_of_leaf(b, parts.child_b, of_b);
   SurfaceContact<S> surface;
   surface.friction = g.material.friction;
   surface.static_friction = mixed_friction(static_friction_of(of_a), static_friction_of(of_b));
@@ -342,8 +355,8 @@ template <class S> std::size_t NarrowPhase<S>::place_group(std::size_t index, co
   for (const std::uint32_t i : group.others) {
     const PartPair& part = group.parts[i];
     const BodyFrame<S>&a = frames[part.frame_a], &b = frames[part.frame_b];
-    if (counts[i] == 0 || !(a.sensor || b.sensor)) continue;
-    const SensorOverlap overlap = a.sensor ? SensorOverlap{a.slot, b.slot} : SensorOverlap{b.slot, a.slot};
+    if (counts[i] == 0 || !is_sensed(part)) continue;
+    const SensorOverlap overlap = detail::overlap_of(a, part.child_a, b, part.child_b);
     if (overlaps_.empty() || !(overlaps_.back() == overlap)) overlaps_.push_back(overlap);
     --touching;
   }
@@ -358,10 +371,9 @@ template <class S>
 void NarrowPhase<S>::merge_group(std::size_t index, const std::uint8_t* counts, const Manifold<S>* manifolds,
                                  std::size_t next, std::size_t& old_cursor) {
   const PartGroup group = part_pairs_.group(index);
-  const std::vector<BodyFrame<S>>& frames = part_pairs_.frames();
   for (std::size_t i = 0; i < group.parts.size(); ++i) {
     const PartPair& part = group.parts[i];
-    if (counts[i] == 0 || frames[part.frame_a].sensor || frames[part.frame_b].sensor) continue;
+    if (counts[i] == 0 || is_sensed(part)) continue;
     fill_contact(part, manifolds[i], state_.contacts[next], geometry_[next], old_cursor);
     ++next;
   }

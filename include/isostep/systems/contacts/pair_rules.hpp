@@ -62,8 +62,7 @@ template <class S> class PairRules {
   std::size_t ghosts_ = 0;            // the first so many of apart_ are ghosts, ascending
 };
 
-#define ISO_EXTERN(S) extern template class PairRules<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PAIR_RULES_OF(extern, S) extern template class PairRules<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PAIR_RULES_OF)
 
 }  // namespace isostep

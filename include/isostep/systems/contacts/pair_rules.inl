@@ -94,7 +94,7 @@ template <class S> bool PairRules<S>::still_meet(BodyId a, BodyId b) const {
   const S margin = detail::kSpeculativeDistance<S> + skin_of(a) + skin_of(b);
   if (!overlap(grow(map_.state_at(at_low).fat, margin), map_.state_at(at_high).fat)) return false;
   const bool still = at_low.set != Location::kAwake && at_high.set != Location::kAwake;
-  return still || bodies_touch(map_, low, high, margin);
+  return still || bodies_touch(map_, low, high, ByParts::any, margin);
 }
 
 template <class S> void PairRules<S>::begin_ghost(std::uint64_t key) {
@@ -123,7 +123,7 @@ template <class S> bool PairRules<S>::may_judge(std::uint64_t key) const {
   if (ghost < ghosts_ && apart_[ghost] == key) return false;
   const Location at_a = map_.location(a), at_b = map_.location(b);
   if (at_a.is_asleep() || at_b.is_asleep()) return false;
-  if (((map_.properties_at(at_a).flags | map_.properties_at(at_b).flags) & body_flag::kSensor) != 0) return false;
+  if (map_.is_sensor(map_.properties_at(at_a)) || map_.is_sensor(map_.properties_at(at_b))) return false;
   return detail::contacts_of<S>(state_.contacts, a, b).empty();
 }
 
@@ -136,8 +136,8 @@ template <class S> typename PairRules<S>::Verdict PairRules<S>::judge(std::uint6
   const BodyFrame<S> a = frame_at(map_, at_a), b = frame_at(map_, at_b);
   const Vec3<S> from_a_to_b = b.centre - a.centre;
   Verdict verdict = Verdict::open;
-  std::uint64_t looks = ~std::uint64_t{0};
-  const auto visit = [&](std::uint32_t i, std::uint32_t j) {
+  visit_meetings(map_, a, b, kMargin, [&](std::uint32_t i, std::uint32_t j, PartMeeting meeting) {
+    if (meeting != PartMeeting::solid) return true;
     Manifold<S> manifold;
     collide_parts(collide_polyhedra<S>, a, i, b, j, kMargin, manifold);
     if (manifold.count == 0) return true;
@@ -150,9 +150,7 @@ template <class S> typename PairRules<S>::Verdict PairRules<S>::judge(std::uint6
       if (manifold.points[p].separation < -detail::kPassingDepth<S>) verdict = Verdict::passes;
     }
     return true;
-  };
-  if (is_large(a) || is_large(b)) visit_leaves(a, b, kMargin, looks, visit);
-  else visit_parts(a, b, kMargin, looks, visit);
+  });
   return verdict;
 }
 

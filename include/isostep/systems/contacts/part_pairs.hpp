@@ -26,7 +26,7 @@ struct PartGroup {
 
 /// Input:   the state, the pairs of the broad phase in ascending order.
 /// Output:  frames and materials of the bodies; the pairs of parts, ascending by their contacts' keys. Pairs that a
-///          joint or a rule keeps from colliding are left out, and some of a throng.
+///          joint, a rule or the parts' own filters keep from colliding are left out, and some of a throng.
 /// Keeps:   nothing from step to step but memory.
 /// Budget:  compounds may compare 64 pairs of parts and collide 2 for each pair of bodies that Settings::most_pairs
 ///          allows: comparing takes a hundredth of what a contact takes. Beyond it every pair of bodies gets the same
@@ -64,7 +64,7 @@ template <class S> class PartPairs {
   /// A body's place among the frames, and what tells how it collides: its PartKind and the bits below.
   struct Framed {
     static constexpr std::uint32_t kNone = 0xffffffffu;
-    static constexpr std::uint32_t kSensor = 1u << 8, kAsleep = 1u << 9;
+    static constexpr std::uint32_t kSenses = 1u << 8, kAsleep = 1u << 9;
     std::uint32_t index = kNone;
     std::uint32_t traits = 0;
   };
@@ -84,6 +84,7 @@ template <class S> class PartPairs {
   static std::uint32_t traits_of(const BodyFrame<S>& frame);
   bool gather(std::span<const std::uint64_t> pairs, Budget each, Budget all);
   bool gather_others(Framed at_a, Framed at_b, const Budget& each, Budget& all);
+  bool meet(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j, bool asleep) const;
   template <class Visit>
   bool visit_sorted_leaves(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks, Visit& visit);
   void add_part(std::vector<std::uint32_t>& list, const PartPair& part);
@@ -107,8 +108,7 @@ template <class S> class PartPairs {
   std::uint32_t cut_compounds_ = 0;
 };
 
-#define ISO_EXTERN(S) extern template class PartPairs<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_PART_PAIRS_OF(extern, S) extern template class PartPairs<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_PART_PAIRS_OF)
 
 }  // namespace isostep

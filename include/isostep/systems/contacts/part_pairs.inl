@@ -50,7 +50,7 @@ template <class S> void PartPairs<S>::frame_body(std::uint32_t slot) {
   materials_.push_back(map_.properties_at(map_.location(slot)).material);
 }
 template <class S> std::uint32_t PartPairs<S>::traits_of(const BodyFrame<S>& frame) {
-  return static_cast<std::uint32_t>(frame.kind) | (frame.sensor ? Framed::kSensor : 0u) |
+  return static_cast<std::uint32_t>(frame.kind) | (frame.senses ? Framed::kSenses : 0u) |
          (frame.asleep ? Framed::kAsleep : 0u);
 }
 
@@ -98,23 +98,32 @@ template <class S> bool PartPairs<S>::gather(std::span<const std::uint64_t> pair
 /// Takes from `all` what it uses, at most `each`. False: more was there.
 template <class S> bool PartPairs<S>::gather_others(Framed at_a, Framed at_b, const Budget& each, Budget& all) {
   const std::uint32_t either = at_a.traits | at_b.traits;
-  const bool sensor = (either & Framed::kSensor) != 0;
-  if (!sensor && (either & Framed::kAsleep) != 0) return true;  // a kinematic body at rest against sleepers
-  const S margin = sensor ? S(0) : detail::kSpeculativeDistance<S>;
+  const bool sensor = (either & Framed::kSenses) != 0, asleep = (either & Framed::kAsleep) != 0;
+  if (!sensor && asleep) return true;  // a kinematic body at rest against sleepers
+  const BodyFrame<S>&a = frames_[at_a.index], &b = frames_[at_b.index];
+  const bool traits = a.traits || b.traits;
+  const S margin = sensor && !traits ? S(0) : detail::kSpeculativeDistance<S>;
   const std::uint64_t most_looks = min(each.looks, all.looks), most_parts = min(each.parts, all.parts);
   std::uint64_t looks = most_looks, parts = most_parts;
   const auto visit = [&](std::uint32_t i, std::uint32_t j) {
+    if (traits && !meet(a, i, b, j, asleep)) return true;
     if (parts == 0) return false;
     --parts;
     add_part(others_, {at_a.index, at_b.index, i, j});
     return true;
   };
-  const BodyFrame<S>&a = frames_[at_a.index], &b = frames_[at_b.index];
   const bool whole = is_large(a) || is_large(b) ? visit_sorted_leaves(a, b, margin, looks, visit)
                                                 : visit_parts(a, b, margin, looks, visit);
   all.looks -= most_looks - looks;
   all.parts -= most_parts - parts;
   return whole;
+}
+/// Sleepers do not push, but they are seen.
+template <class S>
+bool PartPairs<S>::meet(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j,
+                        bool asleep) const {
+  const PartMeeting meeting = meeting_of(map_, a, i, b, j);
+  return meeting == PartMeeting::sensed || (meeting == PartMeeting::solid && !asleep);
 }
 template <class S>
 template <class Visit>

@@ -22,10 +22,10 @@ namespace isostep {
 ///          a body are not looked at; bodies that touch are two inner radii apart, so a heap has no deep pairs.
 template <class S> class Throng {
  public:
-  /// Both of all awake bodies, in their order.
+  /// Begins with the frames and properties of all awake bodies, in their order.
   void begin(std::span<const BodyFrame<S>> frames, std::span<const BodyProperties<S>> bodies, std::size_t pairs);
   ISO_INLINE bool any() const { return !members_.empty(); }
-  /// For each pair, by its frames; afterwards leaves_out() knows.
+  /// Counts a pair by its frames; after all pairs leaves_out() knows.
   ISO_INLINE void count(std::uint32_t a, std::uint32_t b) {
     if (members_.size() <= max(a, b)) return;
     Member &of_a = members_[a], &of_b = members_[b];

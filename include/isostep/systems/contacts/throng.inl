@@ -15,7 +15,7 @@ ISO_INLINE Pcg32 draws_of_pair(std::uint32_t slot_a, std::uint32_t slot_b) {
 }
 /// [m] 0 of what has several parts.
 template <class S> S throng_reach(const BodyFrame<S>& body) {
-  if (!body.plain || body.sensor || body.surfaces) return S(0);
+  if (!body.plain || body.senses || body.surfaces) return S(0);
   if (body.kind == PartKind::sphere) return body.radius;
   if (body.kind == PartKind::box) return min(body.half.x, min(body.half.y, body.half.z)) + body.radius;
   const ShapeView<S> shape = part(body, 0);

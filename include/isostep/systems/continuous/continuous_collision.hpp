@@ -19,7 +19,7 @@
 
 namespace isostep {
 
-/// What of a step's rules a fast body heeds. Null tables are empty ones.
+/// The rules of a step that a fast body heeds. Null tables are empty ones.
 template <class S> struct ImpactRules {
   const Ways<S>* ways = nullptr;                // what they let pass they do not stop
   const ResponseTable<S>* responses = nullptr;  // what does not push back, or no harder than it may, does not stop
@@ -84,11 +84,11 @@ template <class S> class ContinuousCollision {
       return {min(from().position, to().position) + around.low, max(from().position, to().position) + around.high};
     }
   };
-  /// Where a motion ends.
+  /// The end of a motion.
   struct Cut {
     Unit<S> fraction;  // [1]
     Pose<S> pose;      // of the centre of mass
-    // Of a part's middle, which is stopped alone.
+    // The end of a part's middle, which is stopped alone.
     Unit<S> fraction_of_middle;  // [1]
     Vec3<S> middle, place;       // [m] in the body's frame, and in the world where it is stopped
     Vec3<Unit<S>> normal;        // [1] where it may not go on; zero: where a kinematic body stops it
@@ -104,7 +104,7 @@ template <class S> class ContinuousCollision {
     S relative_motion;     // [m] no two points of the body and of it move further against each other
     const Pose<S>* end;    // at the end of the step, in the world: what it stops goes on with it; null: it stays
 
-    /// In the world, at the end of the step: what was at `there`, in the frame, after the fraction.
+    /// The pose in the world, at the end of the step, of what was at `there`, in the frame, after the fraction.
     ISO_INLINE Pose<S> carried(const Pose<S>& there, Unit<S> fraction) const;
   };
   /// A part of the step as pieces count it.
@@ -116,7 +116,7 @@ template <class S> class ContinuousCollision {
     std::uint32_t slot;
     Aabb<S> swept;
   };
-  /// What is least of all that the filter of bodies has to know.
+  /// The least of all values that the filter of bodies has to know.
   struct Survey {
     S thinnest;  // [m] inner radius of what stops a body, up to kThick
     bool bullets, kinematic;
@@ -183,7 +183,7 @@ template <class S> class ContinuousCollision {
     std::uint32_t body;
     Unit<S> fraction;  // [1] of the step
   };
-  /// Of an end of a joint: as the step began, where the solver left it, and now.
+  /// The poses of an end of a joint: as the step began, where the solver left it, and now.
   struct Carriage {
     Pose<S> start, end, now;
   };
@@ -217,13 +217,12 @@ template <class S> class ContinuousCollision {
   std::vector<std::uint32_t> met_;  // by fast kinematic bodies: indices among the awake ones
   std::vector<std::uint32_t> obstacles_, sort_scratch_;  // slots, ascending
   JoinedBodies<S> joined_bodies_;
-  // By index among the awake ones.
+  // These go by index among the awake bodies.
   std::vector<std::uint32_t> mover_of_;  // in movers_, plus 1; 0: none
   std::vector<Pose<S>> ends_;            // of a mechanism's bodies: where the solver left them
 };
 
-#define ISO_EXTERN(S) extern template class ContinuousCollision<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CONTINUOUS_COLLISION_OF(extern, S) extern template class ContinuousCollision<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CONTINUOUS_COLLISION_OF)
 
 }  // namespace isostep

@@ -18,7 +18,7 @@
 namespace isostep {
 
 namespace detail {
-/// [m] Who moves less is not deep inside of what was too far away for a contact as the step began.
+/// [m] A body that moves less is not deep inside of one that was too far away for a contact as the step began.
 template <class S> inline constexpr S kDeepMotion = kSpeculativeDistance<S> + kTooDeep<S>;
 
 /// True if a body stays where it is in the step that began with all awake ones at `start`.
@@ -48,7 +48,7 @@ template <class S> S most_motion(const CoreMotion<S>& motion, S reach) {
   const S chord = reach * half_turn(motion.start, motion.end);
   return length(motion.end.position - motion.start.position) + chord + chord;
 }
-/// Around a part wherever it is on its way, with room for what nearly touches it.
+/// The box around a part wherever it is on its way, with room for what nearly touches it.
 template <class S> Aabb<S> swept_bounds(const PlacedShape<S>& part, const CoreMotion<S>& motion) {
   const auto at = [&](const Pose<S>& pose) { return bounds(part.shape, compose(Transform<S>::of(pose), part.at)); };
   const Aabb<S> own = bounds(part.shape, part.at);
@@ -67,7 +67,7 @@ template <class S> Vec3<Velocity<S>> turned_back(const BodyState<S>& state, Quat
   const Mat3<Unit<S>> back = to_matrix(normalise(orientation * conjugate(state.orientation)));
   return back * state.angular_velocity;
 }
-/// Between two places at the edge of the world rounding leads beyond it, and joints reach there too.
+/// Puts the centre within the world: rounding and joints lead beyond its edge.
 template <class S> ISO_INLINE void put_centre(BodyState<S>& state, Vec3<S> place) {
   state.centre = held_within(place, Limits<S>::position());
 }
@@ -117,7 +117,7 @@ ISO_INLINE Pose<S> ContinuousCollision<S>::Obstacle::carried(const Pose<S>& ther
   return end == nullptr ? there : compose(*end, detail::pose_from(pose_at(motion, fraction), there));
 }
 
-/// `all`: of the whole motion, `there` in the world; `at_rest`: no kinematic body stops it.
+/// Adds an end: `all` of the whole motion, `there` in the world; `at_rest`: no kinematic body stops it.
 template <class S>
 void ContinuousCollision<S>::Cut::add(const FreeWay<S>& way, Unit<S> all, const Pose<S>& there, bool at_rest) {
   if (!way.is_held && all < fraction) {
@@ -185,9 +185,9 @@ template <class S> bool ContinuousCollision<S>::find_touch(Mover& mover) const {
   return found;
 }
 
-/// What touches at the start goes as if it turned about that point, not about its centre of mass: with its middle on a
-/// straight line a rod that tips over dips that end into the ground, and stays where it is for ever. All obstacles see
-/// the same path.
+/// A body that touches at the start goes as if it turned about that point, not about its centre of mass. With its
+/// middle on a straight line a rod that tips over dips that end into the ground, and stays where it is for ever. All
+/// obstacles see the same path.
 template <class S>
 typename ContinuousCollision<S>::Cut ContinuousCollision<S>::first_impact(Mover& mover, bool moving) {
   find_obstacles(mover, moving);
@@ -199,7 +199,7 @@ typename ContinuousCollision<S>::Cut ContinuousCollision<S>::first_impact(Mover&
 template <class S> Pose<S> ContinuousCollision<S>::way_of(const Mover& mover, Unit<S> fraction) const {
   return pose_on(mover, mover.centre, fraction);
 }
-/// `centre`: as Mover's.
+/// The pose after a fraction of the path; `centre` is that of the Mover.
 template <class S> Pose<S> ContinuousCollision<S>::pose_on(const Path& path, Vec3<S> centre, Unit<S> fraction) const {
   std::uint32_t piece = 0;
   while (piece + 1 < path.pieces && detail::share_of<S>(piece + 1, path.pieces) < fraction) ++piece;
@@ -226,7 +226,7 @@ template <class S> void ContinuousCollision<S>::cut_bullet(Mover& mover) {
   mover.fraction = mover.fraction * bullet.fraction;
   mover.stopped = now(mover.index);
 }
-/// On the way on which what stopped a body carries it to the end of the step.
+/// Stops a body on the way on which the one that stopped it carries it to the end of the step.
 template <class S> void ContinuousCollision<S>::stop_at_what_is_fixed(std::uint32_t index, const Pose<S>& from) {
   Mover carried = measure(index, {1, {from, now(index)}});
   carried.deep = true;
@@ -264,8 +264,8 @@ template <class S> void ContinuousCollision<S>::place(std::uint32_t index) {
   proxies_.place(state, body, true);
 }
 
-/// What lies in a surface already has contacts that push it out, but where its middle is none: it may turn, and does
-/// not gather the speed of a fall. What `moving` bodies stop keeps its speed: contacts share it with them.
+/// Contacts push a body out of a surface it lies in, except where its middle is in none: it may turn, and does not
+/// gather the speed of a fall. A body that `moving` ones stop keeps its speed: contacts share it with them.
 template <class S> void ContinuousCollision<S>::stop_middle(BodyState<S>& state, const Cut& cut, bool moving) const {
   using V = Velocity<S>;
   detail::put_centre(state, cut.place - rotate(state.orientation, cut.middle));

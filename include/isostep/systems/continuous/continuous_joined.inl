@@ -12,9 +12,9 @@ namespace detail {
 /// joints and the one that it was swept along differ by the square of what they turn. In the first half joints are
 /// closed, which moves bodies even in no time.
 inline constexpr int kMostPlacings = 8;
-/// [1] of its way to where it is stopped that a mechanism is put back to at most: less would be no way forward.
+/// [1] The least part of its way to where it is stopped that a mechanism keeps: less would be no way forward.
 template <class S> inline constexpr Unit<S> kLeastPart = Unit<S>(0.125);
-/// Ties go to the first.
+/// The heaviest body; ties go to the first.
 template <class S>
 std::uint32_t heaviest_of(std::span<const std::uint32_t> bodies, std::span<const BodyProperties<S>> properties) {
   std::uint32_t heaviest = bodies[0];
@@ -23,7 +23,7 @@ std::uint32_t heaviest_of(std::span<const std::uint32_t> bodies, std::span<const
   }
   return heaviest;
 }
-/// [1] How much a joint may move a body that the other one holds: what is lighter follows what is heavier.
+/// [1] The share by which a joint may move a body that the other one holds: the lighter follows the heavier.
 template <class S>
 Unit<S> share_of_pull(const WorldState<S>& state, const BodyMap<S>& map, const typename JoinedBodies<S>::Link& link) {
   const JointProperties<S>& joint = state.joints.properties[link.joint];
@@ -88,7 +88,7 @@ template <class S> void ContinuousCollision<S>::stop_mechanism(std::span<const s
   }
 }
 
-/// Those that were stopped are elsewhere by now.
+/// Keeps the poses that the solver gave; bodies that were stopped are elsewhere by now.
 template <class S> void ContinuousCollision<S>::keep_ends(std::span<const std::uint32_t> mechanism) {
   for (const std::uint32_t body : mechanism) {
     const std::uint32_t mover = mover_of_[body];
@@ -135,7 +135,7 @@ template <class S> void ContinuousCollision<S>::place_tree(std::span<const Link>
   }
 }
 
-/// Where a body is after a fraction of the step that is no more than what is free of its own way.
+/// The pose of a body after a fraction of the step that is no more than what is free of its own way.
 template <class S> Pose<S> ContinuousCollision<S>::own_way(std::uint32_t body, Unit<S> fraction) {
   if (mover_of_[body] != 0) {
     const Mover& mover = movers_[mover_of_[body] - 1];
@@ -145,8 +145,8 @@ template <class S> Pose<S> ContinuousCollision<S>::own_way(std::uint32_t body, U
   return way_of(measure(body), fraction);
 }
 
-/// Where its joint has a body after a fraction of the step, while the joint's other body is where it is now. `closes`:
-/// what joints hold together that the solver left apart.
+/// The pose that its joint gives a body after a fraction of the step, while the joint's other body is where it is now.
+/// `closes`: joints hold together what the solver left apart.
 template <class S> Pose<S> ContinuousCollision<S>::joined_pose(const Link& link, Unit<S> fraction, bool closes) {
   const JointProperties<S>& p = state_.joints.properties[link.joint];
   const Pose<S>& frame = link.is_b ? p.frame_b : p.frame_a;
@@ -222,7 +222,7 @@ template <class S> Unit<S> ContinuousCollision<S>::free_part(std::uint32_t body)
   };
   return min(part_of(cut.fraction, shallow), part_of(cut.fraction_of_middle, least));
 }
-/// Of the body with the least free part; ties go to the first of the tree. The root goes its own way.
+/// The obstruction of the body with the least free part; ties go to the first of the tree. The root goes its own way.
 template <class S>
 typename ContinuousCollision<S>::Obstruction ContinuousCollision<S>::worst_of(std::span<const Link> tree) {
   Obstruction worst = {tree[0].body, Unit<S>(1)};

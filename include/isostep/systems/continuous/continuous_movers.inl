@@ -225,9 +225,8 @@ template <class S> void ContinuousCollision<S>::find_met_by_kinematic(S least) {
 }
 
 template <class S> bool ContinuousCollision<S>::may_move(std::size_t index) const {
-  constexpr std::uint32_t kFlags = body_flag::kSensor | body_flag::kCollide;
   const BodyProperties<S>& body = state_.awake.properties[index];
-  return body.type == BodyType::dynamic && (body.flags & kFlags) == body_flag::kCollide;
+  return body.type == BodyType::dynamic && map_.has_contacts(body);
 }
 template <class S>
 typename ContinuousCollision<S>::Mover ContinuousCollision<S>::measure(std::size_t index, const Path& path) const {
@@ -241,6 +240,7 @@ typename ContinuousCollision<S>::Mover ContinuousCollision<S>::measure(std::size
   const Transform<S> turned[] = {{Vec3<S>::zero(), to_matrix(mover.from().orientation)},
                                  {Vec3<S>::zero(), to_matrix(mover.to().orientation)}};
   for (const Child<S>& child : map_.children_of(body.shape)) {
+    if (child.traits.has(part_flag::kSensor)) continue;
     const PlacedShape<S> part = detail::placed_part(map_, body, child);
     const Aabb<S> box = bounds(part.shape, part.at);
     mover.inner = min(mover.inner, thickness<S>(part.shape));

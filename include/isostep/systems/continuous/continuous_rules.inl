@@ -7,11 +7,10 @@
 namespace isostep {
 
 template <class S> bool ContinuousCollision<S>::may_stop(const Mover& mover, std::uint32_t slot, bool moving) const {
-  constexpr std::uint32_t kNone = body_flag::kSensor | body_flag::kCollide;
   const BodyProperties<S>& other = map_.properties_at(map_.location(slot));
-  if ((other.type == BodyType::dynamic) != moving || (other.flags & kNone) != body_flag::kCollide) return false;
+  if ((other.type == BodyType::dynamic) != moving || !map_.has_contacts(other)) return false;
   if (moving && (other.flags & body_flag::kBullet) != 0) return false;
-  if (!should_collide(state_.awake.properties[mover.index].filter, other.filter)) return false;
+  if (!should_collide(map_.filter_of(state_.awake.properties[mover.index]), map_.filter_of(other))) return false;
   if (rules_.ways != nullptr && is_let_out(mover, slot)) return false;
   if (rules_.ghosts != nullptr && are_ghosts(mover, slot)) return false;
   if (rules_.responses != nullptr && !is_pushed_back(mover, slot, moving)) return false;

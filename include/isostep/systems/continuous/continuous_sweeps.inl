@@ -76,10 +76,12 @@ void ContinuousCollision<S>::visit_parts(const Mover& mover, const CoreMotion<S>
   const std::span<const Child<S>> parts_of_other = map_.children_of(other.shape);
   const ChildTree<S>* const tree = map_.tree_of(other.shape);
   const Transform<S> frame = Transform<S>::of(obstacle.motion.start);
+  const bool traits = (map_.traits_of(body.shape).flags | map_.traits_of(other.shape).flags) != 0;
   for (const Child<S>& child : map_.children_of(body.shape)) {
     const PlacedShape<S> part = detail::placed_part(map_, body, child);
     const Aabb<S> swept = detail::swept_bounds(part, motion);
     const auto visit_one = [&](const Child<S>& child_of_other) {
+      if (traits && !parts_collide(child.traits, body.filter, child_of_other.traits, other.filter)) return;
       const PlacedShape<S> met = detail::placed_part(map_, other, child_of_other);
       const bool moves = S(0) < obstacle.moved;
       if (overlap(swept,

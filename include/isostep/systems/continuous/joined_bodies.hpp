@@ -31,16 +31,16 @@ template <class S> class JoinedBodies {
   /// Takes the joints as they are now; no body is known yet.
   void begin();
   ISO_INLINE bool is_known(std::uint32_t body) const { return known_[body] != 0; }
-  /// Of a body that is not known, among the awake ones: its mechanism, of which it is the first.
+  /// Finds the mechanism of a body that is not known, among the awake ones; the body is its first.
   std::span<const std::uint32_t> find(std::uint32_t body);
-  /// Whether joints tie what find() found to what they do not move: the world, static or kinematic bodies.
+  /// Joints tie what find() found to what they do not move: the world, static or kinematic bodies.
   bool is_held() const;
-  /// What find() found, each body once. It grows from joints with what joints do not move, or if there are none, from
-  /// `root`. What closes a loop is left out.
+  /// The tree of what find() found, each body once. It grows from joints with what joints do not move, or if there are
+  /// none, from `root`. A joint that closes a loop is left out.
   std::span<const Link> tree_from(std::uint32_t root);
 
  private:
-  /// visit(joint, whether the body is its b)
+  /// Calls visit(joint, the body is its b).
   template <class Visit> ISO_INLINE void each_joint(std::uint32_t body, const Visit& visit) const {
     for (std::uint32_t i = first_[body]; i < first_[body + 1]; ++i) visit(at_body_[i] / 2, at_body_[i] % 2 != 0);
   }
@@ -56,8 +56,7 @@ template <class S> class JoinedBodies {
   std::vector<Link> links_;
 };
 
-#define ISO_EXTERN(S) extern template class JoinedBodies<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_JOINED_BODIES_OF(extern, S) extern template class JoinedBodies<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_JOINED_BODIES_OF)
 
 }  // namespace isostep

@@ -13,7 +13,7 @@ template <class S> std::uint32_t JoinedBodies<S>::dynamic_at(std::uint32_t slot)
   const bool moves = at.set == Location::kAwake && map_.properties_at(at).type == BodyType::dynamic;
   return moves ? at.index : kNone;
 }
-/// At the other end of the joint.
+/// The body at the other end of the joint.
 template <class S> std::uint32_t JoinedBodies<S>::other_of(std::uint32_t joint, bool is_b) const {
   const JointProperties<S>& p = state_.joints.properties[joint];
   return dynamic_at(is_b ? p.body_a : p.body_b);

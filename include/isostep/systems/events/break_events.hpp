@@ -36,8 +36,7 @@ template <class S> class BreakEvents {
   std::vector<Hit> blows_;                // by record slot
 };
 
-#define ISO_EXTERN(S) extern template class BreakEvents<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_BREAK_EVENTS_OF(extern, S) extern template class BreakEvents<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BREAK_EVENTS_OF)
 
 }  // namespace isostep

@@ -1,4 +1,4 @@
-// ContactEvents<S>: which bodies began and ceased to press on each other.
+// ContactEvents<S>: which bodies that report it began and ceased to press on each other.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/contact_response.hpp"
+#include "isostep/store/body_map.hpp"
 #include "isostep/store/events.hpp"
 #include "isostep/store/state.hpp"
 
@@ -27,19 +28,21 @@ template <class S> struct SolvedContacts {
 /// Keeps:   nothing from step to step but memory.
 template <class S> class ContactEvents {
  public:
-  ISO_INLINE explicit ContactEvents(const WorldState<S>& state) : state_(state) {}
+  ISO_INLINE ContactEvents(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
-  /// Two bodies touch when any of their contacts carried an impulse. Appends to `events`, which may hold ends that
-  /// commands made.
+  /// Two bodies touch when any of their reported contacts carried an impulse. Appends to `events`, which may hold ends
+  /// that commands made.
   void collect(const SolvedContacts<S>& contacts, Events<S>& events);
 
  private:
+  ContactBegin<S> begin_of(const SolvedContacts<S>& contacts, std::size_t first) const;
+
   const WorldState<S>& state_;
+  const BodyMap<S>& map_;
   std::vector<ContactEnd> end_scratch_;
 };
 
-#define ISO_EXTERN(S) extern template class ContactEvents<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CONTACT_EVENTS_OF(extern, S) extern template class ContactEvents<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CONTACT_EVENTS_OF)
 
 }  // namespace isostep

@@ -28,8 +28,7 @@ template <class S> class ContactPoints {
   Bitset asked_;  // by body slot
 };
 
-#define ISO_EXTERN(S) extern template class ContactPoints<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_CONTACT_POINTS_OF(extern, S) extern template class ContactPoints<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CONTACT_POINTS_OF)
 
 }  // namespace isostep

@@ -26,6 +26,8 @@ void ContactPoints<S>::tell(const SolvedContacts<S>& contacts, std::size_t at, E
   const Contact<S>& contact = contacts.now[at];
   const ContactGeometry<S>& g = contacts.geometry[at];
   const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };
+  const Leaf a = map_.leaf_of(contact.key.body_a, contact.key.child_a);
+  const Leaf b = map_.leaf_of(contact.key.body_b, contact.key.child_b);
   const Vec3<S> centre_b = map_.state_at(map_.location(contact.key.body_b)).centre;
   const S total = detail::normal_impulse(state_, contacts, at, at + 1);
   Velocity<S> largest = Velocity<S>(0);
@@ -38,7 +40,7 @@ void ContactPoints<S>::tell(const SolvedContacts<S>& contacts, std::size_t at, E
   for (std::uint32_t p = 0; p < contact.count; ++p) weights += weight(p);
   for (std::uint32_t p = 0; p < contact.count; ++p) {
     const S share = divide_to<S>(weight(p), weights);
-    events.contacts.push_back({id(contact.key.body_a), id(contact.key.body_b), contact.key.child_a, contact.key.child_b,
+    events.contacts.push_back({id(contact.key.body_a), id(contact.key.body_b), a.child, b.child, a.triangle, b.triangle,
                                centre_b + g.points[p].arm_b, g.normal, g.points[p].separation,
                                saturate_to<S>(product(total, share))});
   }

@@ -18,9 +18,9 @@ template <class S> class HitEvents {
  public:
   ISO_INLINE HitEvents(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
-  /// Before the solver: how fast they close.
+  /// Measures how fast contacts close, before the solver.
   void measure(std::span<const ContactGeometry<S>> geometry);
-  /// After it: which of them began to press.
+  /// Collects those that began to press, after it.
   void collect(const SolvedContacts<S>& contacts, Events<S>& events);
 
  private:
@@ -39,8 +39,7 @@ template <class S> class HitEvents {
   std::vector<Approach> approaches_;  // parallel to the contacts; empty: nobody asks
 };
 
-#define ISO_EXTERN(S) extern template class HitEvents<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_HIT_EVENTS_OF(extern, S) extern template class HitEvents<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_HIT_EVENTS_OF)
 
 }  // namespace isostep

@@ -74,10 +74,10 @@ void HitEvents<S>::tell(const SolvedContacts<S>& contacts, std::size_t first, st
   const Approach& approach = approaches_[fastest];
   const auto beyond = [&](S threshold) { return !(threshold < S(0)) && threshold < approach.speed; };
   if (!beyond(thresholds_[key.body_a]) && !beyond(thresholds_[key.body_b])) return;
-  const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };
+  const ContactEnd parts = map_.named(contacts.now[fastest].key);
   const ContactGeometry<S>& g = contacts.geometry[fastest];
   const Vec3<S> at = map_.state_at(map_.location(key.body_b)).centre + g.points[approach.point].arm_b;
-  events.hits.push_back({id(key.body_a), id(key.body_b), at, g.normal, approach.speed});
+  events.hits.push_back({parts.a, parts.b, parts.child_a, parts.child_b, at, g.normal, approach.speed});
 }
 
 }  // namespace isostep

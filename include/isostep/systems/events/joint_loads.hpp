@@ -23,9 +23,9 @@ template <class S> class JointLoads {
   ISO_INLINE JointLoads(WorldState<S>& state, const BodyMap<S>& map, Destruction<S>& destruction)
       : state_(state), map_(map), destruction_(destruction) {}
 
-  /// Zeros, one for each awake joint; empty where nobody measures one. Once a step, before it is solved.
+  /// Returns zeros, one for each awake joint; empty where nobody measures one. Called once a step, before it is solved.
   std::span<JointImpulse<S>> impulses();
-  /// After the step's contacts and joints are no longer needed as they were.
+  /// Measures loads and breaks joints, once the step's contacts and joints are no longer needed as they were.
   void update(Events<S>& events);
 
  private:
@@ -38,8 +38,7 @@ template <class S> class JointLoads {
   std::vector<JointBroke<S>> broken_;
 };
 
-#define ISO_EXTERN(S) extern template class JointLoads<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_JOINT_LOADS_OF(extern, S) extern template class JointLoads<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_JOINT_LOADS_OF)
 
 }  // namespace isostep

@@ -1,4 +1,4 @@
-// SensorOverlaps<S>: which bodies entered and left sensors.
+// SensorOverlaps<S>: which parts of bodies entered and left sensors.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -26,6 +26,7 @@ template <class S> class SensorOverlaps {
   void list_changed();
   void keep_unwatched(std::vector<SensorOverlap>& found);
   void find_sleepers(std::uint32_t sensor, std::vector<SensorOverlap>& found) const;
+  void find_sleeper(std::uint32_t sensor, std::uint32_t other, std::vector<SensorOverlap>& found) const;
 
   WorldState<S>& state_;
   const BodyMap<S>& map_;
@@ -35,8 +36,7 @@ template <class S> class SensorOverlaps {
   std::vector<SensorEvent> end_scratch_;
 };
 
-#define ISO_EXTERN(S) extern template class SensorOverlaps<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SENSOR_OVERLAPS_OF(extern, S) extern template class SensorOverlaps<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SENSOR_OVERLAPS_OF)
 
 }  // namespace isostep

@@ -4,15 +4,18 @@
 
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/core/stable_sort.hpp"
-#include "isostep/store/body_frames.hpp"
+#include "isostep/store/body_frames.inl"
 #include "isostep/store/event_order.hpp"
 #include "isostep/systems/events/sensor_overlaps.hpp"
 
 namespace isostep {
 
 namespace detail {
-struct ByOverlap {
-  ISO_INLINE std::uint64_t operator()(SensorOverlap o) const { return std::uint64_t{o.sensor} << 32 | o.other; }
+struct ByBothBodies {
+  ISO_INLINE std::uint64_t operator()(SensorOverlap o) const { return o.bodies(); }
+};
+struct ByPartsOfBoth {
+  ISO_INLINE std::uint64_t operator()(SensorOverlap o) const { return o.parts(); }
 };
 }  // namespace detail
 
@@ -45,19 +48,43 @@ template <class S> void SensorOverlaps<S>::keep_unwatched(std::vector<SensorOver
     if (i == 0 || changed_[i] != changed_[i - 1]) find_sleepers(changed_[i], found);
   }
   sort_scratch_.resize(found.size());
-  stable_sort(found.data(), sort_scratch_.data(), static_cast<std::uint32_t>(found.size()), detail::ByOverlap{});
+  const auto count = static_cast<std::uint32_t>(found.size());
+  stable_sort(found.data(), sort_scratch_.data(), count, detail::ByPartsOfBoth{});
+  stable_sort(found.data(), sort_scratch_.data(), count, detail::ByBothBodies{});
+  std::size_t kept = 0;  // parts with many triangles are found once for each
+  for (const SensorOverlap overlap : found) {
+    if (kept == 0 || !(found[kept - 1] == overlap)) found[kept++] = overlap;
+  }
+  found.resize(kept);
 }
 
 template <class S>
 void SensorOverlaps<S>::find_sleepers(std::uint32_t sensor, std::vector<SensorOverlap>& found) const {
   if (!proxies_.present(sensor)) return;
   const auto traits_of = [&](std::uint32_t slot, bool awake) {
-    return ProxyTraits::of(map_.properties_at(map_.location(slot)), awake);
+    const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
+    return ProxyTraits::of(body, map_.traits_of(body.shape), awake);
   };
   const ProxyTraits traits = traits_of(sensor, true);
   proxies_.boxes().query(proxies_.boxes().box(sensor), [&](std::uint32_t other) {
     const bool sees = map_.location(other).is_asleep() && traits.pairs_with(traits_of(other, false));
-    if (sees && bodies_touch(map_, min(sensor, other), max(sensor, other), S(0))) found.push_back({sensor, other});
+    if (sees) find_sleeper(sensor, other, found);
+    return true;
+  });
+}
+/// All parts of a sleeper that parts of the sensor see.
+template <class S>
+void SensorOverlaps<S>::find_sleeper(std::uint32_t sensor, std::uint32_t other,
+                                     std::vector<SensorOverlap>& found) const {
+  const BodyFrame<S> a = frame_at(map_, map_.location(min(sensor, other)));
+  const BodyFrame<S> b = frame_at(map_, map_.location(max(sensor, other)));
+  visit_meetings(map_, a, b, S(0), [&](std::uint32_t i, std::uint32_t j, PartMeeting meeting) {
+    if (meeting != PartMeeting::sensed) return true;
+    const SensorOverlap overlap = detail::overlap_of(a, i, b, j);
+    if (overlap.sensor != sensor) return true;  // it is seen
+    Manifold<S> manifold;
+    collide_parts(collide_polyhedra<S>, a, i, b, j, S(0), manifold);
+    if (manifold.count > 0) found.push_back(overlap);
     return true;
   });
 }
@@ -67,7 +94,7 @@ template <class S> void SensorOverlaps<S>::update(std::vector<SensorOverlap>& fo
   const std::vector<SensorOverlap>& old = state_.overlaps;
   const auto event = [&](SensorOverlap o) {
     return SensorEvent{state_.body_slots.template id_of<BodyId>(o.sensor),
-                       state_.body_slots.template id_of<BodyId>(o.other)};
+                       state_.body_slots.template id_of<BodyId>(o.other), o.sensor_child, o.other_child};
   };
   const bool told = !events.sensor_end.empty();
   std::size_t i = 0, j = 0;

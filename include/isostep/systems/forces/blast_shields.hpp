@@ -19,7 +19,7 @@ template <class S> class BlastShields {
   ISO_INLINE BlastShields(const BodyMap<S>& map, const Proxies<S>& proxies, const SubstepBodies<S>& bodies)
       : map_(map), proxies_(proxies), bodies_(bodies) {}
 
-  /// [m] From a body's centre of mass to the point of its surface that is nearest to `from`; zero where it is inside.
+  /// [m] The way from a body's centre of mass to the point of its surface nearest to `from`; zero where it is inside.
   Vec3<S> exposed_point(std::uint32_t row, Vec3<S> from) const;
   /// A static body stands between these points.
   bool is_shielded(Vec3<S> from, Vec3<S> to) const;
@@ -30,8 +30,7 @@ template <class S> class BlastShields {
   const SubstepBodies<S>& bodies_;
 };
 
-#define ISO_EXTERN(S) extern template class BlastShields<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_BLAST_SHIELDS_OF(extern, S) extern template class BlastShields<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BLAST_SHIELDS_OF)
 
 }  // namespace isostep

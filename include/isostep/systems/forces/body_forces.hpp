@@ -71,8 +71,7 @@ template <class S> class BodyForces {
   CouplingForces<S> couplings_;
 };
 
-#define ISO_EXTERN(S) extern template class BodyForces<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_BODY_FORCES_OF(extern, S) extern template class BodyForces<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BODY_FORCES_OF)
 
 }  // namespace isostep

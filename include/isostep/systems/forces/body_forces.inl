@@ -74,7 +74,7 @@ template <class S> void BodyForces<S>::resist_all() {
     }
     if constexpr (detail::resists(Rules::kActs)) {
       zones_.for_each(registry, [&](const auto& record) {
-        const auto named = Rules::bodies(record);
+        const auto named = detail::bodies_of(record);
         for (int i = 0; i < named.count; ++i) resistance_.count(bodies_.row_of(named.all[i].body));
       });
     }

@@ -72,8 +72,7 @@ template <class S> class CouplingForces {
   Step<S> h_ = {};
 };
 
-#define ISO_EXTERN(S) extern template class CouplingForces<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_COUPLING_FORCES_OF(extern, S) extern template class CouplingForces<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_COUPLING_FORCES_OF)
 
 }  // namespace isostep

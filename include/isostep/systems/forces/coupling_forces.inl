@@ -10,7 +10,7 @@
 namespace isostep {
 
 namespace detail {
-/// [1] of an error that a sub-step closes: as kBaumgarte, but of a sub-step.
+/// [1] The part of an error that a sub-step closes: as kBaumgarte, but of a sub-step.
 template <class S> inline constexpr S kCouplingBias = S(0.2);
 }  // namespace detail
 
@@ -43,7 +43,7 @@ auto CouplingForces<S>::solve(const SolverBodies<S>& bodies, const std::vector<A
   return changes_;
 }
 
-/// Whether all of its joints are awake and hold their bodies.
+/// All of its joints are awake and hold their bodies.
 template <class S> bool CouplingForces<S>::acts(const Coupling<S>& coupling) const {
   for (const JointId joint : detail::joints_of(coupling).all) {
     if (!joint) continue;
@@ -81,7 +81,7 @@ template <class S> void CouplingForces<S>::list_runs(const SolverBodies<S>& bodi
   }
 }
 
-/// Rows and the sum as the bodies lie now.
+/// Places the rows and the sum as the bodies lie now.
 template <class S> void CouplingForces<S>::place(Run& run, const JointStep<S>& step) const {
   S sum = S(0);
   for (int i = 0; i < run.count; ++i) {
@@ -116,8 +116,8 @@ template <class S> S CouplingForces<S>::coupling_of(const Term& i, const Term& j
   return sum;
 }
 
-/// How an impulse on the sum divides among the rows: each in the measure in which it moves, and all together so that
-/// the sum moves by one. What a body has in two of them is counted, for a sum that is pushed too far gains energy.
+/// Divides an impulse on the sum among the rows: each in the measure in which it moves, and all so that the sum moves
+/// by one. A body's motion in two of them is counted, for a sum that is pushed too far gains energy.
 template <class S> void CouplingForces<S>::weigh(Run& run) const {
   const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
   const auto lever = [](const Term& t) {
@@ -154,7 +154,7 @@ template <class S> void CouplingForces<S>::weigh(Run& run) const {
   for (int i = 0; run.holds && i < run.count; ++i) run.terms[i].push = divide_to<S>(run.terms[i].push, moved);
 }
 
-/// Between which speeds the sum stays within its bounds, or returns to them.
+/// Sets the speeds between which the sum stays within its bounds, or returns to them.
 template <class S> void CouplingForces<S>::bound(Run& run, S sum) const {
   if (!run.holds) return;
   int first = 0;
@@ -163,7 +163,7 @@ template <class S> void CouplingForces<S>::bound(Run& run, S sum) const {
   const S middle = run.lower + (run.upper - run.lower) * S(0.5), half = (run.upper - run.lower) * S(0.5);
   const S off = run.turns ? wrap_angle(saturating_add(sum, -middle)) : saturating_add(sum, -middle);
   const S lever = measure_of(base.joint.properties.type) == JointMeasure::angle ? base.joint.drives[0].radius : S(1);
-  // As lengths along the first row, whose sense counts.
+  // The gaps are lengths along the first row, whose sense counts.
   const auto along = [&](S x) { return divide_to<S>(saturate_to<S>(product(x, lever)), abs(base.ratio)); };
   const S bias = detail::kCouplingBias<S> * rate_;
   const auto least = [&](S gap) {
@@ -178,9 +178,9 @@ template <class S> void CouplingForces<S>::bound(Run& run, S sum) const {
   run.changed = V(0);
 }
 
-/// Of which no body gains more than an eighth of the speed, or of the turn, that forces may give it in a sub-step:
-/// alone, a light body on a long arm turns far more easily than its joint lets it, and several rows may turn one body.
-/// What is left is closed in the next sub-steps.
+/// The greatest change, of which no body gains more than an eighth of the speed, or of the turn, that forces may give
+/// it in a sub-step: alone, a light body on a long arm turns far more easily than its joint lets it, and several rows
+/// may turn one body. The next sub-steps close what is left.
 template <class S> Velocity<S> CouplingForces<S>::most_change(const Run& run) const {
   constexpr S kPart = S(0.125);
   S most = Limits<S>::speed();

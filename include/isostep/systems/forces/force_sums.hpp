@@ -66,8 +66,7 @@ template <class S> class ForceSums {
   std::uint32_t cut_count_ = 0;
 };
 
-#define ISO_EXTERN(S) extern template class ForceSums<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_FORCE_SUMS_OF(extern, S) extern template class ForceSums<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_FORCE_SUMS_OF)
 
 }  // namespace isostep

@@ -15,11 +15,11 @@ namespace isostep {
 template <class Record> class RecordRanks {
  public:
   template <class IdType> void rank(const Registry<Record, IdType>& registry);
-  /// visit(record), the lowest first.
+  /// Calls visit(record), the lowest first.
   template <class Visit> void for_each(const std::vector<Record>& all, const Visit& visit) const {
     for (const std::uint64_t rank : ranks_) visit(at(all, rank));
   }
-  /// The highest first.
+  /// Calls visit(record), the highest first.
   template <class Visit> void for_each_down(const std::vector<Record>& all, const Visit& visit) const {
     for (std::size_t i = ranks_.size(); i-- > 0;) visit(at(all, ranks_[i]));
   }

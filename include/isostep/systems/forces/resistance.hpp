@@ -38,7 +38,7 @@ template <class S> class Resistance {
   /// resists motion resists that, so that it balances steady forces exactly.
   Vec3<S> next_velocity(std::uint32_t row) const;
   Vec3<S> next_angular_velocity(std::uint32_t row) const;
-  /// [m/s] Of a point.
+  /// [m/s] The velocity that a point will have.
   Vec3<S> next_velocity(const BodyEnd<S>& end) const;
   /// [kg] The part of a body that each of its resisting forces has.
   S mass_part(std::uint32_t row) const;
@@ -50,7 +50,7 @@ template <class S> class Resistance {
 
  private:
   static constexpr std::uint32_t kMostParts = 1024;  // of a body's mass
-  /// [1/s]
+  /// Rates at which motions fade [1/s].
   struct Rates {
     S linear, angular;
     ISO_INLINE bool any() const { return S(0) < linear || S(0) < angular; }
@@ -66,8 +66,7 @@ template <class S> class Resistance {
   std::vector<Rates> fading_;         // by awake body; empty where none fades
 };
 
-#define ISO_EXTERN(S) extern template class Resistance<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_RESISTANCE_OF(extern, S) extern template class Resistance<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_RESISTANCE_OF)
 
 }  // namespace isostep

@@ -18,7 +18,7 @@ template <class S> struct BodyEnd {
   Vec3<S> velocity;   // [m/s]
 };
 
-/// When a sub-step is.
+/// The time of a sub-step.
 template <class S> struct SubstepClock {
   std::uint64_t tick;               // of the step: WorldState::tick
   std::int32_t hz, rate;            // [1/s] of steps, of sub-steps
@@ -44,8 +44,8 @@ template <class S> class SubstepBodies {
   ISO_INLINE const SubstepClock<S>& when() const { return clock_; }
   ISO_INLINE Vec3<S> gravity() const { return state_.settings.gravity; }
 
-  // By row, of a body unless it says otherwise.
-  /// One beyond the last.
+  // Getters by row, of a body unless they say otherwise.
+  /// The row beyond the last.
   ISO_INLINE std::uint32_t rows() const { return static_cast<std::uint32_t>(bodies_->mass.size()); }
   /// Any row.
   ISO_INLINE bool moves(std::uint32_t row) const { return bodies_->moves(row); }
@@ -60,10 +60,10 @@ template <class S> class SubstepBodies {
   ISO_INLINE const SolverMass<S>& mass(std::uint32_t row) const { return bodies_->mass[row]; }
   /// Any row.
   ISO_INLINE const MotionRow<Velocity<S>>& velocity(std::uint32_t row) const { return bodies_->velocity[row]; }
-  /// At an arm [m] from the centre of mass.
+  /// The end at an arm [m] from the centre of mass.
   BodyEnd<S> end_of(std::uint32_t row, Vec3<S> arm) const;
 
-  // By id. Null is the world.
+  // Getters by id. Null is the world.
   ISO_INLINE std::uint32_t row_of(BodyId body) const { return body ? map_.row_of(body.slot) : 0; }
   ISO_INLINE bool is_enabled(BodyId body) const { return !body || map_.is_enabled(body.slot); }
   /// A point [m] of the body's frame, of any body, or of the world.
@@ -81,8 +81,7 @@ template <class S> class SubstepBodies {
   std::uint32_t substep_ = 0;
 };
 
-#define ISO_EXTERN(S) extern template class SubstepBodies<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SUBSTEP_BODIES_OF(extern, S) extern template class SubstepBodies<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SUBSTEP_BODIES_OF)
 
 }  // namespace isostep

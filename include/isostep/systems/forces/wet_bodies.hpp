@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// What a body displaces of a water.
+/// The water that a body displaces.
 template <class S> struct Wet {
   S mass;       // [kg] of water
   Vec3<S> arm;  // [m] its middle from the body's centre of mass
@@ -34,7 +34,7 @@ template <class S> class WetBodies {
   /// All parts of a body together, at the sub-step's pose; overlaps count twice, as in its mass.
   Wet<S> displaced(std::uint32_t row, S density, const detail::WaterSurface<S>& surface) const;
   ISO_INLINE void keep(const Wet<S>& wet) { wet_.push_back(wet); }
-  /// visit(wet) of what that water kept.
+  /// Calls visit(wet) for what that water kept.
   template <class Visit> void for_each_of(const Water<S>& water, const Visit& visit) const {
     for (const Wet<S>& wet : wet_) {
       if (wet.water == &water) visit(wet);
@@ -51,8 +51,7 @@ template <class S> class WetBodies {
   std::vector<Wet<S>> wet_;
 };
 
-#define ISO_EXTERN(S) extern template class WetBodies<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_WET_BODIES_OF(extern, S) extern template class WetBodies<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_WET_BODIES_OF)
 
 }  // namespace isostep

@@ -20,23 +20,23 @@ template <class S> class Zones {
  public:
   ISO_INLINE explicit Zones(const WorldState<S>& state) : state_(state) {}
 
-  /// Before a step's first sub-step.
+  /// Ranks records before a step's first sub-step.
   void rank();
   ISO_INLINE std::size_t water_count() const { return std::get<RecordRanks<Water<S>>>(ranks_).size(); }
-  /// Each record that is there, ascending by slot; of a kind with priorities by (priority, slot).
+  /// Visits each record that is there, ascending by slot; of a kind with priorities by (priority, slot).
   template <class Record, class IdType, class Visit>
   void for_each(const Registry<Record, IdType>& registry, const Visit& visit) const;
-  /// The other way round, of a kind with priorities.
+  /// Visits the other way round, of a kind with priorities.
   template <class Record, class IdType, class Visit>
   void for_each_down(const Registry<Record, IdType>& registry, const Visit& visit) const;
 
   /// A zone of higher priority replaces this effect of a ForceZone at this point, for bodies of that category.
   bool is_hidden(std::uint32_t effect, std::int32_t priority, std::uint32_t category, Vec3<S> point) const;
-  /// ... a DampingZone of higher priority replaces those of that one.
+  /// A DampingZone of higher priority replaces those of that priority there.
   bool is_undamped(std::int32_t priority, std::uint32_t category, Vec3<S> point) const;
-  /// ... a zone or a higher water keeps water of that priority away.
+  /// A zone or a higher water keeps water of that priority away there.
   bool is_dry(std::int32_t priority, std::uint32_t category, Vec3<S> point) const;
-  /// [m/s]
+  /// [m/s] The wind at a point.
   Vec3<S> wind_at(Vec3<S> point) const;
   /// The world's gravity, where a zone replaces it, is below all zones.
   void replace_gravity(const SubstepBodies<S>& bodies, ForceSums<S>& sums) const;
@@ -49,8 +49,7 @@ template <class S> class Zones {
   std::tuple<RecordRanks<ForceZone<S>>, RecordRanks<DampingZone<S>>, RecordRanks<Water<S>>> ranks_;
 };
 
-#define ISO_EXTERN(S) extern template class Zones<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_ZONES_OF(extern, S) extern template class Zones<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ZONES_OF)
 
 }  // namespace isostep

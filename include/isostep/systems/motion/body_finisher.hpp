@@ -36,8 +36,7 @@ template <class S> class BodyFinisher {
   Proxies<S>& proxies_;
 };
 
-#define ISO_EXTERN(S) extern template class BodyFinisher<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_BODY_FINISHER_OF(extern, S) extern template class BodyFinisher<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_BODY_FINISHER_OF)
 
 }  // namespace isostep

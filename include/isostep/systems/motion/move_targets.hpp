@@ -13,7 +13,7 @@
 namespace isostep {
 
 namespace detail {
-/// Where the centre of mass lies as a body's origin is at the pose.
+/// The pose of the centre of mass as a body's origin is at the pose.
 template <class S> ISO_INLINE Pose<S> centre_at(const Pose<S>& pose, Vec3<S> local_centre) {
   return BodyMap<S>::centre_pose({pose.position, normalise(pose.orientation)}, local_centre);
 }
@@ -45,8 +45,7 @@ template <class S> class MoveTargets {
   std::vector<Move> moves_;
 };
 
-#define ISO_EXTERN(S) extern template class MoveTargets<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_MOVE_TARGETS_OF(extern, S) extern template class MoveTargets<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_MOVE_TARGETS_OF)
 
 }  // namespace isostep

@@ -22,12 +22,12 @@ template <class S> void MoveTargets<S>::begin_step() {
   }
 }
 
-/// Whether the velocity that it is given leads all the way.
+/// Returns whether the velocity that it gives leads all the way.
 template <class S> bool MoveTargets<S>::start(BodyState<S>& state, const Pose<S>& goal) const {
   using V = Velocity<S>;
   const Settings<S>& s = state_.settings;
   const S hz = S(s.hz);
-  // Held within twice the limits first, so that lengths fit.
+  // Rates are held within twice the limits first, so that lengths fit.
   const auto rate = [&](Vec3<S> way, S limit) {
     const S most = limit + limit;
     const auto part = [&](S x) { return convert<V>(detail::saturate_at<S>(product(x, hz), most)); };

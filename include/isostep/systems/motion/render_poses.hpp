@@ -19,9 +19,9 @@ template <class S> class RenderPoses {
  public:
   ISO_INLINE explicit RenderPoses(const WorldState<S>& state) : state_(state) {}
 
-  /// As a step begins.
+  /// Keeps the poses as a step begins.
   void keep_start();
-  /// Of the centres of the bodies that were awake, in their order.
+  /// The poses of the centres of the bodies that were awake, in their order.
   ISO_INLINE std::span<const Pose<S>> start() const { return start_poses_; }
   /// A body that a command puts somewhere is drawn there, and not on the way from where its slot was before.
   void start_here(const BodyState<S>& state);
@@ -31,7 +31,7 @@ template <class S> class RenderPoses {
     start_slots_.clear();
   }
 
-  /// `alpha` of 0: as the last step began; of 1: now.
+  /// Returns poses. `alpha` of 0: as the last step began; of 1: now.
   const std::vector<RenderPose>& fill(float alpha);
 
   template <class Visit> void visit_scratch(const Visit& visit) {
@@ -48,8 +48,7 @@ template <class S> class RenderPoses {
   std::vector<RenderPose> poses_;
 };
 
-#define ISO_EXTERN(S) extern template class RenderPoses<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_RENDER_POSES_OF(extern, S) extern template class RenderPoses<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_RENDER_POSES_OF)
 
 }  // namespace isostep

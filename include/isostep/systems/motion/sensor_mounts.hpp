@@ -32,8 +32,7 @@ template <class S> class SensorMounts {
   Proxies<S>& proxies_;
 };
 
-#define ISO_EXTERN(S) extern template class SensorMounts<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_SENSOR_MOUNTS_OF(extern, S) extern template class SensorMounts<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_SENSOR_MOUNTS_OF)
 
 }  // namespace isostep

@@ -26,8 +26,8 @@ template <class S> class IslandSleep {
   ISO_INLINE IslandSleep(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies)
       : state_(state), map_(map), proxies_(proxies) {}
 
-  /// Appends to `fell_asleep`. What touches one of the belts stays awake; null: there are none. `pulls`: what pulls at
-  /// each awake body beside gravity, or empty.
+  /// Appends to `fell_asleep`. Bodies that touch one of the belts stay awake; null: there are none. `pulls`: the
+  /// accelerations of each awake body beside gravity, or empty.
   void update(std::vector<BodyId>& fell_asleep, const Belts<S>* belts = nullptr,
               std::span<const Acceleration<S>> pulls = {});
 
@@ -66,8 +66,7 @@ template <class S> class IslandSleep {
   std::vector<std::shared_ptr<SleepingIsland<S>>> asleep_;  // by island
 };
 
-#define ISO_EXTERN(S) extern template class IslandSleep<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_ISLAND_SLEEP_OF(extern, S) extern template class IslandSleep<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ISLAND_SLEEP_OF)
 
 }  // namespace isostep

@@ -11,11 +11,11 @@ namespace isostep {
 
 namespace detail {
 template <class S> inline constexpr S kSleepSpeed = S(0.05);  // [m/s] and [rad/s]
-/// [s] of fall: what is thrown up is that slow for twice as long, and the delay is longer.
+/// [s] The time of a fall that counts as rest: thrown up, a body is slow for twice as long; the delay is longer.
 template <class S> inline constexpr S kSleepFall = S(0.1875);
-/// [m/s^2] and [rad/s^2]: what pulls less is what rounding leaves of forces in balance.
+/// [m/s^2] and [rad/s^2] The least pull that counts: rounding of forces in balance leaves less.
 template <class S> inline constexpr S kLeastPull = S(1.0 / 16384);
-/// [m/s] or [rad/s] What rests under a pull of more than `least` is slower.
+/// [m/s] or [rad/s] The speed of a body at rest under a pull of more than `least` is lower.
 template <class S> ISO_INLINE S rest_speed_under(Vec3<S> pull, S least) {
   const S size = max_abs(pull);
   return size <= least ? kSleepSpeed<S> : min(kSleepSpeed<S>, size * kSleepFall<S>);
@@ -52,7 +52,7 @@ template <class S> bool IslandSleep<S>::put_to_sleep(std::uint32_t slot) {
   return true;
 }
 
-/// Those whose `clock_` is 1.
+/// Moves the islands whose `clock_` is 1.
 template <class S> void IslandSleep<S>::move_marked_islands(std::vector<BodyId>& fell_asleep) {
   asleep_.resize(state_.awake.states.size());
   move_contacts();
@@ -61,7 +61,7 @@ template <class S> void IslandSleep<S>::move_marked_islands(std::vector<BodyId>&
   list_islands();
 }
 
-/// [steps] of rest before an island falls asleep.
+/// [steps] The rest before an island falls asleep.
 template <class S> std::uint32_t IslandSleep<S>::delay() const {
   return static_cast<std::uint32_t>(state_.settings.hz) / detail::kStepsPerSleepDelay;
 }
@@ -100,7 +100,7 @@ template <class S> void IslandSleep<S>::stop_clocks_by_forces() {
     if (moved) state.sleep_clock = 0;
   }
 }
-/// What rests on something that moves is not at rest: a drum or a conveyor carries it.
+/// A body that rests on something that moves is not at rest: a drum or a conveyor carries it.
 template <class S> void IslandSleep<S>::stop_clocks_of_carried(const Belts<S>* belts) {
   for (const Contact<S>& contact : state_.contacts) {
     const std::uint32_t slot_list[2] = {contact.key.body_a, contact.key.body_b};
@@ -149,13 +149,13 @@ template <class S> bool IslandSleep<S>::some_body_is_ready() const {
   return false;
 }
 
-/// And awake.
+/// The body is dynamic and awake.
 template <class S> bool IslandSleep<S>::is_dynamic(std::uint32_t slot) const {
   const Location at = map_.location(slot);
   return at.set == Location::kAwake && state_.awake.properties[at.index].type == BodyType::dynamic;
 }
 
-/// Dynamic bodies that contacts and joints tie together.
+/// Finds islands: dynamic bodies that contacts and joints tie together.
 template <class S> void IslandSleep<S>::find_islands() {
   islands_.begin(state_.awake.states.size());
   const auto tie = [&](std::uint32_t a, std::uint32_t b) {
@@ -176,7 +176,7 @@ template <class S> void IslandSleep<S>::find_islands() {
   for (const Coupling<S>& coupling : state_.records->couplings.all()) tie_coupled(coupling);
 }
 
-/// The bodies of all joints of a coupling.
+/// Ties the bodies of all joints of a coupling.
 template <class S> void IslandSleep<S>::tie_coupled(const Coupling<S>& coupling) {
   std::uint32_t first = kNoBody;
   for (const JointId id : detail::joints_of(coupling).all) {
@@ -190,13 +190,13 @@ template <class S> void IslandSleep<S>::tie_coupled(const Coupling<S>& coupling)
   }
 }
 
-/// visit(slot of a wheel's body, slot of the ground)
+/// Calls visit(slot of a wheel's body, slot of the ground).
 template <class S> template <class Visit> void IslandSleep<S>::for_each_wheel_on_ground(const Visit& visit) const {
   detail::for_each_standing_wheel(
       state_, [&](BodyId body, const WheelState<S>& wheel) { visit(body.slot, wheel.contact_body.slot); });
 }
 
-/// How long all bodies of an island have rested.
+/// Finds how long all bodies of an island have rested.
 template <class S> void IslandSleep<S>::find_island_clocks() {
   const std::size_t count = state_.awake.states.size();
   clock_.assign(count, 0xffffffffu);
@@ -222,7 +222,7 @@ template <class S> void IslandSleep<S>::find_island_clocks() {
   for_each_wheel_on_ground(keep_awake);
 }
 
-/// From here on `clock_` is 1 for islands that fall asleep. False: there is none.
+/// Sets `clock_` to 1 for islands that fall asleep, else to 0. False: there is none.
 template <class S> bool IslandSleep<S>::mark_ready_islands() {
   const std::uint32_t least = delay();
   bool any = false;
@@ -235,7 +235,7 @@ template <class S> bool IslandSleep<S>::mark_ready_islands() {
   return any;
 }
 
-/// Of the awake body at that index; null if it stays awake.
+/// The island of the awake body at that index; null if it stays awake.
 template <class S> SleepingIsland<S>* IslandSleep<S>::island_of(std::size_t index) {
   const std::uint32_t root = islands_.find(static_cast<std::uint32_t>(index));
   if (clock_[root] == 0) return nullptr;
@@ -299,7 +299,7 @@ template <class S> void IslandSleep<S>::move_bodies(std::vector<BodyId>& fell_as
   awake.properties.resize(kept);
 }
 
-/// In order of their first bodies.
+/// Lists the islands in order of their first bodies.
 template <class S> void IslandSleep<S>::list_islands() {
   map_.relabel(state_.awake, Location::kAwake, 0);
   map_.relabel(state_.joints, Location::kAwake, 0);

@@ -23,28 +23,28 @@ template <class S> class IslandWake {
   ISO_INLINE IslandWake(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies)
       : state_(state), map_(map), proxies_(proxies) {}
 
-  /// The island of a body, if it sleeps.
+  /// Wakes the island of a body, if it sleeps.
   void wake(std::uint32_t slot);
-  /// One island after another in this order, at the cost of one merge.
+  /// Wakes one island after another in this order, at the cost of one merge.
   void wake(std::span<const std::uint32_t> slot_list);
   void wake_all();
-  /// Islands that something awake and moving has a contact with, or something awake a wheel on, or that a fast
+  /// Wakes islands that something awake and moving has a contact with, or something awake a wheel on, or that a fast
   /// kinematic body is about to pass through. False: there was none. Waking brings new pairs, so the caller updates the
   /// broad phase and calls again.
   bool wake_touched();
-  /// Every island and every body that the body's fat box meets: what is moved, changed or taken away may have held them
-  /// up.
+  /// Wakes every island and every body that the body's fat box meets: what is moved, changed or taken away may have
+  /// held them up.
   void wake_touching(std::uint32_t slot);  // a sensor wakes nobody: it notes that the next step looks who sleeps in it
-  /// The same of a box [m] that is about to change, or has; but of `slot`, which is what changes.
+  /// Wakes those that meet a box [m] that is about to change, or has; but not `slot`, which is what changes.
   void wake_touching(const Aabb<S>& box, std::uint32_t slot);
-  /// Every island with a joint or spring to, or a contact or wheel on, a body that no island holds. Its box need not
-  /// meet theirs any more: a contact sleeps as the last step found it.
+  /// Wakes every island with a joint or spring to, or a contact or wheel on, a body that no island holds. Its box need
+  /// not meet theirs any more: a contact sleeps as the last step found it.
   void wake_held_by(std::uint32_t slot);
-  /// Every body with a wheel on that one inside of the box [m]: its own need not reach the ground.
+  /// Wakes every body with a wheel on that one inside of the box [m]: its own need not reach the ground.
   void wake_wheels_on(std::uint32_t slot, const Aabb<S>& box);
   /// Wakes the joint's island and starts the sleep clocks of its bodies anew. Returns its index among the awake joints.
   std::uint32_t wake_joint(std::uint32_t slot);
-  /// The awake state of a body that is about to be changed. Not of a static one.
+  /// Wakes a body that is about to be changed, and returns its state. Not of a static one.
   BodyState<S>& wake_for_change(std::uint32_t slot);
   /// An awake body rests anew: what held it may be gone, and the rest it had counted was on that.
   void reset_clock(std::uint32_t slot);
@@ -78,8 +78,7 @@ template <class S> class IslandWake {
   std::vector<std::uint32_t> touched_;
 };
 
-#define ISO_EXTERN(S) extern template class IslandWake<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_ISLAND_WAKE_OF(extern, S) extern template class IslandWake<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_ISLAND_WAKE_OF)
 
 }  // namespace isostep

@@ -57,18 +57,17 @@ template <class S> bool IslandWake<S>::wake_touched() {
 /// What sleeps in the way of a kinematic body that goes as far in the step as it is thick: it would be beyond them
 /// before they touch.
 template <class S> void IslandWake<S>::find_run_over(std::size_t index) {
-  const auto has_contacts = [](const BodyProperties<S>& body) {
-    return (body.flags & (body_flag::kSensor | body_flag::kCollide)) == body_flag::kCollide;
-  };
   const BodyProperties<S>& body = state_.awake.properties[index];
-  if (body.type != BodyType::kinematic || !has_contacts(body)) return;
+  if (body.type != BodyType::kinematic || !map_.has_contacts(body)) return;
   const BodyState<S>& state = state_.awake.states[index];
   const Step<S> h = divide_to<Step<S>>(S(1), S(state_.settings.hz));
   const Vec3<S> way = convert<S>(state.velocity) * h;
   if (!(detail::kSpeculativeDistance<S> < max_abs(way))) return;  // it touches first
   S thick = Limits<S>::extent();
-  for (const Child<S>& child : map_.children_of(body.shape))
-    thick = min(thick, thickness<S>(map_.contents().view(child.primitive)));
+  for (const Child<S>& child : map_.children_of(body.shape)) {
+    if (!child.traits.has(part_flag::kSensor))
+      thick = min(thick, thickness<S>(map_.contents().view(child.primitive)));
+  }
   if (max_abs(way) < thick) return;
   const Aabb<S> there = {saturating_add(state.fat.low, way), saturating_add(state.fat.high, way)};
   const Aabb<S> swept = merge(state.fat, there);
@@ -77,7 +76,8 @@ template <class S> void IslandWake<S>::find_run_over(std::size_t index) {
     const Location at = map_.location(other);
     if (!at.is_asleep() || !overlap(swept, map_.state_at(at).fat)) return true;
     const BodyProperties<S>& sleeper = map_.properties_at(at);
-    if (has_contacts(sleeper) && should_collide(body.filter, sleeper.filter) && !are_ghosts(state.slot, other))
+    const bool collides = should_collide(map_.filter_of(body), map_.filter_of(sleeper));
+    if (map_.has_contacts(sleeper) && collides && !are_ghosts(state.slot, other))
       met.push_back(other);
     return true;
   });
@@ -94,8 +94,8 @@ template <class S> bool IslandWake<S>::is_touched(std::uint64_t pair) const {
   const BodyProperties<S>& body = state_.awake.properties[mover.index];
   const bool still = state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
   if (body.type == BodyType::kinematic && still) return false;
-  if (((body.flags | map_.properties_at(a.is_asleep() ? a : b).flags) & body_flag::kSensor) != 0) return false;
-  return bodies_touch(map_, pair_a(pair), pair_b(pair)) && !are_ghosts(pair_a(pair), pair_b(pair));
+  if (map_.is_sensor(body) || map_.is_sensor(map_.properties_at(a.is_asleep() ? a : b))) return false;
+  return bodies_touch(map_, pair_a(pair), pair_b(pair), ByParts::solid) && !are_ghosts(pair_a(pair), pair_b(pair));
 }
 /// Whether they pass each other, by a Ghost or a KindGhost.
 template <class S> bool IslandWake<S>::are_ghosts(std::uint32_t a, std::uint32_t b) const {
@@ -112,18 +112,17 @@ template <class S> bool IslandWake<S>::are_ghosts(std::uint32_t a, std::uint32_t
 
 /// A sensor sees others and touches none.
 template <class S> bool IslandWake<S>::is_sensor(std::uint32_t slot) const {
-  return (map_.properties_at(map_.location(slot)).flags & body_flag::kSensor) != 0;
+  return map_.is_sensor(map_.properties_at(map_.location(slot)));
 }
 template <class S> void IslandWake<S>::wake_touching(std::uint32_t slot) {
   if (proxies_.present(slot)) wake_touching(proxies_.boxes().box(slot), slot);
 }
 template <class S> void IslandWake<S>::wake_touching(const Aabb<S>& box, std::uint32_t slot) {
   if (!state_.settings.allow_sleep) return;  // nobody sleeps, nor counts the time
-  if (is_sensor(slot)) {
-    if (map_.location(slot).set == Location::kStatic)
-      state_.untold.sensors.push_back(state_.body_slots.template id_of<BodyId>(slot));
-    return;
-  }
+  const bool is_still = map_.location(slot).set == Location::kStatic;
+  if (is_still && map_.senses(map_.properties_at(map_.location(slot))))
+    state_.untold.sensors.push_back(state_.body_slots.template id_of<BodyId>(slot));
+  if (is_sensor(slot)) return;
   if (state_.awake.states.empty() && state_.sleeping.empty()) return;  // a level before anything is in it
   std::vector<std::uint32_t> met;
   proxies_.boxes().query(box, [&](std::uint32_t other) {

@@ -66,8 +66,9 @@ template <class S> class WheelForces {
   };
   /// The ground that a wheel stands on.
   struct Ground {
-    BodyId body = {};    // null: no ground
-    Vec3<S> point = {};  // [m] world
+    BodyId body = {};         // null: no ground
+    std::uint32_t child = 0;  // of its shape
+    Vec3<S> point = {};       // [m] world
     Vec3<U> normal = {};
   };
   /// A wheel in this step.
@@ -203,8 +204,7 @@ template <class S> class WheelForces {
   Step<S> h_ = {};
 };
 
-#define ISO_EXTERN(S) extern template class WheelForces<S>;
-ISO_FOR_EACH_SCALAR(ISO_EXTERN)
-#undef ISO_EXTERN
+#define ISO_WHEEL_FORCES_OF(extern, S) extern template class WheelForces<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_WHEEL_FORCES_OF)
 
 }  // namespace isostep

@@ -44,8 +44,8 @@ auto WheelForces<S>::solve(const SolverBodies<S>& bodies, const std::vector<Acce
   return pushes_;
 }
 
-/// Where the wheel's middle is on its way down, so that it touches the ground's plane; and the rows there. `turn` is
-/// that of the body.
+/// Finds the wheel's middle on its way down where it touches the ground's plane, and the rows there. `turn` is that of
+/// the body.
 template <class S> void WheelForces<S>::place(Run& run, const Mat3<U>& turn) {
   run.touches = false;
   run.spin.brake = V(0);
@@ -85,7 +85,7 @@ template <class S> void WheelForces<S>::place(Run& run, const Mat3<U>& turn) {
   move(run, run.across, motion, run.push_across);
 }
 
-/// Spring, damper, bar and stop at a length, and the tyre's grip.
+/// Finds spring, damper, bar and stop at a length, and the tyre's grip.
 template <class S> void WheelForces<S>::compress(Run& run, S length) const {
   const WheelSettings<S>& w = wheel(run);
   const S mass = bodies_->mass[run.row].mass;
@@ -100,17 +100,17 @@ template <class S> void WheelForces<S>::compress(Run& run, S length) const {
   run.strut.bar = run.partner == kNone ? S(0) : divide_to<S>(run.anti_roll, mass);
   const S firm = times(times(times(run.up.give, run.lean), run.lean), run.strut.damping * h_);
   run.strut.firm = saturating_add(S(1), firm);
-  // No shorter after the sub-step, and where it is too short, out of that.
+  // The strut is no shorter than its travel leaves after the sub-step, and where it is shorter, it comes out of that.
   const S room = divide_to<S>(length - (w.free_length - w.travel), run.lean);
   run.strut.stop = min(saturate_to<V>(product(-room, S(rate_))), detail::kPushSpeed<S>);
 }
 
-/// [m/s] Along a row. Row 0 does not move.
+/// [m/s] The speed along a row. Row 0 does not move.
 template <class S>
 ISO_INLINE Velocity<S> WheelForces<S>::speed_of(const Run& run, const Row& row, const MotionRow<V>& body) const {
   return run.ground == 0 ? row.speed(body) : row.speed(body, motion_[run.ground]);
 }
-/// The same, as it would be without the impulse that it has made so far.
+/// [m/s] The speed along a row without the impulse that it has made so far.
 template <class S>
 ISO_INLINE Velocity<S> WheelForces<S>::without(const Run& run, const Row& row, V impulse,
                                                const MotionRow<V>& body) const {
@@ -121,7 +121,7 @@ template <class S> ISO_INLINE void WheelForces<S>::move(const Run& run, const Ro
   else row.push(body, motion_[run.ground], impulse);
 }
 
-/// What the strut pushes, of the length and speed that it leads to itself.
+/// Applies the strut's push, which counts the length and speed that it leads to itself.
 template <class S> ISO_INLINE void WheelForces<S>::press(Run& run, MotionRow<V>& body) {
   const V others = without(run, run.up, run.load, body);
   S force = run.strut.spring;  // [m/s^2] along the suspension
@@ -151,7 +151,7 @@ template <class S> ISO_INLINE void WheelForces<S>::grip(Run& run, MotionRow<V>& 
   run.push_across = made.across;
 }
 
-/// Whether that changed its impulses by more than kSettled.
+/// Solves strut and tyre. Returns whether that changed their impulses by more than kSettled.
 template <class S> bool WheelForces<S>::iterate(Run& run) {
   MotionRow<V> body = motion_[run.row];  // no wheel of a body stands on that body
   const V load = run.load, along = run.push_along, across = run.push_across;
@@ -162,7 +162,7 @@ template <class S> bool WheelForces<S>::iterate(Run& run) {
   return most < abs(run.load - load) || most < abs(run.push_along - along) || most < abs(run.push_across - across);
 }
 
-/// How far it turns in the sub-step; a track's leader before the others of it.
+/// Turns the wheel by the sub-step; a track's leader before the others of it.
 template <class S> void WheelForces<S>::turn_wheel(Run& run) const {
   constexpr S kTurn = S(6.28318530717958647692);
   const V fastest = convert<V>(min(Limits<S>::surface_speed(), Limits<S>::speed() + Limits<S>::speed()));
@@ -173,7 +173,7 @@ template <class S> void WheelForces<S>::turn_wheel(Run& run) const {
   if (run.angle < S(0)) run.angle += kTurn;
 }
 
-/// [1] Of this sub-step and the ones before.
+/// [1] The mean slip of this sub-step and the ones before: each counts half as much as the next.
 template <class S> S WheelForces<S>::slip_of(const Run& run) const {
   const S before = run.slip * S(0.5);
   if (!run.touches) return before;
@@ -182,7 +182,7 @@ template <class S> S WheelForces<S>::slip_of(const Run& run) const {
   return before + convert<S>(detail::tyre_slip(saturating_subtract(along, run.spin.rim), across, along)) * S(0.5);
 }
 
-/// The impulses of the sub-step, on the body together.
+/// Sums the impulses of the sub-step, on the body together.
 template <class S> void WheelForces<S>::tell(const Group& group) {
   Push all = {group.row, Vec3<V>::zero(), Vec3<V>::zero()};
   bool any = false;

@@ -153,17 +153,17 @@ template <class S> void WheelForces<S>::steer(const Group& group) {
   }
 }
 
-/// Whether the two would collide.
+/// Whether parts of the two might collide.
 template <class S> bool WheelForces<S>::bears(std::uint32_t body, std::uint32_t ground) const {
   const BodyProperties<S>&a = state_.awake.properties[body - 1], &b = map_.properties_at(map_.location(ground));
-  return (b.flags & body_flag::kCollide) != 0 && should_collide(a.filter, b.filter);
+  return (b.flags & body_flag::kCollide) != 0 && should_collide(a.filter, map_.filter_of(b));
 }
 /// The first that is not held from the start and is not too steep.
 template <class S>
 template <class Hits>
 auto WheelForces<S>::first_that_bears(const Hits& hits, Vec3<U> down) -> Ground {
   for (const auto& hit : hits) {
-    if (!hit.inside && dot(hit.normal, down) <= U(-0.5)) return {hit.body, hit.point, hit.normal};
+    if (!hit.inside && dot(hit.normal, down) <= U(-0.5)) return {hit.body, hit.child, hit.point, hit.normal};
   }
   return {};
 }
@@ -203,13 +203,15 @@ template <class S> auto WheelForces<S>::ground_below(const Run& run, const Stanc
   const auto nearby = std::span(near_).subspan(group.first_near, group.end_near - group.first_near);
   const Primitive<S> sphere = Sphere<S>{wheel(run).radius}.primitive();
   ShapeCastHit<S> met[kMostMet];
-  const std::size_t count = queries_.cast_among(
-      nearby, search.box, {sphere, {search.start, Quat<U>::identity()}, search.way}, std::span<ShapeCastHit<S>>(met));
+  const Filter& own = state_.awake.properties[run.row - 1].filter;
+  const std::size_t count =
+      queries_.cast_among(nearby, search.box, own, {sphere, {search.start, Quat<U>::identity()}, search.way},
+                          std::span<ShapeCastHit<S>>(met));
   const Ground ground = first_that_bears(std::span(met, count), at.down);
   if (count == 0 || ground.body) return ground;
   RayCastHit<S> struck[kMostMet];
-  const std::size_t rays = queries_.ray_among(
-      nearby, search.box, {search.start, search.way + at.down * wheel(run).radius}, std::span<RayCastHit<S>>(struck));
+  const RayCast<S> ray = {search.start, search.way + at.down * wheel(run).radius};
+  const std::size_t rays = queries_.ray_among(nearby, search.box, own, ray, std::span<RayCastHit<S>>(struck));
   return first_that_bears(std::span(struck, rays), at.down);
 }
 template <class S> void WheelForces<S>::stand_on(Run& run, const Ground& ground) {
@@ -221,7 +223,8 @@ template <class S> void WheelForces<S>::stand_on(Run& run, const Ground& ground)
   run.point = ground.point;
   run.ground_arm = ground.point - map_.state_at(at).centre;
   run.normal = ground.normal;
-  const S friction = map_.properties_at(at).material.friction;
+  const BodyProperties<S>& body = map_.properties_at(at);
+  const S friction = map_.children_of(body.shape)[ground.child].traits.material_or(body.material).friction;
   run.mu_along = sqrt(saturate_to<S>(product(wheel(run).grip_along, friction)));
   run.mu_across = sqrt(saturate_to<S>(product(wheel(run).grip_across, friction)));
 }

@@ -58,7 +58,7 @@ ISO_INLINE constexpr Fixed<Rep, F, P> operator*(Fixed<Rep, F, P> a, I n) {
   return n * a;
 }
 
-// What Eigen finds by argument-dependent lookup beside the functions of scalar.hpp, math.hpp and exact.hpp. It looks
+// Eigen finds these by argument-dependent lookup beside the functions of scalar.hpp, math.hpp and exact.hpp. It looks
 // for min and max in std too, where they are as good a match as those of scalar.hpp; these are better ones.
 template <class Rep, int F, Overflow P>
 ISO_INLINE constexpr Fixed<Rep, F, P> min(Fixed<Rep, F, P> a, Fixed<Rep, F, P> b) {
@@ -84,8 +84,9 @@ template <class T> ISO_INLINE std::ostream& operator<<(std::ostream& out, Exact<
 
 }  // namespace isostep
 
-/// As for an integer: min is the lowest number in `lowest`, but Eigen's algorithms take `min` for "too small to divide
-/// by", so it is the smallest positive number, one raw unit. There is no infinity; the highest number stands for it.
+/// These limits are those of an integer: min is the lowest number in `lowest`, but Eigen's algorithms take `min` for
+/// "too small to divide by", so it is the smallest positive number, one raw unit. There is no infinity; the highest
+/// number stands for it.
 template <class Rep, int F, isostep::Overflow P> class std::numeric_limits<isostep::Fixed<Rep, F, P>> {
   using Number = isostep::Fixed<Rep, F, P>;
 
@@ -127,7 +128,7 @@ namespace Eigen {
 template <class Rep, int F, isostep::Overflow P>
 struct NumTraits<isostep::Fixed<Rep, F, P>> : GenericNumTraits<isostep::Fixed<Rep, F, P>> {
   enum { RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = sizeof(Rep) == 4 ? 2 : 4 };
-  /// What Eigen's algorithms take for rounding noise: an entry of a decomposition is a few products, each rounded to
+  /// The rounding noise that Eigen's algorithms expect: an entry of a decomposition is a few products, each rounded to
   /// half a raw unit.
   static constexpr isostep::Fixed<Rep, F, P> epsilon() { return isostep::Fixed<Rep, F, P>::from_raw(8); }
   /// Its square is still a raw unit, which is what isApprox compares with.

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Included by eigen.hpp. Neither solver's header is needed here: these specialise templates that they declare again.
+// This is included by eigen.hpp. Neither solver's header is needed here: these specialise templates that they declare
+// again.
 
 #include <Eigen/Core>
 #include <Eigen/Jacobi>

@@ -140,9 +140,9 @@ struct FloatState {
 };
 }  // namespace detail
 
-/// While one lives, this thread computes as IEEE 754 starts out: to nearest, denormals kept, no traps. A library linked
-/// with -ffast-math, a driver or a game may have left it otherwise. The caller's state, sticky flags included, returns
-/// bit for bit. Costs a read or two when nothing is amiss, for a write stalls the pipeline.
+/// A guard: while it lives, this thread computes as IEEE 754 starts out: to nearest, denormals kept, no traps. A
+/// library linked with -ffast-math, a driver or a game may have left it otherwise. The caller's state, sticky flags
+/// included, returns bit for bit. It costs a read or two when nothing is amiss, for a write stalls the pipeline.
 /// Limits: the compiler knows nothing of it. Arithmetic of the same function may be moved out of the scope, so put the
 ///         guard where a function that is not inlined is called.
 class FloatEnvironment {
@@ -180,8 +180,8 @@ template <class Call> ISO_INLINE auto stored(const Call& call) -> decltype(call(
 }
 }  // namespace detail
 
-/// What the probe finds; bit n of its result is the n-th of these. One cause may set several: rounding upwards looks
-/// like contraction too.
+/// The findings of the probe; bit n of its result is the n-th of these. One cause may set several: rounding upwards
+/// looks like contraction too.
 enum class Deviation : std::uint8_t {
   flush_float,  // a denormal result became zero
   flush_double,
@@ -220,7 +220,7 @@ ISO_INLINE bool pair_is_fused() {
 }
 
 ISO_INLINE std::uint32_t when(bool deviates, Deviation deviation) { return deviates ? bit_of(deviation) : 0u; }
-// By bits: a comparison takes denormals for zero as well.
+// The bits are compared: a comparison of numbers takes denormals for zero as well.
 ISO_INLINE bool is_zero(float x) { return (std::bit_cast<std::uint32_t>(x) << 1) == 0; }
 ISO_INLINE bool is_zero(double x) { return (std::bit_cast<std::uint64_t>(x) << 1) == 0; }
 
@@ -296,7 +296,7 @@ ISO_INLINE std::uint32_t probe_environment_here() {
   return found;
 }
 
-/// The same, compiled in the library.
+/// The probe, compiled in the library.
 std::uint32_t probe_environment();
 
 }  // namespace isostep

@@ -17,13 +17,13 @@ template <int F, Overflow P> struct FinerOf<Fixed<std::int32_t, F, P>> { using T
 /// Q32.32 for every 32-bit format, else S itself.
 template <class S> using Finer = typename detail::FinerOf<S>::Type;
 
-/// As Out, which is some Finer<S> or its Unit: exact from 32 bits, to nearest from another format of 64 bits.
+/// Converts to Out, which is some Finer<S> or its Unit: exact from 32 bits, to nearest from another format of 64 bits.
 template <class Out, std::floating_point S> ISO_INLINE Out finer(S a) { return a; }
 template <class Out, int F, Overflow P> ISO_INLINE Out finer(Fixed<std::int64_t, F, P> a) { return convert<Out>(a); }
 template <class Out, int F, Overflow P> ISO_INLINE Out finer(Fixed<std::int32_t, F, P> a) {
   return Out::from_raw(std::int64_t{a.raw()} << (Out::kFracBits - F));
 }
-/// Back, to nearest, held at the format's ends.
+/// Converts back, to nearest, held at the format's ends.
 template <class Out, class In> ISO_INLINE Out coarser(In a) {
   if constexpr (std::same_as<Out, In>) {
     return a;

@@ -10,8 +10,8 @@
 
 namespace isostep {
 
-/// What an operation does whose exact result does not fit: `wrap` is defined, branch-free and the release behaviour;
-/// `trap` stops the program and exists to test that a range contract holds.
+/// The behaviour of an operation whose exact result does not fit: `wrap` is defined, branch-free and the release
+/// behaviour; `trap` stops the program and exists to test that a range contract holds.
 enum class Overflow { wrap, trap };
 
 template <class Rep, int FracBits, Overflow Policy = Overflow::wrap> class Fixed;

@@ -34,8 +34,8 @@ struct WasmSimd;
 }  // namespace isa
 
 namespace detail {
-/// What registers and masks know of a scalar. Formats of one width share their masks: compare Unit<S>, select S. Fixed
-/// point is its Rep where it wraps, as registers do.
+/// The type by which registers and masks know a scalar. Formats of one width share their masks: compare Unit<S>, select
+/// S. Fixed point is its Rep where it wraps, as registers do.
 template <class S> struct LaneKeyOf { using Type = S; };
 template <class Rep, int F, Overflow P> struct LaneKeyOf<Fixed<Rep, F, P>> {
   using Type = std::conditional_t<P == Overflow::wrap, Rep, Fixed<Rep, 1, P>>;
@@ -69,7 +69,7 @@ template <class S> ISO_INLINE S sqrt_lane(S a) {
 }
 }  // namespace detail
 
-/// Where load and store expect their W scalars to begin [bytes].
+/// [bytes] The alignment that load and store expect of their W scalars.
 template <class S, int W> inline constexpr std::size_t kLaneAlignment = detail::lane_alignment(W * sizeof(S));
 
 /// W results of a comparison. Key is detail::LaneKey of the scalar.
@@ -341,7 +341,7 @@ ISO_INLINE void store_transposed(S* const* rows, const Lanes<S, W, Isa>* in, std
   Lanes<S, W, Isa>::template store_rows<N>(rows, in, lane_mask);
 }
 
-/// So that Unit<L>, Step<L> and Sum<L> name the lanes a kernel needs beside L.
+/// These traits let Unit<L>, Step<L> and Sum<L> name the lanes a kernel needs beside L.
 template <class S, int W, class Isa> struct ScalarTraits<Lanes<S, W, Isa>> {
   using Unit = Lanes<typename ScalarTraits<S>::Unit, W, Isa>;
   using Step = Lanes<typename ScalarTraits<S>::Step, W, Isa>;

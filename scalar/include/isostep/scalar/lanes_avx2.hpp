@@ -37,7 +37,7 @@ template <int W> struct Avx2Masks {
   static ISO_INLINE Mask mask_not(Mask a) { return _mm256_xor_si256(a, _mm256_set1_epi32(-1)); }
 };
 
-/// In each 128-bit half a transposed 4 x 4 block of 32-bit lanes.
+/// Transposes a 4 x 4 block of 32-bit lanes in each 128-bit half.
 ISO_INLINE void transpose_halves(const __m256* in, __m256* out) {
   const __m256 a = _mm256_unpacklo_ps(in[0], in[1]);
   const __m256 b = _mm256_unpackhi_ps(in[0], in[1]);

@@ -36,7 +36,7 @@ template <int W> struct Avx512Masks {
   static ISO_INLINE Mask mask_not(Mask a) { return static_cast<Mask>(~a); }
 };
 
-/// In each 128-bit quarter a transposed 4 x 4 block of 32-bit lanes.
+/// Transposes a 4 x 4 block of 32-bit lanes in each 128-bit quarter.
 ISO_INLINE void transpose_quarters(const __m512* in, __m512* out) {
   const __m512 a = _mm512_unpacklo_ps(in[0], in[1]);
   const __m512 b = _mm512_unpackhi_ps(in[0], in[1]);

@@ -51,7 +51,7 @@ template <class Out, class SumS, int W, class Isa> ISO_INLINE Out round_saturate
   return detail::bounded_sum<Out>(sum, detail::highest_whole<typename Out::Scalar>());
 }
 template <class Out, class S, int W, class Isa> ISO_INLINE Out round_saturated(Lanes<S, W, Isa> sum) { return sum; }
-/// with_headroom() and round_with_headroom(), lane by lane.
+/// These are with_headroom() and round_with_headroom(), lane by lane.
 template <class S, int W, class Isa> ISO_INLINE Lanes<S, W, Isa> with_headroom(Lanes<S, W, Isa> x) {
   if constexpr (kIsFixed<S>) {
     const auto half = Lanes<S, W, Isa>::broadcast(detail::half_of_range<S>());

@@ -6,7 +6,7 @@
 
 namespace isostep {
 
-/// As S(1) / a, lane by lane.
+/// Computes S(1) / a, lane by lane.
 template <class S, int W, class Isa> ISO_INLINE Lanes<S, W, Isa> reciprocal(Lanes<S, W, Isa> a) {
   return Lanes<S, W, Isa>::broadcast(S(1)) / a;
 }

@@ -113,8 +113,8 @@ struct LaneSum<FixedSum<std::int32_t, F>, W, Isa> {
     return {R64::template shift_left<shift>(R::multiply_even(a.v, one)),
             R64::template shift_left<shift>(R::multiply_even(R::odd_to_even(a.v), one))};
   }
-  /// Of every 64-bit sum the 32 bits from bit `shift` on, in the even lanes moved down and in the odd ones up. A shift
-  /// beyond 32 must bring in the sign: it shifts the upper words alone.
+  /// Takes of every 64-bit sum the 32 bits from bit `shift` on, in the even lanes moved down and in the odd ones up. A
+  /// shift beyond 32 must bring in the sign: it shifts the upper words alone.
   template <class Out> ISO_INLINE Lanes<Out, W, Isa> round() const {
     constexpr int shift = F - Out::kFracBits;
     if constexpr (shift <= 0) {

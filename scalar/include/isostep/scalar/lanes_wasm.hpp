@@ -54,7 +54,7 @@ template <> struct Registers<float, isa::WasmSimd> : detail::WasmMasks<4> {
   static ISO_INLINE Type divide(Type a, Type b) { return wasm_f32x4_div(a, b); }
   static ISO_INLINE Type sqrt(Type a) { return wasm_f32x4_sqrt(a); }
   static ISO_INLINE Type negate(Type a) { return wasm_f32x4_neg(a); }
-  // By their definition b < a ? b : a and a < b ? b : a.
+  // These are by definition b < a ? b : a and a < b ? b : a.
   static ISO_INLINE Type min(Type a, Type b) { return wasm_f32x4_pmin(a, b); }
   static ISO_INLINE Type max(Type a, Type b) { return wasm_f32x4_pmax(a, b); }
   static ISO_INLINE Type abs(Type a) {  // flips the sign of what is below zero: -0.0 and NaN keep theirs

@@ -49,12 +49,12 @@ template <class Rep, int F, Overflow P> struct LinearSystem<Fixed<Rep, F, P>> {
     const std::uint64_t mantissa = detail::multiply_high(a.mantissa, b.mantissa);
     return detail::normalised(Value{mantissa, a.exponent + b.exponent + 64, a.negative != b.negative});
   }
-  /// For b other than 0.
+  /// Divides by b, which is not 0.
   static ISO_INLINE Value quotient(Value a, Value b) {
     const Division division = divide({a.mantissa >> 1, a.mantissa << 63}, b.mantissa);
     return detail::normalised(Value{division.quotient, a.exponent - 63 - b.exponent, a.negative != b.negative});
   }
-  /// Of values >= 0.
+  /// Adds values >= 0.
   static ISO_INLINE Value sum(Value a, Value b) {
     if (a.mantissa == 0) return b;
     if (b.mantissa == 0) return a;

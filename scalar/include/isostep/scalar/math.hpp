@@ -41,7 +41,7 @@ ISO_INLINE double sqrt(double x) {
   return __builtin_sqrt(x);
 #endif
 }
-/// To nearest for every format, by trial of the exact square; a tie cannot occur. Negative gives 0.
+/// The square root to nearest for every format, by trial of the exact square; a tie cannot occur. Negative gives 0.
 template <class Rep, int F, Overflow P> ISO_INLINE constexpr Fixed<Rep, F, P> sqrt(Fixed<Rep, F, P> x) {
   if (x.raw() <= 0) return Fixed<Rep, F, P>::from_raw(0);
   const auto u = static_cast<std::uint64_t>(x.raw());
@@ -301,7 +301,7 @@ template <class Out, std::floating_point S> ISO_INLINE Out power_to(S base, S ex
   KEYWORD template S acos(S);                  \
   KEYWORD template S exp_to<S>(S);             \
   KEYWORD template S log_to<S>(S);
-/// From one format to another.
+/// These lead from one format to another.
 #define ISO_SCALAR_MATH_BETWEEN(KEYWORD, S)                \
   KEYWORD template SinCos<Unit<S>> sin_cos_to<Unit<S>>(S); \
   KEYWORD template S atan2_to<S>(Unit<S>, Unit<S>);        \

@@ -35,7 +35,7 @@ ISO_INLINE constexpr QuarterTurns quarter_turns(std::uint64_t mantissa, int expo
   const UInt128Parts fraction = shift_left(top, 2);
   return {{fraction.high, fraction.low | (low.low >> 62)}, static_cast<unsigned>(top.high >> 62)};
 }
-/// The same for |raw| 2^-F: 128 digits of 2/pi times 64 bits leave an error below 2^(-63-F).
+/// The quarter turns of |raw| 2^-F: 128 digits of 2/pi times 64 bits leave an error below 2^(-63-F).
 template <int F> ISO_INLINE constexpr QuarterTurns quarter_turns_fixed(std::uint64_t raw) {
   const UInt128Parts product =
       add(multiply(raw, kTwoOverPi[2]), {0, multiply_high(raw, kTwoOverPi[3])});  // units of 2^(-64-F)
@@ -66,7 +66,7 @@ ISO_INLINE constexpr Soft sine(QuarterTurns turns, unsigned more, bool negative)
   return {multiply_high(wave, shift_left(factor, zeros).high), -63 - zeros, below};
 }
 
-/// The same in units of 2^-bits, for fixed point, where 64 bits of fraction are enough.
+/// The sine in units of 2^-bits, for fixed point, where 64 bits of fraction are enough.
 template <class Out> ISO_INLINE constexpr Out sine_fixed(QuarterTurns turns, unsigned more, bool negative) {
   static_assert(Out::kFracBits <= Out::kBits - 2, "the format must hold 1");
   const unsigned quadrant = turns.quadrant + more;
@@ -81,7 +81,7 @@ template <class Out> ISO_INLINE constexpr Out sine_fixed(QuarterTurns turns, uns
   return Out::from_raw(below ? static_cast<typename Out::Raw>(-raw) : raw);
 }
 
-/// Below 2^-27 sin(x) = x and cos(x) = 1 to within a tenth of an ulp of double.
+/// |x| is below 2^-27, where sin(x) = x and cos(x) = 1 to within a tenth of an ulp of double.
 template <class S> ISO_INLINE constexpr bool is_tiny(S x) {
   constexpr int field = FloatFormat<S>::kBias - 27;
   return (to_bits(x) << 1 >> 1) < (static_cast<RawBits<S>>(field) << FloatFormat<S>::kMantissa);

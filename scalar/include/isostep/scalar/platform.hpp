@@ -1,4 +1,4 @@
-// What every header needs to know of the compiler: inlining, and the flags that would break bit-exactness.
+// The facts about the compiler that every header needs: inlining, and the flags that would break bit-exactness.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,7 +8,8 @@
 #error "isostep needs C++20: compile with /std:c++20"
 #endif
 #elif __cplusplus < 202002L
-// After #error, gcc and clang would go on through two thousand more; a file that is not there ends them in one line.
+// This file is not there, which ends gcc and clang in one line: after #error they would go on through two thousand
+// more.
 #include "isostep needs C++20: compile with -std=c++20"
 #endif
 
@@ -49,7 +50,7 @@ static_assert(sizeof(1.0) == sizeof(double), "isostep: compile without -fsingle-
 #define ISO_INLINE_LAMBDA
 #else
 #define ISO_INLINE inline __attribute__((always_inline))
-/// For a lambda in such a function, whose call operator is a function too: `[&](S x) ISO_INLINE_LAMBDA { ... }`.
+/// It marks a lambda in such a function, whose call operator is a function too: `[&](S x) ISO_INLINE_LAMBDA { ... }`.
 #define ISO_INLINE_LAMBDA __attribute__((always_inline))
 #endif
 

@@ -27,8 +27,9 @@ ISO_INLINE constexpr UInt128Parts shift_right(UInt128Parts a, int n) {
   if (n >= 64) return {0, a.high >> (n - 64)};
   return {a.high >> n, (a.low >> n) | ((a.high << 1) << (63 - n))};
 }
-/// For a != 0. BSR leaves its target unchanged for zero, so AMD processors wait for the target's old value: up to 10 ns
-/// here, whenever the compiler picks a register that the previous call still computes. Source as target ends the wait.
+/// Counts the leading zeros of a, which is not 0. BSR leaves its target unchanged for zero, so AMD processors wait for
+/// the target's old value: up to 10 ns here, whenever the compiler picks a register that the previous call still
+/// computes. Source as target ends the wait.
 ISO_INLINE constexpr int leading_zeros(std::uint64_t a) {
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__LZCNT__)
   if (!__builtin_is_constant_evaluated()) {

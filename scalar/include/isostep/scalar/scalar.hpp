@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// What the engine requires of a number type S:
+/// The requirements of the engine on a number type S:
 ///   Unit     directions, quaternions, rotation matrices: values in [-2, 2), as fine as the width allows
 ///   Velocity speeds, impulses per mass, displacements within a step: where S is narrow, finer than S at less range
 ///   Step     a time step or another fraction below one [s]
@@ -120,7 +120,7 @@ template <class S> ISO_INLINE constexpr S min(S a, S b) { return detail::decided
 template <class S> ISO_INLINE constexpr S max(S a, S b) { return detail::decided<S>(a < b) ? b : a; }
 template <class S> ISO_INLINE constexpr S clamp(S x, S low, S high) { return min(max(x, low), high); }
 template <class S> ISO_INLINE constexpr S abs(S a) { return a < S(0) ? -a : a; }
-/// The same bits (-0.0 and NaN keep their signs) as a maximum, which compilers turn into no branch.
+/// Gives the bits of the generic one (-0.0 and NaN keep their signs) as a maximum, which compilers turn into no branch.
 template <std::floating_point S> ISO_INLINE constexpr S abs(S a) { return a < -a ? -a : a; }
 
 /// a in the format of Out: exact when Out is finer and has room, else rounded to nearest.
@@ -191,7 +191,7 @@ ISO_INLINE constexpr double power_of_two(int exponent) {
 }
 }  // namespace detail
 
-/// For people, files of measurements and pictures: never fed back into a simulation.
+/// Converts for people, files of measurements and pictures: never fed back into a simulation.
 template <class S> ISO_INLINE constexpr double to_double(S a) {
   if constexpr (kIsFixed<S>) {
     constexpr double unit = detail::power_of_two(-S::kFracBits);
@@ -234,12 +234,12 @@ template <class S> ISO_INLINE constexpr S resolution() {
   }
 }
 
-/// How far apart numbers of this size lie, at most; of sizes below one as of one.
+/// The greatest distance of neighbouring numbers of this size; of sizes below one as of one.
 template <class S> ISO_INLINE constexpr S spacing_at(S size) {
   if constexpr (kIsFixed<S>) return resolution<S>();
   if constexpr (!kIsFixed<S>) return resolution<S>() * max(size, S(1));
 }
-/// The same, of sizes below one too: what one rounding of such a number may leave.
+/// The error that one rounding of a number of this size may leave, of sizes below one too.
 template <class S> ISO_INLINE constexpr S rounding_at(S size) {
   if constexpr (kIsFixed<S>) return resolution<S>();
   if constexpr (!kIsFixed<S>) return resolution<S>() * size;

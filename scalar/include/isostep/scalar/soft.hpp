@@ -99,8 +99,8 @@ ISO_INLINE constexpr WideSoft normalised(WideSoft a) {
   const int zeros = leading_zeros(a.mantissa);
   return {shift_left(a.mantissa, zeros), a.exponent - zeros, a.negative};
 }
-/// As from_soft. Fixed point rounds on one bit, and a format's largest magnitude leaves it within the upper 64; float
-/// and double must also know whether anything stands below.
+/// Rounds as from_soft does. Fixed point rounds on one bit, and a format's largest magnitude leaves it within the upper
+/// 64; float and double must also know whether anything stands below.
 template <class S> ISO_INLINE constexpr S from_wide(WideSoft a) {
   const WideSoft n = normalised(a);
   const std::uint64_t rest = !kIsFixed<S> && n.mantissa.low != 0 ? 1 : 0;

@@ -22,8 +22,8 @@ ISO_INLINE constexpr const char* describe(TextError error) {
 }
 
 namespace detail {
-/// What reading and writing need to know of an IEEE format: bits of the significand with the hidden one, exponent of
-/// the smallest subnormal, exponent of the last place of the largest number.
+/// The numbers of an IEEE format for reading and writing: bits of the significand with the hidden one, exponent of the
+/// smallest subnormal, exponent of the last place of the largest number.
 struct FloatLayout {
   int significand;
   int lowest_exponent;
@@ -38,7 +38,7 @@ std::string text_of_fixed(std::uint64_t magnitude, bool negative, int frac_bits)
 std::string text_of_float(std::uint64_t bits, FloatLayout format);
 TextError read_fixed(std::string_view text, int bits, int frac_bits, std::int64_t& raw);
 TextError read_float(std::string_view text, FloatLayout format, std::uint64_t& bits);
-/// To a stream, its width and fill obeyed; apart, so that this header needs no <ostream>.
+/// Writes to a stream, its width and fill obeyed; it is apart, so that this header needs no <ostream>.
 void write_text(std::ostream& out, std::string_view text);
 }  // namespace detail
 

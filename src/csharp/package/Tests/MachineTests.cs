@@ -1,4 +1,4 @@
-// For Unity's test runner, in the editor and on devices: is the library there, and is this machine sound?
+// Tests for Unity's test runner, in the editor and on devices: is the library there, and is this machine sound?
 // SPDX-License-Identifier: MIT
 using Isostep;
 using Isostep.Fixed32;

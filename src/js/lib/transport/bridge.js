@@ -1,4 +1,4 @@
-// Between browsers and a native host: whoever connects here gets a connection of its own there.
+// A bridge between browsers and a native host: a client that connects here gets a connection of its own there.
 // SPDX-License-Identifier: MIT
 //
 // The host sees ordinary clients over UDP, and need not know that they are browsers. The bridge knows nothing of the

@@ -1,4 +1,4 @@
-// What every way from session to session speaks: channels, their caps, and arrivals.
+// Channels, their caps, and arrivals: every transport from session to session speaks of these.
 // SPDX-License-Identifier: MIT
 //
 // An endpoint has send(peer, channel, bytes), receive() and disconnect(peer). After `connected` come messages, after
@@ -6,10 +6,10 @@
 // channel of datagrams, and arrives whole and in order on the reliable one, or the connection ends.
 
 export const kDatagram = 0, kReliable = 1;
-/** [bytes] of one message, by channel: those of isostep/session/frame.hpp. */
+/** [bytes] The caps of one message, by channel: those of isostep/session/timeline/frame.hpp. */
 export const kCaps = [1180, 16384];
 
-/** Peers by their numbers, the lowest free one first, and what has arrived from them. */
+/** Peers by their numbers, the lowest free one first, and the arrivals from them. */
 export class Arrivals {
   constructor(maxPeers) {
     this.maxPeers = maxPeers;
@@ -27,15 +27,15 @@ export class Arrivals {
     return peer;
   }
   connected(peer, incoming) { this.#put({kind: 'connected', peer, incoming}); }
-  /** False, and nothing arrives, when no session would send that. */
+  /** Adds a message. Returns false, and nothing arrives, when no session would send that. */
   message(peer, channel, bytes) {
     if (channel > kReliable || bytes.length > kCaps[channel]) return false;
     this.#put({kind: 'message', peer, channel, bytes});
     return true;
   }
-  /** The peer's number is free again when `disconnected` is read, not before. */
+  /** Ends a peer, whose number is free again when `disconnected` is read, not before. */
   disconnected(peer) { this.#put({kind: 'disconnected', peer}); }
-  /** For this side the connection is over: nothing more arrives of it. */
+  /** Ends the connection for this side: nothing more arrives of it. */
   forget(peer) {
     this.peers[peer] = undefined;
     this.inbox = this.inbox.filter(arrival => arrival.peer !== peer);

@@ -14,7 +14,7 @@ export class DataChannelTransport {
   /** @param {{maxPeers?: number}} [options] */
   constructor({maxPeers = 64} = {}) { this.arrivals = new Arrivals(maxPeers); }
 
-  /** An RTCPeerConnection, on both sides before the offer or answer. `incoming`: the other side asked for it. */
+  /** Attaches an RTCPeerConnection, on both sides before the offer or answer. `incoming`: the other side asked. */
   attach(connection, incoming) {
     const open = (label, id, options) => connection.createDataChannel(label, {negotiated: true, id, ...options});
     const channels = [open('isostep datagrams', kDatagram, {ordered: false, maxRetransmits: 0}),
@@ -65,7 +65,7 @@ export class DataChannelTransport {
   close() { this.arrivals.peers.forEach((_, peer) => this.disconnect(peer)); }
 }
 
-/** Offer, answer and candidates as JSON over an open WebSocket. `offers`: on one side of the two. */
+/** Exchanges offer, answer and candidates as JSON over an open WebSocket. `offers` is set on one side of the two. */
 export async function connectBySocket(connection, socket, offers) {
   const say = message => socket.send(JSON.stringify(message));
   connection.addEventListener('icecandidate', ({candidate}) => candidate && say({candidate}));

@@ -23,14 +23,14 @@ export class EnetTransport {
     this.timeout = timeout;
     this.key = key;
   }
-  /** To a host at "192.0.2.7:4000". */
+  /** Connects to a host at "192.0.2.7:4000". */
   static connect(address, options) {
     const transport = new EnetTransport(options);
     transport.connectTo(address);
     return transport;
   }
 
-  /** One more connection; its peer's number, or undefined when there are too many. */
+  /** Adds a connection; returns its peer's number, or undefined when there are too many. */
   connectTo(address) {
     const [, host, port] = /^(.+):(\d+)$/.exec(address) ?? [];
     if (host === undefined || Number(port) < 1 || Number(port) > 65535) {

@@ -52,7 +52,7 @@ export class EnetLink {
     this.#reliably(command, kControl, now);
     this.flush(now);
   }
-  /** False: not connected, or too much of it. */
+  /** Sends a message. Returns false when not connected, or when it is too long or too much waits. */
   send(channel, bytes, now) {
     if (this.state !== 'connected' || bytes.length > kCaps[channel]) return false;
     if (channel === kDatagram) {
@@ -114,7 +114,7 @@ export class EnetLink {
     this.waitingBytes += command.length;
   }
 
-  /** Puts what is there into packets. */
+  /** Puts waiting commands into packets and sends them. */
   flush(now) {
     let inFlight = this.unacknowledged.reduce((sum, {bytes}) => sum + bytes.length, 0);
     while (this.waiting.length > 0 && inFlight < kInFlight) {
@@ -142,7 +142,7 @@ export class EnetLink {
     return packet.subarray(0, end);
   }
 
-  /** What is due by itself: to be called every few milliseconds. */
+  /** Does what is due by itself; call it every few milliseconds. */
   tend(now) {
     if (this.state === 'over') return;
     if (now - this.heard > this.timeout) return this.#end(now);
@@ -164,7 +164,7 @@ export class EnetLink {
 
   // ---- receiving
 
-  /** A packet from the other side. What is malformed ends its reading, and loses nothing before it. */
+  /** Receives a packet from the other side. A malformed command ends its reading, and loses nothing before it. */
   receive(packet, now) {
     if (this.state === 'over' || packet.length < 4) return;
     const view = new DataView(packet.buffer, packet.byteOffset, packet.length);
@@ -223,7 +223,7 @@ export class EnetLink {
     this.state = 'connected';
     this.on.connected();
   }
-  /** Reliable messages, and the fragments of large ones, in the order of their numbers. */
+  /** Puts reliable messages, and the fragments of large ones, in the order of their numbers. */
   #inOrder(command, isPiece, payload) {
     const number = command.getUint16(2), ahead = (number - this.expected) & 0xffff;
     if (ahead > kAhead || this.early.has(number)) return;  // one that is behind looks as if it were far ahead

@@ -1,4 +1,4 @@
-// What goes over UDP before ENet's packets and around them, on the side that connects: no sockets, no clock.
+// The frame of UDP packets around ENet's, and the handshake before, on the side that connects: no sockets, no clock.
 // SPDX-License-Identifier: MIT
 //
 // Source: src/transport/line_guard.hpp, which has the layouts. Little-endian.
@@ -10,7 +10,7 @@ const kWindow = 1024;                             // [packets] behind the newest
 
 const viewOf = bytes => new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
 
-/** SipHash-2-4: [low, high] halves of the hash of `bytes` by a key of four words. Words are the halves of v0 to v3. */
+/** Returns SipHash-2-4 of `bytes` by a key of four words as halves [low, high]. Words are the halves of v0 to v3. */
 export function siphash(key, bytes) {
   let a = key[0] ^ 0x70736575, A = key[1] ^ 0x736f6d65, b = key[2] ^ 0x6e646f6d, B = key[3] ^ 0x646f7261;
   let c = key[0] ^ 0x6e657261, C = key[1] ^ 0x6c796765, d = key[2] ^ 0x79746573, D = key[3] ^ 0x74656462;
@@ -61,7 +61,7 @@ export class LineGuard {
     this.awaitsChallenge = false;
   }
 
-  /** One of ENet's packets. */
+  /** Sends one of ENet's packets. */
   send(packet) {
     if ((packet[0] & 0xf) === 0xf && packet[1] === 0xff) {  // to nobody's number: a CONNECT
       this.connect = packet.slice();

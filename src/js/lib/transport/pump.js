@@ -1,7 +1,7 @@
-// Between an endpoint and a session: what has arrived goes in, what the session has to say goes out.
+// The pump between an endpoint and a session: arrivals go in, the session's messages go out.
 // SPDX-License-Identifier: MIT
 
-/** Before drive(). */
+/** Gives arrivals to the session, before drive(). */
 export function deliver(endpoint, session, now) {
   for (let arrival = endpoint.receive(); arrival !== null; arrival = endpoint.receive()) {
     if (arrival.kind === 'connected') session.connected(arrival.peer, now, arrival.incoming);
@@ -10,14 +10,14 @@ export function deliver(endpoint, session, now) {
   }
 }
 
-/** After it. What an endpoint refuses is as good as lost, and a session lives with losses. */
+/** Sends the session's messages, after drive(). One that an endpoint refuses is lost; sessions live with losses. */
 export function dispatch(endpoint, session, now) {
   if (endpoint.connectTo !== undefined) {
     for (let address = session.pollConnect(); address !== null; address = session.pollConnect()) {
       try {
         endpoint.connectTo(address);
       } catch {
-        // An address that cannot be is as one where nobody answers: the session goes on to the next.
+        // An impossible address is like one where nobody answers: the session goes on to the next.
       }
     }
   }

@@ -1,4 +1,4 @@
-// Per scene: the cheapest setting that holds its bars.
+// The cheapest setting of each scene that holds its bars.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -12,7 +12,7 @@
 namespace isostep::tool::lab {
 namespace {
 
-/// In a view's unit. The axis is logarithmic, and less than that is nothing in any scene.
+/// The least error of a chart, in a view's unit. The axis is logarithmic, and less than that is nothing in any scene.
 constexpr double kLeastError = 1e-6;
 
 std::string number(double value) {

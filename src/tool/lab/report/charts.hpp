@@ -18,7 +18,7 @@ std::string accuracy_tsv(const std::vector<LabResult>& results);
 
 std::string growth_tsv(const std::vector<GrowthSample>& samples);
 std::string stages_tsv(const std::vector<StageCost>& costs);
-/// What stages_tsv wrote; empty for anything else.
+/// Reads what stages_tsv wrote; empty for anything else.
 std::vector<StageCost> stages_of(const std::string& tsv);
 
 /// The matrix of survival as a picture that needs no script: a cell's number is effort_of.

@@ -1,4 +1,4 @@
-// Escaping, numbers and tables.
+// Text, numbers and tables as HTML and Markdown.
 // SPDX-License-Identifier: MIT
 #include "html.hpp"
 
@@ -15,7 +15,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   }
 }
 
-/// As Markdown's columns are wide: bytes that begin a character.
+/// The width in Markdown's columns: bytes that begin a character.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));

@@ -20,7 +20,7 @@ std::string inlined_svg(std::string_view file, const std::string& prefix);
 
 /// The first line is the head. Cells are HTML already.
 std::string html_table(const std::vector<std::vector<std::string>>& cells);
-/// The same in Markdown: columns as wide as they must be. Cells are plain text; a bar in them is escaped.
+/// The table in Markdown: columns as wide as they must be. Cells are plain text; a bar in them is escaped.
 std::string markdown_table(std::vector<std::vector<std::string>> cells);
 
 }  // namespace isostep::tool::lab

@@ -1,4 +1,4 @@
-// Who survives what: for every trial and method the cheapest setting that does, and the one to recommend.
+// The matrix of survival: for every trial and method the cheapest setting that survives, and the one to recommend.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,7 +12,7 @@ namespace isostep::tool::lab {
 enum class Fate { untried, survived, failed, slow, refused };
 inline constexpr const char* kFateNames[] = {"not run", "survived", "failed", "slow", "refused"};
 
-/// What became of one trial by one method: of several settings the cheapest that survived, else the one that came
+/// The outcome of one trial by one method: of several settings the cheapest that survived, else the one that came
 /// nearest to its bar.
 struct MatrixCell {
   Fate fate = Fate::untried;
@@ -32,7 +32,7 @@ struct Matrix {
   std::vector<MatrixColumn> columns;
   std::vector<MatrixRow> rows;
 
-  /// Of all cells of that scalar in a row, the cheapest that survived; null where none did. Empty: of every scalar. Of
+  /// The cheapest of all cells of that scalar in a row that survived; null where none did. Empty: of every scalar. Of
   /// times that differ by less than a tenth the first column counts, so that a clock's noise recommends nothing.
   const LabResult* recommended(std::size_t row, const std::string& scalar) const;
 };

@@ -64,7 +64,7 @@ std::string with_unit(double value, const scenes::Trial& trial) {
 }
 std::string figure_text(const LabResult& result) { return with_unit(result.figure, trial_of(result.point.scene)); }
 
-/// What hovering over a cell says.
+/// The text shown by hovering over a cell.
 std::string hint_of(const MatrixCell& cell) {
   if (cell.fate == Fate::untried) return "not run";
   const LabResult& r = cell.result;

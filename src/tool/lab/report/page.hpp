@@ -22,7 +22,7 @@ struct ReportData {
   bool is_short = false;
 };
 
-/// Of our results for the scene in that scalar (empty: any), the cheapest that reaches so far; null: none.
+/// The cheapest of our results for the scene in that scalar (empty: any) that reaches so far; null: none.
 const LabResult* cheapest_that(const std::vector<LabResult>& results, const std::string& scene,
                                const std::string& scalar, scenes::Reach reach);
 

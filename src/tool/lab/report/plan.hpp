@@ -1,4 +1,4 @@
-// What the report runs: which scenes and trials, over what, and how its charts show a scene.
+// The plan of a report: the scenes and trials, over what they run, and how its charts show a scene.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -23,18 +23,18 @@ struct SceneView {
 };
 /// S1 to S9, in their order.
 std::span<const SceneView> scene_views();
-/// Null for what is none of them.
+/// Returns null for what is none of them.
 const SceneView* find_view(const std::string& scene);
 
-/// What a run of the laboratory knows of a measure; nothing of those that it does not take.
+/// The value of a measure in a run of the laboratory; nothing of those that it does not take.
 std::optional<double> value_of(const LabResult& result, scenes::Measure measure);
-/// As the chart shows it, in the view's unit.
+/// The error as the chart shows it, in the view's unit.
 double error_of(const LabResult& result, const SceneView& view);
 /// The scene fell, fell apart, lost a body, or had numbers mended.
 bool is_lost(const LabResult& result);
 scenes::Reach reach_of(const LabResult& result);
 
-/// How hard a trial is tried.
+/// The effort with which a trial is tried.
 struct Effort {
   int rate;  // [1] times the scene's own steps a second
   int substeps;
@@ -48,7 +48,7 @@ struct Plan {
   double limit;  // [s] of a run
 };
 Plan whole_plan(double limit);
-/// What takes under a minute on two cores.
+/// The plan that takes under a minute on two cores.
 Plan short_plan(double limit);
 
 /// The whole grid of every scene.

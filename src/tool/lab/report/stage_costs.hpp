@@ -1,4 +1,4 @@
-// What each stage of a step costs, scalar by scalar.
+// The cost of each stage of a step, scalar by scalar.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,7 +12,7 @@ struct StageCost {
   double us;  // [us] CPU time a step, median
 };
 
-/// Of S3, S4 and S7, by soft step at their own sub-steps, after `settling` frames, over `timed` more.
+/// Measures S3, S4 and S7, by soft step at their own sub-steps, after `settling` frames, over `timed` more.
 std::vector<StageCost> measure_stages(int settling, int timed);
 
 }  // namespace isostep::tool::lab

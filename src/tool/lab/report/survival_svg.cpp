@@ -16,7 +16,7 @@ struct Paint {
   const char* fill;
   const char* ink;
 };
-/// After Okabe and Ito; signs say the same for those who see no colours.
+/// Colours after Okabe and Ito; signs say the same for those who see no colours.
 Paint paint_of(Fate fate) {
   switch (fate) {
     case Fate::survived: return {"#009e73", "#ffffff"};
@@ -37,7 +37,7 @@ std::string sign_of(const MatrixCell& cell, bool ours) {
   }
 }
 
-/// Left edges, with a gap where the scalar changes.
+/// The left edges of columns, with a gap where the scalar changes.
 std::vector<int> edges_of(const Matrix& matrix) {
   std::vector<int> edges;
   int x = kLeft;

@@ -1,4 +1,4 @@
-// What the gate must let pass: two roundings where two operations are written, exact integers, conversions.
+// A control that the gate must let pass: two roundings where two operations are written, exact integers, conversions.
 // SPDX-License-Identifier: MIT
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-// What the gate must see, by -ffp-contract=fast and on an instruction set that can: products and sums in one.
+// A control that the gate must see, by -ffp-contract=fast and on an instruction set that can: products and sums in one.
 // SPDX-License-Identifier: MIT
 #if defined(__wasm__)
 #define CAN_FUSE __attribute__((target("simd128,relaxed-simd")))

@@ -1,4 +1,4 @@
-// What the gate must see: a call of the C library's mathematics.
+// A control that the gate must see: a call of the C library's mathematics.
 // SPDX-License-Identifier: MIT
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// What every coarse structure is held to, for every scalar: what it finds is what brute force finds.
+// The laws of every coarse structure, for every scalar: it finds what brute force finds.
 // SPDX-License-Identifier: MIT
 #pragma once
 

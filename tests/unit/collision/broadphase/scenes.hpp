@@ -49,8 +49,8 @@ template <class S> Aabb<S> drawn_box(Pcg32& random, CoarseScene scene, std::uint
   return random_box<S>(random, scene == CoarseScene::spread ? 24 : 18);
 }
 
-/// Of the frames of `spread`, `clustered` and `mixed` a part is drawn anew; `moving` goes on, and turns at walls; boxes
-/// of `come_and_go` do, and small steps in between.
+/// Moves all boxes on by a frame. A part of those of `spread`, `clustered` and `mixed` is drawn anew; `moving` goes on,
+/// and turns at walls; boxes of `come_and_go` do, and small steps in between.
 template <class S> void advance(Pcg32& random, CoarseScene scene, int frame, std::vector<Body<S>>& bodies) {
   const S wall = S(4);
   for (std::uint32_t slot = 0; slot < bodies.size(); ++slot) {

@@ -36,7 +36,7 @@ template <class S> class TimeOfImpactTest : public testing::Test {
     const D3 v = by * (isostep::sin(angle / 2) / angle);
     return {v.x, v.y, v.z, isostep::cos(angle / 2)};
   }
-  /// From somewhere by `way`, turning by `turn` about `centre`, in the solid's frame.
+  /// A motion from somewhere by `way`, turning by `turn` about `centre`, in the solid's frame.
   CoreMotion<S> motion(D3 at, D3 way, D3 turn, D3 centre) {
     const Quat<U> start = random_.template orientation<S>();
     const QuatD q = {to_double(start.x), to_double(start.y), to_double(start.z), to_double(start.w)};
@@ -44,7 +44,7 @@ template <class S> class TimeOfImpactTest : public testing::Test {
     const D3 moved = at + rotate(q, centre) + way - rotate(normalise(turned(turn) * q), centre);
     return {{oracle::made<S>(at), start}, {oracle::made<S>(moved), end}, oracle::made<S>(centre)};
   }
-  /// [m] of cores of this size, this far apart, this far from the origin.
+  /// [m] The rounding of cores of this size, this far apart, this far from the origin.
   static double rounding(double reach, double far) {
     using F = Finer<S>;
     return 24 * to_double(resolution<F>()) + reach * to_double(resolution<Unit<F>>()) * 32 +

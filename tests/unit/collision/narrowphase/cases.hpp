@@ -1,4 +1,5 @@
-// What the narrow-phase tests share: shapes and poses from doubles, random ones, and the independent answers in double.
+// The common part of the narrow-phase tests: shapes and poses from doubles, random ones, and the independent answers in
+// double.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -49,7 +50,7 @@ template <class S> Primitive<S> half_space_of(Point normal, double offset) {
 template <class S> struct Wrapping { using Type = S; };
 template <class Rep, int F> struct Wrapping<Fixed<Rep, F, Overflow::trap>> { using Type = Fixed<Rep, F>; };
 
-/// At p, turned by `angle` about `axis`.
+/// The transform at p, turned by `angle` about `axis`.
 template <class S> Transform<S> at(Point p, Point axis = {0, 1, 0}, double angle = 0) {
   using U = Unit<typename Wrapping<S>::Type>;
   const double s = isostep::sin(angle / 2) / length3(axis);
@@ -129,14 +130,14 @@ struct Solid {
     const Point d = p - centre;
     return {dot3(d, axes[0]), dot3(d, axes[1]), dot3(d, axes[2])};
   }
-  /// How far p lies outside the core; 0 inside.
+  /// The distance of p from the core; 0 inside.
   double core_distance(Point p) const {
     const Point q = local(p);
     Point e{};
     for (std::size_t k = 0; k < 3; ++k) e[k] = std::max(std::abs(q[k]) - half[k], 0.0);
     return length3(e);
   }
-  /// How far p lies outside the solid, 0 inside.
+  /// The distance of p from the solid; 0 inside.
   double outside(Point p) const {
     if (type == ShapeType::half_space) return std::max(dot3(normal, p) - offset, 0.0);
     return std::max(core_distance(p) - radius, 0.0);
@@ -162,7 +163,7 @@ template <class S> Solid solid(const Primitive<S>& p, const Transform<S>& t) {
   return s;
 }
 
-/// Separating axes of two core boxes, all fifteen normalised and none preferred: the largest separation.
+/// The largest separation of two core boxes along separating axes, all fifteen normalised and none preferred.
 inline double sat(const Solid& a, const Solid& b, double least_sine = 1e-4) {
   double best = -1e300;
   const Point gap = b.centre - a.centre;

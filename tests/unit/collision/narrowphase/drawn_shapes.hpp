@@ -32,7 +32,7 @@ struct DrawnShape {
   ShapeType type() const { return record.type; }
   bool is_surface() const { return !sides.empty(); }
   bool is_rounded() const { return type() == ShapeType::hull && radius > 0; }
-  /// Of corners and discs, unless it is known to be more.
+  /// Finds the reach of corners and discs, unless it is known to be more.
   void find_reach() {
     for (const Point p : corners) reach = std::max(reach, length3(p) + radius);
     for (const double r : discs) reach = std::max(reach, length3({r, half, 0}));
@@ -46,7 +46,7 @@ struct DrawnShape {
             vec_of<Unit<S>>(point_of(record.normal)),
             from_double<S>(record.offset)};
   }
-  /// Of its blob; made once, and kept by the shape and its copies.
+  /// The content of its blob; made once, and kept by the shape and its copies.
   template <class S> const void* content() const {
     if (blob == nullptr) return nullptr;
     std::shared_ptr<const void>& content = (*contents)[typeid(S)];
@@ -58,7 +58,7 @@ struct DrawnShape {
   }
 };
 
-/// To 2^-16 m, which floats hold exactly up to 128 m.
+/// Rounds to 2^-16 m, which floats hold exactly up to 128 m.
 inline double snap(double x) { return std::round(x * 65536) / 65536; }
 inline Point snap(Point p) { return {snap(p[0]), snap(p[1]), snap(p[2])}; }
 
@@ -86,7 +86,7 @@ inline DrawnShape box_shape(double x, double y, double z) {
   return s;
 }
 
-/// drawn_NAME for every shape of the list: one that is missing does not compile.
+/// It has drawn_NAME for every shape of the list: one that is missing does not compile.
 class ShapeDrawer {
  public:
   static DrawnShape draw(Random& random, ShapeType type, int size) {
@@ -149,7 +149,8 @@ class ShapeDrawer {
     s.inner = std::min(low, half);
     return s;
   }
-  /// Of a box's size; every fourth one is a prism or a wedge with parallel faces, every third one is rounded.
+  /// Draws a hull of a box's size; every fourth one is a prism or a wedge with parallel faces, every third one is
+  /// rounded.
   static DrawnShape drawn_hull(Random& random, const SizeClass& sizes) {
     const double x = sizes.size(random), y = sizes.size(random), z = sizes.size(random);
     std::vector<Vec3<double>> points = {{x, y, z}, {-x, -y, z}, {-x, y, -z}, {x, -y, -z}};

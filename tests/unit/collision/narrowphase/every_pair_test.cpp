@@ -17,7 +17,7 @@ constexpr double kMargin = 0.015625;  // [m]
 bool is_ground(ShapeType type) {
   return type == ShapeType::half_space || type == ShapeType::mesh || type == ShapeType::height_field;
 }
-/// Whose distance is told exactly, not along axes alone.
+/// The distance of the shape is told exactly, not along axes alone.
 bool is_round(const DrawnShape& shape) {
   return shape.type() == ShapeType::sphere || shape.type() == ShapeType::capsule || shape.is_rounded();
 }
@@ -107,8 +107,8 @@ Case some_case(Random& random, ShapeType type_a, ShapeType type_b, int n) {
   return c;
 }
 
-/// [m] what the choice among axes may cost: 1/128 of the smaller inner radius for faces before edges, and again for a
-/// before b; 1/512 of radii; face_slack().
+/// [m] The depth that the choice among axes may cost: 1/128 of the smaller inner radius for faces before edges, and
+/// again for a before b; 1/512 of radii; face_slack().
 double preference(const Case& c) {
   const double inner = std::min(c.a->inner, c.b->inner);
   return (inner < 1e9 ? inner / 64 + std::min(inner / 4, 1.0 / 1024) : 0) + (c.a->radius + c.b->radius) / 512;

@@ -6,7 +6,7 @@
 
 namespace isostep::test {
 
-/// Zero, tiny, ordinary or up to `largest` [m].
+/// A size of zero, tiny, ordinary or up to `largest` [m].
 inline double any_size(Random& random, double largest) {
   switch (random.below(8)) {
     case 0: return 0;

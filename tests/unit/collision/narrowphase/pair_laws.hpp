@@ -29,7 +29,7 @@ inline constexpr unsigned kPolyhedra = bit(ShapeType::box) | bit(ShapeType::hull
                           kSurfaces = bit(ShapeType::mesh) | bit(ShapeType::height_field),
                           kRevolved = bit(ShapeType::cylinder) | bit(ShapeType::cone);
 
-/// What is known to break a law: how many of kPairs, in the worst scalar. Every other number is 0.
+/// The pairs that are known to break a law: how many of kPairs, in the worst scalar. Every other number is 0.
 struct Known {
   unsigned a, b;  // of the types
   Law law;

@@ -62,7 +62,7 @@ template <class S> class Placed {
     for (const oracle::D3 e : a.edges()) edges_a.push_back(ta_.rotation * e);
     for (const oracle::D3 e : b.edges()) edges_b.push_back(tb_.rotation * e);
   }
-  /// [m] of the two along n, from a to b.
+  /// [m] The separation of the two along n, from a to b.
   double separation(oracle::D3 n) const {
     double low = 1e300, high = -1e300;
     for (const oracle::D3 p : vertices_b) low = std::min(low, dot(n, p));
@@ -73,8 +73,8 @@ template <class S> class Placed {
   double best() const {
     return best_where([](oracle::D3) { return true; });
   }
-  /// The same of the axes that look along one: a face within kNearFace of the best may stand for it, and one as near to
-  /// that face.
+  /// The largest separation along axes that look along one: a face within kNearFace of the best may stand for it, and
+  /// one as near to that face.
   double best_along(oracle::D3 chosen) const {
     return best_where([&](oracle::D3 n) { return dot(n, chosen) > 4 * detail::kNearFace - 3; });
   }
@@ -95,7 +95,7 @@ template <class S> class Placed {
     }
     return best;
   }
-  /// [m] by how much p is outside of a solid.
+  /// [m] The distance of p from a solid.
   static double outside(const std::vector<oracle::D3>& normals, const std::vector<oracle::D3>& vertices, oracle::D3 p) {
     double most = -1e300;
     for (const oracle::D3 n : normals) {
@@ -116,7 +116,7 @@ template <class S> class Placed {
 template <class S> class SolidTest : public testing::Test {
  protected:
   Transform<S> transform(oracle::D3 at) { return {oracle::made<S>(at), to_matrix(random_.template orientation<S>())}; }
-  /// [m] of what is computed this far from the origin.
+  /// [m] The rounding of what is computed this far from the origin.
   static double rounding(double reach) {
     return 8 * to_double(resolution<S>()) * (kIsFixed<S> ? 1 : 1 + reach) +
            reach * to_double(resolution<Unit<S>>()) * 16;

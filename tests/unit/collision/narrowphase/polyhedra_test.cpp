@@ -25,7 +25,7 @@ template <class S> class Polyhedra : public SolidTest<S> {
   struct Tally {
     int apart = 0, beside = 0, faces_a = 0, faces_b = 0, edges = 0, points = 0;
   };
-  /// Whatever must hold of two solids where they are.
+  /// Checks whatever must hold of two solids where they are.
   void check(const Solid<S>& a, const Transform<S>& ta, const Solid<S>& b, const Transform<S>& tb, Tally& tally) {
     Manifold<S> m, swapped;
     collide_polyhedra(b.solid.polyhedron(), tb, a.solid.polyhedron(), ta, from_double<S>(kMargin), swapped);

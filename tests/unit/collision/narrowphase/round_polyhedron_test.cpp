@@ -33,13 +33,14 @@ struct Oracle {
     for (const D3 v : vertices) most = std::max(most, dot(n, v));
     return most;
   }
-  /// [m] of p above the highest face: negative inside.
+  /// [m] The height of p above the highest face: negative inside.
   double above(D3 p) const {
     double most = -1e300;
     for (const D3 n : normals) most = std::max(most, dot(n, p) - reach(n));
     return most;
   }
-  /// [m] of a segment's core over the solid along the best axis there is: minus the depth where they overlap.
+  /// [m] The distance of a segment's core from the solid along the best axis there is: minus the depth where they
+  /// overlap.
   double best_axis(D3 low, D3 high) const {
     const D3 along = oracle::unit(high - low);
     const auto separation = [&](D3 n) { return std::min(dot(n, low), dot(n, high)) - reach(n); };

@@ -1,4 +1,4 @@
-// How far two drawn shapes are apart along any direction, in double, and the direction along which that is most: an
+// The distance of two drawn shapes along any direction, in double, and the direction along which that is most: an
 // oracle that knows no features, only how far a shape reaches.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -25,7 +25,7 @@ class PlacedShape {
   Point plane_normal() const { return plane_normal_; }
   Point turned(Point p) const { return axes_[0] * p[0] + axes_[1] * p[1] + axes_[2] * p[2]; }
   Point world(Point p) const { return at_ + turned(p); }
-  /// How far it reaches along n; of a half-space along its normal alone.
+  /// The reach of the shape along n; of a half-space along its normal alone.
   double reach(Point n) const {
     if (is_plane()) return dot3(n, at_) + shape_->record.offset;
     double most = -1e300;
@@ -134,7 +134,7 @@ class SupportOracle {
   Point core_gap() const {
     return gap([this](Point way) { return b_.core_support(way) - a_.core_support(way * -1); });
   }
-  /// Of the difference of two solids, from its point furthest along a way: GJK.
+  /// The gap of the difference of two solids, from its point furthest along a way: GJK.
   template <class Support> Point gap(const Support& support) const {
     std::vector<Point> simplex;
     Point nearest = b_.at() - a_.at();
@@ -149,7 +149,8 @@ class SupportOracle {
     }
     return nearest;
   }
-  /// Of the hull of up to four points to the origin; leaves the points it is between. Four: the origin is in it.
+  /// The vector from the hull of up to four points to the origin; leaves the points it is between. Four: the origin is
+  /// in it.
   static Point nearest_of(std::vector<Point>& simplex) {
     std::vector<Point> kept;
     Point best = {0, 0, 0};

@@ -52,7 +52,7 @@ struct Sheet {
     const BlobRef blob = mesh_blob(points, triangles).value();
     content.surface = read_triangle_mesh(blob->bytes()).value();
   }
-  /// Of a point above all of it.
+  /// The distance of a point above all of it.
   double distance(D3 p) const {
     double least = 1e9;
     for (const MeshTriangle& t : triangles) {

@@ -62,7 +62,7 @@ template <class S> TestCore<S> random_core(CoreKind kind, double scale, oracle::
   return core;
 }
 
-/// What is certain of the gap of two cores [m]: a plane of their own parts them by `least`, two of their points are
+/// [m] The certain bounds of the gap of two cores: a plane of their own parts them by `least`, two of their points are
 /// `most` apart.
 struct Gap {
   double least, most;

@@ -18,7 +18,7 @@ template <class S> class ShapeCast : public testing::Test {
  protected:
   using U = Unit<S>;
   Transform<S> transform(D3 at) { return {oracle::made<S>(at), to_matrix(random_.template orientation<S>())}; }
-  /// [m] of what is computed of cores of this size, this far apart.
+  /// [m] The rounding of what is computed of cores of this size, this far apart.
   static double rounding(double reach) {
     using F = Finer<S>;
     const double fine = 24 * to_double(resolution<F>()) + reach * to_double(resolution<Unit<F>>()) * 16;

@@ -1,4 +1,4 @@
-// What owns an object of the library.
+// Handle: the owner of an object of the library.
 // SPDX-License-Identifier: MIT
 using System;
 
@@ -10,7 +10,7 @@ namespace Isostep
     {
         private IntPtr pointer;
 
-        /// <summary>What every call is given; of what is disposed an exception, whatever is asked.</summary>
+        /// <summary>The pointer that every call is given; throws once disposed, whatever is asked.</summary>
         internal IntPtr Pointer
         {
             get
@@ -21,7 +21,7 @@ namespace Isostep
             set { pointer = value; }
         }
 
-        /// <summary>For Native. Zero once disposed; the library refuses that as ISO_NULL.</summary>
+        /// <summary>The address for Native. It is zero once disposed; the library refuses that as ISO_NULL.</summary>
         public IntPtr Address => pointer;
 
         public bool IsDisposed => pointer == IntPtr.Zero;
@@ -33,12 +33,12 @@ namespace Isostep
             pointer = IntPtr.Zero;
         }
 
-        /// <summary>One that the library refuses to end stays as it was.</summary>
+        /// <summary>Destroys the object; one that the library refuses to end stays as it was.</summary>
         protected abstract void Destroy(IntPtr handle);
 
         internal virtual void Check(Status status) => IsostepException.Check(status);
 
-        /// <summary>For lists: too little room is no error, the count says it.</summary>
+        /// <summary>Checks the status of a list: too little room is no error, the count shows it.</summary>
         internal void CheckList(Status status)
         {
             if (status != Status.SmallBuffer) Check(status);

@@ -1,4 +1,4 @@
-// What went wrong, as numbers and words.
+// IsostepException: the fault of a call, as numbers and words.
 // SPDX-License-Identifier: MIT
 using System;
 
@@ -7,15 +7,15 @@ namespace Isostep
     /// <summary>A call that did not succeed. It has changed nothing.</summary>
     public sealed class IsostepException : Exception
     {
-        /// <summary>Below 0: what is wrong with the call. Above 0: why the world refused, see Fault.</summary>
+        /// <summary>The status: below 0 misuse of the call, above 0 the world's refusal, see Fault.</summary>
         public readonly Status Status;
 
-        /// <summary>Where the world refused: the command, its field and what it may be. Else null.</summary>
+        /// <summary>The refused command, its field and its allowed values; null where no world refused.</summary>
         public readonly string Command;
         public readonly string Field;
         public readonly string Expected;
 
-        /// <summary>Status as the world's fault; None where it is none.</summary>
+        /// <summary>The status as the world's fault; None where it is none.</summary>
         public Fault Fault => Status > 0 ? (Fault)Status : Fault.None;
 
         internal IsostepException(Status status, string message, string command, string field, string expected)
@@ -40,7 +40,7 @@ namespace Isostep
             return new IsostepException(status, last, null, null, null);
         }
 
-        /// <summary>With the status that the library has for no object.</summary>
+        /// <summary>The exception with the status that the library has for no object.</summary>
         internal static IsostepException Disposed(string what) => Of(Status.Null, "the " + what + " was disposed");
 
         internal static void RequireAlive(Handle owner)

@@ -20,14 +20,14 @@ namespace Isostep
         /// <summary>The number in the shared library's name: another one is another interface.</summary>
         public static uint AbiVersion => Native.iso_abi_version();
 
-        /// <summary>Of the results: two builds with one behaviour version promise each other's hashes. What lobbies
-        /// compare.</summary>
+        /// <summary>The version of the results: two builds with one promise each other's hashes. Lobbies
+        /// compare it.</summary>
         public static ulong BehaviourVersion => Native.iso_behaviour_version();
 
         public static bool Has(Scalar scalar) => Native.iso_has_scalar(scalar) != 0;
 
-        /// <summary>Replays the built-in recordings with every scalar and set of lanes, in half a second: what a game
-        /// asks at start, for Sound.</summary>
+        /// <summary>Replays the built-in recordings with every scalar and set of lanes, in half a second. A game
+        /// asks at start for Sound.</summary>
         public static SelfcheckResult Selfcheck()
         {
             SelfcheckResult result = SelfcheckResult.Sized();

@@ -8,7 +8,7 @@ namespace Isostep
 {
     internal static unsafe class NativeText
     {
-        /// <summary>Up to the zero byte; null stays null.</summary>
+        /// <summary>Reads up to the zero byte; null stays null.</summary>
         internal static string Read(byte* text)
         {
             if (text == null) return null;
@@ -24,7 +24,7 @@ namespace Isostep
             return size == 0 ? "" : Encoding.UTF8.GetString(Copy(text, (UIntPtr)size));
         }
 
-        /// <summary>Into `room` bytes, the zero byte included.</summary>
+        /// <summary>Writes into `room` bytes, the zero byte included.</summary>
         internal static void Write(string text, byte* to, int room, string name)
         {
             byte[] bytes = Bytes(text ?? "");
@@ -32,7 +32,7 @@ namespace Isostep
             for (int i = 0; i < room; ++i) to[i] = i < bytes.Length ? bytes[i] : (byte)0;
         }
 
-        /// <summary>With the zero byte that ends it; null stays null.</summary>
+        /// <summary>The text's bytes with the zero byte that ends it; null stays null.</summary>
         internal static byte[] Bytes(string text) => text == null ? null : Encoding.UTF8.GetBytes(text + "\0");
 
         internal static byte[] Copy(void* bytes, UIntPtr size)
@@ -42,7 +42,7 @@ namespace Isostep
             return result;
         }
 
-        /// <summary>Into `most` bytes, zeros behind them; how many. Null is none.</summary>
+        /// <summary>Puts bytes into `most`, zeros behind them, and returns how many. Null is none.</summary>
         internal static uint Put(byte[] bytes, byte* to, int least, int most, string name)
         {
             int size = bytes == null ? 0 : bytes.Length;

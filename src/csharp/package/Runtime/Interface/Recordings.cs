@@ -29,7 +29,7 @@ namespace Isostep
             Pointer = made;
         }
 
-        /// <summary>What the file says of itself, without playing it.</summary>
+        /// <summary>Reads the file's description of itself, without playing it.</summary>
         public static ReplayInfo About(byte[] file)
         {
             ReplayInfo info = ReplayInfo.Sized();
@@ -37,7 +37,7 @@ namespace Isostep
             return info;
         }
 
-        /// <summary>Plays the file, at most so many frames, and compares every hash: what `isostep verify` does. The
+        /// <summary>Plays the file, at most so many frames, and compares every hash, like `isostep verify`. The
         /// outcome is in the result, whatever it is.</summary>
         public static ReplayResult Verify(byte[] file, ulong mostFrames = ulong.MaxValue, Simd simd = Simd.Best)
         {
@@ -67,7 +67,7 @@ namespace Isostep
             return new Blob(made);
         }
 
-        /// <summary>Points as x, y, z [m], triangles as three numbers of points, anticlockwise from outside.</summary>
+        /// <summary>Makes a mesh: points x, y, z [m], triangles by three points, anticlockwise from outside.</summary>
         public static Blob Mesh(double[] points, uint[] vertices, BlobHome home = BlobHome.Carried)
         {
             IntPtr made;
@@ -84,7 +84,7 @@ namespace Isostep
             return new Blob(made);
         }
 
-        /// <summary>Heights [m] by rows, `pitch` [m] apart.</summary>
+        /// <summary>Makes a height field: heights [m] by rows, `pitch` [m] apart.</summary>
         public static Blob HeightField(double[] heights, int columns, double pitch, BlobHome home = BlobHome.Carried)
         {
             IntPtr made;

@@ -11,7 +11,7 @@ namespace Isostep
     /// again from the newest final state, and the match goes on.</summary>
     public sealed unsafe partial class Session : Handle
     {
-        // Named by the library while the session lives.
+        // The library names it while the session lives.
         private readonly WorldBase world;
         private readonly NativeBlock block;
 
@@ -49,7 +49,7 @@ namespace Isostep
             return next.Kind != RequestKind.Nothing;
         }
 
-        /// <summary>By player, of the step that was asked for, until the next call.</summary>
+        /// <summary>The inputs by player of the step that was asked for, until the next call.</summary>
         public SessionInputs Inputs
         {
             get
@@ -60,7 +60,7 @@ namespace Isostep
             }
         }
 
-        /// <summary>For the next frame; until that is stepped a later one replaces it. False: not a player of ours, not
+        /// <summary>Gives the next frame's input; until that is stepped a later one replaces it. False: not ours, not
         /// in the match now, or no input.</summary>
         public bool AddLocalInput(int player, byte[] input)
         {
@@ -75,8 +75,8 @@ namespace Isostep
             return true;
         }
 
-        /// <summary>To the transport, until it is false: `size` bytes into `buffer`, which has Limits.ReliableCap; 0:
-        /// nothing but to close the connection.</summary>
+        /// <summary>Puts the next message for the transport into `buffer`, which has Limits.ReliableCap bytes; false:
+        /// none. Length 0: nothing but to close the connection.</summary>
         public bool PollSend(ulong now, byte[] buffer, out Outgoing outgoing)
         {
             Outgoing next = Outgoing.Sized();
@@ -89,15 +89,15 @@ namespace Isostep
             return true;
         }
 
-        /// <summary>From the transport. Malformed bytes are counted, and otherwise without effect.</summary>
+        /// <summary>Takes bytes from the transport. Malformed ones are counted, and otherwise without effect.</summary>
         public void Receive(uint peer, Channel channel, byte[] bytes, int size, ulong now)
         {
             if (size < 0 || size > bytes.Length) throw new ArgumentOutOfRangeException("size");
             fixed (byte* at = bytes) Check(Native.iso_session_receive(Pointer, peer, channel, at, (UIntPtr)size, now));
         }
 
-        /// <summary>To the transport: connect to this machine, as SessionConfig.Address of its session says; null:
-        /// none. </summary>
+        /// <summary>The machine that the transport is to connect to, as SessionConfig.Address of its session says;
+        /// null: none.</summary>
         public string PollConnect()
         {
             byte* address;
@@ -126,7 +126,7 @@ namespace Isostep
             Players = players;
         }
 
-        /// <summary>Byte `index` of a player's input; 0 behind its end.</summary>
+        /// <summary>The byte `index` of a player's input; 0 behind its end.</summary>
         public byte Byte(int player, int index)
         {
             if ((uint)player >= (uint)Players) throw new ArgumentOutOfRangeException("player");

@@ -9,7 +9,7 @@ namespace Isostep
     /// it.</summary>
     public abstract unsafe partial class WorldBase : Handle
     {
-        /// <summary>Why the last refused call was refused; Status 0: none was.</summary>
+        /// <summary>The fault of the last refused call; Status 0: none was.</summary>
         public IsostepException LastFault
         {
             get
@@ -42,7 +42,7 @@ namespace Isostep
     /// <summary>A state of a world, reusable: once warm, saving allocates nothing. It may outlive the world.</summary>
     public sealed unsafe partial class Snapshot : Handle
     {
-        /// <summary>For worlds of the same scalar as `like`.</summary>
+        /// <summary>A snapshot for worlds of the scalar of `like`.</summary>
         public Snapshot(WorldBase like)
         {
             IntPtr made;

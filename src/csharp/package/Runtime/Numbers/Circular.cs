@@ -11,7 +11,7 @@ namespace Isostep
             internal ulong Fraction;  // units of 2^-64
             internal uint Quadrant;
 
-            /// <summary>Of magnitude 2^-fraction: 128 digits of 2/pi times 64 bits.</summary>
+            /// <summary>The quarter turns of magnitude 2^-fraction: 128 digits of 2/pi times 64 bits.</summary>
             internal QuarterTurns(ulong magnitude, int fraction)
             {
                 Wide product = Wide.Multiply(magnitude, Tables.TwoOverPi[2]) +
@@ -52,7 +52,7 @@ namespace Isostep
             return ((quadrant & 2u) != 0) != negative ? -raw : raw;
         }
 
-        /// <summary>2^63 atan(r) / r for t = r^2 in Q0.64, t at most 2^-13.</summary>
+        /// <summary>Returns 2^63 atan(r) / r for t = r^2 in Q0.64, t at most 2^-13.</summary>
         private static ulong AtanSeries(ulong t)
         {
             const ulong unit = 1UL << 63;
@@ -62,7 +62,7 @@ namespace Isostep
             return unit - Wide.MultiplyHigh(sum, t);
         }
 
-        /// <summary>atan(a / b) for a 2^-gap &lt;= b, both mantissas in [2^62, 2^63).</summary>
+        /// <summary>Returns atan(a / b) for a 2^-gap &lt;= b, both mantissas in [2^62, 2^63).</summary>
         private static Soft AtanOfRatio(ulong a, ulong b, int gap)
         {
             unchecked
@@ -112,7 +112,7 @@ namespace Isostep
             return angle;
         }
 
-        /// <summary>sqrt(1 - x^2) for |x| &lt; 1, as sqrt((1 - x)(1 + x)).</summary>
+        /// <summary>Returns sqrt(1 - x^2) for |x| &lt; 1, as sqrt((1 - x)(1 + x)).</summary>
         private static Soft OtherLeg(Soft x)
         {
             ulong size = x.MagnitudeInUnits(64);

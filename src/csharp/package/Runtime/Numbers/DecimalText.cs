@@ -33,7 +33,7 @@ namespace Isostep
             }
         }
 
-        /// <summary>-?digits(.digits)?, nothing before or after: to nearest, ties away from zero. False: not that, or
+        /// <summary>Reads -?digits(.digits)?, nothing else: to nearest, ties away from zero. False: not that, or
         /// out of the format's range.</summary>
         internal static bool Read(string text, int fraction, int bits, out long raw)
         {
@@ -66,7 +66,7 @@ namespace Isostep
             return true;
         }
 
-        /// <summary>Up to 2^63, which is beyond every format; no zero stands before other digits.</summary>
+        /// <summary>Reads digits up to 2^63, beyond every format; no zero stands before other digits.</summary>
         private static bool ReadWhole(string text, ref int at, out ulong whole)
         {
             whole = 0;
@@ -78,7 +78,7 @@ namespace Isostep
             return at > first && (at == first + 1 || text[first] != '0');
         }
 
-        /// <summary>0.digits in units of 2^-64, rounded down, bit by bit.</summary>
+        /// <summary>Reads 0.digits in units of 2^-64, rounded down, bit by bit.</summary>
         private static ulong ReadFraction(byte[] digits)
         {
             ulong value = 0;

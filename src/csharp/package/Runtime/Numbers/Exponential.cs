@@ -50,7 +50,7 @@ namespace Isostep
             }
         }
 
-        /// <summary>k ln 2 in units of 2^-116.</summary>
+        /// <summary>Returns k ln 2 in units of 2^-116.</summary>
         private static Wide TimesLn2(int k)
         {
             unchecked
@@ -93,7 +93,7 @@ namespace Isostep
             return raw <= 0 ? lowest : Log(Soft.FromFixed(raw, fraction)).ToFixed(fraction, highest);
         }
 
-        /// <summary>base^exponent; a negative base counts as zero.</summary>
+        /// <summary>The power base^exponent; a negative base counts as zero.</summary>
         internal static long Pow(long raw, long exponent, int fraction, long highest)
         {
             if (raw <= 0)

@@ -6,7 +6,7 @@ using System.Runtime.InteropServices;
 namespace Isostep
 {
     /// <summary>PCG-XSH-RR, the generator of isostep's core/random.hpp: the same seed and stream draw the same numbers.
-    /// State of the game: to be saved and hashed with it.</summary>
+    /// It is state of the game, to be saved and hashed with it.</summary>
     /// <remarks>Source: O'Neill 2014, PCG, sec. 6.3.1.</remarks>
     [StructLayout(LayoutKind.Sequential)]
     public struct Pcg32
@@ -63,7 +63,7 @@ namespace Isostep
             }
         }
 
-        /// <summary>Uniform in [low, high], from 24 bits; high - low must fit.</summary>
+        /// <summary>A number uniform in [low, high], from 24 bits; high - low must fit.</summary>
         public Q32 Uniform(Q32 low, Q32 high)
         {
             long u = (long)(Next() >> 8) << (63 - 24);

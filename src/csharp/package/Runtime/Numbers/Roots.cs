@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 namespace Isostep
 {
-    /// <summary>1 / sqrt of a sum of squares q, ready to multiply its terms.</summary>
+    /// <summary>The number 1 / sqrt of a sum of squares q, ready to multiply its terms.</summary>
     internal struct InverseLength
     {
         internal ulong M;  // q 2^(2 Half) / 2^64 to nearest, in [2^62, 2^64)
@@ -28,7 +28,7 @@ namespace Isostep
             return c < 0 ? -size : size;
         }
 
-        /// <summary>sqrt(q) to nearest.</summary>
+        /// <summary>Returns sqrt(q) to nearest.</summary>
         internal ulong LengthOf(Wide q)
         {
             ulong root = Wide.MultiplyHigh(M, Y);
@@ -39,7 +39,7 @@ namespace Isostep
 
     internal static class Roots
     {
-        /// <summary>2^64 / sqrt(m / 2^62) for m in [2^62, 2^64); 1 itself is given as 1 - 2^-64.</summary>
+        /// <summary>Returns 2^64 / sqrt(m / 2^62) for m in [2^62, 2^64); 1 itself is given as 1 - 2^-64.</summary>
         internal static ulong RsqrtQ64(ulong m)
         {
             unchecked
@@ -75,7 +75,7 @@ namespace Isostep
             }
         }
 
-        /// <summary>Of a raw number with `fraction` bits: to nearest; 0 of a negative one.</summary>
+        /// <summary>The root of a raw number with `fraction` bits, to nearest; 0 of a negative one.</summary>
         internal static long Sqrt(long raw, int fraction)
         {
             if (raw <= 0) return 0;
@@ -89,7 +89,7 @@ namespace Isostep
             return (long)NearestRoot(n - Wide.Multiply(guess, guess), guess);
         }
 
-        /// <summary>`highest` of zero, a negative number and what does not fit.</summary>
+        /// <summary>The reciprocal root; `highest` of zero, a negative number and where it does not fit.</summary>
         internal static long Rsqrt(long raw, int fraction, long highest)
         {
             if (raw <= 0) return highest;

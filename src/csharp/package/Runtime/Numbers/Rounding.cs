@@ -8,18 +8,18 @@ namespace Isostep
 
         internal static Wide Product(long a, long b) => Wide.Multiply(a, b);
 
-        /// <summary>sum / 2^shift to nearest, ties towards plus infinity; what does not fit wraps. 0 &lt; shift.
+        /// <summary>Rounds sum / 2^shift to nearest, ties towards plus infinity; wraps beyond. 0 &lt; shift.
         /// </summary>
         internal static int Round(long sum, int shift) =>
             unchecked((int)((sum + (1L << (shift - 1))) >> shift));
 
-        /// <summary>Likewise, shift &lt; 64.</summary>
+        /// <summary>Rounds a wide sum in the same way, shift &lt; 64.</summary>
         internal static long Round(Wide sum, int shift)
         {
             return Wide.ShiftRightToLong(sum + new Wide(0, 1UL << (shift - 1)), shift);
         }
 
-        /// <summary>a 2^shift / b to nearest, ties away from zero. Saturates; x / 0 is the end on x's side, 0 / 0 is 0.
+        /// <summary>Returns a 2^shift / b to nearest, ties away from zero. It saturates: x / 0 to x's end, 0 / 0 is 0.
         /// </summary>
         internal static int Divide(int a, int b, int shift)
         {
@@ -57,7 +57,7 @@ namespace Isostep
             return whole > most ? highest : whole < -most - 1 ? lowest : whole << fraction;
         }
 
-        /// <summary>To nearest, ties away from zero; outside the range the nearest end, NaN is 0.</summary>
+        /// <summary>Converts to nearest, ties away from zero; outside the range to the nearest end, NaN to 0.</summary>
         internal static long FromDouble(double value, int fraction, int bits)
         {
             double scaled = value * TwoTo(fraction);  // exact, or infinite

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 namespace Isostep
 {
-    /// <summary>Mantissa 2^Exponent, negated if Negative.</summary>
+    /// <summary>The number Mantissa 2^Exponent, negated if Negative.</summary>
     internal struct Soft
     {
         internal ulong Mantissa;
@@ -36,7 +36,7 @@ namespace Isostep
             return left <= Wide.LeadingZeros(Mantissa) ? Mantissa << left : ulong.MaxValue;
         }
 
-        /// <summary>To nearest; outside the range the format's end.</summary>
+        /// <summary>Converts to nearest; outside the range to the format's end.</summary>
         internal long ToFixed(int fraction, long highest)
         {
             ulong units = MagnitudeInUnits(fraction);
@@ -44,7 +44,7 @@ namespace Isostep
             return Negative ? -raw : raw;
         }
 
-        /// <summary>Square root, relative error below 2^-60.</summary>
+        /// <summary>The square root, relative error below 2^-60.</summary>
         internal Soft Sqrt()
         {
             if (Mantissa == 0) return this;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 namespace Isostep
 {
-    /// <summary>Two's complement in two words. Signed or unsigned as the operation says.</summary>
+    /// <summary>An integer in two's complement in two words, signed or unsigned as the operation says.</summary>
     internal struct Wide
     {
         internal ulong High;
@@ -36,21 +36,21 @@ namespace Isostep
 
         public static Wide operator -(Wide a) => new Wide(0, 0) - a;
 
-        /// <summary>0 &lt;= n &lt; 128.</summary>
+        /// <summary>Shifts left, 0 &lt;= n &lt; 128.</summary>
         public static Wide operator <<(Wide a, int n)
         {
             if (n >= 64) return new Wide(a.Low << (n - 64), 0);
             return new Wide((a.High << n) | ((a.Low >> 1) >> (63 - n)), a.Low << n);
         }
 
-        /// <summary>Unsigned, 0 &lt;= n &lt; 128.</summary>
+        /// <summary>Shifts unsigned, 0 &lt;= n &lt; 128.</summary>
         internal static Wide ShiftRight(Wide a, int n)
         {
             if (n >= 64) return new Wide(0, a.High >> (n - 64));
             return new Wide(a.High >> n, (a.Low >> n) | ((a.High << 1) << (63 - n)));
         }
 
-        /// <summary>Signed, 0 &lt; n &lt; 64: the low word of the shifted number.</summary>
+        /// <summary>Shifts signed, 0 &lt; n &lt; 64, and returns the low word of the shifted number.</summary>
         internal static long ShiftRightToLong(Wide a, int n)
         {
             return unchecked((long)((a.Low >> n) | ((a.High << 1) << (63 - n))));
@@ -100,13 +100,13 @@ namespace Isostep
             return Multiply(a.High, b.High) + middle;
         }
 
-        /// <summary>a b / 2^64.</summary>
+        /// <summary>Returns a b / 2^64.</summary>
         internal static Wide MultiplyHigh(Wide a, ulong b)
         {
             return Multiply(a.High, b) + new Wide(0, MultiplyHigh(a.Low, b));
         }
 
-        /// <summary>Of a number that is not 0.</summary>
+        /// <summary>The leading zero bits of a number that is not 0.</summary>
         internal static int LeadingZeros(ulong a)
         {
             int zeros = 0;
@@ -123,7 +123,7 @@ namespace Isostep
             return a.High != 0 ? LeadingZeros(a.High) : 64 + LeadingZeros(a.Low);
         }
 
-        /// <summary>a / 2^n to nearest, ties up, n >= 0.</summary>
+        /// <summary>Returns a / 2^n to nearest, ties up, n >= 0.</summary>
         internal static ulong ShiftRightRounded(ulong a, int n)
         {
             if (n == 0) return a;
@@ -153,8 +153,8 @@ namespace Isostep
             }
         }
 
-        /// <summary>floor((high 2^32 + next) / (dHigh 2^32 + dLow)), high below the divisor, whose top bit is set.
-        /// </summary>
+        /// <summary>Returns floor((high 2^32 + next) / (dHigh 2^32 + dLow)), high below the divisor, whose top bit
+        /// is set.</summary>
         private static ulong DivideDigit(ulong high, ulong next, ulong dHigh, ulong dLow)
         {
             unchecked

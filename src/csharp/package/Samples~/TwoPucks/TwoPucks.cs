@@ -27,7 +27,11 @@ namespace Isostep.Samples
             World.CreateBody(BodyDefinition.Of(BodyType.Static, floor, new Vec3(0, -1, 0)));
             ShapeId ball = World.AddSphere(Sphere.Of(Q32.Half));
             for (int n = 0; n < 2; ++n)
-                Pucks[n] = World.CreateBody(BodyDefinition.Of(BodyType.Dynamic, ball, new Vec3(4 * n - 2, 1, 0)));
+            {
+                BodyDefinition puck = BodyDefinition.Of(BodyType.Dynamic, ball, new Vec3(4 * n - 2, 1, 0));
+                puck.ReportContacts = true;
+                Pucks[n] = World.CreateBody(puck);
+            }
 
             SessionConfig config = SessionConfig.Default;
             config.Mode = SessionMode.Rollback;  // Lockstep: nothing else changes

@@ -1,0 +1,87 @@
+// Election: how machines without a host find the next one. It knows no network: who came and what was said go in, whom
+// to ask and who is elected come out. See AGREEMENT.md.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/session/agreement/roster.hpp"
+#include "isostep/session/protocol/message.hpp"
+
+namespace isostep {
+
+/// Raft's candidate and voter. All have the same roster, so they ask the same machines in the same order, each for a
+/// while, beginning with the lowest player and ending with the host that was lost. To whom a majority has come asks
+/// it for support in a new term; each supports one machine in a term, and none in an earlier one.
+class Election {
+ public:
+  enum class Step : std::uint8_t {
+    waits,
+    goes_on,  // to the next machine: see target()
+    calls,    // who has come is asked for its support, in term()
+    wins,
+    gives_up  // nobody is asked any more; but who comes may still make a majority
+  };
+
+  /// `knocks`: the host spoke until the connection ended, so it is asked first, whether it lives.
+  void begin(Time now, bool knocks);
+  void end();
+  bool is_under_way() const { return is_under_way_; }
+  bool has_given_up() const { return has_given_up_; }
+  /// The connection to who is asked has ended: not for much longer, then.
+  void was_turned_away(Time now);
+  /// We go where we were sent, and ask nobody for support.
+  void was_sent_on(Time now);
+  /// The place in the roster of who is asked now; ours: we are, by the others. -1: nobody.
+  int target(const Roster& roster, int own) const;
+
+  // Machines connect to us; `voter` is their place in the roster.
+  void came(int voter) { came_ |= bit(voter); }
+  void went(int voter) { came_ &= ~bit(voter), supports_ &= ~bit(voter); }
+  /// The machine is there without its memory, or has left: it votes for nobody.
+  void is_over(int machine) { over_ |= bit(machine); }
+  /// Places are others: all come anew.
+  void has_new_roster();
+  void hear_term(std::uint32_t term) { heard_ = term > heard_ ? term : heard_; }
+  void supported(int voter, std::uint32_t term) {
+    if (term == called_ && called_ != 0) supports_ |= bit(voter);
+  }
+  /// A game decides that those who are here are all.
+  void force() { is_forced_ = true; }
+
+  /// Once a turn. `own`: our place in the roster; `may_stand`: we are in the match, and our states are right.
+  Step turn(const Roster& roster, int own, bool may_stand, Time now);
+
+  /// The newest that we are bound to: what we follow, or whom we support.
+  std::uint32_t term() const { return promised_; }
+  bool has_called() const { return called_ != 0; }
+  Time called_at() const { return called_at_; }
+  /// More than our own support makes us the host; false: by a game's word, or because nobody else remembers.
+  bool has_majority(const Roster& roster) const { return roster.is_majority(won_with_); }
+  /// With whom it was won; some may have gone since, and are bound to us all the same.
+  bool has_won_with(int voter) const { return (won_with_ & bit(voter)) != 0; }
+  std::uint64_t supporters() const { return won_with_; }
+
+  /// May this one be the host? If so we are bound to it.
+  bool give_support(const Candidate& candidate);
+  /// The host is of this term, and we have had all inputs that it took over. False: of one that is over.
+  bool may_follow(std::uint32_t term) const { return term >= promised_; }
+  void follow(std::uint32_t term) { promised_ = term > promised_ ? term : promised_; }
+  std::uint32_t log_term() const { return log_term_; }
+  void has_log_of(std::uint32_t term) { log_term_ = term; }
+
+ private:
+  static std::uint64_t bit(int machine) { return machine < 0 ? 0 : std::uint64_t{1} << machine; }
+  static bool is_eligible(const Roster& roster, int machine);
+  Step go_on(const Roster& roster, int own, Time now);
+  void withdraw() { called_ = 0, quorum_at_ = 0; }
+
+  std::uint32_t promised_ = 0, log_term_ = 0, heard_ = 0;
+  bool is_under_way_ = false, has_given_up_ = false, is_forced_ = false, knocks_ = false;
+  Time since_ = 0, until_ = 0;  // [us] of all of it; of this attempt
+  std::uint32_t attempt_ = 0;
+  std::uint64_t came_ = 0, over_ = 0, supports_ = 0, won_with_ = 0;  // machines, a bit each
+  Time quorum_at_ = 0;                                               // [us] when enough had come; 0: they have not
+  std::uint32_t called_ = 0;                                         // the term for which we ask; 0: we do not
+  Time called_at_ = 0;                                               // [us]
+};
+
+}  // namespace isostep

@@ -1,0 +1,57 @@
+// SnapshotArrival: a state of the host's that comes in pieces.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/session/peer/snapshot_transfer.hpp"
+#include "isostep/session/protocol/message.hpp"
+
+namespace isostep {
+
+/// In: which state, and pieces in order. Out: the bytes, and the progress that the host hears. Keeps: whose they are,
+/// also without a connection: the pieces may go on where they end.
+class SnapshotArrival {
+ public:
+  explicit SnapshotArrival(std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
+
+  /// The state of which we have the first bytes; of kNoFrame: of none.
+  const HashReport& start() const { return start_; }
+  SnapshotProgress progress() const { return {static_cast<std::uint32_t>(bytes_.size()), size_}; }
+  bool is_whole() const { return bytes_.size() == size_; }
+  /// The host knows of all that has arrived.
+  bool is_told() const { return told_ >= bytes_.size(); }
+  bool goes_on(const HashReport& start, std::uint32_t from) const {
+    return from == bytes_.size() && start.frame == start_.frame && start.chain == start_.chain;
+  }
+  /// Pieces begin at `from`: what is there stays, of which none is is forgotten.
+  void begin(const HashReport& start, std::uint32_t size, std::uint32_t from) {
+    start_ = start;
+    size_ = size;
+    told_ = from;
+    if (from == 0) bytes_.clear();
+  }
+  /// Memory grows with what has come, not with what was promised. False: it is not the next piece.
+  bool take(const Piece& piece) {
+    if (piece.bytes.empty() || piece.offset != bytes_.size() || piece.bytes.size() > size_ - bytes_.size())
+      return false;
+    bytes_.insert(bytes_.end(), piece.bytes.begin(), piece.bytes.end());
+    return true;
+  }
+  /// It was used, or is no good.
+  void forget() { start_ = HashReport{}; }
+  /// Often, for the host sends as arrives; but the host allows a peer only so many messages: one in `period`.
+  bool write_next(Time now, Time period, std::vector<std::uint8_t>& message) {
+    if (is_told() || (!is_whole() && now < next_)) return false;
+    next_ = now + period;
+    told_ = static_cast<std::uint32_t>(bytes_.size());
+    write_progress(told_, message);
+    return true;
+  }
+
+ private:
+  std::vector<std::uint8_t>& bytes_;
+  HashReport start_;
+  std::uint32_t size_ = 0, told_ = 0;  // [bytes]
+  Time next_ = 0;                      // [us] when the host is told again
+};
+
+}  // namespace isostep

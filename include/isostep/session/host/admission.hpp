@@ -1,0 +1,54 @@
+// Admission: whom a host lets in and sends away, and what its game has to say in that.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/session/host/boarding.hpp"
+#include "isostep/session/host/leadership.hpp"
+#include "isostep/session/peer/controls.hpp"
+
+namespace isostep {
+
+/// In: hellos, and the game's decisions. Out: guests in seats, on board or refused, and refusals as events. Keeps: how
+/// many have applied, and until when refusals are told.
+class Admission : public AdmissionControl {
+ public:
+  /// `resumed`: where a saved match goes on; kNoFrame: it is none.
+  Admission(const HostParts& parts, SecretNumbers& numbers, Leadership& leadership, const HashLog& hashes,
+            const HashReport& resumed, const Boarding& boarding, Departures& departures)
+      : host_(parts),
+        numbers_(numbers),
+        leadership_(leadership),
+        hashes_(hashes),
+        resumed_(resumed),
+        boarding_(boarding),
+        departures_(departures) {}
+
+  std::optional<Applicant> poll_applicant() override;
+  bool admit(std::uint64_t applicant) override;
+  bool refuse(std::uint64_t applicant, std::string_view reason) override;
+  bool kick(int player, std::string_view reason) override;
+  bool kick_peer(PeerId peer, std::string_view reason) override;
+  std::optional<PeerId> peer_of(int player) const override;
+
+  void greet(Guest& guest, Bytes message);
+  void refuse(Guest& guest, const Refusal& refusal);
+
+ private:
+  /// Why it cannot take part at all; of no key: it can.
+  Refusal mismatch_of(const Hello& hello) const;
+  /// As a spectator or to a seat, if there is room; else it is refused.
+  bool let_in(Guest& guest);
+  void seat(Guest& guest, std::uint32_t wanted);
+
+  HostParts host_;
+  SecretNumbers& numbers_;
+  Leadership& leadership_;
+  const HashLog& hashes_;
+  const HashReport& resumed_;
+  const Boarding& boarding_;
+  Departures& departures_;
+  std::uint64_t applicants_ = 0;  // how many there were
+  Time refusals_until_ = 0;       // [us] when all those are over that were told, at one a second
+};
+
+}  // namespace isostep

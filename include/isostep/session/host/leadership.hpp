@@ -1,0 +1,82 @@
+// Leadership: the host as Raft's leader: its roster, which machines of it follow, and whether it still is the host.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "isostep/session/agreement/failover.hpp"
+#include "isostep/session/agreement/tenure.hpp"
+#include "isostep/session/host/guests.hpp"
+#include "isostep/session/host/seats.hpp"
+#include "isostep/session/peer/session_core.hpp"
+#include "isostep/session/timeline/input_stream.hpp"
+
+namespace isostep {
+
+/// Guests and seats come in as they are in a turn; rosters go out to the guests, and whether we go on as the host.
+/// Groups of machines are a bit for each place in the roster. See AGREEMENT.md.
+class Leadership {
+ public:
+  /// `scratch` is written over; stats.machines is kept.
+  Leadership(const SessionConfig& config, Seats& seats, Guests& guests, const std::vector<InputStream>& streams,
+             SessionStats& stats, std::vector<std::uint8_t>& scratch)
+      : config_(config), seats_(seats), guests_(guests), streams_(streams), stats_(stats), scratch_(scratch) {}
+  /// With `token` our players come back to who follows us; `life` is of our process.
+  void know_ourselves(std::uint64_t token, std::uint64_t life) { own_token_ = token, own_life_ = life; }
+  /// A match that was saved has had other hosts.
+  void resume(std::uint32_t term, std::uint64_t token) { first_term_ = term, own_token_ = token; }
+  void begin(Frame final_end, Time now) { tenure_.begin(first_term_, config_.migration, 0, final_end, now); }
+  /// As the one that was elected. Then the guests come that have connected to us.
+  void take_over(const Succession& succession, Frame known_end, Frame final_end, Time now);
+  void reform_with(const Election& election);
+
+  /// Before all else in a turn. `known_end`: of the inputs that we have. False: we are the host no more.
+  bool turn(Frame known_end, Time now);
+  /// One roster after the other: the next when a majority has this one.
+  void keep_roster();
+  /// Without those who are not here, although they may go on without us.
+  bool go_on(Time now);
+  /// A guest may know of a host that came after us.
+  void hear(const Application& wish);
+  /// It was let in by the host before us.
+  bool is_member(const Application& wish) const { return inherited_.voter_of(wish.token, wish.life) >= 0; }
+  /// Can the others go on without us, at one that is not among these (machines as in a Verdict)?
+  bool could_others(std::uint64_t unfit) const;
+  /// What a client takes over that was this host.
+  Retreat retreat(bool is_outvoted) const;
+
+  const Roster& roster() const { return roster_; }
+  const Tenure& tenure() const { return tenure_; }
+  std::uint32_t term() const { return has_begun() ? tenure_.term() : first_term_; }
+  std::uint64_t own_token() const { return own_token_; }
+
+ private:
+  bool has_begun() const { return tenure_.term() != 0; }
+  Roster drafted() const;
+  void replace(const Roster& next);
+  /// Those who are with us are all of the match from now on.
+  void reform(std::uint64_t group);
+  /// Its place in the roster, as a voter; -1: none.
+  int voter_of(const Guest& guest) const;
+  /// Inputs before this frame are there.
+  Frame end_at(const Guest& guest) const;
+  /// Fills followers_ for each machine of the roster.
+  void look_at_followers(Time now);
+  /// Us and those voters that `is_counted`.
+  template <class Predicate> std::uint64_t group(const Predicate& is_counted) const;
+  std::uint64_t here(Time now) const;
+
+  const SessionConfig& config_;
+  Seats& seats_;
+  Guests& guests_;
+  const std::vector<InputStream>& streams_;
+  SessionStats& stats_;
+  std::vector<std::uint8_t>& scratch_;
+  Roster roster_;
+  Roster inherited_;  // that we took over
+  std::uint64_t own_token_ = 0, own_life_ = 0;
+  std::uint32_t first_term_ = 1;
+  Tenure tenure_;
+  Follower followers_[kMaxPlayers + 1];  // by their places in the roster
+  bool is_over_ = false;                 // somebody knows of a later host
+};
+
+}  // namespace isostep

@@ -1,0 +1,38 @@
+// SavedMatch: a match that its host put away, with the seats of its players, for another process to go on with.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/bytes.hpp"
+#include "isostep/core/result.hpp"
+#include "isostep/session/protocol/packet.hpp"
+#include "isostep/state/replay_header.hpp"
+
+namespace isostep {
+
+/// Of the format; one of another is refused by name.
+inline constexpr std::uint16_t kSavedMatchVersion = 2;
+
+struct SavedMatch {
+  ReplayHeader identity;      // of the match, as SessionConfig's
+  HashReport start;           // the state with which it goes on, and the chain of all before
+  std::uint64_t hash = 0;     // of that state
+  std::uint32_t hosted = 0;   // players of the host's machine, a bit each
+  std::uint8_t speed = 0;     // [1/8 of the match's rate]
+  std::uint64_t tokens = 0;   // that were given out: the next ones are others, even from the same seed
+  std::uint32_t sequels = 0;  // times that the match was saved and gone on with
+  std::uint32_t term = 0;     // of its host: see AGREEMENT.md
+  std::uint8_t players = 0;
+  /// What the player of each seat can show, and nobody computes from this; 0: the seat is free, or the host's.
+  std::uint64_t proofs[kMaxPlayers] = {};
+  std::vector<std::uint8_t> state;  // portable
+};
+
+/// Little-endian, with a hash of all bytes at the end. Replaces what `out` held.
+void write_saved_match(const SavedMatch& match, std::vector<std::uint8_t>& out);
+/// Of damaged bytes the error names what does not fit.
+Result<SavedMatch> read_saved_match(Bytes bytes);
+
+}  // namespace isostep

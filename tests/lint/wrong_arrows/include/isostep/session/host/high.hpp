@@ -1,0 +1,3 @@
+// Above.
+// SPDX-License-Identifier: MIT
+#pragma once
