@@ -80,18 +80,6 @@ template <class S> void ForceSums<S>::push(std::uint32_t row, Vec3<S> force, Vec
   }
   note_cut(row, bounder.cut);
 }
-template <class S> void ForceSums<S>::push(const VelocityChange<S>& change) {
-  const S limit = most(), limit_of_turning = most_turning(change.row), rate = S(bodies_.when().rate);
-  detail::Bounder<S> bounder;
-  const auto rate_of = [&](Vec3<Velocity<S>> v, S bound) {
-    const auto part = [&](Velocity<S> x) { return bounder.held(saturate_to<S>(product(rate, x)), bound); };
-    return Vec3<S>{part(v.x), part(v.y), part(v.z)};
-  };
-  Acceleration<S>& sum = accelerations_[change.row - 1];
-  sum.linear = bounder.sum(sum.linear, rate_of(change.linear, limit), limit);
-  sum.angular = bounder.sum(sum.angular, rate_of(change.angular, limit_of_turning), limit_of_turning);
-  note_cut(change.row, bounder.cut);
-}
 template <class S> void ForceSums<S>::slow(std::uint32_t row, Vec3<S> motion, S rate) {
   const auto part = [rate](S x) { return saturate_to<S>(product(x, rate)); };
   accelerate(row, -Vec3<S>{part(motion.x), part(motion.y), part(motion.z)});
