@@ -129,6 +129,7 @@ template <class S> bool PairRules<S>::may_judge(std::uint64_t key) const {
 
 /// One contact in front is enough: what lands on an edge of several parts touches their sides as well.
 template <class S> typename PairRules<S>::Verdict PairRules<S>::judge(std::uint64_t key) const {
+  if (!map_.is_pushed(pair_a(key), pair_b(key))) return Verdict::open;
   constexpr S kMargin = detail::kSpeculativeDistance<S>;
   const Location at_a = map_.location(pair_a(key)), at_b = map_.location(pair_b(key));
   const auto moving = [&](Location at) { return at.set == Location::kStatic ? nullptr : &map_.state_at(at); };

@@ -82,6 +82,10 @@ void ContinuousCollision<S>::visit_parts(const Mover& mover, const CoreMotion<S>
     const Aabb<S> swept = detail::swept_bounds(part, motion);
     const auto visit_one = [&](const Child<S>& child_of_other) {
       if (traits && !parts_collide(child.traits, body.filter, child_of_other.traits, other.filter)) return;
+      if (rules_.responses != nullptr &&
+          !is_pushed_back(mover, child.traits.material_or(body.material).kind, obstacle.slot,
+                          child_of_other.traits.material_or(other.material).kind))
+        return;
       const PlacedShape<S> met = detail::placed_part(map_, other, child_of_other);
       const bool moves = S(0) < obstacle.moved;
       if (overlap(swept,
