@@ -34,6 +34,11 @@ const char* problem_of(const SessionConfig& config) {
   if (config.seat < -1 || config.seat >= config.players) return "seat: below players, or -1";
   if (config.credential.size() > kCredentialCap) return "credential: 256 bytes or fewer";
   if (config.most_packets < 2 * static_cast<std::uint32_t>(config.hz)) return "most_packets: 2 * hz or more";
+  if (config.silence > kLongestTime) return "silence: at most a year";
+  if (config.patience > kLongestTime) return "patience: at most a year";
+  if (config.exclusion > kLongestTime) return "exclusion: at most a year";
+  if (config.reservation > kLongestTime) return "reservation: at most a year";
+  if (config.migration > kLongestTime) return "migration: at most a year";
   if (config.migration > 0 && config.migration < kSecond / 4) return "migration: a quarter of a second or more, or 0";
   if (config.migration > 0 && !config.address.view().empty() && config.seed == 0) {
     return "seed: of who may become the host, a random number other than 0";

@@ -53,6 +53,13 @@ int Roster::machine_with(int player) const {
   return -1;
 }
 
+bool Roster::is_of(int players) const {
+  for (int m = 0; m < count; ++m) {
+    if (std::uint64_t{machines[m].players} >> players != 0) return false;
+  }
+  return true;
+}
+
 int Roster::count_in() const {
   int in = 0;
   for (int m = 0; m < count; ++m) in += machines[m].is_in ? 1 : 0;
@@ -127,6 +134,7 @@ Result<Roster> read_roster(Bytes message) {
   reader.read(settings.deadline);
   for (Time* time : {&settings.silence, &settings.patience, &settings.exclusion, &settings.reservation}) {
     reader.read(*time);
+    if (*time > kLongestTime) reader.fail(ErrorCode::invalid, "a time out of range");
   }
   for (bool* is_set : {&settings.asks_admission, &settings.votes, &settings.players_set_tempo, &settings.repair}) {
     reader.read(*is_set);
