@@ -12,8 +12,6 @@ namespace isostep {
 /// Since any moment of the caller's choice [us]; never runs backwards. Sessions have no clock of their own.
 using Time = std::uint64_t;
 inline constexpr Time kSecond = 1000000;  // [us]
-/// The longest time of a configuration, a year: sums with the clock stay in range.
-inline constexpr Time kLongestTime = 365 * 24 * 3600 * kSecond;  // [us]
 
 /// Sets of players are words of 32 bits.
 inline constexpr std::size_t kMaxPlayers = 32;

@@ -134,7 +134,6 @@ Result<Roster> read_roster(Bytes message) {
   reader.read(settings.deadline);
   for (Time* time : {&settings.silence, &settings.patience, &settings.exclusion, &settings.reservation}) {
     reader.read(*time);
-    if (*time > kLongestTime) reader.fail(ErrorCode::invalid, "a time out of range");
   }
   for (bool* is_set : {&settings.asks_admission, &settings.votes, &settings.players_set_tempo, &settings.repair}) {
     reader.read(*is_set);
