@@ -24,7 +24,8 @@ void ContinuousCollision<S>::sweep_against_moving(const Mover& mover, std::uint3
                                                   Cut& cut) const {
   const Path path = path_of(index);
   const Pose<S> end = now(index);
-  const Vec3<S> sides = state_.awake.states[index].fat.high - state_.awake.states[index].fat.low;
+  const Aabb<S> box = detail::solid_box(map_, state_.awake.states[index], state_.awake.properties[index]);
+  const Vec3<S> sides = box.high - box.low;
   Obstacle obstacle = {slot, {}, S(0), S(0), &end};
   for (std::uint32_t i = 0; i < path.pieces; ++i)
     obstacle.moved += detail::most_motion<S>({path.poses[i], path.poses[i + 1], Vec3<S>::zero()}, length(sides));

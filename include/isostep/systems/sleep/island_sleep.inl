@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "isostep/state/members.hpp"
+#include "isostep/store/fat_box.hpp"
 #include "isostep/systems/sleep/island_sleep.hpp"
 
 namespace isostep {
@@ -93,10 +94,13 @@ template <class S> void IslandSleep<S>::stop_clocks_by_forces() {
   if (explosions.all().empty() && waters.all().empty()) return;
   bool blast = false;
   for (std::uint32_t slot = 0; slot < explosions.all().size(); ++slot) blast = blast || explosions.is_taken(slot);
-  for (BodyState<S>& state : state_.awake.states) {
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    BodyState<S>& state = state_.awake.states[i];
     bool moved = blast;
-    for (const Water<S>& water : waters.all())
-      moved = moved || (S(0) < water.wave_height && in_region(water, state.fat));
+    for (const Water<S>& water : waters.all()) {
+      moved = moved || (S(0) < water.wave_height &&
+                        in_region(water, detail::solid_box(map_, state, state_.awake.properties[i])));
+    }
     if (moved) state.sleep_clock = 0;
   }
 }

@@ -61,7 +61,6 @@ template <class S> class IslandWake {
   };
 
   bool is_sensor(std::uint32_t slot) const;
-  Aabb<S> solid_box(std::uint32_t slot) const;
   bool may_run_over(const BodyState<S>& state, Vec3<S> way, std::uint32_t sleeper) const;
   void find_run_over(std::size_t index);
   bool is_touched(std::uint64_t pair) const;

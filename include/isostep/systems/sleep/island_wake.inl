@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
-
 #include "isostep/collision/continuous/shape_impact.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/geometry/bounds.hpp"
@@ -130,22 +128,9 @@ template <class S> bool IslandWake<S>::is_sensor(std::uint32_t slot) const {
   return map_.is_sensor(map_.properties_at(map_.location(slot)));
 }
 template <class S> void IslandWake<S>::wake_touching(std::uint32_t slot) {
-  if (proxies_.present(slot)) wake_touching(solid_box(slot), slot);
-}
-/// [m] The body's fat box, without what its sensors alone reach.
-template <class S> Aabb<S> IslandWake<S>::solid_box(std::uint32_t slot) const {
-  const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
-  const Aabb<S> all = proxies_.boxes().box(slot);
-  const ShapeTraits& traits = map_.traits_of(body.shape);
-  if (!traits.has(part_flag::kSensor) || !traits.any_solid) return all;
-  const Transform<S> frame = Transform<S>::of(map_.origin_pose_at(slot));
-  std::optional<Aabb<S>> solid;
-  for (const Child<S>& part : map_.children_of(body.shape)) {
-    if (part.traits.has(part_flag::kSensor)) continue;
-    const Aabb<S> box = bounds(part, frame, map_.contents());
-    solid = solid ? merge(*solid, box) : box;
-  }
-  return grow(*solid, detail::kFatMargin<S>);
+  if (!proxies_.present(slot)) return;
+  const Location at = map_.location(slot);
+  wake_touching(detail::solid_box(map_, map_.state_at(at), map_.properties_at(at)), slot);
 }
 template <class S> void IslandWake<S>::wake_touching(const Aabb<S>& box, std::uint32_t slot) {
   if (!state_.settings.allow_sleep) return;  // nobody sleeps, nor counts the time
