@@ -76,6 +76,7 @@ template <class S> class StateValidator {
         return "a shape is not valid";
       for (const Child<S>& part : parts) {
         if (detail::fault_of(part.traits) != Fault::none) return "a part's traits are not valid";
+        if (!(part.traits == part.traits.normalised())) return "a part's traits are zeros where no flag names them";
       }
       leaves_of_shape_[i] = leaves_of_parts(parts);
     }
@@ -136,8 +137,7 @@ template <class S> class StateValidator {
   const char* properties(const BodyProperties<S>& p, std::uint32_t name) const {
     constexpr std::uint32_t kKnown = body_flag::kSensor | body_flag::kAllowSleep | body_flag::kCollide |
                                      body_flag::kSpins | body_flag::kBullet | body_flag::kDisabled |
-                                     body_flag::kReportContacts |
-                                     body_flag::kAllLocks;
+                                     body_flag::kReportContacts | body_flag::kAllLocks;
     const bool dynamic_body = p.type == BodyType::dynamic;
     if (p.type > BodyType::dynamic || is_fixed(p) != (name == Location::kStatic) ||
         (name < Location::kAwake && !dynamic_body)) {

@@ -50,7 +50,7 @@ template <class S> S ForceSums<S>::most() const {
   return detail::most_acceleration(bodies_.when().rate, Limits<S>::speed());
 }
 template <class S> S ForceSums<S>::most_turning(std::uint32_t row) const {
-  return detail::most_acceleration(bodies_.when().rate, detail::most_angular_speed(bodies_.state(row).fat));
+  return detail::most_acceleration(bodies_.when().rate, detail::most_angular_speed(bodies_.solid_box(row)));
 }
 template <class S> void ForceSums<S>::note_cut(std::uint32_t row, bool cut) {
   if (!cut || cut_.test(row - 1)) return;
