@@ -224,7 +224,9 @@ template <class S> Velocity<S> CouplingRows<S>::most_change(const Run& run) cons
       const S moved = times(push, of_b ? joint.share.b : joint.share.a);
       const JointRow<S>& r = joint.drives[0].row;
       keep(Limits<S>::speed() * kPart, times(moved, max_abs(r.linear)));
-      keep(detail::most_angular_speed(state_.awake.states[row - 1].fat) * kPart,
+      keep(detail::most_angular_speed(
+               detail::solid_box(map_, state_.awake.states[row - 1], state_.awake.properties[row - 1])) *
+               kPart,
            times(moved, max_abs(of_b ? r.turn_b : r.turn_a)));
     }
   }

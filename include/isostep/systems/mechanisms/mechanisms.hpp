@@ -20,7 +20,7 @@ namespace isostep {
 template <class S> class Mechanisms {
  public:
   ISO_INLINE Mechanisms(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
-      : state_(state), wheels_(state, map, proxies), couplings_(state, map) {}
+      : state_(state), map_(map), wheels_(state, map, proxies), couplings_(state, map) {}
   Mechanisms(const Mechanisms&) = delete;  // solvers hold its address
   Mechanisms& operator=(const Mechanisms&) = delete;
 
@@ -42,6 +42,7 @@ template <class S> class Mechanisms {
   void keep_in_range(SolverBodies<S>& bodies) const;
 
   WorldState<S>& state_;
+  const BodyMap<S>& map_;
   VehicleRows<S> wheels_;
   CouplingRows<S> couplings_;
   std::vector<std::uint8_t> listed_;   // by row

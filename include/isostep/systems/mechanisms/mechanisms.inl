@@ -31,7 +31,8 @@ template <class S> void Mechanisms<S>::list_bodies() {
   for (std::uint32_t row = 1; row < listed_.size(); ++row) {
     if (listed_[row] == 0 || state_.awake.properties[row - 1].type != BodyType::dynamic) continue;
     bodies_.push_back(row);
-    fastest_.push_back(convert<Velocity<S>>(detail::most_angular_speed(state_.awake.states[row - 1].fat)) *
+    fastest_.push_back(convert<Velocity<S>>(detail::most_angular_speed(
+                           detail::solid_box(map_, state_.awake.states[row - 1], state_.awake.properties[row - 1]))) *
                        Velocity<S>(2));
   }
 }
