@@ -139,7 +139,6 @@ TYPED_TEST(DebugDraws, PlacesPartsOfCompoundAndTurnedBodies) {
   EXPECT_EQ(all.parts[1].part.radius, 0.25f);
 }
 
-/// Every line of a shape lies on its surface or within it, and on each axis the outline reaches as far as the shape.
 TYPED_TEST(DebugDraws, TellsWhichPartsSense) {
   using S = TypeParam;
   World<S> w{settings<S>()};
@@ -159,6 +158,7 @@ TYPED_TEST(DebugDraws, TellsWhichPartsSense) {
   EXPECT_TRUE(all.parts[3].part.sensor);
 }
 
+/// Every line of a shape lies on its surface or within it, and on each axis the outline reaches as far as the shape.
 TYPED_TEST(DebugDraws, OutlinesPartsByLines) {
   using S = TypeParam;
   const std::pair<Primitive<S>, D3> cases[] = {{primitive_of(Sphere<S>{S(0.5)}), {0.5, 0.5, 0.5}},

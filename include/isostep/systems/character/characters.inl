@@ -15,7 +15,8 @@
 namespace isostep {
 
 namespace detail {
-/// Whether a part of another body carries and stops the character: neither a sensor nor filtered out, by its own part.
+/// Returns true if a part of another body carries and stops the character, by its own part: a sensor or a filtered
+/// part does not.
 template <class S>
 bool is_solid_for(const BodyMap<S>& map, const Walker<S>& character, const BodyProperties<S>& other,
                   const Child<S>& part) {
