@@ -508,13 +508,14 @@ typedef struct iso_f32_contact_begin {
   iso_body b;
   uint32_t child_a; /* the first parts of their shapes in contact */
   uint32_t child_b; /* the first parts of their shapes in contact */
-  /* [kg m/s] that all points together gave over the step along their normals; held at the format's end */
+  /* [kg m/s] that all points of reported contacts gave over the step along their normals; held at the format's end */
   float impulse;
   iso_f32_unit_vec3 normal; /* [1] from a to b, of those parts */
 } iso_f32_contact_begin;
 typedef struct iso_f32_broke {
   iso_body body;
-  float impulse; /* [kg m/s] as ContactBegin has it */
+  /* [kg m/s] that all points of the pair gave over the step along their normals; held at the format's end */
+  float impulse;
   iso_f32_vec3 point; /* [m] */
   iso_f32_unit_vec3 direction; /* [1] of the blow, into the body */
   uint8_t reserved1[4];

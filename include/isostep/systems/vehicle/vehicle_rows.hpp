@@ -168,6 +168,8 @@ template <class S> class VehicleRows {
   V least_push(const Run& run) const;
   void press(Run& run, MotionRow<V>& body);
   void grip(Run& run, MotionRow<V>& body);
+  bool closes_errors(const Group& group) const;
+  void sweep();
   bool sweep(Run& run);
   void turn_wheel(Run& run) const;
   S slip_of(const Run& run) const;

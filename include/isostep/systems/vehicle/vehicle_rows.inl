@@ -23,25 +23,41 @@ template <class S> void VehicleRows<S>::place(SolverBodies<S>& bodies, std::int3
   }
 }
 
-/// Until nothing changes any more of those that end early, for in a pass only their own wheels move them.
 template <class S> void VehicleRows<S>::solve(int sweeps) {
   for (int i = 0; i < sweeps; ++i) {
-    for (Group& group : groups_) {
-      group.done = i > 0 && group.ends_early && !group.changed;
-      group.changed = false;
-      if (group.done) continue;
-      lock(group);
-      engage(group);
-    }
-    for (const std::uint32_t r : order_) {
-      if (Group& group = groups_[runs_[r].group]; !group.done && runs_[r].touches) group.changed |= sweep(runs_[r]);
-    }
+    for (Group& group : groups_) group.done = i > 0 && group.ends_early && !group.changed;
+    sweep();
   }
 }
+/// Only the end of a travel closes an error by speed. Who has none of that is solved already.
 template <class S> void VehicleRows<S>::relax() {
+  bool any = false;
+  for (Group& group : groups_) {
+    group.done = !closes_errors(group);
+    any = any || !group.done;
+  }
+  if (!any) return;
   relaxes_ = true;
-  solve(1);
+  sweep();
   relaxes_ = false;
+}
+template <class S> bool VehicleRows<S>::closes_errors(const Group& group) const {
+  for (std::uint32_t r = group.first; r < group.end; ++r) {
+    if (runs_[r].touches && V(0) < runs_[r].strut.stop) return true;
+  }
+  return false;
+}
+/// Once over all groups that are not done.
+template <class S> void VehicleRows<S>::sweep() {
+  for (Group& group : groups_) {
+    if (group.done) continue;
+    group.changed = false;
+    lock(group);
+    engage(group);
+  }
+  for (const std::uint32_t r : order_) {
+    if (Group& group = groups_[runs_[r].group]; !group.done && runs_[r].touches) group.changed |= sweep(runs_[r]);
+  }
 }
 
 /// Where the wheel's middle is on its way down, so that it touches the ground's plane; and the rows there. `turn` is
