@@ -1,4 +1,4 @@
-// Laws of how far the traits of a part reach: a sensor weighs, floats, stops, wakes and limits nothing, and every system
+// Laws of how far a part's traits reach: a sensor weighs, floats, stops, wakes and limits nothing, and every system
 // goes by the part that touches.
 // SPDX-License-Identifier: MIT
 #include "isostep/fracture/shatter.hpp"
@@ -81,11 +81,10 @@ TYPED_TEST(PartReachLaws, new_heights_lift_only_what_the_field_meets) {
   const std::vector<std::int16_t> flat(17 * 17, 0), high(25, 512);
   for (const bool meets : {false, true}) {
     this->w = World<S>(settings<S>(0));
-    const ShapeId field = this->w.add_shape(height_field_blob(height_field({10, 0, 17, 17, 512}, flat, {}).value()));
-    std::vector<Child<S>> parts = {this->w.state().shapes[field.slot]->children[0],
-                                   this->box({0.125, 0.125, 0.125}, {0, 0, 0})};
+    const BlobRef field = height_field_blob(height_field({10, 0, 17, 17, 512}, flat, {}).value());
+    std::vector<Child<S>> parts = {this->field_part(field), this->box({0.125, 0.125, 0.125}, {0, 0, 0})};
     if (!meets) parts[0].traits = this->only(kOther);
-    const ShapeId ground = this->shape(parts);
+    const ShapeId ground = this->shape(parts, {field});
     this->w.create(this->quiet(still<S>(ground, {-4, 0, -4})));
     const BodyId box = this->loose({this->box({0.25, 0.25, 0.25}, {0, 0, 0})}, {0, 0.27, 0});
     this->w.step();
@@ -266,10 +265,10 @@ TYPED_TEST(PartReachLaws, a_body_spins_as_fast_as_without_the_part_that_senses) 
 TYPED_TEST(PartReachLaws, a_sensor_surface_does_not_move_the_centre) {
   using S = TypeParam;
   const std::vector<std::int16_t> flat(9, 0);
-  const ShapeId field = this->w.add_shape(height_field_blob(height_field({10, 0, 3, 3, 512}, flat, {}).value()));
-  Child<S> zone = this->w.state().shapes[field.slot]->children[0];
+  const BlobRef field = height_field_blob(height_field({10, 0, 3, 3, 512}, flat, {}).value());
+  Child<S> zone = this->field_part(field);
   zone.traits = this->senses();
-  BodyDefinition<S> d = still<S>(this->shape({this->box({0.5, 0.5, 0.5}, {2, 0, 0}), zone}), {0, 0, 0});
+  BodyDefinition<S> d = still<S>(this->shape({this->box({0.5, 0.5, 0.5}, {2, 0, 0}), zone}, {field}), {0, 0, 0});
   d.type = BodyType::kinematic;
   EXPECT_EQ(this->w.center_of_mass(this->w.create(d)), vec<S>(2, 0, 0));
   d.type = BodyType::dynamic;

@@ -27,7 +27,17 @@ template <class S> class PartWorlds : public ::testing::Test {
   /// Collides with what is of that category alone.
   static PartTraits<S> only(std::uint32_t category) { return PartTraits<S>{}.with(Filter{category, category, 0}); }
   static PartTraits<S> flagged(std::uint32_t flags) { return PartTraits<S>{}.with(flags); }
-  ShapeId shape(const Parts& parts) { return w.add_shape(std::span<const Child<S>>(parts)); }
+  /// A surface of heights as a part: its blob is the first of its shape.
+  Child<S> field_part(const BlobRef& field) {
+    Child<S> part = w.state().shapes[w.add_shape(field).slot]->children[0];
+    part.primitive.blob = 1;
+    return part;
+  }
+  ShapeId shape(const Parts& parts, const std::vector<BlobRef>& blobs = {}) {
+    const ShapeId id = w.add_shape(std::span<const Child<S>>(parts), std::span<const BlobRef>(blobs));
+    EXPECT_TRUE(id) << describe(w.fault());
+    return id;
+  }
   BodyId fixed(const Parts& parts, D3 at = {0, 0, 0}) { return w.create(quiet(still<S>(shape(parts), at))); }
   BodyId loose(const Parts& parts, D3 at, D3 velocity = {0, 0, 0}) {
     return w.create(quiet(moving<S>(shape(parts), at, velocity)));

@@ -18,7 +18,7 @@ namespace isostep {
 template <class S> struct ContactBegin {
   BodyId a, b;
   std::uint32_t child_a, child_b;  // the first parts of their shapes in contact
-  S impulse;  // [kg m/s] that all points of reported contacts gave over the step along their normals; held at the format's end
+  S impulse;  // [kg m/s] that reported contacts gave over the step along their normals; held at the format's end
   Vec3<Unit<S>> normal;  // [1] from a to b, of those parts
 
   ISO_FIELDS(a, b, child_a, child_b, impulse, normal)
