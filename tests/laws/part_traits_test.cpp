@@ -309,7 +309,8 @@ TYPED_TEST(PartTraitsLaws, a_wheel_finds_the_ground_that_a_part_of_the_same_body
 TYPED_TEST(PartTraitsLaws, what_is_wrong_with_a_part_is_told_with_its_number) {
   using S = TypeParam;
   const auto refused = [&](const PartTraits<S>& traits, Fault fault, const char* field) {
-    EXPECT_FALSE(this->shape({this->box({1, 1, 1}, {0, 0, 0}), this->box({1, 1, 1}, {2, 0, 0}, traits)}));
+    const Child<S> parts[] = {this->box({1, 1, 1}, {0, 0, 0}), this->box({1, 1, 1}, {2, 0, 0}, traits)};
+    EXPECT_FALSE(this->w.add_shape(std::span<const Child<S>>(parts)));
     EXPECT_EQ(this->w.fault().fault, fault);
     EXPECT_STREQ(this->w.fault().field, field);
     EXPECT_EQ(this->w.fault().child, 1u);

@@ -508,8 +508,7 @@ typedef struct iso_f32_contact_begin {
   iso_body b;
   uint32_t child_a; /* the first parts of their shapes in contact */
   uint32_t child_b; /* the first parts of their shapes in contact */
-  /* [kg m/s] that all points of reported contacts gave over the step along their normals; held at the format's end */
-  float impulse;
+  float impulse; /* [kg m/s] that reported contacts gave over the step along their normals; held at the format's end */
   iso_f32_unit_vec3 normal; /* [1] from a to b, of those parts */
 } iso_f32_contact_begin;
 typedef struct iso_f32_broke {
