@@ -4,7 +4,7 @@
 import {check, done, equal, exactest, packaged, throws} from './checks.mjs';
 import {createPucks, kConfig, pushOf} from './pucks.mjs';
 
-const {load} = await packaged('isostep');
+const {load, PartFlags} = await packaged('isostep');
 const iso = await load(exactest);
 
 /** All of some records, as text and as numbers. */
@@ -12,6 +12,17 @@ const read = kept => kept.map(records => [
   [...records].map(record => JSON.stringify(record, (_, word) => typeof word === 'bigint' ? `${word}` : word)),
   [...records.numbers].map(String), [...records.ids].map(String)
 ]);
+
+// What a part's traits do not name stays as it is: its filter meets all, its material is as any.
+{
+  const world = iso.createWorld();
+  const traits = {flags: PartFlags.ownFilter | PartFlags.ownMaterial, filter: {group: 3}, material: {friction: 0.25}};
+  const floor = world.addCompound([{kind: 'box', shape: {half: [4, 0.5, 4]}, pose: {position: [0, -0.5, 0]}, traits}]);
+  world.createBody({shape: floor});
+  const ball = world.createBody({type: 'dynamic', shape: world.addShape('sphere', {radius: 0.5}), position: [0, 0.5, 0]});
+  for (let i = 0; i < 60; ++i) world.step();
+  check(Math.abs(world.body(ball).pose.position[1] - 0.5) < 0.02, 'a ball lies on a part with a filter of its own');
+}
 
 // Records stay as they were: the world steps on, is gone, and others take its memory.
 for (const ends of [false, true]) {

@@ -188,12 +188,12 @@ TYPED_TEST(PartBelts, refuse_what_is_no_part_and_change_nothing) {
   expect_refused(this->w.set(id, this->belt(body, {1, 0, 0}, 0)), "part", "a part that has no record yet");
   expect_refused(this->w.set(id, this->belt(body, {1, 0, 0}, 7)), "part", kNoPart);
   WorldState<S> state = this->w.state();
-  EXPECT_EQ(StateValidator<S>(state).broken_rule(), nullptr);
+  EXPECT_EQ(broken_rule(state), nullptr);
   SurfaceVelocity<S>& record = state.records.change().surface_velocitys.change_all()[id.slot];
   record.part = 0;
-  EXPECT_STREQ(StateValidator<S>(state).broken_rule(), "two records of a kind are about the same");
+  EXPECT_STREQ(broken_rule(state), "two records of a kind are about the same");
   record.part = 2;
-  EXPECT_NE(StateValidator<S>(state).broken_rule(), nullptr);
+  EXPECT_NE(broken_rule(state), nullptr);
 }
 
 TYPED_TEST(PartBelts, are_rolled_back_and_equal_on_all_lanes) {

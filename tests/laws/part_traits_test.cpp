@@ -1,51 +1,13 @@
 // Laws of what parts have of their own: materials, filters, sensors, reports and names, in every system that meets
 // them, over drawn sizes, places and speeds.
 // SPDX-License-Identifier: MIT
-#include <vector>
-
+#include "laws/part_worlds.hpp"
 #include "random/dice.hpp"
-#include "unit/world/worlds.hpp"
 
 namespace isostep::test {
 namespace {
 
-constexpr std::uint32_t kOther = 2;  // a category that bodies are not of
-
-template <class S> class PartTraitsLaws : public ::testing::Test {
- protected:
-  using Parts = std::vector<Child<S>>;
-
-  static Child<S> box(D3 half, D3 at, const PartTraits<S>& traits = {}) {
-    Child<S> part = part_at(primitive_of(Box<S>{vec<S>(half)}), at);
-    part.traits = traits;
-    return part;
-  }
-  static PartTraits<S> slippery(double friction) {
-    Material<S> material;
-    material.friction = num<S>(friction);
-    return PartTraits<S>{}.with(material);
-  }
-  /// Collides with what is of that category alone.
-  static PartTraits<S> only(std::uint32_t category) { return PartTraits<S>{}.with(Filter{category, category, 0}); }
-  static PartTraits<S> flagged(std::uint32_t flags) { return PartTraits<S>{}.with(flags); }
-  ShapeId shape(const Parts& parts) { return w.add_shape(std::span<const Child<S>>(parts)); }
-  BodyId fixed(const Parts& parts, D3 at = {0, 0, 0}) { return w.create(quiet(still<S>(shape(parts), at))); }
-  BodyId loose(const Parts& parts, D3 at, D3 velocity = {0, 0, 0}) {
-    return w.create(quiet(moving<S>(shape(parts), at, velocity)));
-  }
-  static BodyDefinition<S> quiet(BodyDefinition<S> d) {
-    d.report_contacts = false;
-    d.allow_sleep = false;
-    return d;
-  }
-  D3 at(BodyId body) const { return real(w.view(body).pose.position); }
-  /// Two floors side by side: one part of each side, along x.
-  Parts floors(const PartTraits<S>& left, const PartTraits<S>& right) {
-    return {box({8, 0.5, 4}, {-8, -0.5, 0}, left), box({8, 0.5, 4}, {8, -0.5, 0}, right)};
-  }
-
-  World<S> w{settings<S>()};
-};
+template <class S> class PartTraitsLaws : public PartWorlds<S> {};
 TYPED_TEST_SUITE(PartTraitsLaws, AllScalars);
 
 TYPED_TEST(PartTraitsLaws, a_box_slides_as_far_as_the_part_below_it_lets_it) {
@@ -347,7 +309,8 @@ TYPED_TEST(PartTraitsLaws, a_wheel_finds_the_ground_that_a_part_of_the_same_body
 TYPED_TEST(PartTraitsLaws, what_is_wrong_with_a_part_is_told_with_its_number) {
   using S = TypeParam;
   const auto refused = [&](const PartTraits<S>& traits, Fault fault, const char* field) {
-    EXPECT_FALSE(this->shape({this->box({1, 1, 1}, {0, 0, 0}), this->box({1, 1, 1}, {2, 0, 0}, traits)}));
+    const Child<S> parts[] = {this->box({1, 1, 1}, {0, 0, 0}), this->box({1, 1, 1}, {2, 0, 0}, traits)};
+    EXPECT_FALSE(this->w.add_shape(std::span<const Child<S>>(parts)));
     EXPECT_EQ(this->w.fault().fault, fault);
     EXPECT_STREQ(this->w.fault().field, field);
     EXPECT_EQ(this->w.fault().child, 1u);

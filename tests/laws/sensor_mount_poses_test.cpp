@@ -167,7 +167,7 @@ TYPED_TEST(SensorMountPoses, stay_within_the_world_at_its_edge) {
   for (int step = 0; step < 20; ++step) {
     this->w.step();
     EXPECT_LE(max_abs(this->w.pose(this->sensor).position), edge);
-    ASSERT_EQ(StateValidator<S>(this->w.state()).broken_rule(), nullptr) << step;
+    ASSERT_EQ(broken_rule(this->w.state()), nullptr) << step;
   }
 }
 
@@ -235,11 +235,11 @@ TYPED_TEST(SensorMountPoses, of_a_state_that_breaks_a_rule_are_not_read) {
   const BodyId first = this->sensor;
   this->feel(body, {2, 0, 0});
   const WorldState<S> good = this->w.state();
-  EXPECT_EQ(StateValidator<S>(good).broken_rule(), nullptr);
+  EXPECT_EQ(broken_rule(good), nullptr);
   const auto rule_of = [&](SensorMount<S> record) {
     WorldState<S> state = good;
     state.records.change().sensor_mounts.change_all()[this->mount.slot] = record;
-    const char* rule = StateValidator<S>(state).broken_rule();
+    const char* rule = broken_rule(state);
     return std::string(rule == nullptr ? "" : rule);
   };
   EXPECT_EQ(rule_of({first, body, Pose<S>::identity()}), "two records of a kind are about the same");

@@ -184,7 +184,7 @@ TYPED_TEST(Projections, that_are_not_in_the_list_are_a_fault_and_nonlinear) {
   EXPECT_EQ(w.settings().projection, Projection::nonlinear);
   WorldState<S> state = w.state();
   state.settings.projection = static_cast<Projection>(kProjections);
-  EXPECT_STREQ(StateValidator<S>(state).broken_rule(), "settings out of range");
+  EXPECT_STREQ(broken_rule(state), "settings out of range");
 }
 
 }  // namespace

@@ -38,6 +38,7 @@ const std::map<std::string, int> kFloors = {
     {"systems/sleep", 8},
     {"systems/vehicle", 9},
     {"systems/forces", 10},
+    {"systems/mechanisms", 10},
     {"commands", 10},
     {"systems/character", 11},
     {"systems/events", 11},

@@ -17,9 +17,11 @@
 #include "isostep/instantiate/executing_commands.inl"
 #include "isostep/instantiate/island_systems.inl"
 #include "isostep/instantiate/motion_systems.inl"
+#include "isostep/store/state_validator.inl"
 #include "isostep/world/engine_step.inl"
 #include "isostep/world/world.inl"
 
 namespace isostep {
 ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, float)
+ISO_BROKEN_RULE_OF(, float)
 }  // namespace isostep

@@ -1,5 +1,6 @@
 // A player's seat is its own: by a token that nobody can compute, for as long as it is kept, whoever else wants it.
 // SPDX-License-Identifier: MIT
+#include "isostep/session/host/leadership.hpp"
 #include "isostep/session/protocol/siphash.hpp"
 #include "session/admission_scene.hpp"
 
@@ -30,9 +31,10 @@ Hello hello_with(const OpenMatch& scene, std::uint64_t token) {
 TEST(Tokens, AreKeyedByTheHostsSecretAndOfNoUseForAnother) {
   FullMatch scene(players_of(3));
   const auto drawn = [](std::uint64_t purpose, std::uint64_t n) {
-    std::uint8_t words[24] = {};
+    std::uint8_t words[32] = {};
     store_le(words, purpose);
-    store_le(words + 8, n);
+    store_le(words + 8, std::uint64_t{Leadership::kFirstTerm});
+    store_le(words + 16, n);
     return siphash_2_4({1, 0}, words);  // the seed of a virtual match
   };
   Stranger stranger(scene.match, profile(kLine));

@@ -136,7 +136,7 @@ TEST_P(SavedMatches, MayBeSavedAgain) {
   ASSERT_TRUE(after->host().session.save_match(*after->host().game, again).ok());
   const SavedMatch first = read_saved_match(bytes).value(), second = read_saved_match(again).value();
   EXPECT_GT(second.start.frame, first.start.frame + 200);
-  EXPECT_EQ(second.sequels, first.sequels + 1);
+  EXPECT_EQ(second.term, first.term + 1);
   EXPECT_EQ(second.players, 4);
   for (int p = 1; p < 4; ++p) EXPECT_NE(second.proofs[p], first.proofs[p]) << "each process has tokens of its own";
   EXPECT_EQ(second.proofs[1], second.proofs[2]) << "one machine";

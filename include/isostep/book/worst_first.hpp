@@ -37,6 +37,7 @@ namespace isostep {
 ///          velocity_based: before its first sub-step a step takes bodies that overlap back along the motion that they
 ///          came with, to where they touched. What no motion can take back is moved as linear has it.
 ///          worst_first_take_back.inl.
+/// Mechanisms: theirs are swept before the passes over velocities, of which there are then kMechanismSweeps.
 /// Queue:   finds the worst row: core/tournament_tree.hpp, sorted_order.hpp, linear_search.hpp. Changes no bit.
 /// Cost:    O(log rows) for each row that shares a moving body with the resolved one. No allocation once warm. Serial.
 /// Limits:  speeds and gaps beyond the ends of Velocity<S> count as those ends, velocities are held at eight times the

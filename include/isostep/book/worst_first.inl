@@ -270,14 +270,23 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::solve_substep
   any_followed_ = bodies_.began_with_followed();
   for (std::int32_t substep = 0; substep < context.substeps; ++substep) {
     begin_velocities(context, step);
-    resolve([&](std::uint32_t i) { return i < points ? motion_urgency(points_[i]) : motion_urgency(joint(i), step); },
-            [&](std::uint32_t i) {
-              if (i < points) resolve_motion(points_[i]);
-              else resolve_motion(joint(i), step);
-            },
-            1);
+    const auto resolve_motions = [&] {
+      resolve([&](std::uint32_t i) { return i < points ? motion_urgency(points_[i]) : motion_urgency(joint(i), step); },
+              [&](std::uint32_t i) {
+                if (i < points) resolve_motion(points_[i]);
+                else resolve_motion(joint(i), step);
+              },
+              1);
+    };
+    resolve_motions();
+    for (int sweep = 1; context.mechanisms.any() && sweep < kMechanismSweeps; ++sweep) {
+      context.mechanisms.solve(bodies_.rows(), 1);
+      resolve_motions();
+    }
+    if (context.mechanisms.couples) context.mechanisms.close(bodies_.rows());
     any_followed_ = bodies_.integrate_positions(context, 0, bodies_.count());
     if (any_followed_) follow(context);
+    if (context.mechanisms.any()) context.mechanisms.relax(bodies_.rows());
     begin_positions(step);
     resolve([&](std::uint32_t i) { return i < points ? overlap_urgency(points_[i]) : error_urgency(joint(i), step); },
             [&](std::uint32_t i) {
@@ -285,6 +294,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::solve_substep
               else project(context, joint(i), step);
             },
             turns);
+    if (context.mechanisms.any()) context.mechanisms.end();
     joints_.add_impulses(context);
   }
 }

@@ -27,6 +27,10 @@ void WorstFirstResolver<S, Queue>::begin_velocities(const StepContext<S>& contex
   if (impacts_.any()) impacts_.bounce(context, bodies_);
   bodies_.integrate_velocities(context, 0, bodies_.count());
   carry(context);
+  if (context.mechanisms.any()) {
+    context.mechanisms.place(bodies, bodies_.rate());
+    context.mechanisms.solve(bodies, 1);
+  }
   // A gap wider than a sub-step covers at 64 m/s counts as that: times the rate it fits.
   const V widest = divide_to<V>(S(64), step.rate);
   const auto is_followed = [&](std::uint32_t body) { return any_followed_ && bodies_.is_followed(context, body); };

@@ -67,7 +67,8 @@ template <class S> class CommandExecutor {
   void replace_blob(std::uint32_t shape, std::uint32_t child, const BlobRef& blob);
   /// A change of a height field, in its frame.
   struct FieldChange {
-    Aabb<S> about;  // [m] old and new heights
+    std::uint32_t child;  // of its shape
+    Aabb<S> about;        // [m] old and new heights
     ShapeView<S> before, after;
   };
   void renew_ground(std::uint32_t body, const Pose<S>& field, const FieldChange& change);

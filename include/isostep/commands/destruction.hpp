@@ -54,7 +54,6 @@ template <class S> class Destruction {
   void tell_ends();
   void erase_what_names_them();
   void erase_records();
-  void erase_records(BodySet<S>& set, std::uint32_t name, std::size_t first);
 
   WorldState<S>& state_;
   BodyMap<S>& map_;

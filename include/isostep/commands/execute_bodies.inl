@@ -103,7 +103,7 @@ template <class S> BodyId CommandExecutor<S>::execute(const CreateBody<S>& comma
   }
   if (!faults_.accept(detail::fault_of_place(state.centre, "position"))) return {};
   detail::renew_fat_box(map_, state, body, true);
-  if (detail::rotates_too_fast(state.angular_velocity, state.fat)) {
+  if (detail::rotates_too_fast(state.angular_velocity, detail::solid_box(map_, state, body))) {
     faults_.refuse(
         {Fault::out_of_range, "", "angular_velocity", "points of the body no faster than Limits::surface_speed()"});
     return {};

@@ -6,6 +6,7 @@
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/dynamics/body_inertia.hpp"
 #include "isostep/dynamics/force_bounds.hpp"
+#include "isostep/store/fat_box.hpp"
 
 namespace isostep {
 
@@ -27,7 +28,8 @@ template <class S> bool CommandExecutor<S>::execute(const ApplyForce<S>& command
   // It leads from rest to the limit in one step: velocities then stay within their format.
   const std::int32_t hz = state_.settings.hz;
   const S most = detail::most_acceleration(hz, Limits<S>::speed());
-  const S most_turning = detail::most_acceleration(hz, detail::most_angular_speed(state.fat));
+  const S most_turning =
+      detail::most_acceleration(hz, detail::most_angular_speed(detail::solid_box(map_, state, body)));
   PendingForce<S>& force = pending_force(state.slot);
   detail::Bounder<S> bounder;
   const Vec3<S> linear = bounder.quotient(command.force, body.mass, most);

@@ -101,7 +101,8 @@ template <class S> bool CommandExecutor<S>::execute(const SetHeights& command) {
   replace_blob(shape, command.child, height_field_blob(changed.value()));
   for (std::uint32_t body = 0; body < map_.slot_count(); ++body) {
     if (map_.location(body).set != Location::kNone && map_.properties_at(map_.location(body)).shape == shape)
-      renew_ground(body, child.pose, {about, {child.primitive, &before}, {child.primitive, &changed.value()}});
+      renew_ground(body, child.pose,
+                   {command.child, about, {child.primitive, &before}, {child.primitive, &changed.value()}});
   }
   return true;
 }
@@ -157,12 +158,16 @@ void CommandExecutor<S>::renew_ground(std::uint32_t body, const Pose<S>& field, 
 template <class S>
 void CommandExecutor<S>::lift_buried(std::uint32_t ground, const Transform<S>& placed, const Aabb<S>& there,
                                      const FieldChange& change) {
-  const Filter filter = map_.filter_of(map_.properties_at(map_.location(ground)));
+  const BodyProperties<S>& own = map_.properties_at(map_.location(ground));
+  const PartTraits<S>& field = map_.children_of(own.shape)[change.child].traits;
   std::vector<std::uint32_t> met;
   proxies_.boxes().query(there, [&](std::uint32_t slot) {
     const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
-    const bool collides = (body.flags & body_flag::kCollide) != 0 && should_collide(filter, map_.filter_of(body));
-    if (body.type == BodyType::dynamic && collides) met.push_back(slot);
+    if (body.type != BodyType::dynamic || !map_.has_contacts(own) || !map_.has_contacts(body)) return true;
+    bool collides = false;
+    for (const Child<S>& part : map_.children_of(body.shape))
+      collides = collides || parts_collide(field, own.filter, part.traits, body.filter);
+    if (collides) met.push_back(slot);
     return true;
   });
   std::vector<std::uint32_t> scratch(met.size());

@@ -17,7 +17,8 @@ namespace isostep {
 ///     const auto shards = shatter(broken, world.view(body), shapes);   // shapes = add_piece_shapes(world, broken)
 ///     world.destroy(body);
 ///     for (const auto& shard : shards.value()) world.create(shard);
-/// Pieces take the body's material, filter, user data, gravity, damping, locks and flags.
+/// Pieces take the body's user data, gravity, damping, locks and flags, and the material, filter and flags of its part.
+/// The part's user data is lost.
 /// Keeps:  mass, centre of mass, momentum and angular momentum of all pieces together, within 1e-5 (float), 1e-12
 ///         (double), 1e-3 (Q16.16) and 1e-8 (Q32.32) of the body's; tests/unit/effects/fracture_test.cpp measures them
 ///         in worlds.

@@ -167,22 +167,22 @@ template <class S> class Shattering {
   Error error_ = {};
 };
 
-/// All of a body that does not depend on where it is.
-template <class S> ISO_INLINE BodyDefinition<S> likeness_of(const BodyProperties<S>& p) {
+/// All of a body of one part that does not depend on where it is.
+template <class S> ISO_INLINE BodyDefinition<S> likeness_of(const BodyProperties<S>& p, const PartTraits<S>& part) {
   BodyDefinition<S> d;
   d.type = BodyType::dynamic;
-  d.material = p.material;
-  d.filter = p.filter;
+  d.material = part.material_or(p.material);
+  d.filter = part.filter_or(p.filter);
   d.user_data = p.user_data;
   d.gravity_scale = p.gravity_scale;
   d.linear_damping = p.linear_damping;
   d.angular_damping = p.angular_damping;
   d.locks = p.flags & body_flag::kAllLocks;
-  d.sensor = (p.flags & body_flag::kSensor) != 0;
+  d.sensor = (p.flags & body_flag::kSensor) != 0 || part.has(part_flag::kSensor);
   d.allow_sleep = (p.flags & body_flag::kAllowSleep) != 0;
   d.collide = (p.flags & body_flag::kCollide) != 0;
   d.bullet = (p.flags & body_flag::kBullet) != 0;
-  d.report_contacts = (p.flags & body_flag::kReportContacts) != 0;
+  d.report_contacts = (p.flags & body_flag::kReportContacts) != 0 || part.has(part_flag::kReportContacts);
   return d;
 }
 
@@ -210,7 +210,7 @@ Result<std::vector<BodyDefinition<S>>> shatter(const Fracture& pieces, const Bod
   std::vector<BodyDefinition<S>> definitions;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const detail::ShatterPiece<S>& piece = parts.pieces()[i];
-    BodyDefinition<S> d = detail::likeness_of(*body.properties);
+    BodyDefinition<S> d = detail::likeness_of(*body.properties, body.children[0].traits);
     d.shape = shapes[i];
     d.mass = piece.mass;
     d.orientation = orientation;

@@ -202,20 +202,27 @@ std::span<const Child<S>> what_weighs(std::span<const Child<S>> children, std::v
 
 }  // namespace detail
 
-template <class S>
-MassProperties<S> mass_properties(std::span<const Child<S>> all, S density, Contents<S> contents) {
+template <class S> MassProperties<S> mass_properties(std::span<const Child<S>> all, S density, Contents<S> contents) {
   return detail::pinned([&]() -> MassProperties<S> {
     std::vector<Child<S>> solid;
     const std::span<const Child<S>> children = detail::what_weighs(all, solid);
     const detail::Parts<S> parts(children, contents);
     S mass = S(0);
-    bool immovable = children.empty();
-    for (const Child<S>& child : all) immovable = immovable || !is_bounded(child.primitive.type);
+    const auto any_endless = [](std::span<const Child<S>> list) {
+      bool any = false;
+      for (const Child<S>& child : list) any = any || !is_bounded(child.primitive.type);
+      return any;
+    };
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const S part = parts.ask(i, [&](const auto& shape) { return shape.mass(density); });
       mass = min(mass + part, Limits<S>::mass());
     }
-    if (immovable) return {S(0), Vec3<S>::zero(), Vec3<S>::zero(), Quat<Unit<S>>::identity()};
+    if (children.empty() || any_endless(children))
+      return {S(0), Vec3<S>::zero(), Vec3<S>::zero(), Quat<Unit<S>>::identity()};
+    if (any_endless(all)) {  // a sensor: nothing that turns has it, and the others keep their centre
+      const MassProperties<S> others = mass_properties<S>(children, density, contents);
+      return {S(0), others.centre, Vec3<S>::zero(), others.principal};
+    }
     mass = max(mass, resolution<S>());
     const bool principal = visit_shape_type(children[0].primitive.type,
                                             [](auto tag) { return decltype(tag)::template Of<S>::kPrincipal; });

@@ -87,6 +87,9 @@ template <class S> struct PartTraits {
     if (!has(part_flag::kOwnMaterial)) stored.material = PartTraits{}.material;
     return stored;
   }
+  friend ISO_INLINE constexpr bool operator==(const PartTraits& a, const PartTraits& b) {
+    return a.flags == b.flags && a.filter == b.filter && a.material == b.material;
+  }
   ISO_INLINE constexpr PartTraits& with(const Material<S>& own) {
     flags |= part_flag::kOwnMaterial;
     material = own;

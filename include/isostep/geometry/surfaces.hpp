@@ -27,7 +27,8 @@ template <class S> ISO_INLINE std::uint32_t leaves_of(ShapeView<S> view) {
   return detail::visit_surface(view, [](const auto& surface) ISO_INLINE_LAMBDA { return surface.triangle_count(); });
 }
 
-/// The material that a triangle's number stands for; null where it is the body's, as of a shape that is no surface.
+/// The material that a triangle's number stands for; null where it is the part's or the body's, as of a shape
+/// that is no surface.
 template <class S> ISO_INLINE const SurfaceMaterial* listed_material(ShapeView<S> view, std::uint32_t triangle) {
   if (!is_surface(view.primitive.type)) return nullptr;
   return detail::visit_surface(view, [&](const auto& surface) ISO_INLINE_LAMBDA -> const SurfaceMaterial* {

@@ -42,6 +42,7 @@
 #include "isostep/query/queries.inl"
 #include "isostep/scalar/math.inl"
 #include "isostep/store/chosen_broad_phase.inl"
+#include "isostep/store/state_validator.inl"
 #include "isostep/world/engine_fields.inl"
 #include "isostep/world/engine_step.inl"
 #include "isostep/world/world.inl"
@@ -126,6 +127,7 @@
   ISO_INSTANTIATE_WORLD_STEP(OwnScalar)                                                             \
   ISO_INSTANTIATE_RECORD_STORE(OwnScalar)                                                           \
   ISO_INSTANTIATE_COMMANDS(OwnScalar)                                                               \
+  ISO_BROKEN_RULE_OF(, OwnScalar)                                                                   \
   ISO_INSTANTIATE_WORLD(OwnScalar)                                                                  \
   ISO_DEBUG_DRAW_OF(, OwnScalar)                                                                    \
   }

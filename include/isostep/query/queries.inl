@@ -25,9 +25,10 @@ template <class S> bool Queries<S>::sees(const QueryFilter& filter, std::uint32_
   if (filter.ignore && id_of(slot) == filter.ignore) return false;
   const bool senses = (body.flags & body_flag::kSensor) != 0;
   if (map_.traits_of(body.shape).flags == 0) return sees(filter, body.filter, body.material.kind, senses);
-  bool seen = false;
-  for (const Child<S>& child : map_.children_of(body.shape)) seen = seen || sees_part(filter, body, child.traits);
-  return seen;
+  for (const Child<S>& child : map_.children_of(body.shape)) {
+    if (sees_part(filter, body, child.traits)) return true;
+  }
+  return false;
 }
 /// Of a body that is not ignored by its id.
 template <class S>

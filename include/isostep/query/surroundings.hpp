@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "isostep/collision/broadphase/tree.hpp"
@@ -45,8 +46,10 @@ template <class S> class Surroundings {
 
   void begin_step();
   /// For a body of one convex part that does not turn. Lists that the filter names outlive what is asked. What the
-  /// body, or its part, whose filter is `collides`, does not collide with is not seen.
-  void begin(ShapeId shape, const Pose<S>& pose, const QueryFilter& filter, const Filter& collides);
+  /// body, or its part, whose filter is `collides`, does not collide with is not seen, nor are bodies whose materials
+  /// are of `passed_kinds`.
+  void begin(ShapeId shape, const Pose<S>& pose, const QueryFilter& filter, const Filter& collides,
+             std::span<const std::uint32_t> passed_kinds = {});
   /// Gathers what is within `reach` [m] of the place where it began. What is asked beyond is gathered then.
   void gather(Vec3<S> reach);
 
@@ -100,6 +103,9 @@ template <class S> class Surroundings {
   }
   ISO_INLINE bool collides_with(std::uint32_t slot) const {
     const BodyProperties<S>& other = map_.properties_at(map_.location(slot));
+    for (const std::uint32_t kind : passed_kinds_) {
+      if (kind == other.material.kind) return false;
+    }
     return (other.flags & body_flag::kCollide) != 0 && should_collide(collides_, map_.filter_of(other));
   }
   /// Of a body that has parts which are in the way.
@@ -134,6 +140,7 @@ template <class S> class Surroundings {
   // Of one character.
   QueryFilter filter_;
   Filter collides_;
+  std::span<const std::uint32_t> passed_kinds_;
   const Primitive<S>* shape_ = nullptr;
   Vec3<S> begin_;                      // [m]
   Vec3<S> offset_;                     // [m] of the shape's frame from the body's origin

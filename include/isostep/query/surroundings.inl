@@ -30,12 +30,14 @@ template <class S> void Surroundings<S>::begin_step() {
 }
 
 template <class S>
-void Surroundings<S>::begin(ShapeId shape, const Pose<S>& pose, const QueryFilter& filter, const Filter& collides) {
+void Surroundings<S>::begin(ShapeId shape, const Pose<S>& pose, const QueryFilter& filter, const Filter& collides,
+                            std::span<const std::uint32_t> passed_kinds) {
   const Child<S>& own = map_.children_of(shape.slot)[0];
   const Pose<S> turned = {Vec3<S>::zero(), pose.orientation};
   const Transform<S> placed = Transform<S>::of(own.pose.is_identity() ? turned : compose(turned, own.pose));
   filter_ = filter;
   collides_ = own.traits.filter_or(collides);
+  passed_kinds_ = passed_kinds;
   shape_ = &own.primitive;
   begin_ = pose.position;
   offset_ = placed.position;

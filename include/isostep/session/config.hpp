@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -50,8 +49,8 @@ struct SessionConfig {
   /// Whose state is at most so many frames old steps them all; who has an older one is sent a snapshot.
   Frame most_replayed = 1200;
   int max_peers = 16;  // whom the host serves: the players, and as many spectators as they leave room for
-  /// Host: connections beside those, of who has not greeted yet or is refused. PeerIds are below the sum of both, which
-  /// the transport's own limit has to be: a longer line of strangers keeps players out before a session hears of them.
+  /// Connections beside those, of who has not greeted yet or is refused; of a host, a relay, a client with `migration`.
+  /// The sum of both is the transport's limit and above every PeerId: more strangers keep players out unheard.
   int max_strangers = 48;
   std::uint32_t snapshot_cap = 64u << 20;  // [bytes] of a portable snapshot that a client accepts
   std::uint32_t most_packets = 8 * 60;  // [1/s] datagrams, and messages, accepted of one peer; more are dropped unread

@@ -86,8 +86,9 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   /// Host: begins although seats are empty.
   void start(Time now) { core_->start(latest(now)); }
   /// With `migration`, where the match stands for lack of a majority, or its host is lost: goes on with those who are
-  /// here, at this machine. Whoever calls knows that the others play nowhere else, for nothing else keeps two matches
-  /// from becoming of one. False: the match goes on without, or this machine has no part in it.
+  /// here, at this machine. Whoever calls knows that the others play nowhere else, for nothing else prevents a
+  /// split. False: the match goes on without, or this machine has no
+  /// part in it or no `seed`.
   bool go_on(Time now) { return core_->go_on(latest(now)); }
 
   /// Host, between two drives: the match in its newest final state as bytes, with the seats of its players, for

@@ -1,6 +1,7 @@
 // The command log, a frame as bytes: commands, each its number in its world's closed list and its content, and where
 // among them the world stepped. CommandJournal appends to it, CommandRecorder writes it to a replay. Fields are in the
-// short form (pack.hpp): an id is two bytes for as long as worlds are small, and a log has one form.
+// short form (pack.hpp), but for those of shapes and heights: an id is two bytes for as long as worlds are small, and a
+// log has one form.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -40,8 +40,8 @@ void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::ui
 
 /// What two parts are to each other.
 enum class PartMeeting {
-  none,   // their filters, types or flags keep them apart
-  solid,  // they press on each other
+  none,   // their filters or flags keep them apart
+  solid,  // they press on each other, where one of the bodies is dynamic
   sensed  // one of them is a sensor
 };
 /// The meeting of leaf i of body a and leaf j of body b, whose bodies the broad phase pairs.

@@ -186,12 +186,11 @@ void collide_parts(CollidePolyhedra<S> polyhedra, const BodyFrame<S>& a, std::ui
 }
 
 template <class S> bool is_sensor_leaf(const BodyFrame<S>& body, std::uint32_t i) {
-  return body.sensor ||
-         (body.senses && body.children[detail::leaf_at(body, i).child].traits.has(part_flag::kSensor));
+  return body.sensor || (body.senses && body.children[detail::leaf_at(body, i).child].traits.has(part_flag::kSensor));
 }
 template <class S>
 PartMeeting meeting_of(const BodyMap<S>& map, const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b,
-                   std::uint32_t j) {
+                       std::uint32_t j) {
   if (!a.traits && !b.traits) return a.sensor || b.sensor ? PartMeeting::sensed : PartMeeting::solid;
   const bool senses_a = is_sensor_leaf(a, i), senses_b = is_sensor_leaf(b, j);
   if (senses_a && senses_b) return PartMeeting::none;
@@ -201,9 +200,7 @@ PartMeeting meeting_of(const BodyMap<S>& map, const BodyFrame<S>& a, std::uint32
     return body.children[detail::leaf_at(body, leaf).child].traits.filter_or(of.filter);
   };
   if (!should_collide(filter(a, i, of_a), filter(b, j, of_b))) return PartMeeting::none;
-  if (senses_a || senses_b) return PartMeeting::sensed;
-  const bool pushes = of_a.type == BodyType::dynamic || of_b.type == BodyType::dynamic;
-  return pushes ? PartMeeting::solid : PartMeeting::none;
+  return senses_a || senses_b ? PartMeeting::sensed : PartMeeting::solid;
 }
 
 namespace detail {

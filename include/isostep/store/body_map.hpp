@@ -84,6 +84,11 @@ template <class S> class BodyMap {
   ISO_INLINE bool is_sensor(const BodyProperties<S>& body) const {
     return (body.flags & body_flag::kSensor) != 0 || !traits_of(body.shape).any_solid;
   }
+  /// Whether one of two bodies is dynamic: others do not push each other.
+  ISO_INLINE bool is_pushed(std::uint32_t slot_a, std::uint32_t slot_b) const {
+    return properties_at(location(slot_a)).type == BodyType::dynamic ||
+           properties_at(location(slot_b)).type == BodyType::dynamic;
+  }
   /// Whether something of it presses on others.
   ISO_INLINE bool has_contacts(const BodyProperties<S>& body) const {
     constexpr std::uint32_t kFlags = body_flag::kSensor | body_flag::kCollide;

@@ -18,7 +18,7 @@ namespace isostep {
 template <class S> struct ContactBegin {
   BodyId a, b;
   std::uint32_t child_a, child_b;  // the first parts of their shapes in contact
-  S impulse;  // [kg m/s] that all points together gave over the step along their normals; held at the format's end
+  S impulse;  // [kg m/s] that reported contacts gave over the step along their normals; held at the format's end
   Vec3<Unit<S>> normal;  // [1] from a to b, of those parts
 
   ISO_FIELDS(a, b, child_a, child_b, impulse, normal)
@@ -40,7 +40,7 @@ struct SensorEvent {
 /// A contact broke a body: its Breakable record is marked.
 template <class S> struct Broke {
   BodyId body;
-  S impulse;                // [kg m/s] as ContactBegin has it
+  S impulse;  // [kg m/s] that all points of the pair gave over the step along their normals; held at the format's end
   Vec3<S> point;            // [m]
   Vec3<Unit<S>> direction;  // [1] of the blow, into the body
 
@@ -62,9 +62,9 @@ template <class S> struct JointBroke {
 template <class S> struct ContactHit {
   BodyId a, b;
   std::uint32_t child_a, child_b;  // parts of their shapes
-  Vec3<S> point;         // [m] where they closed fastest, where b has it as the step ends
-  Vec3<Unit<S>> normal;  // [1] from a to b
-  S speed;               // [m/s] of approach along the normal, as the step began
+  Vec3<S> point;                   // [m] where they closed fastest, where b has it as the step ends
+  Vec3<Unit<S>> normal;            // [1] from a to b
+  S speed;                         // [m/s] of approach along the normal, as the step began
 
   ISO_FIELDS(a, b, child_a, child_b, point, normal, speed)
 };
@@ -74,10 +74,10 @@ template <class S> struct ContactPoint {
   BodyId a, b;
   std::uint32_t child_a, child_b;        // parts of their shapes
   std::uint32_t triangle_a, triangle_b;  // of a mesh or height field; else 0
-  Vec3<S> point;                   // [m] where b has it as the step ends
-  Vec3<Unit<S>> normal;            // [1] from a to b
-  S separation;                    // [m] as the step began; negative: overlap
-  S impulse;                       // [kg m/s] that it gave over the step along the normal; held at the format's end
+  Vec3<S> point;                         // [m] where b has it as the step ends
+  Vec3<Unit<S>> normal;                  // [1] from a to b
+  S separation;                          // [m] as the step began; negative: overlap
+  S impulse;  // [kg m/s] that it gave over the step along the normal; held at the format's end
 
   ISO_FIELDS(a, b, child_a, child_b, triangle_a, triangle_b, point, normal, separation, impulse)
 };

@@ -13,13 +13,24 @@ template <class S> inline constexpr S kFatMargin = S(0.1);
 /// Renews a body's fat box when the body has left it, or `always`.
 template <class S>
 void renew_fat_box(const BodyMap<S>& map, BodyState<S>& state, const BodyProperties<S>& body, bool always);
+/// [m] Around the parts of a body that are no sensors, with that margin. Of a body with both kinds of parts.
+template <class S>
+Aabb<S> box_without_sensors(const BodyMap<S>& map, const BodyState<S>& state, const BodyProperties<S>& body);
+/// [m] The fat box without what sensors alone reach: they weigh nothing and touch nothing.
+template <class S>
+ISO_INLINE Aabb<S> solid_box(const BodyMap<S>& map, const BodyState<S>& state, const BodyProperties<S>& body) {
+  const ShapeTraits& traits = map.traits_of(body.shape);
+  return traits.has(part_flag::kSensor) && traits.any_solid ? box_without_sensors(map, state, body) : state.fat;
+}
 
 }  // namespace isostep::detail
 
 namespace isostep {
 
-#define ISO_FAT_BOX_OF(extern, S) \
-  extern template void detail::renew_fat_box<S>(const BodyMap<S>&, BodyState<S>&, const BodyProperties<S>&, bool);
+#define ISO_FAT_BOX_OF(extern, S)                                                                                  \
+  extern template void detail::renew_fat_box<S>(const BodyMap<S>&, BodyState<S>&, const BodyProperties<S>&, bool); \
+  extern template Aabb<S> detail::box_without_sensors<S>(const BodyMap<S>&, const BodyState<S>&,                   \
+                                                         const BodyProperties<S>&);
 ISO_EXTERN_FOR_EACH_SCALAR(ISO_FAT_BOX_OF)
 
 }  // namespace isostep

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/store/body_map.inl"
 #include "isostep/store/fat_box.hpp"
@@ -13,6 +15,18 @@ void renew_fat_box(const BodyMap<S>& map, BodyState<S>& state, const BodyPropert
   const Transform<S> origin = Transform<S>::of(BodyMap<S>::origin_pose(state, body));
   const Aabb<S> tight = bounds(map.children_of(body.shape), origin, map.contents());
   if (always || !contains(state.fat, tight)) state.fat = grow(tight, kFatMargin<S>);
+}
+
+template <class S>
+Aabb<S> box_without_sensors(const BodyMap<S>& map, const BodyState<S>& state, const BodyProperties<S>& body) {
+  const Transform<S> origin = Transform<S>::of(BodyMap<S>::origin_pose(state, body));
+  std::optional<Aabb<S>> solid;
+  for (const Child<S>& part : map.children_of(body.shape)) {
+    if (part.traits.has(part_flag::kSensor)) continue;
+    const Aabb<S> box = bounds(part, origin, map.contents());
+    solid = solid ? merge(*solid, box) : box;
+  }
+  return grow(*solid, kFatMargin<S>);
 }
 
 }  // namespace isostep::detail

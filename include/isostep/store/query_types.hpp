@@ -37,7 +37,7 @@ struct QueryFilter {
   StartInside start_inside = StartInside::report;
   HitPer per = HitPer::body;
   std::span<const BodyId> ignore_all = {};           // nor any of these: a list that outlives the query
-  std::span<const std::uint32_t> ignore_kinds = {};  // nor bodies of any of these Material::kinds: likewise
+  std::span<const std::uint32_t> ignore_kinds = {};  // nor parts of any of these Material::kinds: likewise
 };
 
 /// Hits are ordered by fraction, of equal fractions by the body's slot, child, triangle.

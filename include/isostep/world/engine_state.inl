@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/checks.hpp"
+#include "isostep/geometry/content.hpp"
 #include "isostep/state/members.hpp"
 #include "isostep/store/state_validator.hpp"
 #include "isostep/world/engine.hpp"
@@ -90,7 +91,7 @@ template <class S> Result<void> WorldEngine<S>::read_portable(Reader& reader) {
   WorldState<S>::members(detail::StateReader(reader, read_store), next);
   if (reader.ok()) {
     if (const char* missing = left_out(next.settings.solver)) reader.fail(ErrorCode::incompatible, missing);
-    else if (const char* rule = StateValidator<S>(next).broken_rule()) reader.fail(ErrorCode::corrupt, rule);
+    else if (const char* rule = broken_rule(next)) reader.fail(ErrorCode::corrupt, rule);
   }
   const Result<void> result = reader.result("world");
   if (!reader.ok()) return result;

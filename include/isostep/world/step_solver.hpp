@@ -10,6 +10,7 @@
 #include "isostep/store/events.hpp"
 #include "isostep/systems/contacts/step_tools.hpp"
 #include "isostep/systems/forces/body_forces.hpp"
+#include "isostep/systems/mechanisms/mechanisms.hpp"
 #include "isostep/world/solvers.hpp"
 
 namespace isostep {
@@ -22,10 +23,16 @@ template <class S> class StepSolver {
  public:
   StepSolver(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies);
 
-  /// Takes the forces that commands left in the state.
-  ISO_INLINE void take_forces() { forces_.begin_step(); }
+  /// Takes the forces that commands left in the state, and finds what mechanisms push.
+  ISO_INLINE void take_forces() {
+    forces_.begin_step();
+    mechanisms_.begin_step();
+  }
   /// After the last sub-step.
-  ISO_INLINE void report_forces(StepReport& report) { forces_.end_step(report); }
+  ISO_INLINE void report_forces(StepReport& report) {
+    forces_.end_step(report);
+    mechanisms_.end_step();
+  }
   /// `watched`: somebody looks between the stages.
   StepContext<S> context(std::span<const ContactGeometry<S>> geometry, std::span<const Carried<S>> carried,
                          std::span<const ContactResponse<S>> responses, std::span<JointImpulse<S>> joint_impulses,
@@ -58,6 +65,7 @@ template <class S> class StepSolver {
   const BodyMap<S>& map_;
   Solvers<S> solvers_;
   BodyForces<S> forces_;
+  Mechanisms<S> mechanisms_;
   std::vector<JointEnds<S>> joint_ends_;
   std::vector<JointAxisDrive<S>> axis_drives_, sorted_drives_;
   std::vector<Velocity<S>> impulses_;

@@ -10,7 +10,7 @@ namespace isostep {
 
 template <class S>
 StepSolver<S>::StepSolver(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
-    : state_(state), map_(map), forces_(state, map, proxies) {}
+    : state_(state), map_(map), forces_(state, map, proxies), mechanisms_(state, map, proxies) {}
 
 namespace detail {
 /// By joint, then by axis.
@@ -53,31 +53,32 @@ StepContext<S> StepSolver<S>::context(std::span<const ContactGeometry<S>> geomet
   list_axis_drives();
   impulses_.resize(state_.contacts.size());
   cut_.assign(state_.awake.states.size(), 0);
-  return {state_.awake.states,
-          state_.awake.properties,
-          forces_.accelerations(),
-          state_.contacts,
-          geometry,
-          impulses_,
-          state_.joints.properties,
-          state_.joints.states,
-          joint_ends_,
-          state_.settings.gravity,
-          state_.settings.hz,
-          state_.settings.substeps,
-          watched,
-          tools.runner,
-          tools.contact_kernels,
-          tools.tree_kernels,
-          tools.body_kernels,
-          carried,
-          forces_.substeps(),
-          cut_,
-          state_.settings.projection,
-          convert<Velocity<S>>(state_.settings.restitution_threshold),
-          axis_drives_,
-          joint_impulses,
-          responses};
+  return {.states = state_.awake.states,
+          .properties = state_.awake.properties,
+          .accelerations = forces_.accelerations(),
+          .contacts = state_.contacts,
+          .geometry = geometry,
+          .step_impulses = impulses_,
+          .joint_properties = state_.joints.properties,
+          .joint_states = state_.joints.states,
+          .joint_ends = joint_ends_,
+          .gravity = state_.settings.gravity,
+          .hz = state_.settings.hz,
+          .substeps = state_.settings.substeps,
+          .watched = watched,
+          .runner = tools.runner,
+          .contact_kernels = tools.contact_kernels,
+          .tree_kernels = tools.tree_kernels,
+          .body_kernels = tools.body_kernels,
+          .carried = carried,
+          .forces = forces_.substeps(),
+          .mechanisms = mechanisms_.rows(),
+          .cut = cut_,
+          .projection = state_.settings.projection,
+          .restitution_threshold = convert<Velocity<S>>(state_.settings.restitution_threshold),
+          .axis_drives = axis_drives_,
+          .joint_impulses = joint_impulses,
+          .responses = responses};
 }
 
 }  // namespace isostep

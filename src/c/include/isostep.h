@@ -508,13 +508,13 @@ typedef struct iso_f32_contact_begin {
   iso_body b;
   uint32_t child_a; /* the first parts of their shapes in contact */
   uint32_t child_b; /* the first parts of their shapes in contact */
-  /* [kg m/s] that all points together gave over the step along their normals; held at the format's end */
-  float impulse;
+  float impulse; /* [kg m/s] that reported contacts gave over the step along their normals; held at the format's end */
   iso_f32_unit_vec3 normal; /* [1] from a to b, of those parts */
 } iso_f32_contact_begin;
 typedef struct iso_f32_broke {
   iso_body body;
-  float impulse; /* [kg m/s] as ContactBegin has it */
+  /* [kg m/s] that all points of the pair gave over the step along their normals; held at the format's end */
+  float impulse;
   iso_f32_vec3 point; /* [m] */
   iso_f32_unit_vec3 direction; /* [1] of the blow, into the body */
   uint8_t reserved1[4];
@@ -1331,6 +1331,12 @@ typedef struct iso_f32_joint_load_state {
   float force; /* [N] on body b, of all the joint does; held at the format's end */
   float torque; /* [N m] about b's origin of the joint; held at the format's end */
 } iso_f32_joint_load_state;
+typedef struct iso_f32_coupling_state {
+  uint32_t size; /* [bytes] of this struct, as _init sets it */
+  uint32_t reserved0;
+  float load; /* [N m], of lengths alone [N]: each joint's coordinate is pushed with its ratio times that */
+  uint8_t reserved1[4];
+} iso_f32_coupling_state;
 
 /* F64: double. The members are those of F32. */
 typedef struct iso_f64_vec3 {
@@ -1681,6 +1687,9 @@ typedef struct iso_f64_wheel_state {
 typedef struct iso_f64_joint_load_state {
   uint32_t size; uint32_t reserved0; double force; double torque;
 } iso_f64_joint_load_state;
+typedef struct iso_f64_coupling_state {
+  uint32_t size; uint32_t reserved0; double load;
+} iso_f64_coupling_state;
 
 /* Q16: q16.16. The members are those of F32. */
 typedef struct iso_q16_vec3 {
@@ -2034,6 +2043,9 @@ typedef struct iso_q16_wheel_state {
 typedef struct iso_q16_joint_load_state {
   uint32_t size; uint32_t reserved0; int32_t force; int32_t torque;
 } iso_q16_joint_load_state;
+typedef struct iso_q16_coupling_state {
+  uint32_t size; uint32_t reserved0; int32_t load; uint8_t reserved1[4];
+} iso_q16_coupling_state;
 
 /* Q32: q32.32. The members are those of F32. */
 typedef struct iso_q32_vec3 {
@@ -2386,6 +2398,9 @@ typedef struct iso_q32_wheel_state {
 typedef struct iso_q32_joint_load_state {
   uint32_t size; uint32_t reserved0; int64_t force; int64_t torque;
 } iso_q32_joint_load_state;
+typedef struct iso_q32_coupling_state {
+  uint32_t size; uint32_t reserved0; int64_t load;
+} iso_q32_coupling_state;
 
 /* What begins with its size, of a family. */
 #define ISO_C_FOR_EACH_SIZED(X, P) \
@@ -2399,7 +2414,7 @@ typedef struct iso_q32_joint_load_state {
   X(P, surface_velocity) X(P, ghost) X(P, one_way) X(P, hit_report) X(P, contact_report) X(P, joint_load) \
   X(P, coupling) X(P, axis_drive) X(P, kind_ghost) X(P, kind_response) X(P, sensor_mount) X(P, breakable_input) \
   X(P, character_input) X(P, vehicle_input) X(P, character_state) X(P, vehicle_state) X(P, wheel_state) \
-  X(P, joint_load_state)
+  X(P, joint_load_state) X(P, coupling_state)
 /* The same of structs without numbers. */
 #define ISO_C_FOR_EACH_COMMON_SIZED(X, P) \
   X(P, step_report) X(P, world_counts) X(P, break_report) X(P, fault_report) X(P, height_patch) X(P, height_grid) \
@@ -2416,7 +2431,7 @@ typedef struct iso_q32_joint_load_state {
   X(P, breakable) X(P, character) X(P, vehicle)
 /* Those of them of which a step writes a state. */
 #define ISO_C_FOR_EACH_STATE(X, P) \
-  X(P, character) X(P, vehicle) X(P, wheel) X(P, joint_load)
+  X(P, character) X(P, vehicle) X(P, wheel) X(P, joint_load) X(P, coupling)
 /* Shapes that numbers describe. */
 #define ISO_C_FOR_EACH_SHAPE(X, P) \
   X(P, sphere) X(P, box) X(P, capsule) X(P, half_space) X(P, cylinder) X(P, cone)

@@ -123,7 +123,8 @@
   X(vehicle_state, true, O(engine_spin), O(clutch_load)) \
   X(wheel_state, true, O(spin), O(angle), O(steered), O(length), O(slip), O(contact_body), O(contact_point), \
     O(contact_normal), O(load), O(along), O(across)) \
-  X(joint_load_state, true, O(force), O(torque))
+  X(joint_load_state, true, O(force), O(torque)) \
+  X(coupling_state, true, O(load))
 
 #define ISO_C_COMMON_CHECKS(X) \
   X(filter, Filter, false, O(category), O(mask), O(group)) \

@@ -6,6 +6,8 @@
 
 namespace isostep {
 
+constexpr Time kDay = 24 * 3600 * kSecond;  // [us] sums with it stay in range
+
 const char* problem_of(const SessionConfig& config) {
   if (config.players < 1 || config.players > static_cast<int>(kMaxPlayers)) return "players: 1 to 32";
   if (config.local_players < 0 || config.local_players > config.players) return "local_players: 0 to players";
@@ -34,7 +36,9 @@ const char* problem_of(const SessionConfig& config) {
   if (config.seat < -1 || config.seat >= config.players) return "seat: below players, or -1";
   if (config.credential.size() > kCredentialCap) return "credential: 256 bytes or fewer";
   if (config.most_packets < 2 * static_cast<std::uint32_t>(config.hz)) return "most_packets: 2 * hz or more";
-  if (config.migration > 0 && config.migration < kSecond / 4) return "migration: a quarter of a second or more, or 0";
+  if (config.migration > kDay || (config.migration > 0 && config.migration < kSecond / 4)) {
+    return "migration: a quarter of a second to a day, or 0";
+  }
   if (config.migration > 0 && !config.address.view().empty() && config.seed == 0) {
     return "seed: of who may become the host, a random number other than 0";
   }

@@ -111,9 +111,12 @@ export class Calls {
       defaults = new Uint8Array(size);
       const view = new DataView(defaults.buffer);
       if (struct.sized) view.setUint32(0, size, true);
-      for (const [key, kind] of struct.fields) {  // what 0 would be no turn
-        if (kind === 'quat') this.layout(name).write(view, 0, {[key]: [0, 0, 0, 1]});
-        if (kind === 'pose') this.layout(name).write(view, 0, {[key]: {orientation: [0, 0, 0, 1]}});
+      const {write, places} = this.layout(name);
+      for (const [key, kind] of struct.fields) {
+        if (kind === 'quat') write(view, 0, {[key]: [0, 0, 0, 1]});  // of zeros it is no turn
+        if (kind in interfaceSchema.structs) {
+          defaults.set(this.#defaultsOf(kind, this.layout(kind).size), places.get(key));
+        }
       }
     }
     this.#defaults.set(name, defaults);

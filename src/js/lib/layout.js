@@ -215,6 +215,7 @@ export class Layouts {
     const all = [...members];
     return {
       size: this.#of(size),
+      places: new Map(all.map(([key, {at}]) => [key, at])),  // [bytes] of its members
       read(view, base) {
         const out = {};
         for (const [key, {codec, at}] of all) out[key] = codec.read(view, base + at);

@@ -26,7 +26,7 @@ export class World extends AskedWorld {
     return this.run('P_add_hull', given('hull', {radius}), blob.at, out('id'));
   }
   /** Parts at poses of their own: {kind: 'box', shape: {...}, pose: {position, orientation}}, or with a blob; and what
-      they have of their own: {traits: {flags: partFlag.ownMaterial, material: {...}}, userData}. */
+      they have of their own: {traits: {flags: PartFlags.ownMaterial, material: {...}}, userData}. */
   addCompound(parts) {
     const blobs = [...new Set(parts.map(part => part.blob).filter(Boolean))];
     const children = parts.map(({kind, shape, blob, ...own}) =>

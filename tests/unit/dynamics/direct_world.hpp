@@ -71,23 +71,20 @@ template <class S> class DirectWorld {
     };
     std::vector<JointEnds<S>> ends;
     for (const JointProperties<S>& joint : joints) ends.push_back({end_at(joint.body_a), end_at(joint.body_b)});
-    const StepContext<S> context = {states,
-                                    properties,
-                                    {},
-                                    contacts,
-                                    geometry,
-                                    step_impulses,
-                                    joints,
-                                    impulses,
-                                    ends,
-                                    vector(gravity),
-                                    hz,
-                                    substeps,
-                                    false,
-                                    {},
-                                    contact_kernels<S>(Simd::scalar),
-                                    tree_kernels<S>(Simd::scalar),
-                                    body_kernels<S>(Simd::scalar)};
+    const StepContext<S> context = {.states = states,
+                                    .properties = properties,
+                                    .contacts = contacts,
+                                    .geometry = geometry,
+                                    .step_impulses = step_impulses,
+                                    .joint_properties = joints,
+                                    .joint_states = impulses,
+                                    .joint_ends = ends,
+                                    .gravity = vector(gravity),
+                                    .hz = hz,
+                                    .substeps = substeps,
+                                    .contact_kernels = contact_kernels<S>(Simd::scalar),
+                                    .tree_kernels = tree_kernels<S>(Simd::scalar),
+                                    .body_kernels = body_kernels<S>(Simd::scalar)};
     solver.colour_constraints(context);
     solver.prepare(context);
     solver.solve_substeps(context);

@@ -61,6 +61,8 @@ TEST(SessionConfig, EveryBrokenRuleIsNamed) {
   EXPECT_TRUE(names(PROBLEM(c.max_peers = 257), "max_peers"));
   EXPECT_TRUE(names(PROBLEM(c.max_strangers = -1), "max_strangers"));
   EXPECT_TRUE(names(PROBLEM(c.max_strangers = 1025), "max_strangers"));
+  EXPECT_TRUE(names(PROBLEM(c.migration = kSecond / 4 - 1), "migration"));
+  EXPECT_TRUE(names(PROBLEM(c.migration = std::numeric_limits<Time>::max()), "migration"));
   EXPECT_TRUE(names(PROBLEM(c.seat = -2), "seat"));
   EXPECT_TRUE(names(PROBLEM(c.seat = 2), "seat"));
   EXPECT_TRUE(names(PROBLEM(c.credential.resize(kCredentialCap + 1)), "credential"));

@@ -25,7 +25,7 @@ TYPED_TEST(CharacterStates, are_of_shapes_that_can_be_cast) {
   const auto is_valid_with = [&](ShapeId shape) {
     WorldState<S> state = w.state();
     state.awake.properties[0].shape = shape.slot;
-    return StateValidator<S>(state).broken_rule() == nullptr;
+    return broken_rule(state) == nullptr;
   };
   ASSERT_TRUE(ball && two && plane) << describe(w.fault());
   ASSERT_EQ(w.state().awake.properties.size(), 1u);
@@ -49,7 +49,7 @@ TYPED_TEST(CharacterStates, have_inputs_and_states_in_range_and_none_where_there
   const auto is_valid_with = [&](const auto& change) {
     WorldState<S> state = w.state();
     change(state.parts);
-    return StateValidator<S>(state).broken_rule() == nullptr;
+    return broken_rule(state) == nullptr;
   };
   const auto of_state = [&](const auto& change) {
     return is_valid_with([&](RecordParts<S>& parts) { change(parts.character_states[id.slot]); });

@@ -100,9 +100,9 @@ TYPED_TEST(JointCommands, a_state_in_which_an_axis_has_two_drives_is_not_valid) 
   six.drive_count = 2;
   ASSERT_TRUE(w.create(six_axis(six)));
   WorldState<S> state = w.state();
-  EXPECT_EQ(StateValidator<S>(state).broken_rule(), nullptr);
+  EXPECT_EQ(broken_rule(state), nullptr);
   state.records.change().axis_drives.change_all()[0].axis = JointAxis::twist;
-  EXPECT_STREQ(StateValidator<S>(state).broken_rule(), "two records of a kind are about the same");
+  EXPECT_STREQ(broken_rule(state), "two records of a kind are about the same");
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ TYPED_TEST(MaterialPairs, a_state_with_two_records_of_the_same_kinds_or_a_bad_on
   const auto rule_of = [&](auto&& change) -> std::string {
     WorldState<S> state = w.state();
     change(state.records.change().material_pairs.change_all(), state.settings);
-    const char* rule = StateValidator<S>(state).broken_rule();
+    const char* rule = broken_rule(state);
     return rule == nullptr ? "" : rule;
   };
   EXPECT_EQ(rule_of([](auto&, auto&) {}), "");

@@ -77,7 +77,7 @@ template <class S> class VehicleRecords : public ::testing::Test {
   template <class Change> bool is_valid_with(const Change& change) {
     WorldState<S> state = w.state();
     change(state.parts);
-    return StateValidator<S>(state).broken_rule() == nullptr;
+    return broken_rule(state) == nullptr;
   }
 
   World<S> w{settings<S>()};

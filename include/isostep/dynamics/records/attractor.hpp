@@ -50,7 +50,10 @@ template <class S> struct RecordRules<Attractor<S>> : RecordDefaults<S> {
   template <class Random> static void draw(Attractor<S>& a, Random& random) {
     if (random.one_in(2)) a.body = random.body();
     a.point = random.point(3, 2);
-    a.strength = random.in(-2, 4);
+    // What all others are pulled with pulls a body back: a splinter cannot hold a whole world.
+    constexpr double kHeavy = 64;  // [kg]
+    const double mass = random.mass(a.body);
+    a.strength = random.in(-2, 4, a.body && mass < kHeavy ? mass / kHeavy : 1);
     a.range = random.in(1, 4);
   }
   /// It pulls every awake body.

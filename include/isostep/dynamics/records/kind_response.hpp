@@ -15,7 +15,7 @@ namespace isostep {
 using KindResponseId = Id<struct KindResponseTag>;
 
 /// A row of the world's table of pairs, beside MaterialPair: contacts of bodies whose materials are of these kinds
-/// solve for other masses, and press no harder than a force. The kind of the body's material counts, not those of a
+/// solve for other masses, and press no harder than a force. The kind of the part's material counts, not those of a
 /// mesh's or height field's triangles. A second record of the same two kinds is refused, and every record where the
 /// solver is `direct`, whose matrix is symmetric.
 /// The scales multiply what a contact takes for a body's inverse mass and inverse inertia, nothing else: gravity,
@@ -25,7 +25,7 @@ using KindResponseId = Id<struct KindResponseTag>;
 /// however heavy. Impulses in events and the force below are those on the side with the larger scale.
 /// What presses harder than max_force gives way: it sinks in at the speed that it has, is slowed by that force for as
 /// long as it is inside, and friction is that of the force. The force is that of one contact, all its points together:
-/// of a pair of bodies' parts. Continuous collision puts a fast body to where it first touches such a thing, once.
+/// of a pair of bodies' parts. Continuous collision lets through what gives way.
 template <class S> struct KindResponse {
   std::uint32_t kind_a = 0, kind_b = 0;                        // Material::kind, 1 or more
   S inverse_mass_scale_a = S(1), inverse_mass_scale_b = S(1);  // [1] 0, or 2^-8 to 1; not both 0

@@ -74,9 +74,10 @@
 #define ISO_FOR_EACH_INPUT(R, S) ISO_FOR_EACH_INPUT_WITH(ISO_RECORD_ALONE, R, S)
 
 /// Kinds with a state, which the step writes: R(X, name, State, Id, S).
-#define ISO_FOR_EACH_RECORD_STATE_WITH(R, X, S)      \
-  R(X, character, CharacterState<S>, CharacterId, S) \
-  R(X, vehicle, VehicleState<S>, VehicleId, S)       \
-  R(X, wheel, WheelState<S>, WheelId, S)             \
-  R(X, joint_load, JointLoadState<S>, JointLoadId, S)
+#define ISO_FOR_EACH_RECORD_STATE_WITH(R, X, S)       \
+  R(X, character, CharacterState<S>, CharacterId, S)  \
+  R(X, vehicle, VehicleState<S>, VehicleId, S)        \
+  R(X, wheel, WheelState<S>, WheelId, S)              \
+  R(X, joint_load, JointLoadState<S>, JointLoadId, S) \
+  R(X, coupling, CouplingState<S>, CouplingId, S)
 #define ISO_FOR_EACH_RECORD_STATE(R, S) ISO_FOR_EACH_RECORD_STATE_WITH(ISO_RECORD_ALONE, R, S)

@@ -161,11 +161,12 @@ template <class S> struct RecordRules<Water<S>> : RecordDefaults<S> {
     for (std::uint32_t row = 1; row < bodies.rows(); ++row) {
       if (!bodies.is_pushed(row, w.mask)) continue;
       const BodyState<S>& state = bodies.state(row);
-      const Aabb<S> box = w.replaces ? Aabb<S>{state.centre, state.centre} : state.fat;
+      const Aabb<S> solid = bodies.solid_box(row);
+      const Aabb<S> box = w.replaces ? Aabb<S>{state.centre, state.centre} : solid;
       if (!in_region(w, box) || forces.zones.is_dry(w.priority, bodies.category(row), state.centre)) continue;
       const WaterSurface<S> surface = surface_at(w, state.centre, bodies.gravity(), bodies.when());
       // The box is where the step began, with its margin: what of it is dry stays so for a sub-step's motion.
-      const Vec3<S> reach = max(abs(state.fat.high - state.centre), abs(state.fat.low - state.centre));
+      const Vec3<S> reach = max(abs(solid.high - state.centre), abs(solid.low - state.centre));
       if (surface.depth <= -dot(abs(surface.normal), reach)) continue;
       auto wet = forces.wet.displaced(row, w.density, surface);
       if (!(S(0) < wet.mass)) continue;

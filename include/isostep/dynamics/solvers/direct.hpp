@@ -21,7 +21,8 @@ namespace isostep {
 /// Method:  each sub-step every island is one DirectSystem: joints are equations, contacts may only push, friction is
 ///          bounded by the load. Solved twice: with errors closed at a bounded speed, for positions, and without, so
 ///          that none of that speed stays. Each time from the velocities that forces alone would give: impulses are a
-///          whole sub-step's, and those of the step before are no more than a guess at who pushes.
+///          whole sub-step's, and those of the step before are no more than a guess at who pushes. Mechanisms and the
+///          islands that they push are solved in turn, kMechanismSweeps times in all.
 /// Symbols: W = J M^-1/2 over powers of two (LinearSystem), so that K = W W^T is near one whatever the masses.
 /// Limits:  islands above kMostBlocks are swept by Gauss-Seidel over the same rows; where pivots come to no end within
 ///          their share of kMostWork, a count, or what they find does not hold, what is bounded stays as it was swept
@@ -94,6 +95,7 @@ template <class S> class DirectSolver {
     std::uint64_t work_left;                                  // of this step
     std::uint32_t solves_left;
     bool unsolved;  // some solve of this step was swept, or came to no end
+    bool pushed;    // mechanisms push some of its bodies
   };
   struct alignas(64) ContactMemory {
     unsigned char bytes[sizeof(RollingBlock<S, 1, kMaxContactPoints>)];
@@ -138,12 +140,18 @@ template <class S> class DirectSolver {
   void ask_contact(const StepContext<S>& context, Island& island, std::uint32_t k, Pass pass);
   void guess_contact(const StepContext<S>& context, Island& island, std::uint32_t k);
   void keep_contact(const StepContext<S>& context, Island& island, std::uint32_t k);
+  void keep(const StepContext<S>& context, Island& island);
 
   // direct.inl
   void place_rows(const StepContext<S>& context, Island& island);
   void follow(const StepContext<S>& context, Island& island);
   void take_back_turns(const StepContext<S>& context, Island& island, std::uint32_t k);
   void solve(const StepContext<S>& context, Island& island, Pass pass);
+  void solve_tight(const StepContext<S>& context, Island& island);
+  template <class Act> void move_freely(const StepContext<S>& context, const Act& act);
+  void begin_mechanisms(const StepContext<S>& context);
+  void solve_mechanisms(const StepContext<S>& context);
+  void relax_mechanisms(const StepContext<S>& context);
   void scale_right_sides(Island& island);
   void apply(const Island& island);
 

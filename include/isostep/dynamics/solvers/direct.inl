@@ -191,6 +191,57 @@ template <class S> std::uint32_t DirectSolver<S>::unsolved() const {
   return count;
 }
 
+/// Until joints that are taken implicitly are on the right pieces.
+template <class S> void DirectSolver<S>::solve_tight(const StepContext<S>& context, Island& island) {
+  solve(context, island, Pass::biased);
+  for (int again = 0; again < detail::kMostPieceChanges && tighten(island); ++again) {
+    ++island.solves_left;  // beside those that the step's work is divided among
+    solve(context, island, Pass::biased);
+  }
+}
+/// What `act` does to velocities of bodies that mechanisms push, islands find beside their own answers.
+template <class S>
+template <class Act>
+void DirectSolver<S>::move_freely(const StepContext<S>& context, const Act& act) {
+  std::vector<MotionRow<V>>& velocity = bodies_.rows().velocity;
+  const auto add = [&](std::uint32_t row, bool before) {
+    MotionRow<V>&free = free_velocity_[row], &now = velocity[row];
+    free.linear = before ? saturating_subtract(free.linear, now.linear) : saturating_add(free.linear, now.linear);
+    free.angular = before ? saturating_subtract(free.angular, now.angular) : saturating_add(free.angular, now.angular);
+  };
+  for (const std::uint32_t row : context.mechanisms.bodies) add(row, true);
+  act();
+  for (const std::uint32_t row : context.mechanisms.bodies) add(row, false);
+}
+/// In turn with the islands that they push; of both the first sweep is done.
+template <class S> void DirectSolver<S>::solve_mechanisms(const StepContext<S>& context) {
+  if (!context.mechanisms.any()) return;
+  for (int sweep = 1; sweep < kMechanismSweeps; ++sweep) {
+    move_freely(context, [&] { context.mechanisms.solve(bodies_.rows(), 1); });
+    for (std::uint32_t i = 0; i < island_count_; ++i) {
+      if (!islands_[i].pushed) continue;
+      ++islands_[i].solves_left;
+      solve_tight(context, islands_[i]);
+    }
+  }
+  if (context.mechanisms.couples) move_freely(context, [&] { context.mechanisms.close(bodies_.rows()); });
+}
+template <class S> void DirectSolver<S>::begin_mechanisms(const StepContext<S>& context) {
+  if (!context.mechanisms.any()) return;
+  context.mechanisms.place(bodies_.rows(), rate_);
+  context.mechanisms.solve(bodies_.rows(), 1);
+}
+template <class S> void DirectSolver<S>::relax_mechanisms(const StepContext<S>& context) {
+  if (context.mechanisms.any()) move_freely(context, [&] { context.mechanisms.relax(bodies_.rows()); });
+}
+
+template <class S> void DirectSolver<S>::keep(const StepContext<S>& context, Island& island) {
+  for (std::size_t k = 0; k < island.joints.size(); ++k) {
+    keep_joint(joints_[island.joints[k]], island, island.joint_blocks[k]);
+  }
+  for (std::uint32_t k = 0; k < island.contacts.size(); ++k) keep_contact(context, island, k);
+}
+
 template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& context) {
   const std::size_t count = bodies_.count();
   for (std::int32_t substep = 0; substep < context.substeps; ++substep) {
@@ -202,25 +253,21 @@ template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& co
       set_surface<S>(reinterpret_cast<unsigned char*>(&block), 1, carried.surface(bodies_.rows()));
       if (carried.spins()) set_spin<S>(reinterpret_cast<unsigned char*>(&block), 1, carried.spin);
     }
+    begin_mechanisms(context);
     free_velocity_ = bodies_.rows().velocity;
     for (std::uint32_t i = 0; i < island_count_; ++i) {
       place_rows(context, islands_[i]);
-      solve(context, islands_[i], Pass::biased);
-      for (int again = 0; again < detail::kMostPieceChanges && tighten(islands_[i]); ++again) {
-        ++islands_[i].solves_left;  // beside those that the step's work is divided among
-        solve(context, islands_[i], Pass::biased);
-      }
+      solve_tight(context, islands_[i]);
     }
+    solve_mechanisms(context);
     const bool any_followed = bodies_.integrate_positions(context, 0, count);
+    for (std::uint32_t i = 0; any_followed && i < island_count_; ++i) follow(context, islands_[i]);
+    relax_mechanisms(context);
     for (std::uint32_t i = 0; i < island_count_; ++i) {
-      Island& island = islands_[i];
-      if (any_followed) follow(context, island);
-      solve(context, island, Pass::relaxed);
-      for (std::size_t k = 0; k < island.joints.size(); ++k) {
-        keep_joint(joints_[island.joints[k]], island, island.joint_blocks[k]);
-      }
-      for (std::uint32_t k = 0; k < island.contacts.size(); ++k) keep_contact(context, island, k);
+      solve(context, islands_[i], Pass::relaxed);
+      keep(context, islands_[i]);
     }
+    if (context.mechanisms.any()) context.mechanisms.end();
     joints_.add_impulses(context);
   }
 }

@@ -22,7 +22,7 @@ typename DirectSolver<S>::Island& DirectSolver<S>::island_of(std::uint32_t row_a
     island.ends.clear();
     island.exponent = 0;
     island.begun = false;
-    island.unsolved = false;
+    island.unsolved = island.pushed = false;
     island.system.begin();
   }
   Island& island = islands_[island_of_[set] - 1];
@@ -90,6 +90,9 @@ template <class S> void DirectSolver<S>::find_islands(const StepContext<S>& cont
   island_count_ = 0;
   for (std::uint32_t j = 0; j < joints_.size(); ++j) add_joint(joints_[j], j);
   for (std::uint32_t c = 0; c < context.contacts.size(); ++c) add_contact(context, c);
+  for (const std::uint32_t row : context.mechanisms.bodies) {
+    if (local_[row] != 0) islands_[island_of_[sets_.find(row)] - 1].pushed = true;
+  }
   for (std::uint32_t i = 0; i < island_count_; ++i) {
     Island& island = islands_[i];
     island.shapes.resize(3 * island.system.block_count());

@@ -20,8 +20,8 @@ namespace isostep {
 /// opens a joint.
 /// A group is what contacts and joints tie, up to kMost bodies: more hide what one of them makes. It lies on or hangs
 /// from what stands still: of any other the factor would take momentum. Groups with motors, springs or drives, on what
-/// moves, on belts, and of scaled masses are left alone: there energy comes and goes. What forces give counts as
-/// theirs.
+/// moves, on belts, of mechanisms and of scaled masses are left alone: there energy comes and goes. What forces give
+/// counts as theirs.
 /// Semi-implicit Euler keeps T / 2 - g x + h g v / 2 of what joints hold, and not its energy. The bound holds for that
 /// quantity there: by the energy each swing would lose what the energy goes up and down by. A free fall keeps its
 /// energy. A solver that closes joints' errors by speeds that stay (pgs) needs what it makes: its groups with joints

@@ -31,6 +31,7 @@ template <class S> void EnergyBound<S>::begin(const StepContext<S>& context, Ste
     const JointEnds<S>& ends = context.joint_ends[axis.joint];
     tie(context, ends.a.row, ends.b.row, kFree);
   }
+  for (const std::uint32_t row : context.mechanisms.bodies) kinds_[row] |= kFree;
   find_groups(context);
   for (const Group group : groups_) weigh(context, group);
 }

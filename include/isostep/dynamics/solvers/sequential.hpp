@@ -34,7 +34,7 @@ struct Variant {
 }  // namespace detail
 
 /// Contacts are found once a step. Those that share no moving body get one colour and are solved side by side; joints
-/// are solved before them, in trees or one by one. Schedule says the rest.
+/// are solved before them, in trees or one by one, and mechanisms before those. Schedule says the rest.
 /// Order:   that of rigid_solver.hpp. The calls from `prepare` on note what is to be done; the last one does all of it,
 ///          unless the context is watched.
 template <class S> class Sequential {
@@ -77,16 +77,21 @@ template <class S> class Sequential {
     renew_forces,
     bounce,
     integrate_velocities,
+    place_mechanisms,
     warm_start_joints,
     warm_start,
+    solve_mechanisms,
     solve_joints,
     solve,
     relieve,
+    close_mechanisms,
     integrate_positions,
     begin_contacts,
     follow,
+    relax_mechanisms,
     relax_joints,
     relax,
+    end_mechanisms,
     store_joints,
     add_joint_impulses,
     store,
@@ -128,10 +133,14 @@ template <class S> class Sequential {
   void add_stage(Work work, std::uint32_t pieces, const PassPlan* plan = nullptr, std::uint32_t of_plan = 0);
   void add_stages(Work work, const PassPlan& plan);
   void add_pass(Work work, const PassPlan& plan, const StepContext<S>& context);
+  void add_mechanisms(Work work, const StepContext<S>& context);
+  std::int32_t rounds_of(const StepContext<S>& context) const;
+  void add_substep(const StepContext<S>& context, std::uint32_t joints);
   static void do_piece(void* job, std::uint32_t stage, std::uint32_t piece);
   void do_slice(const Job& job, Work work, const PassPlan::Slice& slice);
   void do_joints(const Job& job, Work work, std::uint32_t piece);
   void do_bodies(const Job& job, Work work, std::uint32_t piece);
+  void do_mechanisms(const StepContext<S>& context, Work work);
 
   ScheduleOf schedule_of_;
   Schedule<S> schedule_ = {};

@@ -33,6 +33,10 @@ template <class S> void Sequential<S>::add_pass(Work work, const PassPlan& plan,
   if (!context.responses.empty()) add_stage(Work::relieve, 1);
 }
 
+template <class S> void Sequential<S>::add_mechanisms(Work work, const StepContext<S>& context) {
+  if (context.mechanisms.any()) add_stage(work, 1);
+}
+
 template <class S> void Sequential<S>::run(const StepContext<S>& context) {
   const S rate = S(schedule_.rate);
   Job job = {this,
@@ -61,6 +65,11 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
     case Work::add_joint_impulses: return solver.joints_.add_impulses(job.context);
     case Work::bounce: return solver.impacts_.bounce(job.context, solver.bodies_);
     case Work::renew_forces: return solver.bodies_.renew_forces(job.context);
+    case Work::place_mechanisms:
+    case Work::solve_mechanisms:
+    case Work::close_mechanisms:
+    case Work::relax_mechanisms:
+    case Work::end_mechanisms: return solver.do_mechanisms(job.context, what.work);
     case Work::warm_start_joints:
     case Work::solve_joints:
     case Work::relax_joints:
@@ -101,6 +110,23 @@ template <class S> void Sequential<S>::do_joints(const Job& job, Work work, std:
   }
 }
 
+/// Of mechanisms and joints in a pass: what a motor or a brake does to a coupling does not wait for the next sub-step.
+template <class S> std::int32_t Sequential<S>::rounds_of(const StepContext<S>& context) const {
+  return context.mechanisms.couples ? max(1, kMechanismSweeps / schedule_.passes) : 1;
+}
+template <class S> void Sequential<S>::do_mechanisms(const StepContext<S>& context, Work work) {
+  SolverBodies<S>& bodies = bodies_.rows();
+  const MechanismRows<S>& mechanisms = context.mechanisms;
+  switch (work) {
+    case Work::place_mechanisms: return mechanisms.place(bodies, schedule_.rate);
+    case Work::solve_mechanisms:
+      return mechanisms.solve(bodies, max(1, kMechanismSweeps / (schedule_.passes * rounds_of(context))));
+    case Work::close_mechanisms: return mechanisms.close(bodies);
+    case Work::relax_mechanisms: return mechanisms.relax(bodies);
+    default: return mechanisms.end();
+  }
+}
+
 template <class S> void Sequential<S>::prepare(const StepContext<S>& context) {
   memory_.resize(memory_bytes_);
   block_bodies_.resize(block_count_ + 1);
@@ -113,31 +139,41 @@ template <class S> void Sequential<S>::prepare(const StepContext<S>& context) {
 template <class S> void Sequential<S>::solve_substeps(const StepContext<S>& context) {
   joint_trees_.plan(joints_.all(), bodies_.rows(), context.tree_kernels, schedule_.joint_order);
   const std::uint32_t joints = min(joint_trees_.batch_count(), kMaxPieces);
-  for (std::int32_t substep = 0; substep < schedule_.substeps; ++substep) {
-    if (context.forces.renew != nullptr) add_stage(Work::renew_forces, 1);
-    if (impacts_.any()) add_stage(Work::bounce, 1);
-    add_stage(Work::integrate_velocities, body_pieces_);
-    add_stage(Work::begin_contacts, 1);
-    add_stage(Work::warm_start_joints, joints);
-    add_stages(Work::warm_start, colours_[detail::kShallow]);
-    for (std::int32_t pass = 0; pass < schedule_.passes; ++pass) {
+  for (std::int32_t substep = 0; substep < schedule_.substeps; ++substep) add_substep(context, joints);
+  add_stage(Work::store_joints, joints);
+  if (context.watched) run(context);
+}
+/// `joints` are the pieces of a pass over joints.
+template <class S> void Sequential<S>::add_substep(const StepContext<S>& context, std::uint32_t joints) {
+  if (context.forces.renew != nullptr) add_stage(Work::renew_forces, 1);
+  if (impacts_.any()) add_stage(Work::bounce, 1);
+  add_stage(Work::integrate_velocities, body_pieces_);
+  add_stage(Work::begin_contacts, 1);
+  add_mechanisms(Work::place_mechanisms, context);
+  add_stage(Work::warm_start_joints, joints);
+  add_stages(Work::warm_start, colours_[detail::kShallow]);
+  for (std::int32_t pass = 0; pass < schedule_.passes; ++pass) {
+    for (std::int32_t round = 0; round < rounds_of(context); ++round) {
+      add_mechanisms(Work::solve_mechanisms, context);
       add_stage(Work::solve_joints, joints);
-      add_pass(Work::solve, colours_[detail::kShallow], context);
     }
-    if (schedule_.relaxes) add_pass(Work::solve, colours_[detail::kPressed], context);
-    add_stage(Work::integrate_positions, body_pieces_);
-    if (schedule_.relaxes) add_stage(Work::follow, 1);  // of pgs the step is over
-    add_stage(Work::relax_joints, joints);
-    if (!context.joint_impulses.empty()) {
-      add_stage(Work::store_joints, joints);
-      add_stage(Work::add_joint_impulses, 1);
-    }
-    if (!schedule_.relaxes) continue;
+    add_pass(Work::solve, colours_[detail::kShallow], context);
+  }
+  if (schedule_.relaxes) add_pass(Work::solve, colours_[detail::kPressed], context);
+  if (context.mechanisms.couples) add_stage(Work::close_mechanisms, 1);
+  add_stage(Work::integrate_positions, body_pieces_);
+  if (schedule_.relaxes) add_stage(Work::follow, 1);  // of pgs the step is over
+  add_mechanisms(Work::relax_mechanisms, context);
+  add_stage(Work::relax_joints, joints);
+  if (!context.joint_impulses.empty()) {
+    add_stage(Work::store_joints, joints);
+    add_stage(Work::add_joint_impulses, 1);
+  }
+  if (schedule_.relaxes) {
     add_pass(Work::relax, colours_[detail::kShallow], context);
     for (int pass = 0; pass < detail::kDeepRelaxations; ++pass) add_pass(Work::relax, colours_[detail::kDeep], context);
   }
-  add_stage(Work::store_joints, joints);
-  if (context.watched) run(context);
+  add_mechanisms(Work::end_mechanisms, context);
 }
 
 template <class S> void Sequential<S>::store_impulses(const StepContext<S>& context) {

@@ -23,12 +23,14 @@ struct Proposal {
 
 struct Ballot {
   enum class Outcome : std::uint8_t { open, passed, failed };
-  std::uint32_t number = 0;  // of the vote in the match; 0: none
+  std::uint32_t number = 0;  // of the vote at this host; 0: none
   Proposal proposal{};
   std::uint8_t by = 0;                        // the player who proposed it, and votes for it
   std::uint32_t voters = 0, yes = 0, no = 0;  // players, a bit each
   Outcome outcome = Outcome::open;
 
+  /// True if its players are of a match of so many.
+  bool is_of(int players) const { return by < players && std::uint64_t{voters | yes | no} >> players == 0; }
   bool is_open() const { return number != 0 && outcome == Outcome::open; }
   /// More than half of the voters are for it.
   bool has_passed() const { return 2 * std::popcount(yes) > std::popcount(voters); }

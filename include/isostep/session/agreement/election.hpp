@@ -40,7 +40,8 @@ class Election {
   void is_over(int machine) { over_ |= bit(machine); }
   /// Places are others: all come anew.
   void has_new_roster();
-  void hear_term(std::uint32_t term) { heard_ = term > heard_ ? term : heard_; }
+  /// A voter's. One that no elections could have made is not heard.
+  void hear_term(std::uint32_t term) { heard_ = term > heard_ && can_be(term) ? term : heard_; }
   void supported(int voter, std::uint32_t term) {
     if (term == called_ && called_ != 0) supports_ |= bit(voter);
   }
@@ -63,12 +64,17 @@ class Election {
   /// May this one be the host? If so we are bound to it.
   bool give_support(const Candidate& candidate);
   /// The host is of this term, and we have had all inputs that it took over. False: of one that is over.
-  bool may_follow(std::uint32_t term) const { return term >= promised_; }
+  bool may_follow(std::uint32_t term) const { return term >= promised_ && can_be(term); }
   void follow(std::uint32_t term) { promised_ = term > promised_ ? term : promised_; }
   std::uint32_t log_term() const { return log_term_; }
   void has_log_of(std::uint32_t term) { log_term_ = term; }
 
  private:
+  /// Terms grow by one with each call. Who names one far ahead would use them up; at the last one nobody could call.
+  bool can_be(std::uint32_t term) const {
+    constexpr std::uint32_t kMostAhead = 1u << 16, kLast = 1u << 31;
+    return term <= kLast && (promised_ == 0 || term <= promised_ + kMostAhead);
+  }
   static std::uint64_t bit(int machine) { return machine < 0 ? 0 : std::uint64_t{1} << machine; }
   static bool is_eligible(const Roster& roster, int machine);
   Step go_on(const Roster& roster, int own, Time now);

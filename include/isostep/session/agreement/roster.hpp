@@ -76,6 +76,8 @@ struct Roster {
   std::uint64_t voters() const;
   int machine_of_proof(std::uint64_t proof) const;
   int machine_with(int player) const;
+  /// True if its machines have players of a match of so many.
+  bool is_of(int players) const;
   int count_in() const;
   /// More than half of those that are in, and of those that were, a bit each, or half with the casting vote.
   bool is_majority(std::uint64_t machines) const;

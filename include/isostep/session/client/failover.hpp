@@ -20,8 +20,11 @@ class Failover {
   const HostSearch& search() const { return search_; }
   Callers& callers() { return callers_; }
   bool can_begin() const { return client_.config.migration > 0 && search_.can_begin(); }
-  /// We are connected to another: what a candidate has not been answered is not for that one.
-  void is_connected() { supporter_.answer_nothing(); }
+  /// We are connected to another: what a candidate has not been answered, nor a host been told, is not for that one.
+  void is_connected() {
+    supporter_.answer_nothing();
+    must_enroll_ = false;
+  }
   /// `knocks`: the host spoke until now, and may live.
   void begin(Time now, bool knocks);
   /// Once a turn. `may_stand`: we could be the host.

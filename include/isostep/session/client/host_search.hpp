@@ -70,6 +70,7 @@ class HostSearch {
   bool take_newer(const Roster& roster) {
     if (!roster.is_newer_than(roster_)) return false;
     roster_ = roster;
+    is_elected_ = false;  // by places of the former
     election_.has_new_roster();
     return true;
   }

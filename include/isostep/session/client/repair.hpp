@@ -77,7 +77,7 @@ class Repair {
       const bool is_known = hashes_.has_chain(inquired_);
       write_statement({inquired_, is_known, is_known ? hashes_.chain(inquired_) : 0}, message);
       inquired_ = kNoFrame;
-    } else if (stage_ == Stage::asks) {
+    } else if (stage_ == Stage::asks && arrival_.is_told()) {  // else the host takes it for the former one
       stage_ = Stage::waits;
       write_resync(message);
     } else if (arrival_.is_told() && due_.take(MessageKind::repaired)) {  // first things first

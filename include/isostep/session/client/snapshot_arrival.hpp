@@ -22,7 +22,7 @@ class SnapshotArrival {
   bool goes_on(const HashReport& start, std::uint32_t from) const {
     return from == bytes_.size() && start.frame == start_.frame && start.chain == start_.chain;
   }
-  /// Pieces begin at `from`: what is there stays, of which none is is forgotten.
+  /// Pieces begin at `from`. Bytes before it stay; from 0, all are dropped.
   void begin(const HashReport& start, std::uint32_t size, std::uint32_t from) {
     start_ = start;
     size_ = size;

@@ -47,7 +47,7 @@ class Admission : public AdmissionControl {
   const HashReport& resumed_;
   const Boarding& boarding_;
   Departures& departures_;
-  std::uint64_t applicants_ = 0;  // how many there were
+  std::uint32_t applicants_ = 0;  // how many there were in this term
   Time refusals_until_ = 0;       // [us] when all those are over that were told, at one a second
 };
 

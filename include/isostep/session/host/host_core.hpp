@@ -61,6 +61,8 @@ class HostCore : public PeerCore {
 
  private:
   void begin(Time now);
+  /// Draws its own token and life.
+  void know_ourselves();
   /// It goes on with a match that was saved.
   bool is_resumed() const { return resumed_.frame != kNoFrame; }
   bool all_are_here() const;
@@ -102,7 +104,6 @@ class HostCore : public PeerCore {
   bool started_ = false, must_start_ = false;
   HashReport resumed_;  // where the saved match goes on; kNoFrame: it is none
   std::uint64_t resumed_hash_ = 0;
-  std::uint32_t sequels_ = 0;
   Time next_tending_ = 0;     // [us]
   Time turn_at_ = 0;          // [us] of the last tending
   Time steps_down_at_ = 0;    // [us] our states are wrong, and another machine is to be the host; 0: no

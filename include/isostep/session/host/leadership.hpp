@@ -15,6 +15,8 @@ namespace isostep {
 /// Groups of machines are a bit for each place in the roster. See AGREEMENT.md.
 class Leadership {
  public:
+  static constexpr std::uint32_t kFirstTerm = 1;  // of a match that begins
+
   /// `scratch` is written over; stats.machines is kept.
   Leadership(const SessionConfig& config, Seats& seats, Guests& guests, const std::vector<InputStream>& streams,
              SessionStats& stats, std::vector<std::uint8_t>& scratch)
@@ -22,7 +24,7 @@ class Leadership {
   /// With `token` our players come back to who follows us; `life` is of our process.
   void know_ourselves(std::uint64_t token, std::uint64_t life) { own_token_ = token, own_life_ = life; }
   /// A match that was saved has had other hosts.
-  void resume(std::uint32_t term, std::uint64_t token) { first_term_ = term, own_token_ = token; }
+  void resume(std::uint32_t term) { first_term_ = term; }
   void begin(Frame final_end, Time now) { tenure_.begin(first_term_, config_.migration, 0, final_end, now); }
   /// As the one that was elected. Then the guests come that have connected to us.
   void take_over(const Succession& succession, Frame known_end, Frame final_end, Time now);
@@ -73,7 +75,7 @@ class Leadership {
   Roster roster_;
   Roster inherited_;  // that we took over
   std::uint64_t own_token_ = 0, own_life_ = 0;
-  std::uint32_t first_term_ = 1;
+  std::uint32_t first_term_ = kFirstTerm;
   Tenure tenure_;
   Follower followers_[kMaxPlayers + 1];  // by their places in the roster
   bool is_over_ = false;                 // somebody knows of a later host

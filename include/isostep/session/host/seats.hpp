@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// Wishes and tokens of guests come in; which seats they get, or why none, goes out. Sets of players are a bit each.
+/// In: wishes and tokens of guests. Out: which seats they get, or why none. Sets of players are a bit each.
 class Seats {
  public:
   /// `slack`: how early each player's inputs come, which says nothing any more once its seat is closed.

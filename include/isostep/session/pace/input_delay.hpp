@@ -39,7 +39,6 @@ class InputDelay {
     reconsiders_ = true;
   }
   bool is_at_most() const { return delay_ >= settings_.most; }
-  Frame limit() const { return settings_.limit; }
   /// No longer than `most` from now on: nobody replaces our inputs.
   void keep_to_most() {
     settings_.limit = settings_.most;

@@ -21,6 +21,8 @@ class TempoTrack {
     announced_ = tempo;
   }
   void forget() { is_known_ = false; }
+  /// We are the host: what was announced before counts on.
+  void take_over() { is_known_ = true; }
   /// The host: from the first frame on that nobody can have stepped when it hears of it.
   void announce(Tempo tempo, Frame current, const std::vector<InputStream>& streams, Frame window) {
     Frame from = current;

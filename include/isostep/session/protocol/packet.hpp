@@ -45,6 +45,9 @@ struct PacketHeader {
   std::int8_t slack[kMaxPlayers] = {};  // [frames] by which the latest of a second's inputs came before it was needed
 };
 
+/// True if the players that a header names are of a match of so many.
+bool is_of(const PacketHeader& header, int players);
+
 /// A run of one player's inputs: first .. first + count - 1.
 struct InputSlice {
   std::uint8_t player;

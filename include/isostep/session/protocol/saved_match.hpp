@@ -13,17 +13,15 @@
 namespace isostep {
 
 /// Of the format; one of another is refused by name.
-inline constexpr std::uint16_t kSavedMatchVersion = 2;
+inline constexpr std::uint16_t kSavedMatchVersion = 3;
 
 struct SavedMatch {
-  ReplayHeader identity;      // of the match, as SessionConfig's
-  HashReport start;           // the state with which it goes on, and the chain of all before
-  std::uint64_t hash = 0;     // of that state
-  std::uint32_t hosted = 0;   // players of the host's machine, a bit each
-  std::uint8_t speed = 0;     // [1/8 of the match's rate]
-  std::uint64_t tokens = 0;   // that were given out: the next ones are others, even from the same seed
-  std::uint32_t sequels = 0;  // times that the match was saved and gone on with
-  std::uint32_t term = 0;     // of its host: see AGREEMENT.md
+  ReplayHeader identity;     // of the match, as SessionConfig's
+  HashReport start;          // the state with which it goes on, and the chain of all before
+  std::uint64_t hash = 0;    // of that state
+  std::uint32_t hosted = 0;  // players of the host's machine, a bit each
+  std::uint8_t speed = 0;    // [1/8 of the match's rate]
+  std::uint32_t term = 0;    // of its host: see AGREEMENT.md. Who goes on with it has the next
   std::uint8_t players = 0;
   /// What the player of each seat can show, and nobody computes from this; 0: the seat is free, or the host's.
   std::uint64_t proofs[kMaxPlayers] = {};

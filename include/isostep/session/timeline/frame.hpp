@@ -16,7 +16,8 @@ inline constexpr Time kSecond = 1000000;  // [us]
 /// Sets of players are words of 32 bits.
 inline constexpr std::size_t kMaxPlayers = 32;
 
-/// The transport's number of a connection: below SessionConfig::max_peers, free to be used again once it is closed.
+/// The transport's number of a connection: below SessionConfig::max_peers + max_strangers, free to be used
+/// again once it is closed.
 using PeerId = std::uint16_t;
 
 enum class Channel : std::uint8_t {

@@ -15,12 +15,14 @@
 namespace isostep {
 
 namespace detail {
-/// Returns true if a part of another body carries and stops the character: a sensor or a filtered part does not.
+/// Returns true if a part of another body carries and stops the character, by its own part: a sensor or a filtered
+/// part does not.
 template <class S>
 bool is_solid_for(const BodyMap<S>& map, const Walker<S>& character, const BodyProperties<S>& other,
                   const Child<S>& part) {
-  const PartTraits<S> plain = {};
-  return parts_collide(part.traits, other.filter, plain, map.properties_of(character.body)->filter);
+  const BodyProperties<S>& own = *map.properties_of(character.body);
+  const bool masked = (part.traits.filter_or(other.filter).category & character.mask) == 0;
+  return !masked && parts_collide(part.traits, other.filter, map.children_of(own.shape)[0].traits, own.filter);
 }
 /// The part of its ground whose surface is nearest to its foot, of equals the first.
 template <class S> std::uint32_t part_under(const BodyMap<S>& map, const Walker<S>& character) {
@@ -120,8 +122,7 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
   find_passed(character, asking);
   QueryFilter filter = seen_by(character);
   filter.ignore_all = passed_;
-  filter.ignore_kinds = passed_kinds_;
-  around_.begin(asking.shape, asking.pose, filter, map_.properties_of(character.body)->filter);
+  around_.begin(asking.shape, asking.pose, filter, map_.properties_of(character.body)->filter, passed_kinds_);
   const Place place = {asking.pose.position, queries_.reach_of(asking.shape, asking.pose.orientation, -up), up,
                        settings.gravity, settings.hz};
   CharacterWalk<S> walk(around_, place, walks_, memory_, character);

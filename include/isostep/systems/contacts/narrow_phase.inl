@@ -268,8 +268,10 @@ ISO_INLINE void NarrowPhase<S>::fill_contact(const PartPair& parts, const Manifo
                    ? mix(material_of_leaf(a, parts.child_a, of_a), material_of_leaf(b, parts.child_b, of_b))
                    : mix(of_a, of_b);
   const Vec3<S> from_a_to_b = b.centre - a.centre;
-  if (part_pairs_.any_throng() && a.kind == PartKind::sphere && b.kind == PartKind::sphere &&
-      from_a_to_b == Vec3<S>::zero())
+  const auto is_ball = [](const BodyFrame<S>& body) {
+    return body.plain && body.children[0].primitive.type == ShapeType::sphere;
+  };
+  if (part_pairs_.any_throng() && from_a_to_b == Vec3<S>::zero() && is_ball(a) && is_ball(b))
     g.normal = Throng<S>::way_apart(a.slot, b.slot);
   for (int p = 0; p < kMaxContactPoints; ++p) {
     if (p == manifold.count) break;

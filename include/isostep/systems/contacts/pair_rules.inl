@@ -5,6 +5,7 @@
 #include "isostep/collision/broadphase/pairs.hpp"
 #include "isostep/store/body_frames.inl"
 #include "isostep/store/contact_pairs.hpp"
+#include "isostep/store/fat_box.hpp"
 #include "isostep/systems/contacts/pair_rules.hpp"
 
 namespace isostep {
@@ -92,9 +93,14 @@ template <class S> bool PairRules<S>::still_meet(BodyId a, BodyId b) const {
   const std::uint32_t low = min(a.slot, b.slot), high = max(a.slot, b.slot);
   const Location at_low = map_.location(low), at_high = map_.location(high);
   const S margin = detail::kSpeculativeDistance<S> + skin_of(a) + skin_of(b);
-  if (!overlap(grow(map_.state_at(at_low).fat, margin), map_.state_at(at_high).fat)) return false;
+  const BodyProperties<S>&of_low = map_.properties_at(at_low), &of_high = map_.properties_at(at_high);
+  const Aabb<S> box_low = detail::solid_box(map_, map_.state_at(at_low), of_low);
+  const Aabb<S> box_high = detail::solid_box(map_, map_.state_at(at_high), of_high);
+  if (!overlap(grow(box_low, margin), box_high)) return false;
   const bool still = at_low.set != Location::kAwake && at_high.set != Location::kAwake;
-  return still || bodies_touch(map_, low, high, ByParts::any, margin);
+  // Of a body that has other parts, those that sense do not keep the pair: what they see is no obstacle.
+  const bool senses = map_.is_sensor(of_low) || map_.is_sensor(of_high);
+  return still || bodies_touch(map_, low, high, senses ? ByParts::any : ByParts::solid, margin);
 }
 
 template <class S> void PairRules<S>::begin_ghost(std::uint64_t key) {
@@ -129,6 +135,7 @@ template <class S> bool PairRules<S>::may_judge(std::uint64_t key) const {
 
 /// One contact in front is enough: what lands on an edge of several parts touches their sides as well.
 template <class S> typename PairRules<S>::Verdict PairRules<S>::judge(std::uint64_t key) const {
+  if (!map_.is_pushed(pair_a(key), pair_b(key))) return Verdict::open;
   constexpr S kMargin = detail::kSpeculativeDistance<S>;
   const Location at_a = map_.location(pair_a(key)), at_b = map_.location(pair_b(key));
   const auto moving = [&](Location at) { return at.set == Location::kStatic ? nullptr : &map_.state_at(at); };

@@ -84,7 +84,7 @@ template <class S> class PartPairs {
   static std::uint32_t traits_of(const BodyFrame<S>& frame);
   bool gather(std::span<const std::uint64_t> pairs, Budget each, Budget all);
   bool gather_others(Framed at_a, Framed at_b, const Budget& each, Budget& all);
-  bool meet(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j, bool asleep) const;
+  bool meet(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j, bool presses) const;
   template <class Visit>
   bool visit_sorted_leaves(const BodyFrame<S>& a, const BodyFrame<S>& b, S margin, std::uint64_t& looks, Visit& visit);
   void add_part(std::vector<std::uint32_t>& list, const PartPair& part);

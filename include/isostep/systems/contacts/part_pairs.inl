@@ -103,10 +103,11 @@ template <class S> bool PartPairs<S>::gather_others(Framed at_a, Framed at_b, co
   const BodyFrame<S>&a = frames_[at_a.index], &b = frames_[at_b.index];
   const bool traits = a.traits || b.traits;
   const S margin = sensor && !traits ? S(0) : detail::kSpeculativeDistance<S>;
+  const bool presses = traits && !asleep && map_.is_pushed(a.slot, b.slot);
   const std::uint64_t most_looks = min(each.looks, all.looks), most_parts = min(each.parts, all.parts);
   std::uint64_t looks = most_looks, parts = most_parts;
   const auto visit = [&](std::uint32_t i, std::uint32_t j) {
-    if (traits && !meet(a, i, b, j, asleep)) return true;
+    if (traits && !meet(a, i, b, j, presses)) return true;
     if (parts == 0) return false;
     --parts;
     add_part(others_, {at_a.index, at_b.index, i, j});
@@ -118,12 +119,12 @@ template <class S> bool PartPairs<S>::gather_others(Framed at_a, Framed at_b, co
   all.parts -= most_parts - parts;
   return whole;
 }
-/// Sleepers do not push, but they are seen.
+/// Sleepers and bodies that nothing pushes do not press on each other, but they are seen.
 template <class S>
 bool PartPairs<S>::meet(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j,
-                        bool asleep) const {
+                        bool presses) const {
   const PartMeeting meeting = meeting_of(map_, a, i, b, j);
-  return meeting == PartMeeting::sensed || (meeting == PartMeeting::solid && !asleep);
+  return meeting == PartMeeting::sensed || (meeting == PartMeeting::solid && presses);
 }
 template <class S>
 template <class Visit>

@@ -148,7 +148,7 @@ template <class S> class ContinuousCollision {
   // continuous_rules.inl
   bool may_stop(const Mover& mover, std::uint32_t slot, bool moving) const;
   bool is_let_out(const Mover& mover, std::uint32_t slot) const;
-  bool is_pushed_back(const Mover& mover, std::uint32_t slot, bool moving) const;
+  bool is_pushed_back(const Mover& mover, std::uint32_t own, std::uint32_t slot, std::uint32_t other) const;
   bool are_ghosts(const Mover& mover, std::uint32_t slot) const;
   bool is_passed(const Mover& mover, const PlacedShape<S>& part, const Pose<S>& there, const PlacedShape<S>& obstacle,
                  const Obstacle& body, Unit<S> fraction) const;

@@ -20,15 +20,20 @@ template <class S> class SlowBodies {
  public:
   ISO_INLINE SlowBodies(S motion, std::int32_t hz)
       : squared_(product(motion * S(0.75), motion * S(0.75))), turning_(product(motion * S(hz), S(0.25))) {}
-  ISO_INLINE bool contain(const BodyState<S>& state, const Pose<S>& start) const {
+  ISO_INLINE bool contain(const BodyMap<S>& map, const BodyState<S>& state, const BodyProperties<S>& body,
+                          const Pose<S>& start) const {
+    return contain(state, start, state.fat) || contain(state, start, solid_box(map, state, body));
+  }
+
+ private:
+  ISO_INLINE bool contain(const BodyState<S>& state, const Pose<S>& start, const Aabb<S>& box) const {
     const Vec3<S> moved = state.centre - start.position;
-    const Vec3<S> sides = state.fat.high - state.fat.low;  // together longer than from the centre to any point
+    const Vec3<S> sides = box.high - box.low;  // together longer than from the centre to any point
     const auto w = abs(state.angular_velocity);
     const auto turned = product(convert<S>(w.x + w.y + w.z), sides.x + sides.y + sides.z);
     return dot_sum(moved, moved) < squared_ && turned < turning_;
   }
 
- private:
   Sum<S> squared_, turning_;
 };
 
@@ -81,17 +86,19 @@ template <class S> void ContinuousCollision<S>::find_movers(const Survey& survey
   // Whom the ground is asked about follows from the body alone: shapes elsewhere change nothing of it.
   const detail::SlowBodies<S> are_shallow(detail::kDeepMotion<S>, state_.settings.hz);
   const std::span<const BodyState<S>> states = state_.awake.states;
+  const std::span<const BodyProperties<S>> bodies = state_.awake.properties;
   const std::span<const Pose<S>> start = start_;
   met_.clear();
   for (std::size_t i = 0; is_fixed && i < states.size(); ++i) {
-    if (!are_shallow.contain(states[i], start[i]) && may_move(i)) met_.push_back(static_cast<std::uint32_t>(i));
+    if (!are_shallow.contain(map_, states[i], bodies[i], start[i]) && may_move(i))
+      met_.push_back(static_cast<std::uint32_t>(i));
   }
   mark_deep(met_);
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (mover_of_[i] == kDeepInside) {
       movers_.push_back(measure(i));
       movers_.back().deep = true;
-    } else if (!are_slow.contain(states[i], start[i]) && may_move(i)) add_if_fast(i, survey.thinnest);
+    } else if (!are_slow.contain(map_, states[i], bodies[i], start[i]) && may_move(i)) add_if_fast(i, survey.thinnest);
   }
   if (survey.kinematic) find_met_by_kinematic(fast);
 }
@@ -192,7 +199,7 @@ template <class S> void ContinuousCollision<S>::find_comers() {
   const detail::SlowBodies<S> are_slow(detail::kFatMargin<S>, state_.settings.hz);
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
     const bool is_put_back = mover_of_[i] != 0 && movers_[mover_of_[i] - 1].fraction < Unit<S>(1);
-    if (!is_put_back && are_slow.contain(state_.awake.states[i], start_[i])) continue;
+    if (!is_put_back && are_slow.contain(map_, state_.awake.states[i], state_.awake.properties[i], start_[i])) continue;
     if (may_move(i) && !is_bullet(i)) comers_.stage(state_.awake.states[i].slot, measure(i).swept());
   }
   comers_.rebuild();

@@ -1,4 +1,4 @@
-// ContinuousCollision: which bodies may stop a mover, by filters, ghosts, one-way bodies and kinds.
+// ContinuousCollision: what may stop a mover, by filters, ghosts, one-way bodies and kinds.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,7 +13,6 @@ template <class S> bool ContinuousCollision<S>::may_stop(const Mover& mover, std
   if (!should_collide(map_.filter_of(state_.awake.properties[mover.index]), map_.filter_of(other))) return false;
   if (rules_.ways != nullptr && is_let_out(mover, slot)) return false;
   if (rules_.ghosts != nullptr && are_ghosts(mover, slot)) return false;
-  if (rules_.responses != nullptr && !is_pushed_back(mover, slot, moving)) return false;
   const std::uint64_t key = pair_key(state_.awake.states[mover.index].slot, slot);
   const std::size_t at = lower_bound(joined_.size(), [&](std::size_t i) { return joined_[i] < key; });
   return at == joined_.size() || joined_[at] != key;
@@ -58,15 +57,15 @@ template <class S> bool ContinuousCollision<S>::are_ghosts(const Mover& mover, s
   return rules_.ghosts->find(own, map_.properties_at(map_.location(slot)).material.kind) != nullptr;
 }
 
-/// A contact pushes the mover back if it presses as hard as it has to. Scales of masses count where both move.
+/// A contact of parts of those kinds pushes the mover back if it presses as hard as it has to. Scales of masses count
+/// where both move.
 template <class S>
-bool ContinuousCollision<S>::is_pushed_back(const Mover& mover, std::uint32_t slot, bool moving) const {
-  const std::uint32_t own = state_.awake.properties[mover.index].material.kind;
-  const std::uint32_t other = map_.properties_at(map_.location(slot)).material.kind;
+bool ContinuousCollision<S>::is_pushed_back(const Mover& mover, std::uint32_t own, std::uint32_t slot,
+                                            std::uint32_t other) const {
   const KindResponse<S>* const found = rules_.responses->find(own, other);
   if (found == nullptr) return true;
   if (S(0) < found->max_force) return false;
-  if (!moving) return true;
+  if (map_.properties_at(map_.location(slot)).type != BodyType::dynamic) return true;
   const bool is_a = own == other ? state_.awake.states[mover.index].slot < slot : own == found->kind_a;
   return S(0) < (is_a ? found->inverse_mass_scale_a : found->inverse_mass_scale_b);
 }

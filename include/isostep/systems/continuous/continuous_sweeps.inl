@@ -24,7 +24,8 @@ void ContinuousCollision<S>::sweep_against_moving(const Mover& mover, std::uint3
                                                   Cut& cut) const {
   const Path path = path_of(index);
   const Pose<S> end = now(index);
-  const Vec3<S> sides = state_.awake.states[index].fat.high - state_.awake.states[index].fat.low;
+  const Aabb<S> box = detail::solid_box(map_, state_.awake.states[index], state_.awake.properties[index]);
+  const Vec3<S> sides = box.high - box.low;
   Obstacle obstacle = {slot, {}, S(0), S(0), &end};
   for (std::uint32_t i = 0; i < path.pieces; ++i)
     obstacle.moved += detail::most_motion<S>({path.poses[i], path.poses[i + 1], Vec3<S>::zero()}, length(sides));
@@ -82,6 +83,10 @@ void ContinuousCollision<S>::visit_parts(const Mover& mover, const CoreMotion<S>
     const Aabb<S> swept = detail::swept_bounds(part, motion);
     const auto visit_one = [&](const Child<S>& child_of_other) {
       if (traits && !parts_collide(child.traits, body.filter, child_of_other.traits, other.filter)) return;
+      if (rules_.responses != nullptr &&
+          !is_pushed_back(mover, child.traits.material_or(body.material).kind, obstacle.slot,
+                          child_of_other.traits.material_or(other.material).kind))
+        return;
       const PlacedShape<S> met = detail::placed_part(map_, other, child_of_other);
       const bool moves = S(0) < obstacle.moved;
       if (overlap(swept,

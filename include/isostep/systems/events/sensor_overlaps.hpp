@@ -25,6 +25,7 @@ template <class S> class SensorOverlaps {
  private:
   void list_changed();
   void keep_unwatched(std::vector<SensorOverlap>& found);
+  bool are_joined(std::uint32_t sensor, std::uint32_t sleeper) const;
   void find_sleepers(std::uint32_t sensor, std::vector<SensorOverlap>& found) const;
   void find_sleeper(std::uint32_t sensor, std::uint32_t other, std::vector<SensorOverlap>& found) const;
 

@@ -6,6 +6,7 @@
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/store/body_frames.inl"
 #include "isostep/store/event_order.hpp"
+#include "isostep/store/ghosts.hpp"
 #include "isostep/systems/events/sensor_overlaps.hpp"
 
 namespace isostep {
@@ -68,9 +69,20 @@ void SensorOverlaps<S>::find_sleepers(std::uint32_t sensor, std::vector<SensorOv
   const ProxyTraits traits = traits_of(sensor, true);
   proxies_.boxes().query(proxies_.boxes().box(sensor), [&](std::uint32_t other) {
     const bool sees = map_.location(other).is_asleep() && traits.pairs_with(traits_of(other, false));
-    if (sees) find_sleeper(sensor, other, found);
+    if (sees && !are_ghosts(state_, map_, sensor, other) && !are_joined(sensor, other))
+      find_sleeper(sensor, other, found);
     return true;
   });
+}
+/// Whether a joint of a sleeper ties it to the sensor and keeps the two from touching.
+template <class S> bool SensorOverlaps<S>::are_joined(std::uint32_t sensor, std::uint32_t sleeper) const {
+  const SleepingIsland<S>& island = *state_.sleeping[map_.location(sleeper).set];
+  for (const JointProperties<S>& joint : island.joints.properties) {
+    const bool ties =
+        (joint.body_a == sensor && joint.body_b == sleeper) || (joint.body_a == sleeper && joint.body_b == sensor);
+    if (ties && (joint.flags & joint_flag::kCollideConnected) == 0) return true;
+  }
+  return false;
 }
 /// All parts of a sleeper that parts of the sensor see.
 template <class S>

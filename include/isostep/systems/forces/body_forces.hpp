@@ -8,20 +8,17 @@
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 #include "isostep/store/events.hpp"
-#include "isostep/systems/forces/coupling_forces.hpp"
 #include "isostep/systems/forces/record_forces.hpp"
-#include "isostep/systems/vehicle/wheel_forces.hpp"
 
 namespace isostep {
 
 /// Input:   what commands asked for since the last step, the force records, bodies as a sub-step finds them; the broad
 ///          phase for what shields from explosions.
-/// Output:  an acceleration for each awake body; the report's clamped_force. Explosions that ended are removed, and the
-///          records of wheels written.
+/// Output:  an acceleration for each awake body; the report's clamped_force. Explosions that ended are removed.
 /// Keeps:   nothing from step to step but memory.
 /// Order:   what commands asked for; the records that push, kind by kind (record_list.hpp), each kind ascending by
 ///          slot, but zones and waters by (priority, slot); what zones put in place of gravity; the records that
-///          resist, in the same order; what fades; wheels; couplings. What a kind does stands in its file: Acts.
+///          resist, in the same order; what fades. What a kind does stands in its file: Acts.
 template <class S> class BodyForces {
  public:
   ISO_INLINE BodyForces(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
@@ -31,9 +28,7 @@ template <class S> class BodyForces {
         zones_(state),
         resistance_(bodies_, sums_),
         wet_(state, map, zones_, bodies_),
-        shields_(map, proxies, bodies_),
-        wheels_(state, map, proxies),
-        couplings_(state, map) {}
+        shields_(map, proxies, bodies_) {}
   BodyForces(const BodyForces&) = delete;  // its parts know each other
   BodyForces& operator=(const BodyForces&) = delete;
 
@@ -45,7 +40,7 @@ template <class S> class BodyForces {
   ISO_INLINE std::span<const Acceleration<S>> accelerations() const { return sums_.accelerations(); }
   SubstepForces<S> substeps();
   /// The pull at each awake body beside gravity, as the step ends, whether something holds it or not: all but what
-  /// springs, water, wheels and couplings bear. Empty: nothing.
+  /// springs and water bear. Empty: nothing.
   ISO_INLINE std::span<const Acceleration<S>> pulls() const { return sums_.pulls(); }
 
   template <class Visit> void visit_scratch(const Visit& visit) { sums_.visit_scratch(visit); }
@@ -55,7 +50,6 @@ template <class S> class BodyForces {
   void renew(const SolverBodies<S>& bodies, std::int32_t rate);
   void act_all();
   void resist_all();
-  void push_all(std::span<const VelocityChange<S>> changes);
   template <class Visit> void for_each_kind(const Visit& visit) const;
   void remove_ended();
 
@@ -67,8 +61,6 @@ template <class S> class BodyForces {
   WetBodies<S> wet_;
   BlastShields<S> shields_;
   RecordForces<S> forces_ = {bodies_, sums_, zones_, resistance_, wet_, shields_};
-  WheelForces<S> wheels_;
-  CouplingForces<S> couplings_;
 };
 
 #define ISO_BODY_FORCES_OF(extern, S) extern template class BodyForces<S>;

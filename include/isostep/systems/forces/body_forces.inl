@@ -8,14 +8,11 @@ namespace isostep {
 
 template <class S> void BodyForces<S>::begin_step() {
   bodies_.begin_step();
-  wheels_.begin_step();
-  couplings_.begin_step();
   sums_.begin_step(!no_records());
 }
 template <class S> void BodyForces<S>::end_step(StepReport& report) {
   report.clamped_force += sums_.cut_count();
   remove_ended();
-  wheels_.end_step();
 }
 
 template <class S> SubstepForces<S> BodyForces<S>::substeps() {
@@ -35,8 +32,6 @@ template <class S> void BodyForces<S>::renew(const SolverBodies<S>& bodies, std:
   act_all();
   zones_.replace_gravity(bodies_, sums_);
   resist_all();
-  if (wheels_.any()) sums_.bear([&] { push_all(wheels_.solve(bodies, sums_.accelerations(), rate)); });
-  if (couplings_.any()) sums_.bear([&] { push_all(couplings_.solve(bodies, sums_.accelerations(), rate)); });
   sums_.end_substep();
   bodies_.end_substep();
 }
@@ -51,7 +46,7 @@ template <class S> template <class Visit> void BodyForces<S>::for_each_kind(cons
       *state_.records);
 }
 template <class S> bool BodyForces<S>::no_records() const {
-  bool none = !wheels_.any() && !couplings_.any();
+  bool none = true;
   for_each_kind([&](const auto& registry, const auto&) { none = none && registry.all().empty(); });
   return none;
 }
@@ -85,9 +80,6 @@ template <class S> void BodyForces<S>::resist_all() {
       zones_.for_each(registry, [&](const auto& record) { Rules::resist(record, forces_); });
   });
   resistance_.solve_fading();
-}
-template <class S> void BodyForces<S>::push_all(std::span<const VelocityChange<S>> changes) {
-  for (const VelocityChange<S>& change : changes) sums_.push(change);
 }
 
 /// Explosions that ended with this step are gone.

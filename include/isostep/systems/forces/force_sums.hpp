@@ -8,7 +8,6 @@
 
 #include "isostep/core/bitset.hpp"
 #include "isostep/core/instantiate.hpp"
-#include "isostep/store/velocity_change.hpp"
 #include "isostep/systems/forces/substep_bodies.hpp"
 
 namespace isostep {
@@ -39,8 +38,6 @@ template <class S> class ForceSums {
   /// A force [N] that acts at an arm from the centre of mass. What does not move is left alone.
   void push(std::uint32_t row, Vec3<S> force, Vec3<S> arm);
   ISO_INLINE void push(const BodyEnd<S>& end, Vec3<S> force) { push(end.row, force, end.arm); }
-  /// Wheels and couplings know what they do to a body's velocity.
-  void push(const VelocityChange<S>& change);
   /// A motion [m/s], or a turning [rad/s], that fades at a rate [1/s].
   void slow(std::uint32_t row, Vec3<S> motion, S rate);
   void slow_turning(std::uint32_t row, Vec3<S> turning, S rate);

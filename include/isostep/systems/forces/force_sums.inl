@@ -50,7 +50,7 @@ template <class S> S ForceSums<S>::most() const {
   return detail::most_acceleration(bodies_.when().rate, Limits<S>::speed());
 }
 template <class S> S ForceSums<S>::most_turning(std::uint32_t row) const {
-  return detail::most_acceleration(bodies_.when().rate, detail::most_angular_speed(bodies_.state(row).fat));
+  return detail::most_acceleration(bodies_.when().rate, detail::most_angular_speed(bodies_.solid_box(row)));
 }
 template <class S> void ForceSums<S>::note_cut(std::uint32_t row, bool cut) {
   if (!cut || cut_.test(row - 1)) return;
@@ -79,18 +79,6 @@ template <class S> void ForceSums<S>::push(std::uint32_t row, Vec3<S> force, Vec
     sum.angular = bounder.sum(sum.angular, turning, limit_of_turning);
   }
   note_cut(row, bounder.cut);
-}
-template <class S> void ForceSums<S>::push(const VelocityChange<S>& change) {
-  const S limit = most(), limit_of_turning = most_turning(change.row), rate = S(bodies_.when().rate);
-  detail::Bounder<S> bounder;
-  const auto rate_of = [&](Vec3<Velocity<S>> v, S bound) {
-    const auto part = [&](Velocity<S> x) { return bounder.held(saturate_to<S>(product(rate, x)), bound); };
-    return Vec3<S>{part(v.x), part(v.y), part(v.z)};
-  };
-  Acceleration<S>& sum = accelerations_[change.row - 1];
-  sum.linear = bounder.sum(sum.linear, rate_of(change.linear, limit), limit);
-  sum.angular = bounder.sum(sum.angular, rate_of(change.angular, limit_of_turning), limit_of_turning);
-  note_cut(change.row, bounder.cut);
 }
 template <class S> void ForceSums<S>::slow(std::uint32_t row, Vec3<S> motion, S rate) {
   const auto part = [rate](S x) { return saturate_to<S>(product(x, rate)); };

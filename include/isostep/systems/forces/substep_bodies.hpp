@@ -7,6 +7,7 @@
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/store/body_map.hpp"
+#include "isostep/store/fat_box.hpp"
 
 namespace isostep {
 
@@ -56,6 +57,8 @@ template <class S> class SubstepBodies {
   ISO_INLINE std::uint32_t category(std::uint32_t row) const { return properties(row).filter.category; }
   ISO_INLINE const BodyState<S>& state(std::uint32_t row) const { return state_.awake.states[row - 1]; }
   ISO_INLINE const BodyProperties<S>& properties(std::uint32_t row) const { return state_.awake.properties[row - 1]; }
+  /// [m] Around all of it but sensors, with a margin.
+  ISO_INLINE Aabb<S> solid_box(std::uint32_t row) const { return detail::solid_box(map_, state(row), properties(row)); }
   /// Any row.
   ISO_INLINE const SolverMass<S>& mass(std::uint32_t row) const { return bodies_->mass[row]; }
   /// Any row.

@@ -27,7 +27,7 @@ template <class S> class BodyFinisher {
 
  private:
   static void stop_if_not_finite(BodyState<S>& state, const Pose<S>& start, StepReport& report);
-  static bool clamp_speed(BodyState<S>& state, Velocity<S> angular_limit);
+  bool clamp_speed(BodyState<S>& state, const BodyProperties<S>& body, Velocity<S> angular_limit) const;
   static void clamp_position(BodyState<S>& state, StepReport& report);
   void discard_bad_impulses();
 

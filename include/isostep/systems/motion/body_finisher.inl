@@ -19,7 +19,7 @@ void BodyFinisher<S>::finish(std::span<const Pose<S>> start, std::span<const std
     BodyState<S>& state = state_.awake.states[i];
     const BodyProperties<S>& body = state_.awake.properties[i];
     stop_if_not_finite(state, start[i], report);
-    const bool too_fast = clamp_speed(state, angular_limit);
+    const bool too_fast = clamp_speed(state, body, angular_limit);
     report.clamped_speed += too_fast || (!cut.empty() && cut[i] != 0);
     clamp_position(state, report);
     detail::renew_fat_box(map_, state, body, false);
@@ -42,15 +42,22 @@ ISO_INLINE void BodyFinisher<S>::stop_if_not_finite(BodyState<S>& state, const P
   ++report.stopped;
 }
 
-template <class S> ISO_INLINE bool BodyFinisher<S>::clamp_speed(BodyState<S>& state, Velocity<S> angular_limit) {
+template <class S>
+ISO_INLINE bool BodyFinisher<S>::clamp_speed(BodyState<S>& state, const BodyProperties<S>& body,
+                                             Velocity<S> angular_limit) const {
   using V = Velocity<S>;
   const V speed = convert<V>(Limits<S>::speed());
-  const bool rotates_too_fast = detail::rotates_too_fast(state.angular_velocity, state.fat);
+  Aabb<S> box = state.fat;
+  bool rotates_too_fast = detail::rotates_too_fast(state.angular_velocity, box);
+  if (rotates_too_fast) {
+    box = detail::solid_box(map_, state, body);
+    rotates_too_fast = detail::rotates_too_fast(state.angular_velocity, box);
+  }
   if (!(detail::is_longer(state.velocity, speed) || detail::is_longer(state.angular_velocity, angular_limit) ||
         rotates_too_fast))
     return false;
-  const S most = rotates_too_fast ? Limits<S>::surface_speed() / max_abs(state.fat.high - state.fat.low)
-                                  : Limits<S>::angular_speed();
+  const S most =
+      rotates_too_fast ? Limits<S>::surface_speed() / max_abs(box.high - box.low) : Limits<S>::angular_speed();
   state.velocity = detail::shortened(state.velocity, speed);
   state.angular_velocity = detail::shortened(state.angular_velocity, min(angular_limit, convert<V>(most)));
   return true;

@@ -39,6 +39,7 @@ template <class S> class IslandSleep {
   std::uint32_t delay() const;
   void update_clocks(std::span<const Acceleration<S>> pulls);
   void stop_clocks_of_carried(const Belts<S>* belts);
+  const Material<S>& surface_of(const BodyProperties<S>& body, std::uint32_t slot, std::uint32_t leaf) const;
   void stop_clocks_of_motors();
   void stop_clocks_by_forces();
   bool some_body_is_ready() const;

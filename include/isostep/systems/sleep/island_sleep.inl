@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "isostep/state/members.hpp"
+#include "isostep/store/fat_box.hpp"
 #include "isostep/systems/sleep/island_sleep.hpp"
 
 namespace isostep {
@@ -93,12 +94,22 @@ template <class S> void IslandSleep<S>::stop_clocks_by_forces() {
   if (explosions.all().empty() && waters.all().empty()) return;
   bool blast = false;
   for (std::uint32_t slot = 0; slot < explosions.all().size(); ++slot) blast = blast || explosions.is_taken(slot);
-  for (BodyState<S>& state : state_.awake.states) {
+  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
+    BodyState<S>& state = state_.awake.states[i];
     bool moved = blast;
-    for (const Water<S>& water : waters.all())
-      moved = moved || (S(0) < water.wave_height && in_region(water, state.fat));
+    for (const Water<S>& water : waters.all()) {
+      moved = moved || (S(0) < water.wave_height &&
+                        in_region(water, detail::solid_box(map_, state, state_.awake.properties[i])));
+    }
     if (moved) state.sleep_clock = 0;
   }
+}
+/// The material of a leaf's part.
+template <class S>
+const Material<S>& IslandSleep<S>::surface_of(const BodyProperties<S>& body, std::uint32_t slot,
+                                              std::uint32_t leaf) const {
+  if (!map_.traits_of(body.shape).has(part_flag::kOwnMaterial)) return body.material;
+  return map_.children_of(body.shape)[map_.leaf_of(slot, leaf).child].traits.material_or(body.material);
 }
 /// A body that rests on something that moves is not at rest: a drum or a conveyor carries it.
 template <class S> void IslandSleep<S>::stop_clocks_of_carried(const Belts<S>* belts) {
@@ -111,7 +122,7 @@ template <class S> void IslandSleep<S>::stop_clocks_of_carried(const Belts<S>* b
       if (other.set != Location::kAwake) continue;
       const BodyProperties<S>& body = map_.properties_at(at);
       const bool driven = body.type == BodyType::kinematic && map_.state_at(at).sleep_clock == 0;
-      const bool runs = !(body.material.surface_velocity == Vec3<S>::zero()) ||
+      const bool runs = !(surface_of(body, slot_list[side], leaves[side]).surface_velocity == Vec3<S>::zero()) ||
                         (belts != nullptr && belts->find(slot_list[side], leaves[side]) != nullptr);
       if (driven || runs) state_.awake.states[other.index].sleep_clock = 0;
     }

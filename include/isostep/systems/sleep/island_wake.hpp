@@ -32,8 +32,8 @@ template <class S> class IslandWake {
   /// kinematic body is about to pass through. False: there was none. Waking brings new pairs, so the caller updates the
   /// broad phase and calls again.
   bool wake_touched();
-  /// Wakes every island and every body that the body's fat box meets: what is moved, changed or taken away may have
-  /// held them up.
+  /// Wakes every island and every body that the body's fat box meets, that of its parts that are no sensors: what is
+  /// moved, changed or taken away may have held them up.
   void wake_touching(std::uint32_t slot);  // a sensor wakes nobody: it notes that the next step looks who sleeps in it
   /// Wakes those that meet a box [m] that is about to change, or has; but not `slot`, which is what changes.
   void wake_touching(const Aabb<S>& box, std::uint32_t slot);
@@ -61,9 +61,9 @@ template <class S> class IslandWake {
   };
 
   bool is_sensor(std::uint32_t slot) const;
+  bool may_run_over(const BodyState<S>& state, Vec3<S> way, std::uint32_t sleeper) const;
   void find_run_over(std::size_t index);
   bool is_touched(std::uint64_t pair) const;
-  bool are_ghosts(std::uint32_t a, std::uint32_t b) const;
   void start_waking(std::uint32_t island);
   void merge_woken();
   void merge_contacts();

@@ -4,7 +4,10 @@
 
 #include "isostep/collision/continuous/shape_impact.hpp"
 #include "isostep/core/stable_sort.hpp"
+#include "isostep/geometry/bounds.hpp"
 #include "isostep/store/body_frames.hpp"
+#include "isostep/store/fat_box.hpp"
+#include "isostep/store/ghosts.hpp"
 #include "isostep/systems/sleep/island_wake.hpp"
 
 namespace isostep {
@@ -65,8 +68,7 @@ template <class S> void IslandWake<S>::find_run_over(std::size_t index) {
   if (!(detail::kSpeculativeDistance<S> < max_abs(way))) return;  // it touches first
   S thick = Limits<S>::extent();
   for (const Child<S>& child : map_.children_of(body.shape)) {
-    if (!child.traits.has(part_flag::kSensor))
-      thick = min(thick, thickness<S>(map_.contents().view(child.primitive)));
+    if (!child.traits.has(part_flag::kSensor)) thick = min(thick, thickness<S>(map_.contents().view(child.primitive)));
   }
   if (max_abs(way) < thick) return;
   const Aabb<S> there = {saturating_add(state.fat.low, way), saturating_add(state.fat.high, way)};
@@ -77,12 +79,34 @@ template <class S> void IslandWake<S>::find_run_over(std::size_t index) {
     if (!at.is_asleep() || !overlap(swept, map_.state_at(at).fat)) return true;
     const BodyProperties<S>& sleeper = map_.properties_at(at);
     const bool collides = should_collide(map_.filter_of(body), map_.filter_of(sleeper));
-    if (map_.has_contacts(sleeper) && collides && !are_ghosts(state.slot, other))
+    if (map_.has_contacts(sleeper) && collides && may_run_over(state, way, other) &&
+        !are_ghosts(state_, map_, state.slot, other))
       met.push_back(other);
     return true;
   });
   detail::sort_slots(met);
   touched_.insert(touched_.end(), met.begin(), met.end());
+}
+/// Whether a part of the kinematic body comes near to one of the sleeper that it presses on. Parts that are as their
+/// bodies are not looked at.
+template <class S>
+bool IslandWake<S>::may_run_over(const BodyState<S>& state, Vec3<S> way, std::uint32_t sleeper) const {
+  const BodyProperties<S>& body = map_.properties_at(map_.location(state.slot));
+  const BodyProperties<S>& other = map_.properties_at(map_.location(sleeper));
+  if ((map_.traits_of(body.shape).flags | map_.traits_of(other.shape).flags) == 0) return true;
+  const Transform<S> own_frame = Transform<S>::of(map_.origin_pose_at(state.slot));
+  const Transform<S> other_frame = Transform<S>::of(map_.origin_pose_at(sleeper));
+  for (const Child<S>& part : map_.children_of(body.shape)) {
+    const Aabb<S> here = bounds(part, own_frame, map_.contents());
+    const Aabb<S> there = {saturating_add(here.low, way), saturating_add(here.high, way)};
+    const Aabb<S> swept = grow(merge(here, there), detail::kFatMargin<S>);
+    for (const Child<S>& met : map_.children_of(other.shape)) {
+      if (parts_collide(part.traits, body.filter, met.traits, other.filter) &&
+          overlap(swept, bounds(met, other_frame, map_.contents())))
+        return true;
+    }
+  }
+  return false;
 }
 /// Whether one of the two sleeps and the other is awake, moves and touches it.
 template <class S> bool IslandWake<S>::is_touched(std::uint64_t pair) const {
@@ -95,19 +119,8 @@ template <class S> bool IslandWake<S>::is_touched(std::uint64_t pair) const {
   const bool still = state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
   if (body.type == BodyType::kinematic && still) return false;
   if (map_.is_sensor(body) || map_.is_sensor(map_.properties_at(a.is_asleep() ? a : b))) return false;
-  return bodies_touch(map_, pair_a(pair), pair_b(pair), ByParts::solid) && !are_ghosts(pair_a(pair), pair_b(pair));
-}
-/// Whether they pass each other, by a Ghost or a KindGhost.
-template <class S> bool IslandWake<S>::are_ghosts(std::uint32_t a, std::uint32_t b) const {
-  const RecordStore<S>& records = *state_.records;
-  const auto is_of_both = [&](const Ghost<S>& ghost) {
-    return (ghost.a.slot == a && ghost.b.slot == b) || (ghost.a.slot == b && ghost.b.slot == a);
-  };
-  if (records.ghosts.id_where(is_of_both)) return true;
-  const auto kind_of = [&](std::uint32_t slot) { return map_.properties_at(map_.location(slot)).material.kind; };
-  const std::uint64_t kinds = kinds_key(kind_of(a), kind_of(b));
-  const auto is_of_kinds = [&](const KindGhost<S>& ghost) { return kinds_key(ghost.kind_a, ghost.kind_b) == kinds; };
-  return static_cast<bool>(records.kind_ghosts.id_where(is_of_kinds));
+  return bodies_touch(map_, pair_a(pair), pair_b(pair), ByParts::solid) &&
+         !are_ghosts(state_, map_, pair_a(pair), pair_b(pair));
 }
 
 /// A sensor sees others and touches none.
@@ -115,7 +128,9 @@ template <class S> bool IslandWake<S>::is_sensor(std::uint32_t slot) const {
   return map_.is_sensor(map_.properties_at(map_.location(slot)));
 }
 template <class S> void IslandWake<S>::wake_touching(std::uint32_t slot) {
-  if (proxies_.present(slot)) wake_touching(proxies_.boxes().box(slot), slot);
+  if (!proxies_.present(slot)) return;
+  const Location at = map_.location(slot);
+  wake_touching(detail::solid_box(map_, map_.state_at(at), map_.properties_at(at)), slot);
 }
 template <class S> void IslandWake<S>::wake_touching(const Aabb<S>& box, std::uint32_t slot) {
   if (!state_.settings.allow_sleep) return;  // nobody sleeps, nor counts the time

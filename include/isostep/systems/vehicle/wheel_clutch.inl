@@ -1,13 +1,13 @@
-// Bodies of wheel_forces.hpp: an engine with inertia, and the clutch between it and the wheels.
+// Bodies of vehicle_rows.hpp: an engine with inertia, and the clutch between it and the wheels.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "isostep/store/finite_guard.hpp"
-#include "isostep/systems/vehicle/wheel_forces.hpp"
+#include "isostep/systems/vehicle/vehicle_rows.hpp"
 
 namespace isostep {
 
-template <class S> void WheelForces<S>::begin_engine(Group& group) const {
+template <class S> void VehicleRows<S>::begin_engine(Group& group) const {
   const VehicleState<S>& was = state_.parts.vehicle_states[group.vehicle];
   group.engine = {};
   group.engine.inertia = vehicle(group).engine_inertia;
@@ -17,13 +17,13 @@ template <class S> void WheelForces<S>::begin_engine(Group& group) const {
 }
 
 /// [rad/s] The engine's speed after a sub-step of that torque.
-template <class S> S WheelForces<S>::spun(const Engine& engine, S speed, S torque) const {
+template <class S> S VehicleRows<S>::spun(const Engine& engine, S speed, S torque) const {
   const S change = divide_to<S>(saturate_to<S>(product(torque, h_)), engine.inertia);
   return clamp(saturating_add(speed, change), -fastest_engine<S>(), fastest_engine<S>());
 }
 
 /// Throttle turns the engine, and the clutch bears what it bore in the sub-step before.
-template <class S> void WheelForces<S>::turn_engine(Group& group) {
+template <class S> void VehicleRows<S>::turn_engine(Group& group) {
   Engine& engine = group.engine;
   const S torque = engine_torque(group, {engine.spin, divide_to<S>(S(1), engine.inertia)});
   const S before = group.geared ? clamp(engine.clutch, -engine.most, engine.most) : S(0);
@@ -33,7 +33,7 @@ template <class S> void WheelForces<S>::turn_engine(Group& group) {
 }
 
 /// The clutch bears that torque, in the whole sub-step: the engine loses it, the wheels get it.
-template <class S> void WheelForces<S>::bear(Group& group, S torque) {
+template <class S> void VehicleRows<S>::bear(Group& group, S torque) {
   Engine& engine = group.engine;
   const S more = saturating_subtract(torque, engine.clutch);
   engine.clutch = torque;
@@ -44,7 +44,7 @@ template <class S> void WheelForces<S>::bear(Group& group, S torque) {
 /// The torque that ends the clutch's slip, or the most that it bears against that.
 /// Method:  a row of engine and shaft as the wheels and their tyres leave it, with what it bears in all held within
 ///          its bounds. It is solved in turn with the tyres, and begins with what it bore in the sub-step before.
-template <class S> void WheelForces<S>::engage(Group& group) {
+template <class S> void VehicleRows<S>::engage(Group& group) {
   Engine& engine = group.engine;
   if (engine.inertia == S(0) || !group.geared) return;
   const Shaft shaft = shaft_of(group, [&](const Run& run) { return end_of(run); });
@@ -56,7 +56,7 @@ template <class S> void WheelForces<S>::engage(Group& group) {
 }
 
 /// Writes what engines do; a body whose engine's speed changes does not fall asleep.
-template <class S> void WheelForces<S>::end_engines() {
+template <class S> void VehicleRows<S>::end_engines() {
   constexpr S kChanging = S(0x1p-6);  // [rad/s] in a step
   for (const Group& group : groups_) {
     if (group.vehicle == kNone || group.engine.inertia == S(0)) continue;

@@ -1,19 +1,19 @@
-// Bodies of wheel_forces.hpp: engine, differential and brakes.
+// Bodies of vehicle_rows.hpp: engine, differential and brakes.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/systems/vehicle/wheel_forces.hpp"
+#include "isostep/systems/vehicle/vehicle_rows.hpp"
 
 namespace isostep {
 
 /// The rim's change of speed by a torque in a sub-step.
-template <class S> void WheelForces<S>::turn(const Run& run, V& rim, S torque) const {
+template <class S> void VehicleRows<S>::turn(const Run& run, V& rim, S torque) const {
   const S rate = times(torque, divide_to<S>(wheel(run).radius, run.inertia));  // [m/s^2]
   rim = saturating_add(rim, saturate_to<V>(product(rate, h_)));
 }
 
 /// How much the brakes can do.
-template <class S> void WheelForces<S>::set_brakes(const Group& group) {
+template <class S> void VehicleRows<S>::set_brakes(const Group& group) {
   const VehicleSettings<S>& set = vehicle(group);
   const VehicleInput<S>& asked = input(group);
   for (std::uint32_t i = group.first; i < group.end; ++i) {
@@ -28,7 +28,7 @@ template <class S> void WheelForces<S>::set_brakes(const Group& group) {
 /// With rims of that speed: rim_of(run) [m/s].
 template <class S>
 template <class Rim>
-auto WheelForces<S>::shaft_of(const Group& group, const Rim& rim_of) const -> Shaft {
+auto VehicleRows<S>::shaft_of(const Group& group, const Rim& rim_of) const -> Shaft {
   Shaft shaft = {S(0), S(0)};
   for (std::uint32_t i = group.first; i < group.end; ++i) {
     const Run& run = runs_[i];
@@ -41,7 +41,7 @@ auto WheelForces<S>::shaft_of(const Group& group, const Rim& rim_of) const -> Sh
 }
 
 /// What throttle asks for, or what brings the shaft to engine_speed within the sub-step, where that is less.
-template <class S> S WheelForces<S>::engine_torque(const Group& group, const Shaft& shaft) const {
+template <class S> S VehicleRows<S>::engine_torque(const Group& group, const Shaft& shaft) const {
   const VehicleSettings<S>& set = vehicle(group);
   const S throttle = input(group).throttle;
   const S asked = times(throttle, set.engine_torque);
@@ -51,7 +51,7 @@ template <class S> S WheelForces<S>::engine_torque(const Group& group, const Sha
   return throttle < S(0) ? min(S(0), max(asked, limit)) : max(S(0), min(asked, limit));
 }
 
-template <class S> void WheelForces<S>::push_shaft(const Group& group, S torque) {
+template <class S> void VehicleRows<S>::push_shaft(const Group& group, S torque) {
   for (std::uint32_t i = group.first; i < group.end; ++i) {
     Run& run = runs_[i];
     if (leads(run)) turn(run, run.spin.rim, times(torque, run.drive));
@@ -59,7 +59,7 @@ template <class S> void WheelForces<S>::push_shaft(const Group& group, S torque)
 }
 
 /// Torque on the driven wheels or on the engine, and brakes.
-template <class S> void WheelForces<S>::drive(Group& group) {
+template <class S> void VehicleRows<S>::drive(Group& group) {
   if (group.vehicle == kNone) return;
   set_brakes(group);
   if (S(0) < group.engine.inertia) return turn_engine(group);
@@ -69,7 +69,7 @@ template <class S> void WheelForces<S>::drive(Group& group) {
 
 /// Takes of the differences in speed of driven wheels and tracks; the torque that does it acts between them, and what
 /// steering does not gear otherwise keeps what it turns with together.
-template <class S> void WheelForces<S>::lock(const Group& group) {
+template <class S> void VehicleRows<S>::lock(const Group& group) {
   if (group.vehicle == kNone) return;
   const S locked = vehicle(group).differential_lock;
   if (!(S(0) < locked)) return;

@@ -1,4 +1,4 @@
-// Bodies of wheel_forces.hpp: which wheels there are in a step, how they are steered, and the ground below them.
+// Bodies of vehicle_rows.hpp: which wheels there are in a step, how they are steered, and the ground below them.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -6,15 +6,15 @@
 
 #include "isostep/dynamics/solver_name.hpp"
 #include "isostep/geometry/shapes/sphere.hpp"
-#include "isostep/systems/vehicle/wheel_forces.hpp"
+#include "isostep/systems/vehicle/vehicle_rows.hpp"
 
 namespace isostep {
 
-template <class S> void WheelForces<S>::begin_step() {
+template <class S> void VehicleRows<S>::begin_step() {
   runs_.clear();
   groups_.clear();
   near_.clear();
-  if (!any()) return;
+  if (state_.records->wheels.all().empty()) return;
   list_runs();
   list_groups();
   for (Group& group : groups_) {
@@ -28,7 +28,7 @@ template <class S> void WheelForces<S>::begin_step() {
 }
 
 /// The wheels of awake bodies, sorted by body: counted, then placed.
-template <class S> void WheelForces<S>::list_runs() {
+template <class S> void VehicleRows<S>::list_runs() {
   const std::vector<WheelSettings<S>>& wheels = state_.records->wheels.all();
   first_.assign(state_.awake.states.size() + 2, 0);
   for (const WheelSettings<S>& w : wheels) {
@@ -70,8 +70,8 @@ template <class S> void WheelForces<S>::list_runs() {
   }
 }
 
-/// Whose wheels each group has, and the order in which an iteration takes them.
-template <class S> void WheelForces<S>::list_groups() {
+/// Whose wheels each group has, and the order in which a sweep takes them.
+template <class S> void VehicleRows<S>::list_groups() {
   for (std::uint32_t g = 0; g < groups_.size(); ++g) {
     for (std::uint32_t i = groups_[g].first; i < groups_[g].end; ++i) runs_[i].group = g;
   }
@@ -91,7 +91,7 @@ template <class S> void WheelForces<S>::list_groups() {
   }
 }
 /// Null: the body of that row has no wheels. By now first_ tells where its wheels end.
-template <class S> auto WheelForces<S>::group_of(std::uint32_t row) -> Group* {
+template <class S> auto VehicleRows<S>::group_of(std::uint32_t row) -> Group* {
   const std::uint32_t end = first_[row];
   const bool has = row != 0 && end != 0 && runs_[end - 1].row == row;
   return has ? &groups_[runs_[end - 1].group] : nullptr;
@@ -99,7 +99,7 @@ template <class S> auto WheelForces<S>::group_of(std::uint32_t row) -> Group* {
 
 /// Neither those that stand on what moves, nor what they stand on, nor those that a differential's lock or a clutch
 /// changes.
-template <class S> void WheelForces<S>::find_who_ends_early() {
+template <class S> void VehicleRows<S>::find_who_ends_early() {
   for (Group& group : groups_) {
     const bool locks = group.vehicle != kNone && S(0) < vehicle(group).differential_lock;
     group.ends_early = !locks && group.engine.inertia == S(0);
@@ -112,7 +112,7 @@ template <class S> void WheelForces<S>::find_who_ends_early() {
 }
 
 /// Of wheels with one number the first two.
-template <class S> void WheelForces<S>::join_bars(const Group& group) {
+template <class S> void VehicleRows<S>::join_bars(const Group& group) {
   for (std::uint32_t i = group.first; i < group.end; ++i) {
     for (std::uint32_t j = i + 1; j < group.end && runs_[i].partner == kNone; ++j) {
       const WheelSettings<S>&a = wheel(runs_[i]), &b = wheel(runs_[j]);
@@ -126,7 +126,7 @@ template <class S> void WheelForces<S>::join_bars(const Group& group) {
 
 /// With d and x of a wheel before and beside the middle of those that are not steered, and the angle a of a wheel at
 /// d: its axle points to the centre d / tan a beside that middle, for ackermann 1.
-template <class S> void WheelForces<S>::steer(const Group& group) {
+template <class S> void VehicleRows<S>::steer(const Group& group) {
   if (group.vehicle == kNone) return;
   const S turned = input(group).steer, ackermann = vehicle(group).ackermann;
   if (turned == S(0)) return;
@@ -154,32 +154,32 @@ template <class S> void WheelForces<S>::steer(const Group& group) {
 }
 
 /// Whether parts of the two might collide.
-template <class S> bool WheelForces<S>::bears(std::uint32_t body, std::uint32_t ground) const {
+template <class S> bool VehicleRows<S>::bears(std::uint32_t body, std::uint32_t ground) const {
   const BodyProperties<S>&a = state_.awake.properties[body - 1], &b = map_.properties_at(map_.location(ground));
   return (b.flags & body_flag::kCollide) != 0 && should_collide(a.filter, map_.filter_of(b));
 }
 /// The first that is not held from the start and is not too steep.
 template <class S>
 template <class Hits>
-auto WheelForces<S>::first_that_bears(const Hits& hits, Vec3<U> down) -> Ground {
+auto VehicleRows<S>::first_that_bears(const Hits& hits, Vec3<U> down) -> Ground {
   for (const auto& hit : hits) {
     if (!hit.inside && dot(hit.normal, down) <= U(-0.5)) return {hit.body, hit.child, hit.point, hit.normal};
   }
   return {};
 }
-template <class S> auto WheelForces<S>::stance_of(const Run& run) const -> Stance {
+template <class S> auto VehicleRows<S>::stance_of(const Run& run) const -> Stance {
   const BodyState<S>& state = state_.awake.states[run.row - 1];
   const Vec3<S> local = wheel(run).hard_point - state_.awake.properties[run.row - 1].local_centre;
   return {state.centre + rotate(state.orientation, local), rotate(state.orientation, wheel(run).suspension)};
 }
-template <class S> auto WheelForces<S>::search_of(const Run& run, const Stance& at) const -> Search {
+template <class S> auto VehicleRows<S>::search_of(const Run& run, const Stance& at) const -> Search {
   const WheelSettings<S>& w = wheel(run);
   const S first = w.free_length - w.travel - w.radius, way = w.travel + w.radius + w.radius;
   const Vec3<S> start = at.hard_point + at.down * first, along = at.down * way;
   return {start, along, grow(Aabb<S>{min(start, start + along), max(start, start + along)}, w.radius)};
 }
 /// Adds what is there to what the wheels of a body might stand on.
-template <class S> void WheelForces<S>::look_around(Group& group, const Aabb<S>& box) {
+template <class S> void VehicleRows<S>::look_around(Group& group, const Aabb<S>& box) {
   const BodyProperties<S>& body = state_.awake.properties[group.row - 1];
   QueryFilter filter;
   filter.mask = body.filter.mask;
@@ -196,7 +196,7 @@ template <class S> void WheelForces<S>::look_around(Group& group, const Aabb<S>&
   group.end_near = static_cast<std::uint32_t>(kept);
 }
 /// A sphere looks for it, and a ray where what the sphere meets is not level enough.
-template <class S> auto WheelForces<S>::ground_below(const Run& run, const Stance& at) -> Ground {
+template <class S> auto VehicleRows<S>::ground_below(const Run& run, const Stance& at) -> Ground {
   const Search search = search_of(run, at);
   Group& group = groups_[run.group];
   if (!contains(group.region, search.box)) look_around(group, grow(search.box, wheel(run).radius));
@@ -214,7 +214,7 @@ template <class S> auto WheelForces<S>::ground_below(const Run& run, const Stanc
   const std::size_t rays = queries_.ray_among(nearby, search.box, own, ray, std::span<RayCastHit<S>>(struck));
   return first_that_bears(std::span(struck, rays), at.down);
 }
-template <class S> void WheelForces<S>::stand_on(Run& run, const Ground& ground) {
+template <class S> void VehicleRows<S>::stand_on(Run& run, const Ground& ground) {
   run.met = ground.body;
   run.ground = 0;
   if (!ground.body) return;
@@ -230,7 +230,7 @@ template <class S> void WheelForces<S>::stand_on(Run& run, const Ground& ground)
 }
 
 /// [m] Of the suspension, where the wheel touches that plane; free_length over no ground.
-template <class S> S WheelForces<S>::length_over(const Run& run, const Stance& at, const Ground& ground) const {
+template <class S> S VehicleRows<S>::length_over(const Run& run, const Stance& at, const Ground& ground) const {
   const WheelSettings<S>& w = wheel(run);
   const U facing = ground.body ? -dot(at.down, ground.normal) : U(0);
   if (facing < kLeastFacing) return w.free_length;
@@ -238,7 +238,7 @@ template <class S> S WheelForces<S>::length_over(const Run& run, const Stance& a
   return min(w.free_length, divide_to<S>(height, facing));
 }
 /// [m] How far it goes in this step, across the suspension; by its ground's motion if that is known.
-template <class S> Vec3<S> WheelForces<S>::way_of(const Run& run, const Stance& at) const {
+template <class S> Vec3<S> VehicleRows<S>::way_of(const Run& run, const Stance& at) const {
   const BodyState<S>& state = state_.awake.states[run.row - 1];
   Vec3<V> speed = detail::velocity_at<S>(&state, at.hard_point - state.centre);
   if (run.ground != 0) speed -= detail::velocity_at<S>(&state_.awake.states[run.ground - 1], run.ground_arm);
@@ -247,7 +247,7 @@ template <class S> Vec3<S> WheelForces<S>::way_of(const Run& run, const Stance& 
 }
 /// True if the plane found where the step begins is not that of the ground further on. A bump that is higher than a
 /// 32nd of the radius is met by one of the looks at least, for a wheel is wider than it is long.
-template <class S> bool WheelForces<S>::is_uneven(const Run& run, const Stance& at, const Ground& ground) {
+template <class S> bool VehicleRows<S>::is_uneven(const Run& run, const Stance& at, const Ground& ground) {
   const S radius = wheel(run).radius;
   const Vec3<S> way = way_of(run, at);
   const S distant = length(way);
@@ -262,7 +262,7 @@ template <class S> bool WheelForces<S>::is_uneven(const Run& run, const Stance& 
   return false;
 }
 /// Below all wheels of a body, from one look around them.
-template <class S> void WheelForces<S>::find_ground(Group& group) {
+template <class S> void VehicleRows<S>::find_ground(Group& group) {
   const std::span<Run> runs = std::span(runs_).subspan(group.first, group.end - group.first);
   const S edge = Limits<S>::position() * S(2);
   Aabb<S> region = {{edge, edge, edge}, {-edge, -edge, -edge}};
@@ -282,7 +282,7 @@ template <class S> void WheelForces<S>::find_ground(Group& group) {
   }
 }
 /// The ground where the wheel has got to, of those that need it.
-template <class S> void WheelForces<S>::follow_ground() {
+template <class S> void VehicleRows<S>::follow_ground() {
   bool any = false;
   for (Run& run : runs_) {
     if (!run.uneven) continue;

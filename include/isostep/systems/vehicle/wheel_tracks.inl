@@ -1,13 +1,13 @@
-// Bodies of wheel_forces.hpp: wheels that roll as one, and how the engine is geared to them.
+// Bodies of vehicle_rows.hpp: wheels that roll as one, and how the engine is geared to them.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/systems/vehicle/wheel_forces.hpp"
+#include "isostep/systems/vehicle/vehicle_rows.hpp"
 
 namespace isostep {
 
 /// The first wheel of each track leads: its spin is that of the track, with the inertia of all as its axle feels it.
-template <class S> void WheelForces<S>::join_tracks(const Group& group) {
+template <class S> void VehicleRows<S>::join_tracks(const Group& group) {
   for (std::uint32_t i = group.first; i < group.end; ++i) {
     const std::uint32_t track = wheel(runs_[i]).track;
     for (std::uint32_t j = group.first; j < i && track != 0; ++j) {
@@ -21,7 +21,7 @@ template <class S> void WheelForces<S>::join_tracks(const Group& group) {
   }
 }
 /// What the two turn with together, about their axles and for their radii, they keep.
-template <class S> void WheelForces<S>::join(Run& leader, Run& run) const {
+template <class S> void VehicleRows<S>::join(Run& leader, Run& run) const {
   const S radius = wheel(leader).radius;
   run.to_leader = divide_to<S>(radius, wheel(run).radius);
   const S more = times(times(run.inertia, run.to_leader), run.to_leader);
@@ -33,7 +33,7 @@ template <class S> void WheelForces<S>::join(Run& leader, Run& run) const {
 }
 
 /// As the wheel's own tyre finds it: with what the other tyres of its track do.
-template <class S> detail::WheelSpin<S> WheelForces<S>::spin_of(const Run& run) const {
+template <class S> detail::WheelSpin<S> VehicleRows<S>::spin_of(const Run& run) const {
   detail::WheelSpin<S> spin = runs_[run.leader].spin;
   for (std::uint32_t i = run.leader; i != kNone; i = runs_[i].next) {
     const Run& other = runs_[i];
@@ -43,12 +43,12 @@ template <class S> detail::WheelSpin<S> WheelForces<S>::spin_of(const Run& run) 
   return spin;
 }
 /// [m/s] Of the rim after the sub-step.
-template <class S> Velocity<S> WheelForces<S>::end_of(const Run& run) const {
+template <class S> Velocity<S> VehicleRows<S>::end_of(const Run& run) const {
   return spin_of(run).after(run.touches ? run.push_along : V(0));
 }
 
 /// [1] By which steering multiplies the drive of a track.
-template <class S> S WheelForces<S>::side_of(const Run& run, const Group& group) const {
+template <class S> S VehicleRows<S>::side_of(const Run& run, const Group& group) const {
   const WheelSettings<S>& w = wheel(run);
   if (w.track == 0) return S(1);
   const S left = dot(w.hard_point - state_.awake.properties[run.row - 1].local_centre, w.axle_direction);
@@ -57,7 +57,7 @@ template <class S> S WheelForces<S>::side_of(const Run& run, const Group& group)
   return is_inner ? S(1) - times(vehicle(group).track_steer, abs(steer)) : S(1);
 }
 /// How many turns of the engine's shaft each wheel's and track's is.
-template <class S> void WheelForces<S>::gear_up(Group& group) {
+template <class S> void VehicleRows<S>::gear_up(Group& group) {
   if (group.vehicle == kNone) return;
   S shares = S(0);
   for (std::uint32_t i = group.first; i < group.end; ++i) shares = saturating_add(shares, wheel(runs_[i]).drive_share);

@@ -113,8 +113,10 @@ Election::Step Election::go_on(const Roster& roster, int own, Time now) {
 }
 
 bool Election::give_support(const Candidate& candidate) {
-  if (candidate.term <= promised_ || candidate.log_term < log_term_) return false;
+  if (candidate.term <= promised_ || !can_be(candidate.term) || candidate.log_term < log_term_) return false;
   promised_ = candidate.term;
+  supports_ = 0;  // given for an earlier term
+  withdraw();
   return true;
 }
 

@@ -53,6 +53,13 @@ int Roster::machine_with(int player) const {
   return -1;
 }
 
+bool Roster::is_of(int players) const {
+  for (int m = 0; m < count; ++m) {
+    if (std::uint64_t{machines[m].players} >> players != 0) return false;
+  }
+  return true;
+}
+
 int Roster::count_in() const {
   int in = 0;
   for (int m = 0; m < count; ++m) in += machines[m].is_in ? 1 : 0;

@@ -22,9 +22,14 @@ bool Callers::accept(PeerId peer, Time now) {
 }
 
 void Callers::went(Caller& caller) {
+  const int voter = caller.voter;
   caller.is_connected = false;
-  if (caller.voter >= 0) election_.went(caller.voter);
   caller.voter = -1;
+  if (voter < 0) return;
+  for (const Caller& other : all_) {
+    if (other.is_connected && other.voter == voter) return;  // it has come again
+  }
+  election_.went(voter);
 }
 
 bool Callers::take_hello(Caller& caller, Bytes bytes) {
@@ -38,9 +43,12 @@ bool Callers::take_hello(Caller& caller, Bytes bytes) {
 void Callers::recognise(Caller& caller, const Hello& hello) {
   caller.machine = roster_.machine_of(hello.token);
   caller.voter = roster_.voter_of(hello.token, hello.life);
-  election_.hear_term(hello.term);
-  if (caller.voter >= 0) election_.came(caller.voter);
-  else if (caller.machine >= 0 && hello.life == 0) election_.is_over(caller.machine);
+  if (caller.voter >= 0) {
+    election_.hear_term(hello.term);
+    election_.came(caller.voter);
+  } else if (caller.machine >= 0 && hello.life == 0) {
+    election_.is_over(caller.machine);
+  }
   const bool is_asked = election_.has_called() && caller.machine >= 0;
   caller.due.set(MessageKind::roster, is_asked);
   caller.due.set(MessageKind::candidate, is_asked);

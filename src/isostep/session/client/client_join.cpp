@@ -62,7 +62,7 @@ void ClientCore::receive(PeerId host, Channel channel, Bytes bytes, Time now) {
   if (channel == Channel::datagram) {
     Packet packet;
     if (!datagrams_.accept(host_, bytes, now, packet)) return;
-    if (!is_greeted() || packet.header.match != match()) {
+    if (!is_greeted() || packet.header.match != match() || !is_of(packet.header, players())) {
       ++stats_.refused;
       return;
     }
@@ -116,7 +116,7 @@ bool ClientCore::take_message(MessageKind kind, Bytes bytes, Time now) {
   }
   if (kind == MessageKind::ballot && is_greeted()) {
     const Result<Ballot> ballot = read_ballot(bytes);
-    if (!ballot) return false;
+    if (!ballot || !ballot.value().is_of(players())) return false;
     ballot_ = ballot.value();
     tell(event_of(ballot_, current()));
     return true;

@@ -45,6 +45,9 @@ bool Comparison::take_repaired(const Repaired& repaired) {
 }
 
 bool Comparison::take_statements(const Statements& statements) {
+  for (std::size_t machine = static_cast<std::size_t>(client_.config.players); machine < kMachines; ++machine) {
+    if (machine != kHostMachine && statements.of[machine].is_asked) return false;
+  }
   const bool plays = client_.own.first() >= 0;
   const auto own = static_cast<std::size_t>(plays ? client_.own.first() : 0);
   const Statements::One& quoted = statements.of[own];

@@ -50,6 +50,7 @@ void Failover::end() {
 
 bool Failover::go_on(bool may_stand, Time now) {
   const bool is_member = client_.config.migration > 0 && search_.own_machine() >= 0 && may_stand;
+  if (client_.config.seed == 0) return false;  // anybody could compute the tokens that it gives out
   if (!is_member || (client_.host.is_connected && client_.is_greeted())) return false;
   if (!search_.is_under_way()) {
     search_.begin(now, false);
@@ -107,7 +108,8 @@ bool Failover::take_support(Caller& caller, MessageKind kind, Bytes bytes, Time 
   if (kind != MessageKind::roster) return false;
   // A newer one: whose place is where, and what a majority is, may be otherwise there.
   const Result<Roster> roster = read_roster(bytes);
-  if (!roster || !roster.value().is_newer_than(search_.roster())) return roster.ok();
+  if (!roster || !roster.value().is_of(client_.config.players)) return false;
+  if (!roster.value().is_newer_than(search_.roster())) return true;
   if (!is_sealed_for(roster.value(), search_.token(), scratch_)) {
     // This machine does not support us, whether its roster is true or not.
     if (caller.voter >= 0) search_.election().went(caller.voter);
@@ -133,7 +135,8 @@ bool Failover::receive(MessageKind kind, Bytes bytes, bool may_stand, Time now) 
   const bool seeks = search_.is_under_way();
   if (kind == MessageKind::roster && (client_.is_greeted() || seeks)) {
     const Result<Roster> roster = read_roster(bytes);
-    if (!roster || (!client_.is_greeted() && !is_sealed_for(roster.value(), search_.token(), scratch_))) return false;
+    if (!roster || !roster.value().is_of(client_.config.players)) return false;
+    if (!client_.is_greeted() && !is_sealed_for(roster.value(), search_.token(), scratch_)) return false;
     if (search_.take_newer(roster.value())) callers_.has_new_roster();
     client_.stats.machines = search_.roster().count_in();
     must_enroll_ = client_.is_greeted();

@@ -87,7 +87,7 @@ void Admission::greet(Guest& guest, Bytes message) {
     return;
   }
   guest.stage = Guest::Stage::applies;
-  guest.applicant = ++applicants_;
+  guest.applicant = std::uint64_t{leadership_.term()} << 32 | ++applicants_;
   guest.credential.assign(hello.credential.begin(), hello.credential.end());
 }
 

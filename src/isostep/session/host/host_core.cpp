@@ -17,12 +17,16 @@ constexpr Frame kMostAhead = 128;  // [frames] beyond ours that a client's input
 
 HostCore::HostCore(const SessionConfig& config, const InputRules& rules)
     : PeerCore(config, rules),
-      numbers_(config.seed),
+      numbers_(config.seed, Leadership::kFirstTerm),
       seats_(config_, static_cast<std::uint32_t>((std::uint64_t{1} << config.local_players) - 1), slack_),
       guests_(static_cast<std::size_t>(config.max_peers + config.max_strangers)),
-      match_(numbers_.match(0)) {
+      match_(numbers_.match()) {
+  know_ourselves();
+}
+
+void HostCore::know_ourselves() {
   const std::uint64_t life = numbers_.next_life();
-  const std::uint64_t token = config.migration > 0 ? numbers_.next_token() : 0;
+  const std::uint64_t token = config_.migration > 0 ? numbers_.next_token() : 0;
   leadership_.know_ourselves(token, life);
 }
 
@@ -304,7 +308,8 @@ void HostCore::unblocked(Time) {
 void HostCore::drop(Guest& guest) {
   departures_.unseat(guest);
   if (guest.stage == Guest::Stage::receives_snapshot) {
-    snapshots_.hold_until(current() + static_cast<Frame>(config_.silence / clock_.period()));
+    const Time frames = config_.silence / clock_.period(), most = static_cast<Time>(config_.history);
+    snapshots_.hold_until(current() + static_cast<Frame>(frames < most ? frames : most));
   }
   guest.clear();
 }

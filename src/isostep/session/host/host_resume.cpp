@@ -6,11 +6,10 @@ namespace isostep {
 
 HostCore::HostCore(const SessionConfig& config, const InputRules& rules, SavedMatch&& saved) : HostCore(config, rules) {
   seats_.resume(saved);
-  numbers_.go_on_after(saved.tokens);
-  sequels_ = saved.sequels + 1;
-  match_ = numbers_.match(sequels_);
-  const std::uint64_t token = config.migration > 0 ? numbers_.next_token() : 0;
-  leadership_.resume(saved.term + 1, token);
+  numbers_ = SecretNumbers(config.seed, saved.term + 1);
+  match_ = numbers_.match();
+  leadership_.resume(saved.term + 1);
+  know_ourselves();
   resumed_ = saved.start;
   resumed_hash_ = saved.hash;
   control_.tempo_desk().resume_with(saved.speed);
@@ -70,8 +69,6 @@ std::optional<SavedMatch> HostCore::save_match() const {
   saved.hash = hashes_.hash(saved.start.frame);
   saved.hosted = seats_.hosted();
   saved.speed = tempos_.announced().speed;
-  saved.tokens = numbers_.tokens();
-  saved.sequels = sequels_;
   saved.term = leadership_.tenure().term();
   saved.players = static_cast<std::uint8_t>(players());
   for (int p = 0; p < players(); ++p) saved.proofs[p] = is_local(p) || !seats_[p].is_kept ? 0 : seats_[p].proof;

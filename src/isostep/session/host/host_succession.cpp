@@ -34,10 +34,10 @@ std::unique_ptr<SessionCore> become_host(PeerCore&& client, Succession&& success
 
 HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
     : PeerCore(std::move(client)),
-      numbers_(config_.seed),
+      numbers_(config_.seed, succession.election.term()),
       seats_(config_, succession.roster.machines[succession.machine].players, slack_),
       guests_(static_cast<std::size_t>(config_.max_peers + config_.max_strangers)),
-      match_(numbers_.match(0)) {
+      match_(numbers_.match()) {
   config_.host = true;
   copy_match_settings(succession.roster.settings, config_);
   leadership_.take_over(succession, known_end(streams_), hashes_.settled().frame, now);
@@ -47,6 +47,7 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
   for (int p = 0; p < players(); ++p) seats_[p].replaced_told = stats_.players[p].replaced;
   for (std::size_t machine = 0; machine < kMachines; ++machine) views_.was_repaired(machine, kNoFrame);
   end_ballot(ballot_, current(), events_);
+  tempos_.take_over();
   started_ = true;
   catches_up_to_ = 0;
   turn_at_ = now;

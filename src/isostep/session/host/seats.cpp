@@ -182,7 +182,8 @@ void Seats::close(const Guest& guest) {
 
 void Seats::leave_out(const Guest& guest, Time now) {
   close(guest);
-  for (const int p : EachPlayer(guest.players)) seats_[p].shut_until = now + config_.exclusion;
+  const Time until = now + config_.exclusion;
+  for (const int p : EachPlayer(guest.players)) seats_[p].shut_until = until < now ? ~Time{0} : until;  // for ever
 }
 
 void Seats::leave(Guest& guest) {

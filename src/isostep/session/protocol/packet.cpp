@@ -122,6 +122,11 @@ void write_input(WireWriter& writer, Bytes previous, Bytes input) {
 
 }  // namespace
 
+bool is_of(const PacketHeader& header, int players) {
+  const auto is_player = [&](std::uint8_t player) { return player == 0xff || player < players; };
+  return is_player(header.slowest) && is_player(header.tempo.by) && std::uint64_t{header.waits_for} >> players == 0;
+}
+
 PacketWriter::PacketWriter(const PacketHeader& header, std::uint8_t* buffer)
     : buffer_(buffer), size_(0), frame_(header.frame) {
   WireWriter writer(buffer, kDatagramCap);

@@ -46,8 +46,6 @@ void write_saved_match(const SavedMatch& match, std::vector<std::uint8_t>& out) 
   writer.write(match.hash);
   writer.write(match.hosted);
   writer.write(match.speed);
-  writer.write(match.tokens);
-  writer.write(match.sequels);
   writer.write(match.term);
   writer.write(match.players);
   for (int p = 0; p < match.players; ++p) writer.write(match.proofs[p]);
@@ -76,8 +74,6 @@ Result<SavedMatch> read_saved_match(Bytes bytes) {
   reader.read(match.hash);
   reader.read(match.hosted);
   reader.read(match.speed);
-  reader.read(match.tokens);
-  reader.read(match.sequels);
   reader.read(match.term);
   reader.read(match.players);
   for (std::size_t p = 0; p < match.players && p < kMaxPlayers; ++p) reader.read(match.proofs[p]);

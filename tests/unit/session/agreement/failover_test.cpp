@@ -4,6 +4,7 @@
 
 #include "isostep/session/agreement/election.hpp"
 #include "isostep/session/agreement/tenure.hpp"
+#include "isostep/session/client/host_search.hpp"
 
 namespace isostep {
 namespace {
@@ -243,6 +244,70 @@ TEST(Election, SupportsOneInATermAndNobodyWithAnOlderLog) {
   EXPECT_FALSE(voter.give_support(candidate));
   EXPECT_FALSE(voter.may_follow(3));
   EXPECT_TRUE(voter.may_follow(4));
+}
+
+TEST(Election, WhoSupportsAnotherCallsNoMore) {
+  Seekers seekers(5);
+  Election& election = seekers.elections[1];
+  election.begin(seekers.now, false);
+  for (const int m : {2, 3}) seekers.come(m, 1);
+  Step step = Step::waits;
+  for (int n = 0; n < 100 && step != Step::calls; ++n) {
+    seekers.now += kTurn;
+    step = election.turn(seekers.roster, 1, true, seekers.now);
+  }
+  ASSERT_EQ(step, Step::calls);
+  const std::uint32_t called = election.term();
+  Candidate other;
+  other.term = called + 1;
+  other.log_term = election.log_term();
+  ASSERT_TRUE(election.give_support(other));
+  EXPECT_FALSE(election.has_called());
+  for (const int m : {2, 3}) election.supported(m, called);
+  EXPECT_NE(election.turn(seekers.roster, 1, true, seekers.now), Step::wins) << "as the host of another's term";
+}
+
+TEST(Election, NobodyUsesTheTermsUp) {
+  Election voter;
+  voter.follow(3);
+  Candidate candidate;
+  candidate.term = 0xffffffffu;
+  EXPECT_FALSE(voter.give_support(candidate));
+  EXPECT_FALSE(voter.may_follow(candidate.term));
+  candidate.term = 3 + (1u << 16);
+  EXPECT_TRUE(voter.give_support(candidate)) << "a voter that was away for long";
+  EXPECT_FALSE(Election().may_follow(0xffffffffu)) << "of nobody";
+
+  Seekers seekers(4);
+  Election& election = seekers.elections[1];
+  election.begin(seekers.now, false);
+  election.hear_term(0xffffffffu);
+  for (const int m : {2, 3}) seekers.come(m, 1);
+  for (int n = 0; n < 100 && !election.has_called(); ++n) {
+    seekers.now += kTurn;
+    election.turn(seekers.roster, 1, true, seekers.now);
+  }
+  EXPECT_EQ(election.term(), 2u);
+}
+
+TEST(HostSearch, ARosterThatComesLaterTakesTheVictoryBack) {
+  Welcome welcome;
+  welcome.token = 101;
+  welcome.life = 11;
+  welcome.term = 1;
+  HostSearch search(0);
+  search.is_welcome(welcome);
+  Roster roster = of(3);
+  ASSERT_TRUE(search.take_newer(roster));
+  search.begin(kSecond, false);
+  search.election().is_over(0);
+  search.election().is_over(2);
+  Time now = kSecond;
+  while (!search.is_elected() && now < 5 * kSecond) search.turn(true, now += kTurn);
+  ASSERT_TRUE(search.is_elected());
+  ++roster.version;
+  ASSERT_TRUE(search.take_newer(roster));
+  EXPECT_FALSE(search.is_elected()) << "its supporters were counted by other places";
 }
 
 TEST(Election, AsksAroundUntilNobodyIsLeftAndStillCountsWhoComes) {

@@ -154,6 +154,15 @@ TEST(Roster, ThatCannotBeIsRefused) {
   EXPECT_FALSE(reads([](Roster& r) { r.machines[1].address = Address("a\nb"); }));
 }
 
+TEST(Roster, NamesPlayersOfTheMatchAlone) {
+  Roster roster = of(3);
+  EXPECT_TRUE(roster.is_of(3));
+  EXPECT_FALSE(roster.is_of(2));
+  roster.machines[1].players = 1u << 31;
+  EXPECT_FALSE(roster.is_of(31));
+  EXPECT_TRUE(roster.is_of(32));
+}
+
 TEST(Roster, MessagesOfACandidateAreChecked) {
   Candidate candidate;
   candidate.version = 7;

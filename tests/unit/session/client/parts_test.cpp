@@ -5,7 +5,10 @@
 #include "isostep/session/client/entry.hpp"
 #include "isostep/session/client/own_seats.hpp"
 #include "isostep/session/client/partings.hpp"
+#include "isostep/session/client/repair.hpp"
 #include "isostep/session/client/wishes.hpp"
+#include "isostep/session/host/secret_numbers.hpp"
+#include "isostep/session/peer/tempo_track.hpp"
 
 namespace isostep {
 namespace {
@@ -43,6 +46,54 @@ TEST(SnapshotArrival, GoesOnWhereItsPiecesEnd) {
   EXPECT_TRUE(arrival.is_whole());
   EXPECT_FALSE(arrival.take({4, {}})) << "nothing is no piece";
   EXPECT_TRUE(arrival.write_next(kSecond, kSecond, message)) << "all of it is told at once";
+}
+
+TEST(Repair, AsksAnewOnceTheHostKnowsThatTheStateHasCome) {
+  Message bytes, message;
+  SnapshotArrival arrival(bytes);
+  HashLog hashes(64);
+  Frame present = 0;
+  Repair repair(arrival, hashes, present);
+  FrameClock clock(60);
+  repair.ask();
+  ASSERT_TRUE(repair.write_next(message));
+  EXPECT_EQ(message_kind(message).value(), MessageKind::resync);
+  RepairOffer offer;
+  offer.start.frame = 10;
+  offer.snapshot_size = 1;
+  repair.take(offer);
+  const std::uint8_t piece[] = {1};
+  ASSERT_TRUE(arrival.take({0, Bytes(piece, 1)}));
+  std::vector<InputStream> streams(1, InputStream(64, 1));
+  streams[0].reset(20);  // inputs before are gone: the state is too old
+  EXPECT_FALSE(repair.tend(streams, 20, clock, kSecond));
+  EXPECT_FALSE(repair.write_next(message)) << "the host still waits for the word that all has come";
+  ASSERT_TRUE(arrival.write_next(kSecond, kSecond, message));
+  ASSERT_TRUE(repair.write_next(message));
+  EXPECT_EQ(message_kind(message).value(), MessageKind::resync);
+}
+
+TEST(TempoTrack, ASuccessorTakesUpWhatWasAnnounced) {
+  TempoTrack tempos;
+  Tempo pause;
+  pause.number = 3;
+  pause.from = 30;
+  pause.is_paused = true;
+  tempos.hear(pause);
+  tempos.forget();  // connected to another, which has said nothing when it is lost
+  EXPECT_FALSE(tempos.due_at(30).has_value());
+  tempos.take_over();
+  ASSERT_TRUE(tempos.due_at(30).has_value());
+  EXPECT_TRUE(tempos.due_at(30)->is_paused);
+}
+
+TEST(SecretNumbers, OfTwoTermsHaveNoneInCommon) {
+  SecretNumbers first(7, 1), second(7, 2);
+  const std::uint64_t token = first.next_token(), life = first.next_life();
+  EXPECT_NE(first.match(), second.match());
+  EXPECT_NE(token, second.next_token());
+  EXPECT_NE(life, second.next_life());
+  EXPECT_NE(token, first.next_token());
 }
 
 TEST(Entry, WithoutASnapshotGoesOnFromTheStateThatWeHave) {

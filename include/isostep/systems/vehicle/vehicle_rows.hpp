@@ -1,4 +1,4 @@
-// WheelForces<S>: what the wheels of vehicles do to their bodies and the ground, in every sub-step.
+// VehicleRows<S>: rows of the wheels of vehicles, between their bodies and the ground, which solvers solve.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,40 +12,46 @@
 #include "isostep/query/queries.hpp"
 #include "isostep/store/body_map.hpp"
 #include "isostep/store/proxies.hpp"
-#include "isostep/store/velocity_change.hpp"
 
 namespace isostep {
 
-/// Input:   wheels and vehicles, the bodies as a sub-step finds them and what else is about to
-///          accelerate them; the broad phase, for the ground below each wheel: once a step, and in
-///          every sub-step where it is no plane as far as the wheel gets in the step.
-/// Output:  an impulse for each awake body and its ground; the states of wheels and vehicles.
-/// Keeps:   nothing from step to step but memory.
-/// Order:   bodies ascending by slot, the wheels of each ascending by slot. Each iteration solves all of them once, so
+/// Input:   wheels and vehicles, the bodies in every sub-step; the broad phase, for the ground below each wheel: once a
+///          step, and in every sub-step where it is no plane as far as the wheel gets in the step.
+/// Output:  velocities of awake bodies and their ground; the states of wheels and vehicles.
+/// Keeps:   nothing from step to step but memory: what rows bore is in the states.
+/// Order:   bodies ascending by slot, the wheels of each ascending by slot. Each sweep solves all of them once, so
 ///          that wheels of bodies which stand on one another agree too: the first wheels of all bodies, then the
 ///          second, and so on, for wheels of one body wait for each other's results, and those of two bodies do not.
-template <class S> class WheelForces {
+template <class S> class VehicleRows {
  public:
   using U = Unit<S>;
   using V = Velocity<S>;
-  using Push = VelocityChange<S>;
 
-  ISO_INLINE WheelForces(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
+  ISO_INLINE VehicleRows(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
       : state_(state), map_(map), queries_(state, map, proxies, faults_) {}
 
-  ISO_INLINE bool any() const { return !state_.records->wheels.all().empty(); }
   /// Finds the ground.
   void begin_step();
-  /// What the wheels do in a sub-step of 1 / rate seconds before which the bodies would be accelerated by that much.
-  const std::vector<Push>& solve(const SolverBodies<S>& bodies, const std::vector<Acceleration<S>>& accelerations,
-                                 std::int32_t rate);
+  /// Since then: whether there are wheels of awake bodies.
+  ISO_INLINE bool any() const { return !runs_.empty(); }
+  /// visit(row) of bodies with wheels and of those that they stand on.
+  template <class Visit> ISO_INLINE void for_each_row(const Visit& visit) const {
+    for (const Run& run : runs_) {
+      visit(run.row);
+      visit(run.ground);
+    }
+  }
+  // As MechanismCalls has them.
+  void place(SolverBodies<S>& bodies, std::int32_t rate);
+  void solve(int sweeps);
+  void relax();
+  void end();
   /// Writes the records.
   void end_step();
 
  private:
   using Row = detail::WheelRow<S>;
-  static constexpr int kIterations = 4;     // 8 change what vehicles_test.cpp measures by less than a thousandth
-  static constexpr V kSettled = V(0x1p-7);  // [1] of the load: what changes an impulse by less is the last iteration
+  static constexpr V kSettled = V(0x1p-7);      // [1] of the load: what changes an impulse by less is the last sweep
   static constexpr std::uint32_t kMostMet = 8;  // bodies that a wheel looks at for ground
   static constexpr std::uint32_t kNone = ~0u;
   static constexpr int kMostLooks = 8;        // along the way of a step: half a radius apart up to four radii
@@ -124,8 +130,8 @@ template <class S> class WheelForces {
     bool geared;                         // some wheel is driven, and the gear is not neutral
     Engine engine;
     bool ends_early;  // nothing but its own wheels changes what they find
-    bool changed;     // by the last iteration
-    bool done;        // in this sub-step
+    bool changed;     // by the last sweep
+    bool done;        // in this pass
   };
 
   // wheel_ground.inl
@@ -147,7 +153,7 @@ template <class S> class WheelForces {
   Vec3<S> way_of(const Run& run, const Stance& at) const;
   bool is_uneven(const Run& run, const Stance& at, const Ground& ground);
   bool bears(std::uint32_t body, std::uint32_t ground) const;
-  // wheel_forces.inl
+  // vehicle_rows.inl
   const WheelSettings<S>& wheel(const Run& run) const { return state_.records->wheels.all()[run.slot]; }
   // Of a group that has one.
   const VehicleSettings<S>& vehicle(const Group& group) const { return state_.records->vehicles.all()[group.vehicle]; }
@@ -159,12 +165,14 @@ template <class S> class WheelForces {
   V speed_of(const Run& run, const Row& row, const MotionRow<V>& body) const;
   V without(const Run& run, const Row& row, V impulse, const MotionRow<V>& body) const;
   void move(const Run& run, const Row& row, MotionRow<V>& body, V impulse);
+  V least_push(const Run& run) const;
   void press(Run& run, MotionRow<V>& body);
   void grip(Run& run, MotionRow<V>& body);
-  bool iterate(Run& run);
+  bool closes_errors(const Group& group) const;
+  void sweep();
+  bool sweep(Run& run);
   void turn_wheel(Run& run) const;
   S slip_of(const Run& run) const;
-  void tell(const Group& group);
   // wheel_tracks.inl
   void join_tracks(const Group& group);
   void join(Run& leader, Run& run) const;
@@ -197,14 +205,13 @@ template <class S> class WheelForces {
   std::vector<std::uint32_t> first_;  // by row: where its wheels begin
   std::vector<std::uint32_t> order_;  // of runs: the first wheels of all bodies, then the second, and so on
   std::vector<std::uint32_t> near_;   // slots of what wheels might stand on, body by body
-  std::vector<MotionRow<V>> motion_;  // by row: as the sub-step would leave it
-  std::vector<Push> pushes_;
-  const SolverBodies<S>* bodies_ = nullptr;
+  SolverBodies<S>* bodies_ = nullptr;
+  bool relaxes_ = false;  // and pushes nothing out of the end of its travel
   std::int32_t rate_ = 1;
   Step<S> h_ = {};
 };
 
-#define ISO_WHEEL_FORCES_OF(extern, S) extern template class WheelForces<S>;
-ISO_EXTERN_FOR_EACH_SCALAR(ISO_WHEEL_FORCES_OF)
+#define ISO_VEHICLE_ROWS_OF(extern, S) extern template class VehicleRows<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_VEHICLE_ROWS_OF)
 
 }  // namespace isostep

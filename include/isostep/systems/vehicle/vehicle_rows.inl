@@ -1,4 +1,4 @@
-// Bodies of wheel_forces.hpp: a sub-step of suspensions and tyres.
+// Bodies of vehicle_rows.hpp: a sub-step of suspensions and tyres.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,42 +11,58 @@
 
 namespace isostep {
 
-template <class S>
-auto WheelForces<S>::solve(const SolverBodies<S>& bodies, const std::vector<Acceleration<S>>& accelerations,
-                           std::int32_t rate) -> const std::vector<Push>& {
+template <class S> void VehicleRows<S>::place(SolverBodies<S>& bodies, std::int32_t rate) {
   bodies_ = &bodies;
   rate_ = rate;
   h_ = divide_to<Step<S>>(S(1), S(rate));
-  pushes_.clear();
-  motion_.resize(bodies.mass.size());
   follow_ground();
-  const auto next = [&](std::uint32_t row) { return detail::next_motion(state_, bodies, accelerations, row, h_); };
-  for (const Group& group : groups_) motion_[group.row] = next(group.row);
-  for (const Run& run : runs_) motion_[run.ground] = next(run.ground);
   for (Group& group : groups_) {
     const Mat3<U> turn = to_matrix(state_.awake.states[group.row - 1].orientation);
     for (std::uint32_t r = group.first; r < group.end; ++r) place(runs_[r], turn);
     drive(group);
   }
-  for (int i = 0; i < kIterations; ++i) {
-    for (Group& group : groups_) {
-      group.done = i > 0 && group.ends_early && !group.changed;
-      group.changed = false;
-      if (group.done) continue;
-      lock(group);
-      engage(group);
-    }
-    for (const std::uint32_t r : order_) {
-      if (Group& group = groups_[runs_[r].group]; !group.done && runs_[r].touches) group.changed |= iterate(runs_[r]);
-    }
-  }
-  for (const Group& group : groups_) tell(group);
-  return pushes_;
 }
 
-/// Finds the wheel's middle on its way down where it touches the ground's plane, and the rows there. `turn` is that of
-/// the body.
-template <class S> void WheelForces<S>::place(Run& run, const Mat3<U>& turn) {
+template <class S> void VehicleRows<S>::solve(int sweeps) {
+  for (int i = 0; i < sweeps; ++i) {
+    for (Group& group : groups_) group.done = i > 0 && group.ends_early && !group.changed;
+    sweep();
+  }
+}
+/// Only the end of a travel closes an error by speed. Who has none of that is solved already.
+template <class S> void VehicleRows<S>::relax() {
+  bool any = false;
+  for (Group& group : groups_) {
+    group.done = !closes_errors(group);
+    any = any || !group.done;
+  }
+  if (!any) return;
+  relaxes_ = true;
+  sweep();
+  relaxes_ = false;
+}
+template <class S> bool VehicleRows<S>::closes_errors(const Group& group) const {
+  for (std::uint32_t r = group.first; r < group.end; ++r) {
+    if (runs_[r].touches && V(0) < runs_[r].strut.stop) return true;
+  }
+  return false;
+}
+/// Once over all groups that are not done.
+template <class S> void VehicleRows<S>::sweep() {
+  for (Group& group : groups_) {
+    if (group.done) continue;
+    group.changed = false;
+    lock(group);
+    engage(group);
+  }
+  for (const std::uint32_t r : order_) {
+    if (Group& group = groups_[runs_[r].group]; !group.done && runs_[r].touches) group.changed |= sweep(runs_[r]);
+  }
+}
+
+/// Where the wheel's middle is on its way down, so that it touches the ground's plane; and the rows there. `turn` is
+/// that of the body.
+template <class S> void VehicleRows<S>::place(Run& run, const Mat3<U>& turn) {
   run.touches = false;
   run.spin.brake = V(0);
   const WheelSettings<S>& w = wheel(run);
@@ -79,14 +95,14 @@ template <class S> void WheelForces<S>::place(Run& run, const Mat3<U>& turn) {
   set(run.along, forward);
   set(run.across, cross(run.normal, forward));
   compress(run, length);
-  MotionRow<V>& motion = motion_[run.row];
+  MotionRow<V>& motion = bodies_->velocity[run.row];
   move(run, run.up, motion, run.load);
   move(run, run.along, motion, run.push_along);
   move(run, run.across, motion, run.push_across);
 }
 
-/// Finds spring, damper, bar and stop at a length, and the tyre's grip.
-template <class S> void WheelForces<S>::compress(Run& run, S length) const {
+/// Spring, damper, bar and stop at a length, and the tyre's grip.
+template <class S> void VehicleRows<S>::compress(Run& run, S length) const {
   const WheelSettings<S>& w = wheel(run);
   const S mass = bodies_->mass[run.row].mass;
   const S stiffness = divide_to<S>(saturating_add(w.stiffness, run.anti_roll), mass);  // [1/s^2]
@@ -107,22 +123,26 @@ template <class S> void WheelForces<S>::compress(Run& run, S length) const {
 
 /// [m/s] The speed along a row. Row 0 does not move.
 template <class S>
-ISO_INLINE Velocity<S> WheelForces<S>::speed_of(const Run& run, const Row& row, const MotionRow<V>& body) const {
-  return run.ground == 0 ? row.speed(body) : row.speed(body, motion_[run.ground]);
+ISO_INLINE Velocity<S> VehicleRows<S>::speed_of(const Run& run, const Row& row, const MotionRow<V>& body) const {
+  return run.ground == 0 ? row.speed(body) : row.speed(body, bodies_->velocity[run.ground]);
 }
 /// [m/s] The speed along a row without the impulse that it has made so far.
 template <class S>
-ISO_INLINE Velocity<S> WheelForces<S>::without(const Run& run, const Row& row, V impulse,
+ISO_INLINE Velocity<S> VehicleRows<S>::without(const Run& run, const Row& row, V impulse,
                                                const MotionRow<V>& body) const {
   return saturating_subtract(speed_of(run, row, body), saturate_to<V>(product(row.give, impulse)));
 }
-template <class S> ISO_INLINE void WheelForces<S>::move(const Run& run, const Row& row, MotionRow<V>& body, V impulse) {
+template <class S> ISO_INLINE void VehicleRows<S>::move(const Run& run, const Row& row, MotionRow<V>& body, V impulse) {
   if (run.ground == 0) row.push(body, impulse);
-  else row.push(body, motion_[run.ground], impulse);
+  else row.push(body, bodies_->velocity[run.ground], impulse);
 }
 
-/// Applies the strut's push, which counts the length and speed that it leads to itself.
-template <class S> ISO_INLINE void WheelForces<S>::press(Run& run, MotionRow<V>& body) {
+/// [m/s] For the end of travel.
+template <class S> ISO_INLINE Velocity<S> VehicleRows<S>::least_push(const Run& run) const {
+  return relaxes_ ? min(run.strut.stop, V(0)) : run.strut.stop;
+}
+/// What the strut pushes, of the length and speed that it leads to itself.
+template <class S> ISO_INLINE void VehicleRows<S>::press(Run& run, MotionRow<V>& body) {
   const V others = without(run, run.up, run.load, body);
   S force = run.strut.spring;  // [m/s^2] along the suspension
   if (run.partner != kNone && runs_[run.partner].touches) {
@@ -133,13 +153,13 @@ template <class S> ISO_INLINE void WheelForces<S>::press(Run& run, MotionRow<V>&
   }
   force = saturating_add(force, -times(run.strut.damping, times(run.lean, convert<S>(others))));
   const S pushed = divide_to<S>(times(force, run.lean), run.strut.firm);  // [m/s^2]
-  const V stop = divide_to<V>(run.strut.stop - others, run.up.give);
+  const V stop = divide_to<V>(least_push(run) - others, run.up.give);
   const V load = max(max(V(0), saturate_to<V>(product(pushed, h_))), stop);
   move(run, run.up, body, load - run.load);
   run.load = load;
 }
 
-template <class S> ISO_INLINE void WheelForces<S>::grip(Run& run, MotionRow<V>& body) {
+template <class S> ISO_INLINE void VehicleRows<S>::grip(Run& run, MotionRow<V>& body) {
   const auto most = [&](S mu) ISO_INLINE_LAMBDA { return saturate_to<V>(product(mu, run.load)); };
   const V slip_along = without(run, run.along, run.push_along, body);
   const V slip_across = without(run, run.across, run.push_across, body);
@@ -151,19 +171,19 @@ template <class S> ISO_INLINE void WheelForces<S>::grip(Run& run, MotionRow<V>& 
   run.push_across = made.across;
 }
 
-/// Solves strut and tyre. Returns whether that changed their impulses by more than kSettled.
-template <class S> bool WheelForces<S>::iterate(Run& run) {
-  MotionRow<V> body = motion_[run.row];  // no wheel of a body stands on that body
+/// Whether that changed its impulses by more than kSettled.
+template <class S> bool VehicleRows<S>::sweep(Run& run) {
+  MotionRow<V> body = bodies_->velocity[run.row];  // no wheel of a body stands on that body
   const V load = run.load, along = run.push_along, across = run.push_across;
   press(run, body);
   grip(run, body);
-  motion_[run.row] = body;
+  bodies_->velocity[run.row] = body;
   const V most = run.load * kSettled;
   return most < abs(run.load - load) || most < abs(run.push_along - along) || most < abs(run.push_across - across);
 }
 
-/// Turns the wheel by the sub-step; a track's leader before the others of it.
-template <class S> void WheelForces<S>::turn_wheel(Run& run) const {
+/// How far it turns in the sub-step; a track's leader before the others of it.
+template <class S> void VehicleRows<S>::turn_wheel(Run& run) const {
   constexpr S kTurn = S(6.28318530717958647692);
   const V fastest = convert<V>(min(Limits<S>::surface_speed(), Limits<S>::speed() + Limits<S>::speed()));
   run.spin.rim = leads(run) ? clamp(end_of(run), -fastest, fastest) : runs_[run.leader].spin.rim;
@@ -173,41 +193,25 @@ template <class S> void WheelForces<S>::turn_wheel(Run& run) const {
   if (run.angle < S(0)) run.angle += kTurn;
 }
 
-/// [1] The mean slip of this sub-step and the ones before: each counts half as much as the next.
-template <class S> S WheelForces<S>::slip_of(const Run& run) const {
+/// [1] Of this sub-step and the ones before.
+template <class S> S VehicleRows<S>::slip_of(const Run& run) const {
   const S before = run.slip * S(0.5);
   if (!run.touches) return before;
-  const MotionRow<V>& body = motion_[run.row];
+  const MotionRow<V>& body = bodies_->velocity[run.row];
   const V along = speed_of(run, run.along, body), across = speed_of(run, run.across, body);
   return before + convert<S>(detail::tyre_slip(saturating_subtract(along, run.spin.rim), across, along)) * S(0.5);
 }
 
-/// Sums the impulses of the sub-step, on the body together.
-template <class S> void WheelForces<S>::tell(const Group& group) {
-  Push all = {group.row, Vec3<V>::zero(), Vec3<V>::zero()};
-  bool any = false;
-  for (std::uint32_t r = group.first; r < group.end; ++r) {
-    Run& run = runs_[r];
+/// Spins and slips.
+template <class S> void VehicleRows<S>::end() {
+  for (Run& run : runs_) {
     if (!run.touches) run.load = run.push_along = run.push_across = V(0);
     turn_wheel(run);
     run.slip = slip_of(run);
-    if (!run.touches) continue;
-    any = true;
-    const auto sum = [&](auto part) {
-      return Row::times(part(run.up), run.load) + Row::times(part(run.along), run.push_along) +
-             Row::times(part(run.across), run.push_across);
-    };
-    const Vec3<V> linear = sum([](const Row& row) { return row.way; });
-    all.linear = saturating_add(all.linear, linear);
-    all.angular = saturating_add(all.angular, sum([](const Row& row) { return row.spun; }));
-    if (!(S(0) < run.up.share)) continue;
-    const Vec3<V> turning = sum([](const Row& row) { return row.ground_spun; });
-    pushes_.push_back({run.ground, -Row::times(linear, run.up.share), -Row::times(turning, run.up.share)});
   }
-  if (any) pushes_.push_back(all);
 }
 
-template <class S> void WheelForces<S>::end_step() {
+template <class S> void VehicleRows<S>::end_step() {
   if (runs_.empty()) return;
   end_engines();
   for (const Run& run : runs_) {

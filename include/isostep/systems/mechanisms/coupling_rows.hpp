@@ -1,0 +1,100 @@
+// CouplingRows<S>: rows of gears, racks, pulleys and differentials, which solvers solve.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/joints/joint_coordinate.hpp"
+#include "isostep/dynamics/solvers/step_context.hpp"
+#include "isostep/store/body_map.hpp"
+#include "isostep/store/state.hpp"
+
+namespace isostep {
+
+/// Input:   the Coupling records, the bodies in every sub-step.
+/// Output:  velocities of the bodies of coupled joints; the states of couplings.
+/// Keeps:   nothing from step to step but memory: what rows bore is in the states.
+/// Order:   couplings ascending by slot; those of a train share bodies, so each sweep solves all of them once.
+template <class S> class CouplingRows {
+ public:
+  using V = Velocity<S>;
+
+  ISO_INLINE CouplingRows(WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
+
+  /// Finds those that act.
+  void begin_step();
+  /// Since then: whether there are any.
+  ISO_INLINE bool any() const { return !runs_.empty(); }
+  /// visit(row) of the bodies of their joints.
+  template <class Visit> ISO_INLINE void for_each_row(const Visit& visit) const {
+    for (const Run& run : runs_) {
+      for (int i = 0; i < run.count; ++i) {
+        visit(run.terms[i].rows[0]);
+        visit(run.terms[i].rows[1]);
+      }
+    }
+  }
+  // As MechanismCalls has them.
+  void place(SolverBodies<S>& bodies, std::int32_t rate);
+  void solve(int sweeps);
+  void relax();
+  /// Writes the records.
+  void end_step();
+
+ private:
+  static constexpr int kMostTerms = 3;
+
+  /// A joint of a coupling.
+  struct Term {
+    std::uint32_t index;       // of its joint
+    std::uint32_t rows[2];     // of its bodies
+    JointConstraint<S> joint;  // drives[0].row: of the coordinate
+    S ratio;                   // [1] as the record has it
+    S gear;                    // [1] speed of the sum, in rows of the first term, by speed of this one's row
+    S push;                    // [1] this row's impulse by a change of the sum's speed
+  };
+  struct Run {
+    std::uint32_t slot;  // of its record
+    Term terms[kMostTerms];
+    int count;
+    bool turns;      // an angle is among them
+    bool begins;     // nothing of this step is in `changed` yet
+    bool holds;      // something moves
+    S lower, upper;  // [rad] or [m]
+    S unit;          // [kg m] or [kg] impulse on the sum by a change of it in rows of the first term
+    V low, high;     // [m/s] that the sum may have, in rows of the first term
+    V most;          // [m/s] by which a sub-step may change it
+    V changed;       // [m/s] by which this one has
+  };
+
+  bool sleeps(const Coupling<S>& coupling) const;
+  bool acts(const Coupling<S>& coupling) const;
+  void list_run(std::uint32_t slot, const Coupling<S>& coupling);
+  void prepare();
+  void place(Run& run, const JointStep<S>& step) const;
+  static S lever_of(const Term& term);
+  void weigh(Run& run) const;
+  void bound(Run& run, S sum) const;
+  V most_change(const Run& run) const;
+  V change_of(const Run& run, S load) const;
+  S load_of(const Run& run) const;
+  S coupling_of(const Term& i, const Term& j) const;
+  V speed_of(const Run& run) const;
+  void solve(Run& run, bool relaxes);
+  void push(const Run& run, V change);
+
+  WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  std::vector<Run> runs_;
+  bool prepared_ = false;  // in this step
+  SolverBodies<S>* bodies_ = nullptr;
+  S rate_ = S(1);
+  Step<S> h_ = {};
+};
+
+#define ISO_COUPLING_ROWS_OF(extern, S) extern template class CouplingRows<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_COUPLING_ROWS_OF)
+
+}  // namespace isostep
