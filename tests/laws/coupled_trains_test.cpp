@@ -311,6 +311,75 @@ TYPED_TEST(CoupledTrains, that_hold_each_other_gain_nothing) {
   }
 }
 
+/// A slider on a slider, at a right angle, one coupled to the other: the second moves the body of the first as that one's
+/// joint does not let it.
+TYPED_TEST(CoupledTrains, of_a_chain_of_joints_gain_nothing) {
+  using S = TypeParam;
+  for (const SolverName solver :
+       built({SolverName::soft_step, SolverName::pgs, SolverName::direct, SolverName::worst_first})) {
+    for (const double ratio : {0.1, 1.0, 4.0, 10.0}) {
+      SCOPED_TRACE(this->name(solver, 0) + ", ratio " + std::to_string(ratio));
+      World<S> w(this->with(solver));
+      w.set_gravity(Vec3<S>::zero());
+      BodyDefinition<S> d = moving<S>(add_box(w, 0.25, 0.25, 0.25), {0, 0, 0}, {1, 0, 0});
+      d.mass = S(5);
+      const BodyId first = w.create(d);
+      d = moving<S>(add_box(w, 0.25, 0.25, 0.25), {0, 1, 0}, {1, 0, 0});
+      d.mass = num<S>(5 * ratio);
+      const BodyId second = w.create(d);
+      const Pose<S> along = {vec<S>(0, 0, 0), turn<S>({0, 1, 0}, kPi / 2)},
+                    across = {vec<S>(0, 1, 0), turn<S>({1, 0, 0}, kPi / 2)};
+      const JointId a = w.create(w.joint_at(JointType::slider, {}, first, along));
+      const JointId b = w.create(w.joint_at(JointType::slider, first, second, across));
+      Coupling<S> c;
+      c.joint_a = a;
+      c.joint_b = b;
+      c.ratio_a = c.ratio_b = S(1);
+      ASSERT_TRUE(w.add(c)) << describe(w.fault());
+      const double given = scenes::measure_energy(w).total();
+      double most = 0;
+      for (int frame = 0; frame < 300; ++frame) {
+        w.step();
+        most = std::max(most, scenes::measure_energy(w).total());
+      }
+      EXPECT_LT(most, given * pick<S>(1.01, 1.01, 1.05, 1.01));
+    }
+  }
+}
+
+/// Pendulums on long arms, geared to a heavy wheel or to each other.
+TYPED_TEST(CoupledTrains, of_bodies_far_from_their_axes_gain_nothing) {
+  using S = TypeParam;
+  for (const SolverName solver :
+       built({SolverName::soft_step, SolverName::pgs, SolverName::direct, SolverName::worst_first})) {
+    for (const double arm : {0.125, 0.25, 0.5, 1.0, 2.0}) {
+      for (const bool geared_to_wheel : {true, false}) {
+        SCOPED_TRACE(this->name(solver, 0) + ", arm " + std::to_string(arm));
+        World<S> w(this->with(solver));
+        JointId joints[2];
+        for (int i = 0; i < 2; ++i) {
+          const bool wheel = geared_to_wheel && i == 1;
+          const double at = 6.0 * i;
+          BodyDefinition<S> d = moving<S>(add_ball(w, wheel ? 0.5 : 0.25), {at + (wheel ? 0 : arm), 0, 0});
+          d.mass = wheel ? S(500) : S(10);
+          d.angular_damping = S(0);
+          joints[i] =
+              w.create(w.joint_at(JointType::hinge, {}, w.create(d), {vec<S>(at, 0, 0), Quat<Unit<S>>::identity()}));
+          ASSERT_TRUE(joints[i]) << describe(w.fault());
+        }
+        ASSERT_TRUE(w.add(gears<S>(joints[0], 1, joints[1], 1))) << describe(w.fault());
+        const double start = scenes::measure_energy(w).total(), depth = 2 * 10 * 10 * arm;
+        double most = start;
+        for (int frame = 0; frame < 300; ++frame) {
+          w.step();
+          most = std::max(most, scenes::measure_energy(w).total());
+        }
+        EXPECT_LT(most - start, 0.02 * depth);
+      }
+    }
+  }
+}
+
 /// What it bore is state: a world that is loaded goes on with it.
 TYPED_TEST(CoupledTrains, go_on_from_what_they_bore) {
   using S = TypeParam;

@@ -17,6 +17,9 @@ namespace isostep {
 /// Output:  velocities of the bodies of coupled joints; the states of couplings.
 /// Keeps:   nothing from step to step but memory: what rows bore is in the states.
 /// Order:   couplings ascending by slot; those of a train share bodies, so each sweep solves all of them once.
+/// Resisted: bodies far from their axis or in several joints move as one row alone would not move them. Rows that take
+///          turns with such joints agree too slowly to be stable, so these close their error once, from nothing, before
+///          joints are solved, and the joints have the last say.
 template <class S> class CouplingRows {
  public:
   using V = Velocity<S>;
@@ -61,6 +64,7 @@ template <class S> class CouplingRows {
     int count;
     bool turns;      // an angle is among them
     bool begins;     // nothing of this step is in `changed` yet
+    bool resisted;   // by joints: a push along its rows moves bodies as their joints do not let them
     bool holds;      // something moves
     S lower, upper;  // [rad] or [m]
     S unit;          // [kg m] or [kg] impulse on the sum by a change of it in rows of the first term
@@ -73,6 +77,9 @@ template <class S> class CouplingRows {
   bool acts(const Coupling<S>& coupling) const;
   void list_run(std::uint32_t slot, const Coupling<S>& coupling);
   void prepare();
+  void count_joints();
+  bool is_resisted(const Run& run) const;
+  bool is_resisted(const Term& term, bool of_b) const;
   void place(Run& run, const JointStep<S>& step) const;
   static S lever_of(const Term& term);
   void weigh(Run& run) const;
@@ -88,6 +95,7 @@ template <class S> class CouplingRows {
   WorldState<S>& state_;
   const BodyMap<S>& map_;
   std::vector<Run> runs_;
+  std::vector<std::uint8_t> joints_of_;  // by row of a body that moves: how many, 2 at most
   bool prepared_ = false;  // in this step
   SolverBodies<S>* bodies_ = nullptr;
   S rate_ = S(1);

@@ -72,7 +72,13 @@ template <class S> void CouplingRows<S>::place(SolverBodies<S>& bodies, std::int
   const JointStep<S> step = {state_.awake.states.data(), nullptr, rate_, h_, Softness<S>::rigid()};
   for (Run& run : runs_) {
     place(run, step);
-    if (run.holds) push(run, run.changed);
+    if (run.resisted) run.changed = V(0);
+    else if (run.holds) push(run, run.changed);
+  }
+  for (int i = 0; i < kMechanismSweeps; ++i) {
+    for (Run& run : runs_) {
+      if (run.resisted) solve(run, false);
+    }
   }
 }
 /// Joints as the step finds them.
@@ -87,18 +93,53 @@ template <class S> void CouplingRows<S>::prepare() {
       prepare_joint(detail::with_coordinate(joint), JointState<S>{}, a, b, *bodies_, term.joint);
     }
   }
+  count_joints();
+  for (Run& run : runs_) run.resisted = is_resisted(run);
+}
+template <class S> void CouplingRows<S>::count_joints() {
+  joints_of_.assign(state_.awake.states.size() + 1, 0);
+  for (const JointProperties<S>& joint : state_.joints.properties) {
+    for (const std::uint32_t body : {joint.body_a, joint.body_b}) {
+      const std::uint32_t row = map_.row_of(body);
+      if (joints_of_[row] < 2) ++joints_of_[row];
+    }
+  }
+}
+template <class S> bool CouplingRows<S>::is_resisted(const Run& run) const {
+  for (int i = 0; i < run.count; ++i) {
+    if (is_resisted(run.terms[i], false) || is_resisted(run.terms[i], true)) return true;
+  }
+  return false;
+}
+/// Whether the body is in another joint too, or has most of its inertia about the joint from the distance of its centre.
+template <class S> bool CouplingRows<S>::is_resisted(const Term& term, bool of_b) const {
+  constexpr S kFar = S(2);  // [1] distance by radius of gyration: 1 + 4 times the inertia; rows are stable up to 6
+  const std::uint32_t row = term.rows[of_b ? 1 : 0];
+  if (!bodies_->moves(row)) return false;
+  if (1 < joints_of_[row]) return true;
+  const JointProperties<S>& joint = term.joint.properties;
+  if (measure_of(joint.type) != JointMeasure::angle) return false;
+  const BodyProperties<S>& body = state_.awake.properties[row - 1];
+  const Pose<S>& frame = of_b ? joint.frame_b : joint.frame_a;
+  const Vec3<S> arm = frame.position - body.local_centre;
+  const Vec3<Unit<S>> axis = rotate(frame.orientation, Vec3<Unit<S>>{Unit<S>(0), Unit<S>(0), Unit<S>(1)});
+  return kFar * term.joint.drives[0].radius < length(cross(convert<S>(axis), arm));
 }
 
 template <class S> void CouplingRows<S>::solve(int sweeps) {
   for (int i = 0; i < sweeps; ++i) {
-    for (Run& run : runs_) solve(run, false);
+    for (Run& run : runs_) {
+      if (!run.resisted) solve(run, false);
+    }
   }
 }
 /// As often as a pass solves them: couplings of the same joints agree slowly, and what is left of the speed that closed
 /// their errors is energy that nobody gave.
 template <class S> void CouplingRows<S>::relax() {
   for (int i = 0; i < kMechanismSweeps; ++i) {
-    for (Run& run : runs_) solve(run, true);
+    for (Run& run : runs_) {
+      if (!run.resisted) solve(run, true);
+    }
   }
 }
 
