@@ -311,8 +311,8 @@ TYPED_TEST(CoupledTrains, that_hold_each_other_gain_nothing) {
   }
 }
 
-/// A slider on a slider, at a right angle, one coupled to the other: the second moves the body of the first as that one's
-/// joint does not let it.
+/// A slider on a slider, at a right angle, one coupled to the other: the second moves the first one's body as the joint
+/// of that does not let it.
 TYPED_TEST(CoupledTrains, of_a_chain_of_joints_gain_nothing) {
   using S = TypeParam;
   for (const SolverName solver :

@@ -111,7 +111,7 @@ template <class S> bool CouplingRows<S>::is_resisted(const Run& run) const {
   }
   return false;
 }
-/// Whether the body is in another joint too, or has most of its inertia about the joint from the distance of its centre.
+/// Whether the body is in another joint too, or has most of its inertia about the joint from its centre's distance.
 template <class S> bool CouplingRows<S>::is_resisted(const Term& term, bool of_b) const {
   constexpr S kFar = S(2);  // [1] distance by radius of gyration: 1 + 4 times the inertia; rows are stable up to 6
   const std::uint32_t row = term.rows[of_b ? 1 : 0];
