@@ -13,6 +13,10 @@ namespace isostep {
 /// Disjoint sets of 0..n-1; every set is named by its least member, so the names depend on the sets alone.
 class DisjointSets {
  public:
+  /// Asks for the memory of so many: begin() asks for no more.
+  ISO_INLINE void make_room(std::size_t count) {
+    if (parent_.size() < count) parent_.resize(count);
+  }
   ISO_INLINE void begin(std::size_t count) {
     parent_.resize(count);
     for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<std::uint32_t>(i);

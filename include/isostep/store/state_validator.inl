@@ -292,7 +292,7 @@ template <class S> class StateValidator {
     }
     return nullptr;
   }
-  /// Whether the slot was given to a body, which may be gone.
+  /// Returns true if the slot was given to a body, which may be gone.
   bool was_body(BodyId body) const {
     return body && body.slot < seen_.set_of_body.size() && SlotMap::space_of(body) == state_.settings.id_space;
   }

@@ -20,8 +20,8 @@ inline constexpr int kMostTeeth = 1024;  // [1] of a ratio of an angle
 /// Angles:  where one of them is an angle the sum counts modulo 2 pi, and ratios of angles are whole numbers, of teeth:
 ///          no turn is counted, and a gear stands in mesh after any number of turns. lower..upper is less than a turn.
 /// Method:  one row over the bodies of all joints, which the solver solves in turn with joints and contacts from most
-///          of what it bore in the sub-step before: gears between a motor and a brake stand within 0.0001 rad of their
-///          mesh. Of an error a sub-step closes a fifth, by speed that does not stay.
+///          of what it bore in the sub-step before; where joints resist it, once, before them. Of an error a sub-step
+///          closes a fifth, by speed that does not stay. How exactly: joints/README.md.
 /// It ends with any of its joints.
 template <class S> struct Coupling {
   JointId joint_a = {}, joint_b = {};

@@ -17,9 +17,8 @@ namespace isostep {
 /// Output:  velocities of the bodies of coupled joints; the states of couplings.
 /// Keeps:   nothing from step to step but memory: what rows bore is in the states.
 /// Order:   couplings ascending by slot; those of a train share bodies, so each sweep solves all of them once.
-/// Resisted: bodies far from their axis or in several joints move as one row alone would not move them. Rows that take
-///          turns with such joints agree too slowly to be stable, so these close their error once, from nothing, before
-///          joints are solved, and the joints have the last say.
+///          Rows that joints resist, of bodies in several joints or far from their axis, agree with those joints too
+///          slowly to be stable in turns: they close their error once, from nothing, before joints are solved.
 template <class S> class CouplingRows {
  public:
   using V = Velocity<S>;
@@ -80,6 +79,7 @@ template <class S> class CouplingRows {
   void count_joints();
   bool is_resisted(const Run& run) const;
   bool is_resisted(const Term& term, bool of_b) const;
+  void sweep(int times, bool resisted, bool relaxes);
   void place(Run& run, const JointStep<S>& step) const;
   static S lever_of(const Term& term);
   void weigh(Run& run) const;

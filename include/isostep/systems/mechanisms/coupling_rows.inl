@@ -75,11 +75,7 @@ template <class S> void CouplingRows<S>::place(SolverBodies<S>& bodies, std::int
     if (run.resisted) run.changed = V(0);
     else if (run.holds) push(run, run.changed);
   }
-  for (int i = 0; i < kMechanismSweeps; ++i) {
-    for (Run& run : runs_) {
-      if (run.resisted) solve(run, false);
-    }
-  }
+  sweep(kMechanismSweeps, true, false);
 }
 /// Joints as the step finds them.
 template <class S> void CouplingRows<S>::prepare() {
@@ -111,7 +107,8 @@ template <class S> bool CouplingRows<S>::is_resisted(const Run& run) const {
   }
   return false;
 }
-/// Whether the body is in another joint too, or has most of its inertia about the joint from its centre's distance.
+/// Returns true if the body is in another joint too, or has most of its inertia about the joint from its centre's
+/// distance.
 template <class S> bool CouplingRows<S>::is_resisted(const Term& term, bool of_b) const {
   constexpr S kFar = S(2);  // [1] distance by radius of gyration: 1 + 4 times the inertia; rows are stable up to 6
   const std::uint32_t row = term.rows[of_b ? 1 : 0];
@@ -126,19 +123,15 @@ template <class S> bool CouplingRows<S>::is_resisted(const Term& term, bool of_b
   return kFar * term.joint.drives[0].radius < length(cross(convert<S>(axis), arm));
 }
 
-template <class S> void CouplingRows<S>::solve(int sweeps) {
-  for (int i = 0; i < sweeps; ++i) {
+template <class S> void CouplingRows<S>::solve(int sweeps) { sweep(sweeps, false, false); }
+/// Relaxes as often as a pass solves: couplings of the same joints agree slowly, and what is left of the speed that
+/// closed their errors is energy that nobody gave.
+template <class S> void CouplingRows<S>::relax() { sweep(kMechanismSweeps, false, true); }
+/// Solves those that joints resist, or the others.
+template <class S> void CouplingRows<S>::sweep(int times, bool resisted, bool relaxes) {
+  for (int i = 0; i < times; ++i) {
     for (Run& run : runs_) {
-      if (!run.resisted) solve(run, false);
-    }
-  }
-}
-/// As often as a pass solves them: couplings of the same joints agree slowly, and what is left of the speed that closed
-/// their errors is energy that nobody gave.
-template <class S> void CouplingRows<S>::relax() {
-  for (int i = 0; i < kMechanismSweeps; ++i) {
-    for (Run& run : runs_) {
-      if (!run.resisted) solve(run, true);
+      if (run.resisted == resisted) solve(run, relaxes);
     }
   }
 }

@@ -42,6 +42,7 @@ template <class S> class IslandSleep {
   const Material<S>& surface_of(const BodyProperties<S>& body, std::uint32_t slot, std::uint32_t leaf) const;
   void stop_clocks_of_motors();
   void stop_clocks_by_forces();
+  void make_room();
   bool some_body_is_ready() const;
 
   bool is_dynamic(std::uint32_t slot) const;

@@ -32,10 +32,18 @@ void IslandSleep<S>::update(std::vector<BodyId>& fell_asleep, const Belts<S>* be
   stop_clocks_of_carried(belts);
   stop_clocks_of_motors();
   stop_clocks_by_forces();
+  make_room();
   if (!some_body_is_ready()) return;
   find_islands();
   find_island_clocks();
   if (mark_ready_islands()) move_marked_islands(fell_asleep);
+}
+
+/// Memory goes with how many bodies are awake, and not with when the first of them is ready to sleep.
+template <class S> void IslandSleep<S>::make_room() {
+  const std::size_t count = state_.awake.states.size();
+  islands_.make_room(count);
+  if (clock_.size() < count) clock_.resize(count);
 }
 
 template <class S> bool IslandSleep<S>::put_to_sleep(std::uint32_t slot) {

@@ -23,13 +23,14 @@ template <class S> void VehicleRows<S>::place(SolverBodies<S>& bodies, std::int3
   }
 }
 
+/// A group that ends early is done once a sweep changes nothing, for in a pass only its own wheels move it.
 template <class S> void VehicleRows<S>::solve(int sweeps) {
   for (int i = 0; i < sweeps; ++i) {
     for (Group& group : groups_) group.done = i > 0 && group.ends_early && !group.changed;
     sweep();
   }
 }
-/// Only the end of a travel closes an error by speed. Who has none of that is solved already.
+/// Solves the groups that closed an error by speed, which only the end of a travel does. The others are solved already.
 template <class S> void VehicleRows<S>::relax() {
   bool any = false;
   for (Group& group : groups_) {
@@ -47,7 +48,7 @@ template <class S> bool VehicleRows<S>::closes_errors(const Group& group) const 
   }
   return false;
 }
-/// Once over all groups that are not done.
+/// Solves all groups that are not done, once.
 template <class S> void VehicleRows<S>::sweep() {
   for (Group& group : groups_) {
     if (group.done) continue;
