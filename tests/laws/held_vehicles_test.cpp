@@ -1,13 +1,15 @@
 // Laws of vehicles that something else holds: walls before cars and tanks under power, brakes on slopes, clutches that
-// stall or slip; generated, with every solver, against closed forms.
+// stall or slip, loads that joints hold above them; generated, with every solver, against closed forms.
 // SPDX-License-Identifier: MIT
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "built.hpp"
 #include "random/dice.hpp"
+#include "scenes/measure.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -241,6 +243,47 @@ TYPED_TEST(HeldVehicles, with_brakes_on_hold_one_that_pushes) {
       run(b.w, 60);
       EXPECT_LT(length(real(b.w.center_of_mass(other)) - from), 3e-3);
       EXPECT_LT(this->fastest_wheel(b), 0.03);
+    }
+  }
+}
+
+/// A load of up to twenty times its mass, welded or hinged above it, presses its springs to the end of their travel: it
+/// gains nothing, and where the load cannot fall, it stands and bears it.
+TYPED_TEST(HeldVehicles, under_a_load_on_a_joint_stand_at_the_end_of_their_travel) {
+  using S = TypeParam;
+  for (const SolverName solver : kBuiltSolvers) {
+    for (std::uint64_t seed = 0; seed < 3 * kVehicles; ++seed) {
+      SCOPED_TRACE(this->name(solver, seed));
+      Drawn drawn = Drawn::draw(seed);
+      Dice dice(seed * 13 + 46);
+      drawn.mass = 100;
+      const double load = drawn.mass * dice.magnitude(0.5, 20), above = dice.in(0.7, 1.5);  // [kg], [m]
+      const bool welded = dice.one_in(2);
+      auto b = this->build(drawn, solver, 0, false);
+      const double travel = dice.one_in(2) ? 0 : 0.05, lift = 0.1 - travel;  // [m]; from where springs alone bear it
+      b.w.set_pose(b.body, {vec<S>(0, kHeight + lift, 0), Quat<Unit<S>>::identity()});
+      for (const WheelId id : b.wheels) {
+        WheelSettings<S> wheel = *b.w.find(id);
+        wheel.travel = num<S>(travel);
+        ASSERT_TRUE(b.w.set(id, wheel)) << describe(b.w.fault());
+      }
+      BodyDefinition<S> d = moving<S>(add_box(b.w, 0.9, 0.3, 2.1), {0, kHeight + lift + above, 0});
+      d.mass = num<S>(load);
+      const BodyId top = b.w.create(d);
+      const Pose<S> frame = {vec<S>(0, kHeight + lift + above / 2, 0), Quat<Unit<S>>::identity()};
+      ASSERT_TRUE(b.w.create(b.w.joint_at(welded ? JointType::fixed : JointType::hinge, b.body, top, frame)));
+      const double given = scenes::measure_energy(b.w).total();
+      double most = given;
+      for (int frame_number = 0; frame_number < 600; ++frame_number) {
+        b.w.step();
+        most = std::max(most, scenes::measure_energy(b.w).total());
+      }
+      EXPECT_LT(most, 1.01 * given);
+      if (!welded) continue;
+      EXPECT_LT(this->speed(b), 0.05);
+      double borne = 0;
+      for (const WheelId id : b.wheels) borne += to_double(b.w.state(id)->load);
+      EXPECT_NEAR(borne, 10 * (drawn.mass + load), 0.5 * (drawn.mass + load));
     }
   }
 }

@@ -44,6 +44,10 @@ template <class S> inline constexpr S kMostPenetrationBias = S(1.0 / 64);  // [m
 template <class S> inline constexpr S kDeepOverlap = S(1.0 / 64);  // [m]
 inline constexpr int kDeepRelaxations = 4;
 
+template <class S> Softness<S> contact_softness(S rate) {
+  return soften(kContactAngle<S>, kContactDamping<S>, rate);
+}
+
 /// [1] The part of an error that Baumgarte's term asks to be closed in a step: Box2D's and Bullet's choice, below which
 /// errors stay and above which stacks jump.
 template <class S> inline constexpr S kBaumgarte = S(0.2);
@@ -58,7 +62,7 @@ template <class S> Schedule<S> soft_step_schedule(const StepContext<S>& context)
           1,
           true,
           JointOrder::trees,
-          soften(detail::kContactAngle<S>, detail::kContactDamping<S>, S(rate)),
+          detail::contact_softness(S(rate)),
           joint_softness(S(rate)),
           detail::kPenetrationBias<S>};
 }

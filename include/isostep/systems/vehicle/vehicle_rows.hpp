@@ -9,6 +9,7 @@
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 #include "isostep/dynamics/wheel_rows.hpp"
+#include "isostep/math/softness.hpp"
 #include "isostep/query/queries.hpp"
 #include "isostep/store/body_map.hpp"
 #include "isostep/store/proxies.hpp"
@@ -209,6 +210,7 @@ template <class S> class VehicleRows {
   bool relaxes_ = false;  // and pushes nothing out of the end of its travel
   std::int32_t rate_ = 1;
   Step<S> h_ = {};
+  Softness<S> stop_softness_ = Softness<S>::rigid();  // of a strut beyond the end of its travel
 };
 
 #define ISO_VEHICLE_ROWS_OF(extern, S) extern template class VehicleRows<S>;

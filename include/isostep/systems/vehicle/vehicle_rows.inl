@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/checks.hpp"
+#include "isostep/dynamics/solvers/schedule.hpp"
 #include "isostep/store/finite_guard.hpp"
 #include "isostep/systems/vehicle/wheel_clutch.inl"
 #include "isostep/systems/vehicle/wheel_drive.inl"
@@ -15,6 +16,7 @@ template <class S> void VehicleRows<S>::place(SolverBodies<S>& bodies, std::int3
   bodies_ = &bodies;
   rate_ = rate;
   h_ = divide_to<Step<S>>(S(1), S(rate));
+  stop_softness_ = detail::contact_softness(S(rate));
   follow_ground();
   for (Group& group : groups_) {
     const Mat3<U> turn = to_matrix(state_.awake.states[group.row - 1].orientation);
@@ -117,9 +119,11 @@ template <class S> void VehicleRows<S>::compress(Run& run, S length) const {
   run.strut.bar = run.partner == kNone ? S(0) : divide_to<S>(run.anti_roll, mass);
   const S firm = times(times(times(run.up.give, run.lean), run.lean), run.strut.damping * h_);
   run.strut.firm = saturating_add(S(1), firm);
-  // The strut is no shorter than its travel leaves after the sub-step, and where it is shorter, it comes out of that.
+  // The strut is no shorter than its travel leaves after the sub-step. Where it is shorter, it comes out of that as
+  // softly as contacts do: at once, it and a joint that holds a load on the body would throw each other off.
   const S room = divide_to<S>(length - (w.free_length - w.travel), run.lean);
-  run.strut.stop = min(saturate_to<V>(product(-room, S(rate_))), detail::kPushSpeed<S>);
+  const S pace = S(0) <= room ? S(rate_) : stop_softness_.bias_rate;
+  run.strut.stop = min(saturate_to<V>(product(-room, pace)), detail::kPushSpeed<S>);
 }
 
 /// [m/s] The speed along a row. Row 0 does not move.
@@ -154,7 +158,9 @@ template <class S> ISO_INLINE void VehicleRows<S>::press(Run& run, MotionRow<V>&
   }
   force = saturating_add(force, -times(run.strut.damping, times(run.lean, convert<S>(others))));
   const S pushed = divide_to<S>(times(force, run.lean), run.strut.firm);  // [m/s^2]
-  const V stop = divide_to<V>(least_push(run) - others, run.up.give);
+  const V push = least_push(run);
+  V stop = divide_to<V>(push - others, run.up.give);
+  if (V(0) < push) stop = saturate_to<V>(product(stop_softness_.mass_scale, stop));
   const V load = max(max(V(0), saturate_to<V>(product(pushed, h_))), stop);
   move(run, run.up, body, load - run.load);
   run.load = load;
