@@ -47,6 +47,12 @@ template <class S> class CouplingRows {
 
  private:
   static constexpr int kMostTerms = 3;
+  /// [1] The part of an error that a sub-step closes: as kBaumgarte, but of a sub-step.
+  static constexpr S kBias = S(0.2);
+  /// [1] The part of what a row bore from which the next sub-step begins. Rows of the same joints agree slowly, by a
+  /// part e of their error in a sub-step. With a bias b and without a part k of what it bore, such an error x goes as
+  /// x''' + k x'' + e x' + e b x = 0, which grows for ever unless k > b.
+  static constexpr S kWarmth = S(0.75);
 
   /// A joint of a coupling.
   struct Term {
@@ -56,6 +62,12 @@ template <class S> class CouplingRows {
     S ratio;                   // [1] as the record has it
     S gear;                    // [1] speed of the sum, in rows of the first term, by speed of this one's row
     S push;                    // [1] this row's impulse by a change of the sum's speed
+    // Where its joint ends, as the sub-step finds it: coupling_ends.inl.
+    bool ends;
+    V low, high;         // [m/s] that the row may have
+    S stop[kMostTerms];  // [1] impulses of the rows by a change of this one's speed that leaves the sum's
+    S bears;             // [1] what the coupling has of that: as Run::changed
+    V stopped;           // [m/s] by which this sub-step has changed that speed
   };
   struct Run {
     std::uint32_t slot;  // of its record
@@ -65,11 +77,13 @@ template <class S> class CouplingRows {
     bool begins;     // nothing of this step is in `changed` yet
     bool resisted;   // by joints: a push along its rows moves bodies as their joints do not let them
     bool holds;      // something moves
+    bool equal;      // lower and upper are one: it pushes and pulls
     S lower, upper;  // [rad] or [m]
     S unit;          // [kg m] or [kg] impulse on the sum by a change of it in rows of the first term
     V low, high;     // [m/s] that the sum may have, in rows of the first term
     V most;          // [m/s] by which a sub-step may change it
     V changed;       // [m/s] by which this one has
+    V borne;         // [m/s] likewise, for the ends of its joints
   };
 
   bool sleeps(const Coupling<S>& coupling) const;
@@ -91,6 +105,12 @@ template <class S> class CouplingRows {
   V speed_of(const Run& run) const;
   void solve(Run& run, bool relaxes);
   void push(const Run& run, V change);
+  void push(const Term& term, V impulse);
+  // coupling_ends.inl
+  void place_ends(Run& run, const S (&at)[kMostTerms]) const;
+  bool bound_end(const Run& run, Term& term, S at) const;
+  bool weigh_end(Run& run, int end) const;
+  void stop(Run& run, Term& term, bool relaxes);
 
   WorldState<S>& state_;
   const BodyMap<S>& map_;

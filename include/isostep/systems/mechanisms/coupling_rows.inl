@@ -5,19 +5,12 @@
 #include "isostep/dynamics/force_bounds.hpp"
 #include "isostep/dynamics/joints/joint.inl"
 #include "isostep/math/angles.hpp"
+#include "isostep/store/fat_box.hpp"
 #include "isostep/store/finite_guard.hpp"
+#include "isostep/systems/mechanisms/coupling_ends.inl"
 #include "isostep/systems/mechanisms/coupling_rows.hpp"
 
 namespace isostep {
-
-namespace detail {
-/// [1] The part of an error that a sub-step closes: as kBaumgarte, but of a sub-step.
-template <class S> inline constexpr S kCouplingBias = S(0.2);
-/// [1] The part of what a row bore from which the next sub-step begins. Rows of the same joints agree slowly, by a part
-/// e of their error in a sub-step. With a bias b and without a part k of what it bore, such an error x goes as
-/// x''' + k x'' + e x' + e b x = 0, which grows for ever unless k > b.
-template <class S> inline constexpr S kCouplingWarmth = S(0.75);
-}  // namespace detail
 
 template <class S> void CouplingRows<S>::begin_step() {
   runs_.clear();
@@ -50,6 +43,7 @@ template <class S> void CouplingRows<S>::list_run(std::uint32_t slot, const Coup
   run.slot = slot;
   run.lower = coupling.lower;
   run.upper = coupling.upper;
+  run.equal = coupling.lower == coupling.upper;
   run.count = coupling.joint_c ? 3 : 2;
   run.turns = false;
   run.begins = true;
@@ -146,18 +140,19 @@ template <class S> void CouplingRows<S>::end_step() {
 
 /// Rows and the sum as the bodies lie now.
 template <class S> void CouplingRows<S>::place(Run& run, const JointStep<S>& step) const {
-  S sum = S(0);
+  S sum = S(0), at[kMostTerms];
   for (int i = 0; i < run.count; ++i) {
     Term& term = run.terms[i];
     JointConstraint<S>& joint = term.joint;
     linearise_joint(joint, step);
     detail::set_turns(joint.drives[0].row, bodies_->mass[joint.row_a].kappa, bodies_->mass[joint.row_b].kappa);
     const detail::JointFrames<S> frames = detail::joint_frames(joint, step.states);
-    const S at = detail::position_of(joint.properties.type, frames);
-    sum = saturating_add(sum, saturate_to<S>(product(term.ratio, at)));
+    at[i] = detail::position_of(joint.properties.type, frames);
+    sum = saturating_add(sum, saturate_to<S>(product(term.ratio, at[i])));
   }
   weigh(run);
   bound(run, sum);
+  place_ends(run, at);
 }
 
 /// [1] Speed of row i by an impulse along row j, through the bodies that both have.
@@ -232,7 +227,7 @@ template <class S> void CouplingRows<S>::bound(Run& run, S sum) const {
   const S lever = lever_of(base);
   // As lengths along the first row, whose sense counts.
   const auto along = [&](S x) { return divide_to<S>(saturate_to<S>(product(x, lever)), abs(base.ratio)); };
-  const S bias = detail::kCouplingBias<S> * rate_;
+  const S bias = kBias * rate_;
   const auto least = [&](S gap) {
     return detail::least_speed(along(gap), detail::kJointPushSpeed<S>, rate_, h_, bias);
   };
@@ -243,8 +238,10 @@ template <class S> void CouplingRows<S>::bound(Run& run, S sum) const {
   run.high = reversed ? -low : high;
   run.most = most_change(run);
   if (run.begins) run.changed = change_of(run, state_.parts.coupling_states[run.slot].load);
+  else run.changed = saturating_add(run.changed, run.borne);
+  run.borne = V(0);
   run.begins = false;
-  run.changed = clamp(saturate_to<V>(product(detail::kCouplingWarmth<S>, run.changed)), -run.most, run.most);
+  run.changed = clamp(saturate_to<V>(product(kWarmth, run.changed)), -run.most, run.most);
 }
 
 /// Of which no body gains more than an eighth of the speed, or of the turn, that forces may give it in a sub-step:
@@ -281,7 +278,7 @@ template <class S> Velocity<S> CouplingRows<S>::change_of(const Run& run, S load
   return divide_to<V>(divide_to<S>(load, run.unit), rate_);
 }
 template <class S> S CouplingRows<S>::load_of(const Run& run) const {
-  return saturate_to<S>(product(run.unit, saturate_to<S>(product(rate_, run.changed))));
+  return saturate_to<S>(product(run.unit, saturate_to<S>(product(rate_, saturating_add(run.changed, run.borne)))));
 }
 
 /// [m/s] Of the sum, in rows of the first term.
@@ -299,35 +296,36 @@ template <class S> Velocity<S> CouplingRows<S>::speed_of(const Run& run) const {
 /// nothing back into its bounds.
 template <class S> void CouplingRows<S>::solve(Run& run, bool relaxes) {
   if (!run.holds) return;
-  const bool is_equal = run.lower == run.upper;
-  const V low = !relaxes ? run.low : is_equal ? V(0) : min(run.low, V(0));
-  const V high = !relaxes ? run.high : is_equal ? V(0) : max(run.high, V(0));
+  const V low = !relaxes ? run.low : run.equal ? V(0) : min(run.low, V(0));
+  const V high = !relaxes ? run.high : run.equal ? V(0) : max(run.high, V(0));
   const V without = saturating_subtract(speed_of(run), run.changed);
   const V changed = clamp(saturating_subtract(clamp(without, low, high), without), -run.most, run.most);
   const V change = changed - run.changed;
   run.changed = changed;
   if (!(change == V(0))) push(run, change);
+  for (int i = 0; i < run.count; ++i) {
+    if (run.terms[i].ends) stop(run, run.terms[i], relaxes);
+  }
 }
 template <class S> void CouplingRows<S>::push(const Run& run, V change) {
-  for (int i = 0; i < run.count; ++i) {
-    const Term& term = run.terms[i];
-    const JointConstraint<S>& joint = term.joint;
-    const V impulse = saturate_to<V>(product(term.push, change));
-    const JointRow<S>& row = joint.drives[0].row;
-    const auto add = [&](std::uint32_t r, S share, Vec3<S> turn) {
-      if (!bodies_->moves(r)) return;
-      const V part = saturate_to<V>(product(share, impulse));
-      const auto times = [&](Vec3<S> v) {
-        return Vec3<V>{saturate_to<V>(product(v.x, part)), saturate_to<V>(product(v.y, part)),
-                       saturate_to<V>(product(v.z, part))};
-      };
-      MotionRow<V>& motion = bodies_->velocity[r];
-      motion.linear = saturating_add(motion.linear, times(row.linear));
-      motion.angular = saturating_add(motion.angular, times(turn));
+  for (int i = 0; i < run.count; ++i) push(run.terms[i], saturate_to<V>(product(run.terms[i].push, change)));
+}
+template <class S> void CouplingRows<S>::push(const Term& term, V impulse) {
+  const JointConstraint<S>& joint = term.joint;
+  const JointRow<S>& row = joint.drives[0].row;
+  const auto add = [&](std::uint32_t r, S share, Vec3<S> turn) {
+    if (!bodies_->moves(r)) return;
+    const V part = saturate_to<V>(product(share, impulse));
+    const auto times = [&](Vec3<S> v) {
+      return Vec3<V>{saturate_to<V>(product(v.x, part)), saturate_to<V>(product(v.y, part)),
+                     saturate_to<V>(product(v.z, part))};
     };
-    add(term.rows[0], -joint.share.a, row.turn_a);
-    add(term.rows[1], joint.share.b, row.turn_b);
-  }
+    MotionRow<V>& motion = bodies_->velocity[r];
+    motion.linear = saturating_add(motion.linear, times(row.linear));
+    motion.angular = saturating_add(motion.angular, times(turn));
+  };
+  add(term.rows[0], -joint.share.a, row.turn_a);
+  add(term.rows[1], joint.share.b, row.turn_b);
 }
 
 }  // namespace isostep

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/force_bounds.hpp"
+#include "isostep/store/fat_box.hpp"
 #include "isostep/systems/mechanisms/mechanisms.hpp"
 
 namespace isostep {

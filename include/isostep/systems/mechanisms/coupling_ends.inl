@@ -1,0 +1,100 @@
+// Bodies of coupling_rows.hpp: where the joints of couplings end.
+// SPDX-License-Identifier: MIT
+//
+// A rack ends, and the flywheel that drives it has a hundred times its inertia. The joint's own limit stops the rack,
+// the coupling pushes it on, and in turns the two agree by a hundredth a sweep: what is left when the rack turns round
+// comes out as energy. So the row of an end goes through the coupling and stops at once all that the coupling drives.
+#pragma once
+
+#include <span>
+
+#include "isostep/dynamics/joints/joint_coordinate.hpp"
+#include "isostep/dynamics/joints/joint_drive.hpp"
+#include "isostep/math/angles.hpp"
+#include "isostep/systems/mechanisms/coupling_rows.hpp"
+
+namespace isostep {
+
+namespace detail {
+/// [m] Two points that come closer have no direction along which a coupling could hold them.
+template <class S> inline constexpr S kLeastCoupledLength = S(1.0 / 32);
+}  // namespace detail
+
+template <class S> void CouplingRows<S>::place_ends(Run& run, const S (&at)[kMostTerms]) const {
+  for (int i = 0; i < run.count; ++i) {
+    Term& term = run.terms[i];
+    term.stopped = V(0);
+    term.ends = run.holds && S(0) < abs(term.push) && bound_end(run, term, at[i]) && weigh_end(run, i);
+  }
+}
+/// The limits of its joint, and for a length between points the least: a rope is drawn to its wheel, not through it.
+/// A coupling with room between its bounds does not carry a push, so there a limit is the joint's alone.
+template <class S> bool CouplingRows<S>::bound_end(const Run& run, Term& term, S at) const {
+  const JointProperties<S>& joint = state_.joints.properties[term.index];
+  const bool is_angle = measure_of(joint.type) == JointMeasure::angle;
+  const bool limited = run.equal && (joint.flags & joint_flag::kLimit) != 0, least = joins_two_points(joint.type);
+  if (!limited && !least) return false;
+  S above = Limits<S>::position(), below = above;  // [m] how far it is from its ends
+  if (limited) {
+    const S half = (joint.upper - joint.lower) * S(0.5), off = saturating_add(at, -(joint.lower + half));
+    const S turned = is_angle ? wrap_angle(off) : off;
+    above = saturate_to<S>(product(saturating_add(half, turned), lever_of(term)));
+    below = saturate_to<S>(product(saturating_add(half, -turned), lever_of(term)));
+  }
+  if (least) above = min(above, at - detail::kLeastCoupledLength<S>);
+  const V pace = is_angle ? detail::kAnglePushSpeed<S> : detail::kJointPushSpeed<S>;
+  term.low = detail::least_speed(above, pace, rate_, h_, kBias * rate_);
+  term.high = -detail::least_speed(below, pace, rate_, h_, kBias * rate_);
+  return !(term.high < term.low);
+}
+/// Finds the impulses along the rows that change the speed of row `end` by one and the sum's by nothing. An impulse
+/// along row j changes the sum by s(j), and the impulses p change it by one: sum s(j) p(j) = 1. So an impulse of one
+/// along row `end`, less s(end) p, is s(j) p(j) along `end` and -s(end) p(j) along j, summed over the others alone: in
+/// that form nothing cancels, however heavy the others are.
+template <class S> bool CouplingRows<S>::weigh_end(Run& run, int end) const {
+  const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
+  Term& term = run.terms[end];
+  for (S& impulse : term.stop) impulse = S(0);
+  term.bears = S(0);
+  if (!run.equal) {
+    term.stop[end] = divide_to<S>(S(1), coupling_of(term, term));
+    return true;
+  }
+  const auto pull_of = [&](const Term& by) {  // of the sum, by an impulse along a row
+    S sum = S(0);
+    for (int i = 0; i < run.count; ++i) {
+      sum = saturating_add(sum, times(run.terms[i].gear, coupling_of(run.terms[i], by)));
+    }
+    return sum;
+  };
+  const S pull = pull_of(term);
+  S own = S(0), give = S(0);
+  for (int j = 0; j < run.count; ++j) {
+    if (j == end) continue;
+    const Term& other = run.terms[j];
+    own = saturating_add(own, times(pull_of(other), other.push));
+    term.stop[j] = -times(pull, other.push);
+    give = saturating_add(give, times(coupling_of(term, other), term.stop[j]));
+  }
+  term.stop[end] = own;
+  give = saturating_add(give, times(coupling_of(term, term), own));
+  if (!(S(64) * resolution<S>() < give)) return false;
+  for (S& impulse : term.stop) impulse = divide_to<S>(impulse, give);
+  term.bears = -divide_to<S>(pull, give);
+  return true;
+}
+
+/// By what the row's speed without it is beyond the end.
+template <class S> void CouplingRows<S>::stop(Run& run, Term& term, bool relaxes) {
+  const V low = relaxes ? min(term.low, V(0)) : term.low, high = relaxes ? max(term.high, V(0)) : term.high;
+  const JointMotion<S> motion = {bodies_->velocity[term.rows[0]], bodies_->velocity[term.rows[1]]};
+  const V without = saturating_subtract(speed_along(term.joint.drives[0].row, motion), term.stopped);
+  const V stopped = saturating_subtract(clamp(without, low, high), without);
+  const V change = saturating_subtract(stopped, term.stopped);
+  if (change == V(0)) return;
+  term.stopped = stopped;
+  run.borne = saturating_add(run.borne, saturate_to<V>(product(term.bears, change)));
+  for (int i = 0; i < run.count; ++i) push(run.terms[i], saturate_to<V>(product(term.stop[i], change)));
+}
+
+}  // namespace isostep
