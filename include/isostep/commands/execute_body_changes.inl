@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "isostep/commands/command_executor.hpp"
+#include "isostep/dynamics/joints/joint_checks.hpp"
 #include "isostep/store/fat_box.hpp"
 
 namespace isostep {
@@ -46,13 +47,17 @@ bool CommandExecutor<S>::check_tie(const Record& record, std::uint32_t slot, con
   return faults_.refuse({Fault::bad_argument, "", "type", "one that the body's springs may tie"});
 }
 
-/// Whether no joint of the body would reach too far.
+/// Whether no joint of the body would reach too far, or tie it to one that is far lighter or heavier.
 template <class S> bool CommandExecutor<S>::check_joints_of(std::uint32_t slot, const BodyProperties<S>& next) {
-  bool good = true;
+  bool good = true, even = true;
+  const auto look_at = [&](std::uint32_t other, const Pose<S>& frame) {
+    good = good && !detail::overreaches(next.kappa, next.principal, frame.position);
+    even = even && (other == kNoBody || !detail::outweighs(next, map_.properties_at(map_.location(other))));
+  };
   const auto look = [&](const JointSet<S>& joints) {
     for (const JointProperties<S>& joint : joints.properties) {
-      if (joint.body_a == slot) good = good && !detail::overreaches(next.kappa, next.principal, joint.frame_a.position);
-      if (joint.body_b == slot) good = good && !detail::overreaches(next.kappa, next.principal, joint.frame_b.position);
+      if (joint.body_a == slot) look_at(joint.body_b, joint.frame_a);
+      if (joint.body_b == slot) look_at(joint.body_a, joint.frame_b);
     }
   };
   look(state_.joints);
@@ -61,7 +66,10 @@ template <class S> bool CommandExecutor<S>::check_joints_of(std::uint32_t slot, 
   else if (map_.names(slot) != 0) {
     for (std::uint32_t i = 0; i < state_.sleeping.size(); ++i) look(state_.sleeping[i]->joints);
   }
-  return good || faults_.refuse({Fault::out_of_range, "", "mass", "kappa arm^2 of joints up to Limits::leverage()"});
+  if (!good)
+    return faults_.refuse({Fault::out_of_range, "", "mass", "kappa arm^2 of joints up to Limits::leverage()"});
+  constexpr const char* kRatio = "up to Limits::mass_ratio() to one of what joints tie it to";
+  return even || faults_.refuse({Fault::out_of_range, "", "mass", kRatio});
 }
 
 /// Whether the joints and records of a body bear that it is like that from now on.

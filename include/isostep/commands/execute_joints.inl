@@ -12,6 +12,7 @@ template <class S> bool CommandExecutor<S>::check_ends(const JointProperties<S>&
   const BodyId ends[2] = {{joint.body_a, joint.generation_a}, {joint.body_b, joint.generation_b}};
   const Vec3<S> arms[2] = {joint.frame_a.position, joint.frame_b.position};
   constexpr const char *kBodies[2] = {"body_a", "body_b"}, *kFrames[2] = {"frame_a.position", "frame_b.position"};
+  const BodyProperties<S>* bodies[2] = {};
   bool moves = false;
   for (int end = 0; end < 2; ++end) {
     if (ends[end].slot == kNoBody) continue;
@@ -19,8 +20,11 @@ template <class S> bool CommandExecutor<S>::check_ends(const JointProperties<S>&
     const BodyProperties<S>& body = map_.properties_at(map_.location(ends[end].slot));
     if (detail::overreaches(body.kappa, body.principal, arms[end]))
       return faults_.refuse({Fault::out_of_range, "", kFrames[end], "kappa arm^2 up to Limits::leverage()"});
+    bodies[end] = &body;
     moves = moves || body.type == BodyType::dynamic;
   }
+  if (bodies[0] != nullptr && bodies[1] != nullptr && detail::outweighs(*bodies[0], *bodies[1]))
+    return faults_.refuse({Fault::out_of_range, "", "body_a, body_b", "masses up to Limits::mass_ratio() to one"});
   if (!moves) return faults_.refuse({Fault::not_dynamic, "", "body_a, body_b", "a dynamic one"});
   return joint.body_a != joint.body_b ||
          faults_.refuse({Fault::bad_argument, "", "body_b", "another body than body_a"});

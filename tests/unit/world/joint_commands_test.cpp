@@ -57,6 +57,30 @@ TYPED_TEST(JointCommands, a_frame_without_an_orientation_is_refused) {
   }
 }
 
+/// What a format resolves of two masses bounds their joint, when it is made and when a mass changes.
+TYPED_TEST(JointCommands, a_joint_of_masses_too_unlike_is_refused) {
+  using S = TypeParam;
+  World<S>& w = this->world;
+  const auto body_of = [&](S mass) {
+    BodyDefinition<S> d = moving<S>(add_box(w, 1, 1, 1), {0, 50, 0});
+    d.mass = mass;
+    return w.create(d);
+  };
+  const S most = Limits<S>::mass_ratio(), twice = most + most;
+  const BodyId light = body_of(S(1)), heavy = body_of(most), heavier = body_of(twice);
+  const Pose<S> there = {vec<S>(0, 50, 0), Quat<Unit<S>>::identity()};
+  const auto tie = [&](BodyId a, BodyId b) { return w.create(ball<S>({.a = a, .b = b, .frame = there})); };
+  EXPECT_TRUE(tie(light, heavy)) << describe(w.fault());
+  EXPECT_TRUE(tie({}, heavier)) << describe(w.fault());
+  this->expect_refused(Fault::out_of_range, [&] { return tie(light, heavier); });
+  EXPECT_STREQ(w.fault().field, "body_a, body_b");
+  this->expect_refused(Fault::out_of_range, [&] { return w.set_mass(heavy, {.mass = twice}); });
+  EXPECT_STREQ(w.fault().field, "mass");
+  this->expect_refused(Fault::out_of_range, [&] { return w.set_mass(light, {.mass = S(0.25)}); });
+  EXPECT_TRUE(w.set_mass(light, {.mass = S(2)})) << describe(w.fault());
+  EXPECT_TRUE(w.set_mass(heavy, {.mass = twice})) << describe(w.fault());
+}
+
 TYPED_TEST(JointCommands, a_joint_set_anew_keeps_its_bodies_and_frames) {
   using S = TypeParam;
   World<S>& w = this->world;
