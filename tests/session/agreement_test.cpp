@@ -16,10 +16,11 @@ std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
 
 /// Each seed fell by another fault: half of a roster with its host and half with the host elected since (809);
 /// followers that gave up what was final before the new host had told it all (960, 1813); a host that is one again in a
-/// later term (1711); two who each take the other for gone (1082); all asking the one whose log is too old (493); and
-/// who had given up waiting for one another in a ring (2792).
+/// later term (1711); two who each take the other for gone (1082); all asking the one whose log is too old (493); who
+/// had given up waiting for one another in a ring (2792); and a host that had greeted another when it was elected, and
+/// was waited for there ever since (20193).
 TEST(Agreement, MatchesThatFellOnceGoOnWithOneHistory) {
-  for (const std::uint64_t seed : {493, 809, 960, 1082, 1711, 1813, 2792}) {
+  for (const std::uint64_t seed : {493, 809, 960, 1082, 1711, 1813, 2792, 20193}) {
     RandomMatch match(seed);
     match.play();
     EXPECT_EQ(match.two_histories, 0) << seed << ": from frame " << match.first_of_them << "; " << match.story();

@@ -157,5 +157,31 @@ TEST_P(Migration, WhoAloneLosesTheHostIsSentBackToIt) {
   for (std::size_t i = 1; i < match.size(); ++i) expect_history_of(match, 0, i);
 }
 
+/// To connect takes as long as to call and be supported: who is elected may have greeted another meanwhile, and counts
+/// there as one that seeks a host for as long as that connection is open.
+TEST(LateGreeting, OfWhoIsElectedEnds) {
+  const auto lose_host = [](ToyMatch& match) {
+    match.pass(2 * kSecond);
+    kill(match, 0);
+  };
+  const auto elect = [](ToyMatch& match) { return match.run(5 * kSecond, [&] { return host_of(match) == 1; }); };
+  const SessionConfig config = migrating(3, SessionMode::lockstep);
+  ToyMatch undisturbed(config, "latency=30");
+  lose_host(undisturbed);
+  ASSERT_TRUE(elect(undisturbed));
+  // It called 60 ms before: the connection comes since then, and in time for a greeting.
+  for (Time before = 115 * kMs; before >= 65 * kMs; before -= 5 * kMs) {
+    SCOPED_TRACE(std::to_string(before) + " us before it is elected");
+    ToyMatch match(config, "latency=30");
+    lose_host(match);
+    match.pass(undisturbed.now() - before - match.now());
+    const auto connect = [&] { return match.network().connect(match.machine(1).endpoint, match.machine(2).endpoint); };
+    ASSERT_TRUE(connect());
+    ASSERT_TRUE(elect(match));
+    match.pass(kSecond / 2);
+    EXPECT_TRUE(connect()) << "the one before is not over";
+  }
+}
+
 }  // namespace
 }  // namespace isostep::test

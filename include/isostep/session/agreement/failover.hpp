@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "isostep/session/agreement/election.hpp"
@@ -29,6 +30,7 @@ struct Succession {
   std::uint64_t token = 0, life = 0;
   Election election;
   std::vector<Caller> callers;
+  std::optional<PeerId> asked{};  // whom we asked to be our host since we called; its connection ends
 };
 
 /// What a client takes over from the host that it was.

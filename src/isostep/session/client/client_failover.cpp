@@ -37,6 +37,8 @@ std::unique_ptr<SessionCore> ClientCore::succeed(Time now) {
   if (!search.is_elected()) return nullptr;
   failover_.callers().forget_untold();
   Succession succession = search.hand_over(failover_.callers().hand_over());
+  // To connect takes a while: who was asked before we called may have answered since.
+  if (host_.is_connected) succession.asked = host_.peer;
   return become_host(std::move(*this), std::move(succession), now);
 }
 

@@ -77,6 +77,11 @@ HostCore::HostCore(PeerCore&& client, Succession&& succession, Time now)
       if (seat.replaced_end > guest->opens) guest->opens = seat.replaced_end;
     }
   }
+  // It counts us among those who have come to it, for as long as we do not hang up.
+  if (Guest* const asked = succession.asked ? guests_.place(*succession.asked) : nullptr) {
+    asked->connect(now);
+    asked->due.add(Due::close);
+  }
   leadership_.reform_with(succession.election);
   tell_of(SessionEvent::Kind::new_host, local_player());
 }
