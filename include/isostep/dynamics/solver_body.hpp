@@ -36,10 +36,10 @@ template <class S> ISO_INLINE Velocity<S> rapid_angular_speed(std::int32_t hz) {
   return convert<Velocity<S>>(S(hz) * S(1.0 / 16));
 }
 
-/// The angular speed [rad/s], an eighth of a radian a sub-step, above which a body keeps the inertia about the world's
-/// axes that it has, and its arms count as straight. Contacts are prepared once a step: beside joints that follow, a
-/// limb in a pinch is spun up to the limit of angular speeds. Light links of a rope under load whip so fast, and what
-/// bends their arms drives them.
+/// The angular speed [rad/s], an eighth of a radian a sub-step, above which a body that has contacts keeps the inertia
+/// about the world's axes that it has, and arms count as straight. Contacts are prepared once a step: beside joints
+/// that follow, a limb in a pinch is spun up to the limit of angular speeds. Light links of a rope under load whip so
+/// fast, and what bends their arms drives them.
 template <class S> ISO_INLINE Velocity<S> angular_speed_to_follow(std::int32_t rate) {
   return saturate_to<Velocity<S>>(product(S(rate), S(1.0 / 8)));
 }

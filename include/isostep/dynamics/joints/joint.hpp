@@ -43,7 +43,7 @@ template <class S> struct JointStep {
   S rate;     // [1/s] sub-steps a second
   Step<S> h;  // [s]
   Softness<S> softness;
-  // [rad/s] Arms count as straight below rapid_angular_speed() and above angular_speed_to_follow().
+  // [rad/s] Arms are straight if the faster body is below rapid_angular_speed() or above angular_speed_to_follow().
   Velocity<S> rapid = Velocity<S>(0), fastest = highest<Velocity<S>>();
 };
 

@@ -110,8 +110,16 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
     }
     return some;
   }
-  /// curve_of() of joint.inl; of bodies that do not spin, or too fast, none.
-  static ISO_INLINE Vec3<V> curve(const Body& body, Vec3<L> arm, const JointStep<S>& step) {
+  /// curve_joint() of joint.inl.
+  static ISO_INLINE Vec3<V> curve(const Body& a, Vec3<L> arm_a, const Body& b, Vec3<L> arm_b,
+                                  const JointStep<S>& step) {
+    const V fast = max(max_abs(load(a.angular)), max_abs(load(b.angular)));
+    Mask bends = less(V::broadcast(step.rapid), fast) & less(fast, V::broadcast(step.fastest));
+    const Vec3<V> of_a = curve_of(a, arm_a, step, bends), of_b = curve_of(b, arm_b, step, bends);
+    return select(bends, of_b - of_a, {V::zero(), V::zero(), V::zero()});
+  }
+  /// Takes lanes out of `bends` in which the arm turns too far.
+  static ISO_INLINE Vec3<V> curve_of(const Body& body, Vec3<L> arm, const JointStep<S>& step, Mask& bends) {
     const Velocity<S> most = convert<Velocity<S>>(Limits<S>::speed());
     const auto across = [most](Vec3<V> w, Vec3<L> r) ISO_INLINE_LAMBDA {
       return Vec3<V>{round_within<V>(product(r.z, w.y) - product(r.y, w.z), most),
@@ -122,11 +130,10 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
     const L half = number(S(0.5) * step.h);
     const Vec3<V> bent = across({times(half, w.x), times(half, w.y), times(half, w.z)},
                                 {convert<L>(v.x), convert<L>(v.y), convert<L>(v.z)});
-    const V fast = max_abs(w), fastest = V::broadcast(step.fastest);
-    const V bends = round_within<V>(product(number(S(0.5)) * max_abs(arm), fastest), most);
-    const auto spins = less(V::broadcast(step.rapid), fast) & less(fast, fastest) & less(max_abs(v), bends);
+    const V furthest = round_within<V>(product(number(S(0.5)) * max_abs(arm), V::broadcast(step.fastest)), most);
+    bends = bends & ~less(furthest, max_abs(v));
     const V push = V::broadcast(detail::kJointPushSpeed<S>);
-    const auto part = [&](V x) ISO_INLINE_LAMBDA { return select(spins, clamp(x, -push, push), V::zero()); };
+    const auto part = [&](V x) ISO_INLINE_LAMBDA { return clamp(x, -push, push); };
     return {part(bent.x), part(bent.y), part(bent.z)};
   }
 
@@ -148,7 +155,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
       const auto bound = [most](L e) ISO_INLINE_LAMBDA { return convert<V>(clamp(e, -most, most)); };
       store(Vec3<V>{bound(between.x), bound(between.y), bound(between.z)}, m.nodes[of.node].error);
       const Vec3<V> none = {V::zero(), V::zero(), V::zero()};
-      store(rapid ? curve(b, arm_b, step) - curve(a, arm_a, step) : none, joint.curve);
+      store(rapid ? curve(a, arm_a, b, arm_b, step) : none, joint.curve);
     }
     const Vec3<V> impulse = pull_of(node, m, m.nodes[of.node]);
     const Lanes<Step<S>, W, Isa> length = Lanes<Step<S>, W, Isa>::broadcast(step.h);

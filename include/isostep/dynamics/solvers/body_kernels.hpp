@@ -22,6 +22,7 @@ inline constexpr std::uint8_t kSpins = 8;    // its inertia differs between axes
 inline constexpr std::uint8_t kTurns = 16;   // free turning changes its angular velocity
 inline constexpr std::uint8_t kSolid = 32;   // its moments are those of a solid: FreeTurn::is_solid
 inline constexpr std::uint8_t kTilted = 64;  // its principal axes are not those of its frame
+inline constexpr std::uint8_t kMet = 128;    // it has contacts in this step
 }  // namespace body_kind
 
 /// The parts of its velocities that damping leaves a body in a sub-step.
