@@ -34,10 +34,11 @@ TYPED_TEST_SUITE(CouplingEnds, AllScalars);
 /// A wheel or slider between ends, coupled to a wheel or slider of up to 256 times its mass.
 struct Train {
   std::array<bool, 2> slides;
-  std::array<double, 2> mass;  // [kg]
-  double ratio;                // [1] of the second joint; the first has 1
-  double speed;                // [rad/s] or [m/s] of the second
-  double end;                  // [rad] or [m]: the first goes that far either way
+  std::array<double, 2> mass;   // [kg]
+  std::array<double, 2> ratio;  // [1]
+  double room;                  // [rad] or [m] between the coupling's bounds; 0 where it has none
+  double speed;                 // [rad/s] or [m/s] of the second
+  double end;                   // [rad] or [m]: the first goes that far either way
 
   static Train draw(std::uint64_t seed, double most_ratio) {
     Dice dice(seed * 31 + 17);
@@ -45,7 +46,9 @@ struct Train {
     t.slides = {dice.one_in(2), dice.one_in(2)};
     t.mass[0] = dice.magnitude(1, 4);
     t.mass[1] = t.mass[0] * dice.magnitude(1, most_ratio);
-    t.ratio = static_cast<double>(1 + dice.below(4)) * (dice.one_in(2) ? 1 : -1);
+    t.ratio[1] = static_cast<double>(1 + dice.below(4)) * (dice.one_in(2) ? 1 : -1);
+    t.ratio[0] = static_cast<double>(1 + dice.below(4));
+    t.room = dice.one_in(3) ? dice.in(0.02, 0.2) : 0;
     t.speed = dice.in(1, 4) * (dice.one_in(2) ? 1 : -1);
     t.end = dice.in(0.25, 1.5);
     return t;
@@ -62,7 +65,7 @@ TYPED_TEST(CouplingEnds, that_are_met_at_speed_stop_the_whole_train) {
       World<S> w = this->empty(solver);
       w.set_gravity(Vec3<S>::zero());
       std::array<JointId, 2> joints;
-      const std::array<double, 2> speeds = {-train.ratio * train.speed, train.speed};
+      const std::array<double, 2> speeds = {-train.ratio[1] / train.ratio[0] * train.speed, train.speed};
       for (std::size_t i = 0; i < 2; ++i) {
         const D3 place = {3.0 * static_cast<double>(i), 0, 0}, motion = {0, 0, speeds[i]};
         BodyDefinition<S> d = moving<S>(add_box(w, 0.25, 0.25, 0.25), place);
@@ -80,7 +83,10 @@ TYPED_TEST(CouplingEnds, that_are_met_at_speed_stop_the_whole_train) {
       Coupling<S> c;
       c.joint_a = joints[0];
       c.joint_b = joints[1];
-      c.ratio_b = num<S>(train.ratio);
+      c.ratio_a = num<S>(train.ratio[0]);
+      c.ratio_b = num<S>(train.ratio[1]);
+      c.lower = num<S>(-train.room / 2);
+      c.upper = num<S>(train.room / 2);
       ASSERT_TRUE(w.add(c)) << describe(w.fault());
       const double given = scenes::measure_energy(w).total();
       double most = 0, farthest = 0;

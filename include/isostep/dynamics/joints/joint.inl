@@ -19,9 +19,9 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> block_bias(const JointBlock<S>& 
 /// Velocities hold where a sub-step begins and move bodies through all of it: while an arm turns its end leaves the
 /// tangent by h^2 / 2 w x (w x arm). A joint that closed that afterwards would turn the body back with every sub-step,
 /// and a spinning top would sink. It asks for no more than an error may: beyond, a turn is too long for the second
-/// order. An arm that turns by more than a sixteenth of a radian in the sub-step, half of what
-/// angular_speed_to_follow() allows, does not bend: light links of a rope under load whip so fast, and what bends them
-/// would drive them.
+/// order. Where an arm turns by more than a sixteenth of a radian in the sub-step, half of what
+/// angular_speed_to_follow() allows, neither of the joint bends: light links of a rope under load whip so fast, and
+/// what bends them would drive them.
 template <class S>
 ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Velocity<S>> angular_velocity, Step<S> h, Velocity<S> fastest,
                                       bool& bends) {
@@ -56,8 +56,8 @@ ISO_INLINE Velocity<S> lagging_way(const JointRow<S>& row, S angle, const JointC
 }
 }  // namespace detail
 
-/// Both arms bend or neither does: the pull does no work if the ends part before it as they meet after it. With one of
-/// two arms bent it drove the bodies, by 7 % of their energy in ten seconds.
+/// Both arms bend or neither does. The joint's impulse works by half of the speed between its ends before it and half
+/// of that after it; with one arm bent the two did not cancel, and it gave bodies 7 % of their energy in ten seconds.
 template <class S> void curve_joint(JointConstraint<S>& joint, const JointStep<S>& step) {
   if (!joint.blocks[0].point) return;
   const Vec3<Velocity<S>> a = step.bodies->velocity[joint.row_a].angular;

@@ -163,7 +163,8 @@ template <class S> void BodyRows<S>::finish_velocity(const StepContext<S>& conte
   }
   detail::hold_locks(properties.flags, row);
   const V angular_speed = max_abs(row.angular);
-  // Joints that turn a body by an inertia of before give it energy: 33 J become 459 J in ten seconds.
+  // Joints that turn a body by an inertia of before give it energy: a light capsule at 66 rad/s on a ball joint went
+  // from 33 J to 459 J in ten seconds. Bodies that touch something do not follow: see angular_speed_to_follow().
   const bool follows = (kinds_[body] & body_kind::kMet) == 0 || angular_speed < most;
   if (rapid < angular_speed && follows) rows_.mass[body + 1].kappa = detail::world_kappa(properties, axes);
 }

@@ -16,24 +16,27 @@
 namespace isostep {
 
 namespace detail {
-/// [m] Two points that come closer have no direction along which a coupling could hold them.
+/// [m] Two points that come closer have no direction along which a coupling could hold them: in a sub-step at 10 m/s
+/// they pass each other.
 template <class S> inline constexpr S kLeastCoupledLength = S(1.0 / 32);
+/// [1] An answer of a row that is less is made of rounding.
+template <class S> inline constexpr S kLeastGive = S(64) * resolution<S>();
 }  // namespace detail
 
 template <class S> void CouplingRows<S>::place_ends(Run& run, const S (&at)[kMostTerms]) const {
   for (int i = 0; i < run.count; ++i) {
     Term& term = run.terms[i];
     term.stopped = V(0);
-    term.ends = run.holds && S(0) < abs(term.push) && bound_end(run, term, at[i]) && weigh_end(run, i);
+    term.ends = run.holds && S(0) < abs(term.push) && bound_end(term, at[i]) && weigh_end(run, i);
   }
 }
 /// The limits of its joint, and for a length between points the least: a rope is drawn to its wheel, not through it.
-/// A coupling with room between its bounds does not carry a push, so there a limit is the joint's alone.
-template <class S> bool CouplingRows<S>::bound_end(const Run& run, Term& term, S at) const {
+template <class S> bool CouplingRows<S>::bound_end(Term& term, S at) const {
   const JointProperties<S>& joint = state_.joints.properties[term.index];
-  const bool is_angle = measure_of(joint.type) == JointMeasure::angle;
-  const bool limited = run.equal && (joint.flags & joint_flag::kLimit) != 0, least = joins_two_points(joint.type);
-  if (!limited && !least) return false;
+  const bool is_angle = measure_of(joint.type) == JointMeasure::angle, between = joins_two_points(joint.type);
+  // Without a spring a distance joint keeps its lengths with or without the flag.
+  const bool limited = (joint.flags & joint_flag::kLimit) != 0 || (between && (joint.flags & joint_flag::kSpring) == 0);
+  if (!limited && !between) return false;
   S above = Limits<S>::position(), below = above;  // [m] how far it is from its ends
   if (limited) {
     const S half = (joint.upper - joint.lower) * S(0.5), off = saturating_add(at, -(joint.lower + half));
@@ -41,7 +44,8 @@ template <class S> bool CouplingRows<S>::bound_end(const Run& run, Term& term, S
     above = saturate_to<S>(product(saturating_add(half, turned), lever_of(term)));
     below = saturate_to<S>(product(saturating_add(half, -turned), lever_of(term)));
   }
-  if (least) above = min(above, at - detail::kLeastCoupledLength<S>);
+  const S least = limited ? min(detail::kLeastCoupledLength<S>, joint.upper) : detail::kLeastCoupledLength<S>;
+  if (between) above = min(above, at - least);
   const V pace = is_angle ? detail::kAnglePushSpeed<S> : detail::kJointPushSpeed<S>;
   term.low = detail::least_speed(above, pace, rate_, h_, kBias * rate_);
   term.high = -detail::least_speed(below, pace, rate_, h_, kBias * rate_);
@@ -50,16 +54,10 @@ template <class S> bool CouplingRows<S>::bound_end(const Run& run, Term& term, S
 /// Finds the impulses along the rows that change the speed of row `end` by one and the sum's by nothing. An impulse
 /// along row j changes the sum by s(j), and the impulses p change it by one: sum s(j) p(j) = 1. So an impulse of one
 /// along row `end`, less s(end) p, is s(j) p(j) along `end` and -s(end) p(j) along j, summed over the others alone: in
-/// that form nothing cancels, however heavy the others are.
+/// that form nothing cancels, however heavy the others are. Only the ratios of their p count; the largest is one.
 template <class S> bool CouplingRows<S>::weigh_end(Run& run, int end) const {
   const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
   Term& term = run.terms[end];
-  for (S& impulse : term.stop) impulse = S(0);
-  term.bears = S(0);
-  if (!run.equal) {
-    term.stop[end] = divide_to<S>(S(1), coupling_of(term, term));
-    return true;
-  }
   const auto pull_of = [&](const Term& by) {  // of the sum, by an impulse along a row
     S sum = S(0);
     for (int i = 0; i < run.count; ++i) {
@@ -67,20 +65,27 @@ template <class S> bool CouplingRows<S>::weigh_end(Run& run, int end) const {
     }
     return sum;
   };
+  S largest = S(0);
+  for (int j = 0; j < run.count; ++j) {
+    if (j != end) largest = max(largest, abs(run.terms[j].push));
+  }
+  if (largest == S(0)) return false;
   const S pull = pull_of(term);
   S own = S(0), give = S(0);
   for (int j = 0; j < run.count; ++j) {
     if (j == end) continue;
     const Term& other = run.terms[j];
-    own = saturating_add(own, times(pull_of(other), other.push));
-    term.stop[j] = -times(pull, other.push);
+    const S part = divide_to<S>(other.push, largest);
+    own = saturating_add(own, times(pull_of(other), part));
+    term.stop[j] = -times(pull, part);
     give = saturating_add(give, times(coupling_of(term, other), term.stop[j]));
   }
   term.stop[end] = own;
   give = saturating_add(give, times(coupling_of(term, term), own));
-  if (!(S(64) * resolution<S>() < give)) return false;
-  for (S& impulse : term.stop) impulse = divide_to<S>(impulse, give);
-  term.bears = -divide_to<S>(pull, give);
+  term.alone = divide_to<S>(S(1), coupling_of(term, term));
+  if (!(detail::kLeastGive<S> < give)) return false;
+  for (int j = 0; j < run.count; ++j) term.stop[j] = divide_to<S>(term.stop[j], give);
+  term.bears = -divide_to<S>(divide_to<S>(pull, give), largest);
   return true;
 }
 
@@ -93,8 +98,16 @@ template <class S> void CouplingRows<S>::stop(Run& run, Term& term, bool relaxes
   const V change = saturating_subtract(stopped, term.stopped);
   if (change == V(0)) return;
   term.stopped = stopped;
-  run.borne = saturating_add(run.borne, saturate_to<V>(product(term.bears, change)));
+  const V borne = saturating_add(run.borne, saturate_to<V>(product(term.bears, change)));
+  if (!carries(run, borne)) return push(term, saturate_to<V>(product(term.alone, change)));
+  run.borne = borne;
   for (int i = 0; i < run.count; ++i) push(run.terms[i], saturate_to<V>(product(term.stop[i], change)));
+}
+/// A coupling with room between its bounds carries what it pulls with, not a push.
+template <class S> bool CouplingRows<S>::carries(const Run& run, V borne) const {
+  if (run.equal) return true;
+  const V pulls = saturating_add(run.changed, run.borne), would = saturating_add(run.changed, borne);
+  return (V(0) < pulls && V(0) <= would) || (pulls < V(0) && would <= V(0));
 }
 
 }  // namespace isostep

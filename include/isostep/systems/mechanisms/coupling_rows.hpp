@@ -18,7 +18,8 @@ namespace isostep {
 /// Keeps:   nothing from step to step but memory: what rows bore is in the states.
 /// Order:   couplings ascending by slot; those of a train share bodies, so each sweep solves all of them once.
 ///          Rows that joints resist, of bodies in several joints or far from their axis, agree with those joints too
-///          slowly to be stable in turns: they close their error once, from nothing, before joints are solved.
+///          slowly to be stable in turns: they close their error once, from nothing, before joints are solved. After
+///          each row come the ends of its joints, term by term.
 template <class S> class CouplingRows {
  public:
   using V = Velocity<S>;
@@ -67,6 +68,7 @@ template <class S> class CouplingRows {
     V low, high;         // [m/s] that the row may have
     S stop[kMostTerms];  // [1] impulses of the rows by a change of this one's speed that leaves the sum's
     S bears;             // [1] what the coupling has of that: as Run::changed
+    S alone;             // [1] impulse of this row by a change of its speed
     V stopped;           // [m/s] by which this sub-step has changed that speed
   };
   struct Run {
@@ -108,9 +110,10 @@ template <class S> class CouplingRows {
   void push(const Term& term, V impulse);
   // coupling_ends.inl
   void place_ends(Run& run, const S (&at)[kMostTerms]) const;
-  bool bound_end(const Run& run, Term& term, S at) const;
+  bool bound_end(Term& term, S at) const;
   bool weigh_end(Run& run, int end) const;
   void stop(Run& run, Term& term, bool relaxes);
+  bool carries(const Run& run, V borne) const;
 
   WorldState<S>& state_;
   const BodyMap<S>& map_;
