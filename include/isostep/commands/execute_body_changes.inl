@@ -47,7 +47,7 @@ bool CommandExecutor<S>::check_tie(const Record& record, std::uint32_t slot, con
   return faults_.refuse({Fault::bad_argument, "", "type", "one that the body's springs may tie"});
 }
 
-/// Whether no joint of the body would reach too far, or tie it to one that is far lighter or heavier.
+/// Refuses a body whose joints would reach too far or tie it to one that is far lighter or heavier.
 template <class S> bool CommandExecutor<S>::check_joints_of(std::uint32_t slot, const BodyProperties<S>& next) {
   bool good = true, even = true;
   const auto look_at = [&](std::uint32_t other, const Pose<S>& frame) {

@@ -69,10 +69,12 @@ template <class S> struct DistanceJoint {
     return is_bounded(p) ? max(S(0), max(apart - p.upper, p.lower - apart)) : S(0);
   }
 
- private:
+  /// Without a spring it keeps its lengths with or without the flag.
   static ISO_INLINE constexpr bool is_bounded(const JointProperties<S>& p) {
     return (p.flags & joint_flag::kLimit) != 0 || (p.flags & joint_flag::kSpring) == 0;
   }
+
+ private:
   static ISO_INLINE constexpr bool is_rod(const JointProperties<S>& p) { return is_bounded(p) && !(p.lower < p.upper); }
 };
 

@@ -21,10 +21,14 @@ template <class S> ISO_INLINE S position_of(JointType type, const JointFrames<S>
   return joins_two_points(type) ? length(f.between) : dot(f.between, to_matrix(f.a).column(2));
 }
 
-/// A joint with nothing but a motor at its coordinate: drives[0].row is the row of that.
+/// A joint with nothing but a motor and its limits at its coordinate: drives[0] is the drive of that. A length between
+/// points has no limits there, so that a rod has a drive too.
 template <class S> ISO_INLINE JointProperties<S> with_coordinate(JointProperties<S> p) {
-  p.flags = joins_two_points(p.type) ? joint_flag::kLimit : joint_flag::kMotor;
-  if (!joins_two_points(p.type)) return p;
+  if (!joins_two_points(p.type)) {
+    p.flags = joint_flag::kMotor | (p.flags & joint_flag::kLimit);
+    return p;
+  }
+  p.flags = joint_flag::kLimit;
   p.lower = S(0);
   p.upper = Limits<S>::position();
   return p;

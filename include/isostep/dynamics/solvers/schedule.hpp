@@ -44,7 +44,7 @@ template <class S> inline constexpr S kMostPenetrationBias = S(1.0 / 64);  // [m
 template <class S> inline constexpr S kDeepOverlap = S(1.0 / 64);  // [m]
 inline constexpr int kDeepRelaxations = 4;
 
-/// Of soft step's contacts, and of struts beyond the end of their travel by every solver.
+/// Soft step's contacts have this softness; so have struts beyond the end of their travel, in every solver.
 template <class S> Softness<S> contact_softness(S rate) {
   return soften(kContactAngle<S>, kContactDamping<S>, rate);
 }

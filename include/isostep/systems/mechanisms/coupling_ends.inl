@@ -6,11 +6,8 @@
 // comes out as energy. So the row of an end goes through the coupling and stops at once all that the coupling drives.
 #pragma once
 
-#include <span>
-
-#include "isostep/dynamics/joints/joint_coordinate.hpp"
+#include "isostep/dynamics/joints/distance.hpp"
 #include "isostep/dynamics/joints/joint_drive.hpp"
-#include "isostep/math/angles.hpp"
 #include "isostep/systems/mechanisms/coupling_rows.hpp"
 
 namespace isostep {
@@ -23,33 +20,29 @@ template <class S> inline constexpr S kLeastCoupledLength = S(1.0 / 32);
 template <class S> inline constexpr S kLeastGive = S(64) * resolution<S>();
 }  // namespace detail
 
-template <class S> void CouplingRows<S>::place_ends(Run& run, const S (&at)[kMostTerms]) const {
+template <class S> void CouplingRows<S>::place_ends(Run& run) const {
   for (int i = 0; i < run.count; ++i) {
     Term& term = run.terms[i];
     term.stopped = V(0);
-    term.ends = run.holds && S(0) < abs(term.push) && bound_end(term, at[i]) && weigh_end(run, i);
+    term.ends = run.holds && S(0) < abs(term.push) && bound_end(term) && weigh_end(run, i);
   }
 }
 /// The limits of its joint, and for a length between points the least: a rope is drawn to its wheel, not through it.
-template <class S> bool CouplingRows<S>::bound_end(Term& term, S at) const {
+template <class S> bool CouplingRows<S>::bound_end(Term& term) const {
   const JointProperties<S>& joint = state_.joints.properties[term.index];
-  const bool is_angle = measure_of(joint.type) == JointMeasure::angle, between = joins_two_points(joint.type);
-  // Without a spring a distance joint keeps its lengths with or without the flag.
-  const bool limited = (joint.flags & joint_flag::kLimit) != 0 || (between && (joint.flags & joint_flag::kSpring) == 0);
-  if (!limited && !between) return false;
-  S above = Limits<S>::position(), below = above;  // [m] how far it is from its ends
-  if (limited) {
-    const S half = (joint.upper - joint.lower) * S(0.5), off = saturating_add(at, -(joint.lower + half));
-    const S turned = is_angle ? wrap_angle(off) : off;
-    above = saturate_to<S>(product(saturating_add(half, turned), lever_of(term)));
-    below = saturate_to<S>(product(saturating_add(half, -turned), lever_of(term)));
+  JointDrive<S>& drive = term.joint.drives[0];
+  if (joins_two_points(joint.type)) {
+    const bool limited = DistanceJoint<S>::is_bounded(joint);
+    const S least = detail::kLeastCoupledLength<S>;
+    drive.bounded_below = true;
+    drive.lower = limited ? max(joint.lower, min(least, joint.upper)) : least;
+    if (limited) drive.upper = joint.upper;
   }
-  const S least = limited ? min(detail::kLeastCoupledLength<S>, joint.upper) : detail::kLeastCoupledLength<S>;
-  if (between) above = min(above, at - least);
-  const V pace = is_angle ? detail::kAnglePushSpeed<S> : detail::kJointPushSpeed<S>;
-  term.low = detail::least_speed(above, pace, rate_, h_, kBias * rate_);
-  term.high = -detail::least_speed(below, pace, rate_, h_, kBias * rate_);
-  return !(term.high < term.low);
+  if (!drive.bounded_below) return false;
+  const DriveBounds<S> bounds = detail::bounds_of(drive, rate_, h_, kBias * rate_);
+  term.low = bounds.low;
+  term.high = bounds.high;
+  return true;
 }
 /// Finds the impulses along the rows that change the speed of row `end` by one and the sum's by nothing. An impulse
 /// along row j changes the sum by s(j), and the impulses p change it by one: sum s(j) p(j) = 1. So an impulse of one
@@ -105,7 +98,7 @@ template <class S> void CouplingRows<S>::stop(Run& run, Term& term, bool relaxes
 }
 /// A coupling with room between its bounds carries what it pulls with, not a push.
 template <class S> bool CouplingRows<S>::carries(const Run& run, V borne) const {
-  if (run.equal) return true;
+  if (run.is_equal()) return true;
   const V pulls = saturating_add(run.changed, run.borne), would = saturating_add(run.changed, borne);
   return (V(0) < pulls && V(0) <= would) || (pulls < V(0) && would <= V(0));
 }

@@ -63,7 +63,7 @@ template <class S> class CouplingRows {
     S ratio;                   // [1] as the record has it
     S gear;                    // [1] speed of the sum, in rows of the first term, by speed of this one's row
     S push;                    // [1] this row's impulse by a change of the sum's speed
-    // Where its joint ends, as the sub-step finds it: coupling_ends.inl.
+    // The sub-step finds where its joint ends: coupling_ends.inl.
     bool ends;
     V low, high;         // [m/s] that the row may have
     S stop[kMostTerms];  // [1] impulses of the rows by a change of this one's speed that leaves the sum's
@@ -79,13 +79,15 @@ template <class S> class CouplingRows {
     bool begins;     // nothing of this step is in `changed` yet
     bool resisted;   // by joints: a push along its rows moves bodies as their joints do not let them
     bool holds;      // something moves
-    bool equal;      // lower and upper are one: it pushes and pulls
     S lower, upper;  // [rad] or [m]
     S unit;          // [kg m] or [kg] impulse on the sum by a change of it in rows of the first term
     V low, high;     // [m/s] that the sum may have, in rows of the first term
     V most;          // [m/s] by which a sub-step may change it
     V changed;       // [m/s] by which this one has
     V borne;         // [m/s] likewise, for the ends of its joints
+
+    /// It pushes and pulls.
+    bool is_equal() const { return lower == upper; }
   };
 
   bool sleeps(const Coupling<S>& coupling) const;
@@ -109,8 +111,8 @@ template <class S> class CouplingRows {
   void push(const Run& run, V change);
   void push(const Term& term, V impulse);
   // coupling_ends.inl
-  void place_ends(Run& run, const S (&at)[kMostTerms]) const;
-  bool bound_end(Term& term, S at) const;
+  void place_ends(Run& run) const;
+  bool bound_end(Term& term) const;
   bool weigh_end(Run& run, int end) const;
   void stop(Run& run, Term& term, bool relaxes);
   bool carries(const Run& run, V borne) const;

@@ -43,7 +43,6 @@ template <class S> void CouplingRows<S>::list_run(std::uint32_t slot, const Coup
   run.slot = slot;
   run.lower = coupling.lower;
   run.upper = coupling.upper;
-  run.equal = coupling.lower == coupling.upper;
   run.count = coupling.joint_c ? 3 : 2;
   run.turns = false;
   run.begins = true;
@@ -140,19 +139,19 @@ template <class S> void CouplingRows<S>::end_step() {
 
 /// Rows and the sum as the bodies lie now.
 template <class S> void CouplingRows<S>::place(Run& run, const JointStep<S>& step) const {
-  S sum = S(0), at[kMostTerms];
+  S sum = S(0);
   for (int i = 0; i < run.count; ++i) {
     Term& term = run.terms[i];
     JointConstraint<S>& joint = term.joint;
     linearise_joint(joint, step);
     detail::set_turns(joint.drives[0].row, bodies_->mass[joint.row_a].kappa, bodies_->mass[joint.row_b].kappa);
     const detail::JointFrames<S> frames = detail::joint_frames(joint, step.states);
-    at[i] = detail::position_of(joint.properties.type, frames);
-    sum = saturating_add(sum, saturate_to<S>(product(term.ratio, at[i])));
+    const S at = detail::position_of(joint.properties.type, frames);
+    sum = saturating_add(sum, saturate_to<S>(product(term.ratio, at)));
   }
   weigh(run);
   bound(run, sum);
-  place_ends(run, at);
+  place_ends(run);
 }
 
 /// [1] Speed of row i by an impulse along row j, through the bodies that both have.
@@ -296,8 +295,8 @@ template <class S> Velocity<S> CouplingRows<S>::speed_of(const Run& run) const {
 /// nothing back into its bounds.
 template <class S> void CouplingRows<S>::solve(Run& run, bool relaxes) {
   if (!run.holds) return;
-  const V low = !relaxes ? run.low : run.equal ? V(0) : min(run.low, V(0));
-  const V high = !relaxes ? run.high : run.equal ? V(0) : max(run.high, V(0));
+  const V low = !relaxes ? run.low : run.is_equal() ? V(0) : min(run.low, V(0));
+  const V high = !relaxes ? run.high : run.is_equal() ? V(0) : max(run.high, V(0));
   const V without = saturating_subtract(speed_of(run), run.changed);
   const V changed = clamp(saturating_subtract(clamp(without, low, high), without), -run.most, run.most);
   const V change = changed - run.changed;

@@ -120,7 +120,7 @@ template <class S> void VehicleRows<S>::compress(Run& run, S length) const {
   const S firm = times(times(times(run.up.give, run.lean), run.lean), run.strut.damping * h_);
   run.strut.firm = saturating_add(S(1), firm);
   // The strut is no shorter than its travel leaves after the sub-step. Where it is shorter, it comes out of that as
-  // softly as contacts of soft step: at once, it and a joint that holds a load on the body would throw each other off.
+  // softly as contacts of soft step: at once, it and a joint that holds a load on the body make energy together.
   const S room = divide_to<S>(length - (w.free_length - w.travel), run.lean);
   const S pace = S(0) <= room ? S(rate_) : stop_softness_.bias_rate;
   run.strut.stop = min(saturate_to<V>(product(-room, pace)), detail::kPushSpeed<S>);
