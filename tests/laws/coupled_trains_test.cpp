@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "built.hpp"
+#include "laws/awake.hpp"
 #include "random/dice.hpp"
-#include "unit/world/worlds.hpp"
 
 namespace isostep::test {
 namespace {
@@ -53,12 +53,6 @@ template <class S> class CoupledTrains : public ::testing::Test {
     std::vector<JointId> joints;
     std::vector<CouplingId> couplings;
   };
-  static Settings<S> with(SolverName solver) {
-    Settings<S> s = settings<S>(-10, 60, 8);
-    s.solver = solver;
-    s.allow_sleep = false;
-    return s;
-  }
   static JointProperties<S> motor(double speed, double torque) {
     JointProperties<S> p;
     p.flags = joint_flag::kMotor;
@@ -81,7 +75,7 @@ template <class S> class CoupledTrains : public ::testing::Test {
   }
   /// A motor at the first wheel, and at the last one what `end` says.
   static Built build(const Train& train, SolverName solver, double torque, const JointProperties<S>& end) {
-    Built b{World<S>(with(solver)), {}, {}, {}};
+    Built b{World<S>(awake<S>(solver)), {}, {}, {}};
     const std::size_t last = train.size() - 1;
     for (std::size_t i = 0; i <= last; ++i)
       wheel(b, 2.0 * static_cast<double>(i), train.masses[i],
@@ -105,9 +99,6 @@ template <class S> class CoupledTrains : public ::testing::Test {
   /// In one step of a sixtieth a wheel has turned over its gap before Q16.16 has the numbers to hold it: a tooth's turn
   /// and the angle that a step closes are two digits apart in that format.
   static bool drives_through(SolverName solver) { return std::is_same_v<S, Q16_16> && solver == SolverName::pgs; }
-  static std::string name(SolverName solver, std::uint64_t seed) {
-    return std::string(kSolverNames[static_cast<int>(solver)]) + ", train " + std::to_string(seed);
-  }
 };
 TYPED_TEST_SUITE(CoupledTrains, AllScalars);
 
@@ -117,7 +108,7 @@ TYPED_TEST(CoupledTrains, stand_in_mesh_between_a_motor_and_a_brake) {
   for (const SolverName solver : kBuiltSolvers) {
     if (this->drives_through(solver)) continue;
     for (std::uint64_t seed = 0; seed < kTrains; ++seed) {
-      SCOPED_TRACE(this->name(solver, seed));
+      SCOPED_TRACE(named(solver, "train " + std::to_string(seed)));
       const Train train = Train::draw(seed);
       const double torque = 400 * train.masses[0] / 100;
       auto b = this->build(train, solver, torque, this->motor(0, 30000));
@@ -145,7 +136,7 @@ TYPED_TEST(CoupledTrains, gain_speed_by_the_motor_over_what_it_feels_of_all_whee
   for (const SolverName solver : kBuiltSolvers) {
     if (this->drives_through(solver)) continue;
     for (std::uint64_t seed = 0; seed < kTrains; ++seed) {
-      SCOPED_TRACE(this->name(solver, seed));
+      SCOPED_TRACE(named(solver, "train " + std::to_string(seed)));
       const Train train = Train::draw(seed);
       double fastest = 0;
       for (std::size_t i = 0; i < train.size(); ++i) fastest = std::max(fastest, std::abs(train.ratio(i)));
@@ -173,7 +164,7 @@ TYPED_TEST(CoupledTrains, hold_a_motor_whatever_the_wheels_weigh) {
     if (this->drives_through(solver)) continue;
     for (const double ratio : {0.01, 0.1, 1.0, 10.0, 100.0}) {
       if (std::is_same_v<S, Q16_16> && ratio < 0.1) continue;  // 100 g between 40 N m and a brake: 0.08 rad off
-      SCOPED_TRACE(this->name(solver, 0) + ", ratio " + std::to_string(ratio));
+      SCOPED_TRACE(named(solver, "train 0") + ", ratio " + std::to_string(ratio));
       const Train train = {{20, 40}, {10, 10 * ratio}};
       auto b = this->build(train, solver, 40, this->motor(0, 30000));
       double worst = 0;
@@ -193,11 +184,11 @@ TYPED_TEST(CoupledTrains, press_a_rack_against_a_wall_and_not_into_it) {
   using S = TypeParam;
   for (const SolverName solver : kBuiltSolvers) {
     for (std::uint64_t seed = 0; seed < kTrains; ++seed) {
-      SCOPED_TRACE(this->name(solver, seed));
+      SCOPED_TRACE(named(solver, "train " + std::to_string(seed)));
       Dice dice(seed * 17 + 5);
       const double mass = dice.magnitude(2, 20), radius = dice.in(0.1, 0.5),
                    torque = mass * 10 * dice.in(0.5, 4) * radius;
-      typename TestFixture::Built b{World<S>(this->with(solver)), {}, {}, {}};
+      typename TestFixture::Built b{World<S>(awake<S>(solver)), {}, {}, {}};
       b.w.set_gravity(Vec3<S>::zero());
       const JointId pinion = this->wheel(b, 0, dice.magnitude(2, 20), this->motor(20, torque));
       BodyDefinition<S> d = moving<S>(add_box(b.w, 0.25, 0.25, 0.25), {4, 0, 0});
@@ -224,11 +215,11 @@ TYPED_TEST(CoupledTrains, pulleys_of_any_masses_fall_as_atwood_has_it) {
   using S = TypeParam;
   for (const SolverName solver : kBuiltSolvers) {
     for (std::uint64_t seed = 0; seed < kTrains; ++seed) {
-      SCOPED_TRACE(this->name(solver, seed));
+      SCOPED_TRACE(named(solver, "train " + std::to_string(seed)));
       Dice dice(seed * 13 + 7);
       const double masses[] = {dice.magnitude(1, 20), dice.magnitude(1, 20)};
       const double ratio = 1 + static_cast<double>(dice.below(3));
-      World<S> w(this->with(solver));
+      World<S> w(awake<S>(solver));
       BodyId bodies[2];
       JointId ropes[2];
       for (int i = 0; i < 2; ++i) {
@@ -266,12 +257,12 @@ TYPED_TEST(CoupledTrains, go_on_from_what_they_bore) {
     run(b.w, 30);
     typename World<S>::Snapshot snapshot;
     b.w.save(snapshot);
-    World<S> other(this->with(solver));
+    World<S> other(awake<S>(solver));
     ASSERT_TRUE(other.load(snapshot));
     EXPECT_FALSE(other.state(b.couplings[0])->load == S(0));
     for (int frame = 0; frame < 30; ++frame) {
       b.w.step(), other.step();
-      ASSERT_EQ(b.w.hash(), other.hash()) << this->name(solver, 0) << ", frame " << frame;
+      ASSERT_EQ(b.w.hash(), other.hash()) << named(solver, "train 0") << ", frame " << frame;
     }
   }
 }

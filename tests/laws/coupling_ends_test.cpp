@@ -8,26 +8,17 @@
 #include <string>
 
 #include "built.hpp"
+#include "laws/awake.hpp"
 #include "random/dice.hpp"
 #include "sample.hpp"
 #include "scenes/measure.hpp"
-#include "unit/world/worlds.hpp"
 
 namespace isostep::test {
 namespace {
 
 template <class S> class CouplingEnds : public ::testing::Test {
  protected:
-  static World<S> empty(SolverName solver) {
-    Settings<S> s = settings<S>(-10, 60, 8);
-    s.solver = solver;
-    s.allow_sleep = false;
-    return World<S>(s);
-  }
   static Pose<S> at(D3 place) { return {vec<S>(place), Quat<Unit<S>>::identity()}; }
-  static std::string name(SolverName solver, std::uint64_t seed) {
-    return kSolverNames[static_cast<int>(solver)] + (", seed " + std::to_string(seed));
-  }
 };
 TYPED_TEST_SUITE(CouplingEnds, AllScalars);
 
@@ -60,9 +51,9 @@ TYPED_TEST(CouplingEnds, that_are_met_at_speed_stop_the_whole_train) {
   using S = TypeParam;
   for (const SolverName solver : kBuiltSolvers) {
     for (std::uint64_t seed = 0; seed < sampled<std::uint64_t>(400, 60); ++seed) {
-      SCOPED_TRACE(this->name(solver, seed));
+      SCOPED_TRACE(named(solver, "seed " + std::to_string(seed)));
       const Train train = Train::draw(seed, pick<S>(256, 256, 16, 256));
-      World<S> w = this->empty(solver);
+      World<S> w(awake<S>(solver));
       w.set_gravity(Vec3<S>::zero());
       std::array<JointId, 2> joints;
       const std::array<double, 2> speeds = {-train.ratio[1] / train.ratio[0] * train.speed, train.speed};
@@ -106,11 +97,11 @@ TYPED_TEST(CouplingEnds, of_a_rope_are_its_wheels) {
   using S = TypeParam;
   for (const SolverName solver : kBuiltSolvers) {
     for (std::uint64_t seed = 0; seed < sampled<std::uint64_t>(100, 16); ++seed) {
-      SCOPED_TRACE(this->name(solver, seed));
+      SCOPED_TRACE(named(solver, "seed " + std::to_string(seed)));
       Dice dice(seed * 37 + 5);
       const std::array<double, 2> masses = {dice.magnitude(1, 10), 20};
       const std::array<double, 2> lengths = {dice.in(0.5, 2), dice.in(0.5, 2)};
-      World<S> w = this->empty(solver);
+      World<S> w(awake<S>(solver));
       std::array<JointId, 2> joints;
       for (std::size_t i = 0; i < 2; ++i) {
         const double x = 4.0 * static_cast<double>(i);

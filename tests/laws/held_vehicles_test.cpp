@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "built.hpp"
+#include "laws/awake.hpp"
 #include "random/dice.hpp"
 #include "scenes/measure.hpp"
-#include "unit/world/worlds.hpp"
 
 namespace isostep::test {
 namespace {
@@ -46,15 +46,9 @@ template <class S> class HeldVehicles : public ::testing::Test {
     VehicleId vehicle;
     std::vector<WheelId> wheels;
   };
-  static Settings<S> with(SolverName solver) {
-    Settings<S> s = settings<S>(-10, 60, 8);
-    s.solver = solver;
-    s.allow_sleep = false;
-    return s;
-  }
   static Quat<Unit<S>> tilt(double degrees) { return turn<S>({1, 0, 0}, degrees * kPi / 180); }
   static Built build(const Drawn& drawn, SolverName solver, double degrees, bool tracked, double engine_inertia = 0) {
-    Built b{World<S>(with(solver)), {}, {}, {}};
+    Built b{World<S>(awake<S>(solver)), {}, {}, {}};
     BodyDefinition<S> ground = still<S>(b.w.add_shape(HalfSpace<S>{{Unit<S>(0), Unit<S>(1), Unit<S>(0)}, S(0)}));
     ground.material.friction = S(1);
     ground.orientation = tilt(degrees);
@@ -107,9 +101,6 @@ template <class S> class HeldVehicles : public ::testing::Test {
   }
   static D3 place(const Built& b) { return real(b.w.center_of_mass(b.body)); }
   static double speed(const Built& b) { return length(real(b.w.velocity(b.body))); }
-  static std::string name(SolverName solver, std::uint64_t seed) {
-    return std::string(kSolverNames[static_cast<int>(solver)]) + ", vehicle " + std::to_string(seed);
-  }
 };
 TYPED_TEST_SUITE(HeldVehicles, AllScalars);
 
@@ -119,7 +110,7 @@ TYPED_TEST(HeldVehicles, under_power_stand_at_a_wall) {
   for (const bool tracked : {false, true}) {
     for (const SolverName solver : kBuiltSolvers) {
       for (std::uint64_t seed = 0; seed < kVehicles; ++seed) {
-        SCOPED_TRACE(this->name(solver, seed) + (tracked ? ", tracks" : ", wheels"));
+        SCOPED_TRACE(named(solver, "vehicle " + std::to_string(seed)) + (tracked ? ", tracks" : ", wheels"));
         const Drawn drawn = Drawn::draw(seed);
         auto b = this->build(drawn, solver, 0, tracked);
         this->wall(b);
@@ -143,7 +134,7 @@ TYPED_TEST(HeldVehicles, with_more_power_than_grip_spin_their_wheels_at_a_wall) 
   using S = TypeParam;
   for (const SolverName solver : kBuiltSolvers) {
     for (std::uint64_t seed = 0; seed < kVehicles; ++seed) {
-      SCOPED_TRACE(this->name(solver, seed));
+      SCOPED_TRACE(named(solver, "vehicle " + std::to_string(seed)));
       Drawn drawn = Drawn::draw(seed);
       drawn.torque = 1.25 * drawn.mass * 10 * kRadius;
       auto b = this->build(drawn, solver, 0, false);
@@ -163,7 +154,7 @@ TYPED_TEST(HeldVehicles, with_locked_brakes_stay_on_a_slope) {
   for (const bool tracked : {false, true}) {
     for (const SolverName solver : kBuiltSolvers) {
       for (std::uint64_t seed = 0; seed < kVehicles; ++seed) {
-        SCOPED_TRACE(this->name(solver, seed) + (tracked ? ", tracks" : ", wheels"));
+        SCOPED_TRACE(named(solver, "vehicle " + std::to_string(seed)) + (tracked ? ", tracks" : ", wheels"));
         const Drawn drawn = Drawn::draw(seed);
         auto b = this->build(drawn, solver, drawn.degrees, tracked);
         this->control(b, 0, 1);
@@ -184,7 +175,7 @@ TYPED_TEST(HeldVehicles, stall_or_slip_their_clutch_at_a_wall) {
   using S = TypeParam;
   for (const SolverName solver : kBuiltSolvers) {
     for (std::uint64_t seed = 0; seed < kVehicles; ++seed) {
-      SCOPED_TRACE(this->name(solver, seed));
+      SCOPED_TRACE(named(solver, "vehicle " + std::to_string(seed)));
       const Drawn drawn = Drawn::draw(seed);
       const double gear = 8, asked = drawn.torque / gear;
       for (const double part : {2.0, 0.5}) {  // of the engine's torque that the clutch bears
@@ -214,7 +205,7 @@ TYPED_TEST(HeldVehicles, with_brakes_on_hold_one_that_pushes) {
   using S = TypeParam;
   for (const SolverName solver : kBuiltSolvers) {
     for (std::uint64_t seed = 0; seed < kVehicles; ++seed) {
-      SCOPED_TRACE(this->name(solver, seed));
+      SCOPED_TRACE(named(solver, "vehicle " + std::to_string(seed)));
       const Drawn drawn = Drawn::draw(seed);
       auto b = this->build(drawn, solver, 0, false);
       BodyDefinition<S> d = moving<S>(add_box(b.w, 0.9, 0.3, 2.1), {0, kHeight, 4.21});
@@ -253,7 +244,7 @@ TYPED_TEST(HeldVehicles, under_a_load_on_a_joint_stand_at_the_end_of_their_trave
   using S = TypeParam;
   for (const SolverName solver : kBuiltSolvers) {
     for (std::uint64_t seed = 0; seed < 3 * kVehicles; ++seed) {
-      SCOPED_TRACE(this->name(solver, seed));
+      SCOPED_TRACE(named(solver, "vehicle " + std::to_string(seed)));
       Drawn drawn = Drawn::draw(seed);
       Dice dice(seed * 13 + 46);
       drawn.mass = 100;

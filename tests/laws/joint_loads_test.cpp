@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "built.hpp"
+#include "laws/awake.hpp"
 #include "random/joint_angles.hpp"
 
 namespace isostep::test {
@@ -9,12 +10,6 @@ namespace {
 
 template <class S> class JointLoads : public ::testing::Test {
  protected:
-  static Settings<S> with(SolverName solver, int substeps = 8) {
-    Settings<S> s = settings<S>(-10, 60, substeps);
-    s.solver = solver;
-    s.allow_sleep = false;
-    return s;
-  }
   static JointId hang(World<S>& w, JointType type, BodyId from, D3 anchor, D3 at, double mass) {
     BodyDefinition<S> d = moving<S>(add_ball(w, 0.125), at);
     d.mass = num<S>(mass);
@@ -41,7 +36,7 @@ TYPED_TEST(JointLoads, a_weight_pulls_with_its_weight_and_a_beam_turns_with_its_
   using S = TypeParam;
   for (const SolverName solver : kAll) {
     for (const JointType type : {JointType::ball, JointType::fixed, JointType::hinge, JointType::slider}) {
-      World<S> w(this->with(solver));
+      World<S> w(awake<S>(solver));
       const bool beam = type == JointType::fixed || type == JointType::slider;
       // A slider's axis is level; a beam's ball is half a metre to the side.
       const JointId joint = this->hang(w, type, {}, {0, 4, 0}, {beam ? 0.5 : 0, beam ? 4.0 : 3.5, 0}, 2);
@@ -58,7 +53,7 @@ TYPED_TEST(JointLoads, a_weight_pulls_with_its_weight_and_a_beam_turns_with_its_
 
 TYPED_TEST(JointLoads, joints_that_lanes_solve_are_measured_like_others) {
   using S = TypeParam;
-  World<S> w(this->with(SolverName::soft_step));
+  World<S> w(awake<S>(SolverName::soft_step));
   std::vector<JointLoadId> loads;
   for (int column = 0; column < 9; ++column) {
     BodyId above;
@@ -79,7 +74,7 @@ template <class S> struct Chain {
   World<S> w;
   std::vector<JointId> joints;
 
-  Chain(SolverName solver, int substeps) : w(with(solver, substeps)) {
+  Chain(SolverName solver, int substeps) : w(awake<S>(solver, -10, substeps)) {
     BodyId above;
     for (int link = 0; link < 20; ++link) {
       const double y = 20 - link * 0.5;
@@ -94,12 +89,6 @@ template <class S> struct Chain {
       load.break_force = S(240);
       w.add(load);
     }
-  }
-  static Settings<S> with(SolverName solver, int substeps) {
-    Settings<S> s = settings<S>(-10, 60, substeps);
-    s.solver = solver;
-    s.allow_sleep = false;
-    return s;
   }
   BodyId last() { return {w.joint(joints.back())->body_b, w.joint(joints.back())->generation_b}; }
   /// The first frame in which a joint breaks, and that must be the top one.
@@ -136,7 +125,7 @@ TYPED_TEST(JointLoads, a_chain_holds_under_what_it_bears_and_breaks_at_its_top_u
 
 TYPED_TEST(JointLoads, a_torque_breaks_a_weld_that_bears_the_force) {
   using S = TypeParam;
-  World<S> w(this->with(SolverName::soft_step));
+  World<S> w(awake<S>(SolverName::soft_step));
   const JointId beam = this->hang(w, JointType::fixed, {}, {0, 4, 0}, {0.5, 4, 0}, 2);
   w.add(this->limit(beam, 1000, 12));
   run(w, 60);
@@ -181,7 +170,7 @@ TYPED_TEST(JointLoads, what_breaks_is_rolled_back) {
 
 TYPED_TEST(JointLoads, refuse_a_second_for_a_joint_and_what_is_no_strength) {
   using S = TypeParam;
-  World<S> w(this->with(SolverName::soft_step));
+  World<S> w(awake<S>(SolverName::soft_step));
   const JointId joint = this->hang(w, JointType::ball, {}, {0, 4, 0}, {0, 3.5, 0}, 2);
   ASSERT_TRUE(w.add(this->limit(joint, 10)));
   const std::uint64_t before = w.hash();

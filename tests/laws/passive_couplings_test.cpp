@@ -6,25 +6,16 @@
 #include <vector>
 
 #include "built.hpp"
+#include "laws/awake.hpp"
 #include "random/dice.hpp"
 #include "sample.hpp"
 #include "scenes/measure.hpp"
-#include "unit/world/worlds.hpp"
 
 namespace isostep::test {
 namespace {
 
 template <class S> class PassiveCouplings : public ::testing::Test {
  protected:
-  static Settings<S> with(SolverName solver) {
-    Settings<S> s = settings<S>(-10, 60, 8);
-    s.solver = solver;
-    s.allow_sleep = false;
-    return s;
-  }
-  static std::string name(SolverName solver, const std::string& which) {
-    return kSolverNames[static_cast<int>(solver)] + (", " + which);
-  }
 };
 TYPED_TEST_SUITE(PassiveCouplings, AllScalars);
 
@@ -34,9 +25,9 @@ TYPED_TEST(PassiveCouplings, that_hold_each_other_gain_nothing) {
   using S = TypeParam;
   for (const SolverName solver : kBuiltSolvers) {
     for (std::uint64_t seed = 0; seed < sampled<std::uint64_t>(300, 60); ++seed) {
-      SCOPED_TRACE(this->name(solver, "seed " + std::to_string(seed)));
+      SCOPED_TRACE(named(solver, "seed " + std::to_string(seed)));
       Dice dice(seed * 23 + 9);
-      World<S> w(this->with(solver));
+      World<S> w(awake<S>(solver));
       w.set_gravity(Vec3<S>::zero());
       std::vector<JointId> joints;
       const int bodies = 2 + static_cast<int>(dice.below(2));
@@ -80,8 +71,8 @@ TYPED_TEST(PassiveCouplings, of_a_chain_of_joints_gain_nothing) {
   using S = TypeParam;
   for (const SolverName solver : kBuiltSolvers) {
     for (const double ratio : {0.1, 1.0, 4.0, 10.0}) {
-      SCOPED_TRACE(this->name(solver, "ratio " + std::to_string(ratio)));
-      World<S> w(this->with(solver));
+      SCOPED_TRACE(named(solver, "ratio " + std::to_string(ratio)));
+      World<S> w(awake<S>(solver));
       w.set_gravity(Vec3<S>::zero());
       BodyDefinition<S> d = moving<S>(add_box(w, 0.25, 0.25, 0.25), {0, 0, 0}, {1, 0, 0});
       d.mass = S(5);
@@ -115,8 +106,8 @@ TYPED_TEST(PassiveCouplings, of_bodies_far_from_their_axes_gain_nothing) {
   for (const SolverName solver : kBuiltSolvers) {
     for (const double arm : {0.125, 0.25, 0.5, 1.0, 2.0}) {
       for (const bool geared_to_wheel : {true, false}) {
-        SCOPED_TRACE(this->name(solver, "arm " + std::to_string(arm)));
-        World<S> w(this->with(solver));
+        SCOPED_TRACE(named(solver, "arm " + std::to_string(arm)));
+        World<S> w(awake<S>(solver));
         JointId joints[2];
         for (int i = 0; i < 2; ++i) {
           const bool wheel = geared_to_wheel && i == 1;

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "laws/awake.hpp"
 #include "laws/exact_rollback.hpp"
 #include "random/joint_angles.hpp"
 
@@ -11,12 +12,7 @@ namespace isostep::test {
 
 template <class S> class SixAxis : public ::testing::Test {
  protected:
-  static Settings<S> with(SolverName solver, double gravity = 0) {
-    Settings<S> s = settings<S>(gravity, 60, 8);
-    s.solver = solver;
-    s.allow_sleep = false;
-    return s;
-  }
+  static Settings<S> with(SolverName solver, double gravity = 0) { return awake<S>(solver, gravity); }
   static Pose<S> at(D3 place) { return {vec<S>(place), Quat<Unit<S>>::identity()}; }
   static BodyId box(World<S>& w, D3 place, double mass = 1, double x = 0.25, double y = 0.25, double z = 0.25) {
     BodyDefinition<S> d = moving<S>(add_box(w, x, y, z), place);

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "built.hpp"
+#include "laws/awake.hpp"
 #include "random/dice.hpp"
 #include "sample.hpp"
 #include "scenes/measure.hpp"
-#include "unit/world/worlds.hpp"
 
 namespace isostep::test {
 namespace {
@@ -24,10 +24,7 @@ template <class S> class SpinningJoints : public ::testing::Test {
   /// up to `fastest` [rad/s], on a ball joint at the cube's side.
   static double gain(SolverName solver, std::uint64_t seed, double fastest) {
     Dice dice(seed * 41 + 29);
-    Settings<S> s = settings<S>(0, 60, 8);
-    s.solver = solver;
-    s.allow_sleep = false;
-    World<S> w(s);
+    World<S> w(awake<S>(solver, 0));
     const double half = dice.in(0.15, 0.5), size = dice.in(0.1, 0.3);
     const double ratio = dice.magnitude(1, pick<S>(100, 100, 20, 100)), spin = dice.magnitude(4, fastest);
     const auto direction = [&] { return D3{dice.in(-1, 1), dice.in(-1, 1), dice.in(-1, 1)}; };
@@ -56,16 +53,22 @@ template <class S> class SpinningJoints : public ::testing::Test {
 };
 TYPED_TEST_SUITE(SpinningJoints, AllScalars);
 
-/// Of joints that turned bodies by their inertia of a step before, and of arms of which one bends and the other does
-/// not, such bodies gained up to forty times their energy. What is left: one in a hundred still gains 2 % and more.
+/// A joint that turned bodies by their inertia of a step before gave them up to forty times their energy, and so did
+/// one of which one arm bent and the other did not: eight in a hundred gained 2 % and more. Few do yet, by little.
 TYPED_TEST(SpinningJoints, of_two_free_bodies_gain_little) {
   using S = TypeParam;
+  const int seeds = sampled(400, 60);
   for (const SolverName solver : kBuiltSolvers) {
-    for (std::uint64_t seed = 0; seed < sampled<std::uint64_t>(400, 60); ++seed) {
-      SCOPED_TRACE(kSolverNames[static_cast<int>(solver)] + (", seed " + std::to_string(seed)));
-      EXPECT_LT(this->gain(solver, seed, 20), pick<S>(0.1, 0.1, 0.2, 0.1));
-      EXPECT_LT(this->gain(solver, seed, 100), pick<S>(0.6, 0.6, 1.5, 0.6));
+    int gaining = 0;
+    for (int seed = 0; seed < seeds; ++seed) {
+      SCOPED_TRACE(named(solver, "seed " + std::to_string(seed)));
+      const double slow = this->gain(solver, static_cast<std::uint64_t>(seed), 20);
+      const double fast = this->gain(solver, static_cast<std::uint64_t>(seed), 100);
+      EXPECT_LT(slow, pick<S>(0.1, 0.1, 0.2, 0.1));
+      EXPECT_LT(fast, pick<S>(0.6, 0.6, 1.5, 0.6));
+      gaining += (0.02 < slow ? 1 : 0) + (0.02 < fast ? 1 : 0);
     }
+    EXPECT_LE(gaining, 2 * seeds / 25) << named(solver, "of both speeds");
   }
 }
 

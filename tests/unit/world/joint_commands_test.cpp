@@ -57,7 +57,7 @@ TYPED_TEST(JointCommands, a_frame_without_an_orientation_is_refused) {
   }
 }
 
-/// What a format resolves of two masses bounds their joint, when it is made and when a mass changes.
+/// A format resolves masses up to Limits::mass_ratio() apart: joints are refused beyond, and so are changes of mass.
 TYPED_TEST(JointCommands, a_joint_of_masses_too_unlike_is_refused) {
   using S = TypeParam;
   World<S>& w = this->world;
