@@ -46,8 +46,9 @@ template <class S> std::vector<BodyId> jumpers(World<S>& w, bool with, int count
   Dice dice(77);
   std::vector<BodyId> all;
   for (int i = 0; i < count; ++i) {
-    BodyDefinition<S> d = moving<S>(shapes[i % 4], {dice.in(-60, 60), dice.in(0.5, 2), dice.in(-60, 60)},
-                                    {dice.in(-3, 3), dice.in(4, 16), dice.in(-3, 3)});
+    const D3 place = {dice.in(-60, 60), dice.in(0.5, 2), dice.in(-60, 60)};
+    const D3 velocity = {dice.in(-3, 3), dice.in(4, 16), dice.in(-3, 3)};
+    BodyDefinition<S> d = moving<S>(shapes[i % 4], place, velocity);
     d.angular_velocity = vec<S>(dice.point(4));
     d.orientation = dice.orientation<S>();
     d.filter.group = 7;
@@ -86,6 +87,7 @@ TYPED_TEST(OneWays, a_thousand_jumps_keep_every_bit_while_they_pass_and_land_on_
       if (out && y > 3) {
         above[i] = 1;
         ++passed;
+        continue;  // the step in which it is out may be the one in which it lands
       }
       returned += out && y < 3 ? 1u : 0u;
       ASSERT_EQ(one.state->velocity, other.state->velocity) << i << ", step " << frame;

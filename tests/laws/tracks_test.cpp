@@ -1,5 +1,7 @@
 // Laws of tracks: wheels that roll as one, what drives, brakes and steers them, against closed forms.
 // SPDX-License-Identifier: MIT
+#include <array>
+
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -9,7 +11,7 @@ namespace {
 template <class S> class Tracks : public ::testing::Test {
  protected:
   static constexpr double kMass = 1200, kSide = 0.8, kHeight = 0.55, kRadius = 0.35, kSquare = kRadius * kRadius;
-  static constexpr int kRear[] = {2, 5}, kMiddle[] = {1, 4};
+  static constexpr std::array kRear = {2, 5}, kMiddle = {1, 4};
 
   /// Engine and brakes are at the rear wheels.
   void add_tank(double speed = 0, double grip_across = 1) {

@@ -73,9 +73,10 @@ TEST(HostileWords, FramesAndAcknowledgementsFromNowhereAreWithoutEffect) {
           header.slack[p] = p % 2 == 0 ? std::int8_t{-128} : std::int8_t{127};
         }
         header.has_echo = true;
-        header.echo = static_cast<std::uint16_t>(frame * 7);
-        header.time = static_cast<std::uint16_t>(frame * 13);
-        header.number = static_cast<std::uint16_t>(frame * 31);
+        const auto count = static_cast<std::uint32_t>(frame);
+        header.echo = static_cast<std::uint16_t>(count * 7);
+        header.time = static_cast<std::uint16_t>(count * 13);
+        header.number = static_cast<std::uint16_t>(count * 31);
         header.figured = static_cast<std::uint8_t>(frame % 5);
         header.figures = {.waited = 0xffffffffu, .round_trip = 0xffffffffu, .loss = 1000};
       }));
