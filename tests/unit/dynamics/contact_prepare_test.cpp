@@ -49,7 +49,7 @@ template <class S> struct Blocks {
   RawBits<S> word(std::size_t contact, std::size_t at) const {
     const std::size_t index = contact / width * width * words + at * width + contact % width;
     RawBits<S> value;
-    std::memcpy(&value, memory.data()->bytes + index * sizeof(S), sizeof(S));
+    std::memcpy(&value, reinterpret_cast<const unsigned char*>(memory.data()) + index * sizeof(S), sizeof(S));
     return value;
   }
 };
