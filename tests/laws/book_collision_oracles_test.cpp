@@ -87,10 +87,13 @@ TYPED_TEST(BookCollisionOracles, swapped_shapes_have_mirrored_contacts) {
   Random random(31);
   double worst = 0;
   int touching = 0;
+  const auto drawn_box = [&] {
+    const double z = random.in(0.1, 1), y = random.in(0.1, 1), x = random.in(0.1, 1);
+    return box_of<S>(x, y, z);
+  };
   for (int n = 0; n < 4000; ++n) {
     const Primitive<S> ball = sphere_of<S>(random.in(0.1, 1));
-    const Primitive<S> other = n % 2 == 0 ? sphere_of<S>(random.in(0.1, 1))
-                                          : box_of<S>(random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1));
+    const Primitive<S> other = n % 2 == 0 ? sphere_of<S>(random.in(0.1, 1)) : drawn_box();
     const Transform<S> a = random_pose<S>(random, 0.1), b = random_pose<S>(random, 1);
     const Manifold<S> m = touch(ball, a, other, b), w = touch(other, b, ball, a);
     ASSERT_EQ(m.count, w.count);

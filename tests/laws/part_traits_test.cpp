@@ -331,9 +331,10 @@ TYPED_TEST(PartTraitsLaws, worlds_that_are_saved_and_written_go_on_alike) {
   this->fixed(this->floors(this->slippery(0.1), this->flagged(part_flag::kReportContacts)));
   Dice dice(6);
   for (int i = 0; i < 12; ++i) {
-    this->loose({this->box({0.25, 0.25, 0.25}, {0, 0, 0}, this->slippery(dice.in(0, 1))),
+    const double z = dice.in(-1, 1), friction = dice.in(0, 1);
+    this->loose({this->box({0.25, 0.25, 0.25}, {0, 0, 0}, this->slippery(friction)),
                  this->box({0.5, 0.125, 0.5}, {0, -0.5, 0}, this->flagged(part_flag::kSensor))},
-                {3.0 * (i % 4) - 5, 2.0 + 2 * (i / 4), dice.in(-1, 1)});
+                {3.0 * (i % 4) - 5, 2.0 + 2 * (i / 4), z});
   }
   run(this->w, 60);
   typename World<S>::Snapshot saved;

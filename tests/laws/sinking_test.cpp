@@ -69,7 +69,8 @@ TYPED_TEST(FallsOnThickGround, leave_crates_and_tiles_at_its_surface) {
     const D3 half = {size, size * (dice.one_in(2) ? 1 : 0.25), size};
     BodyDefinition<S> d =
         moving<S>(add_box(w, half.x, half.y, half.z), {0, 2 + dice.in(0, speed / 60), 0}, {0, -speed, 0});
-    d.orientation = turn<S>(dice.direction(), dice.in(0, 0.5));
+    const double lean = dice.in(0, 0.5);
+    d.orientation = turn<S>(dice.direction(), lean);
     const BodyId crate = w.create(d);
     double deepest = 0;
     for (int step = 0; step < 45; ++step) {

@@ -47,9 +47,9 @@ template <class S> struct Blocks {
     bodies.resize(blocks);
   }
   RawBits<S> word(std::size_t contact, std::size_t at) const {
-    const std::size_t index = contact / width * width * words + at * width + contact % width;
+    const std::size_t byte = (contact / width * width * words + at * width + contact % width) * sizeof(S);
     RawBits<S> value;
-    std::memcpy(&value, reinterpret_cast<const unsigned char*>(memory.data()) + index * sizeof(S), sizeof(S));
+    std::memcpy(&value, memory[byte / sizeof(Chunk)].bytes + byte % sizeof(Chunk), sizeof(S));
     return value;
   }
 };

@@ -94,7 +94,10 @@ TYPED_TEST(SurfaceImpacts, look_at_all_that_the_core_passes) {
     const Vec3<S> centre = vec<S>(dice.one_in(2) ? D3{0, 0, 0} : dice.point(4));
     const Pose<S> start = place(20);
     Pose<S> end = place(20);
-    if (dice.one_in(2)) end.orientation = normalise(turn<S>(dice.direction(), dice.in(0, 0.25)) * start.orientation);
+    if (dice.one_in(2)) {
+      const double angle = dice.in(0, 0.25);
+      end.orientation = normalise(turn<S>(dice.direction(), angle) * start.orientation);
+    }
     const CoreMotion<S> motion = {start, end, centre};
     const Transform<S> frame = Transform<S>::of(place(10));
     const Aabb<S> box = detail::swept_box(frame, this->core(), motion, S(0));
