@@ -42,11 +42,14 @@ concept ShapeOf = requires(Shape<S> shape, Primitive<S> stored, Shape<Literal> l
 };
 /// What moves, and is swept: a convex solid. Its core is what ConvexCore has of it.
 template <template <class> class Shape, class S>
-concept Solid = requires(Shape<S> shape, S s) {
+concept Solid = requires(Shape<S> shape, S s, Vec3<Unit<S>> n, Unit<S> u, SolidFace<S>& face) {
   { shape.inner_radius() } -> std::same_as<S>;  // [m] of a ball that it holds
   // point(v) for each vertex of the core [m] of the solid that is `s` [m] deep in it, or deeper, 0 to inner_radius();
   // returns the radius [m] around them.
   { shape.visit_core(s, detail::NoPoint{}) } -> std::same_as<S>;
+  { shape.middle() } -> std::same_as<Vec3<S>>;    // [m] by it contacts tell on which side of a surface it is
+  { shape.support(n) } -> std::same_as<Vec3<S>>;  // [m] the point of the core furthest along n; of equals any one
+  shape.find_face(n, u, face);                    // of the core, along n: see SolidFace; a disc may lean by sine u
 };
 /// The inverse of primitive(). A Content is what a blob's bytes are in a scalar; fault_of tells what is wrong with it,
 /// memory() [bytes] what it takes.
@@ -72,14 +75,14 @@ concept HasInertiaTensor = requires(Shape<S> shape, S s) {
   { shape.centre_of_mass() } -> std::same_as<Vec3<S>>;  // [m]
   { shape.relative_inertia(s) } -> std::same_as<Mat3<Unit<S>>>;
 };
-#define ISO_COMPLETE(name, Shape)                                                                              \
-  static_assert(ShapeOf<Shape, float>, "a shape's file lacks a member");                                       \
-  static_assert(Shape<float>::kHasBlob ? MadeOfBlob<Shape, float> : MadeOfPrimitive<Shape, float>,             \
-                "a shape's file lacks `of`, Content or fault_of");                                             \
-  static_assert(Shape<float>::kPrincipal ? HasPrincipalInertia<Shape, float> : HasInertiaTensor<Shape, float>, \
-                "a shape's file lacks kappa, centre_of_mass or relative_inertia");                             \
-  static_assert(!Shape<float>::kBounded || Solid<Shape, float>,                                                \
-                "the file of a shape that moves lacks inner_radius or visit_core");                            \
+#define ISO_COMPLETE(name, Shape)                                                                               \
+  static_assert(ShapeOf<Shape, float>, "a shape's file lacks a member");                                        \
+  static_assert(Shape<float>::kHasBlob ? MadeOfBlob<Shape, float> : MadeOfPrimitive<Shape, float>,              \
+                "a shape's file lacks `of`, Content or fault_of");                                              \
+  static_assert(Shape<float>::kPrincipal ? HasPrincipalInertia<Shape, float> : HasInertiaTensor<Shape, float>,  \
+                "a shape's file lacks kappa, centre_of_mass or relative_inertia");                              \
+  static_assert(!Shape<float>::kBounded || Solid<Shape, float>,                                                 \
+                "the file of a shape that moves lacks inner_radius, visit_core, middle, support or find_face"); \
   static_assert(Shape<float>::kType == ShapeType::name, "a shape's kType is not its own");
 ISO_FOR_EACH_SHAPE(ISO_COMPLETE)
 #undef ISO_COMPLETE

@@ -1,5 +1,5 @@
-// The closed list of shapes. To add one: its line here, its file in shapes/, its pairs in
-// collision/narrowphase/shape_pairs.hpp, its keys in src/scenes/shape_keys.hpp. Whatever is missing does not compile.
+// The closed list of shapes. To add one: its line here, its file in shapes/, and what collision/README.md says.
+// Whatever is missing does not compile.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -8,8 +8,8 @@
 #include "isostep/collision/narrowphase/collide.hpp"
 #include "isostep/collision/narrowphase/half_space_pairs.inl"
 #include "isostep/collision/narrowphase/hull_pairs.inl"
-#include "isostep/collision/narrowphase/revolved_pairs.inl"
 #include "isostep/collision/narrowphase/shape_pairs.hpp"
+#include "isostep/collision/narrowphase/solid_pairs.inl"
 #include "isostep/collision/narrowphase/sphere_pairs.inl"
 #include "isostep/collision/narrowphase/surface_pairs.inl"
 

@@ -24,7 +24,7 @@ template <class S> struct EpaPenetration {
   std::int32_t rounds;
 };
 
-/// All in the frame that both transforms lead to. The step does not use it: separating axes of polyhedra are exact.
+/// All in the frame that both transforms lead to. Contacts of polyhedra do not use it: their axes are exact.
 /// Source:  van den Bergen 2001, Proximity Queries and Penetration Depth Computation on 3D Game Objects, GDC.
 /// Differs: from whatever simplex GJK ended with, grown to a tetrahedron by supports across it; the axis is the best of
 ///          all those examined, whose depth its own support proves; 64 rounds. Formats of 32 bits are searched in

@@ -9,7 +9,7 @@ namespace isostep {
 namespace detail {
 
 /// A polytope inside the difference of two cores, around the origin, that grows where its surface is nearest to it.
-template <class F> class Epa {
+template <class F, class Search = Gjk<F>> class Epa {
   using U = Unit<F>;
   static constexpr int kMostRounds = 64, kMostPoints = kMostRounds + 4;
   static constexpr int kMostFaces = 2 * kMostPoints, kMostEdges = 3 * kMostFaces;
@@ -23,7 +23,9 @@ template <class F> class Epa {
     std::int32_t rounds;
   };
 
-  ISO_INLINE Epa(const Gjk<F>& search, F extent) : search_(search), flat_(gap_noise(extent)) {}
+  ISO_INLINE Epa(const Search& search, F extent) : Epa(search, gap_noise(extent), gap_noise(extent) * F(8)) {}
+  /// `enough` [m]: an axis is the best where none is better by more.
+  ISO_INLINE Epa(const Search& search, F flat, F enough) : search_(search), flat_(flat), enough_(enough) {}
 
   /// From a simplex that holds the origin, or is as near to it as digits tell.
   ISO_INLINE Axis run(const Simplex<F>& simplex) {
@@ -35,7 +37,7 @@ template <class F> class Epa {
       const SupportPoint<F> next = search_.support(face.normal);
       const F reach = dot(face.normal, next.point);
       if (reach < best.depth) take(face, reach, best);
-      if (best.depth - face.height <= flat_ * F(8)) best.status = EpaStatus::converged;
+      if (best.depth - face.height <= enough_) best.status = EpaStatus::converged;
       if (best.status == EpaStatus::converged || has(next) || !expand(nearest, next)) break;
     }
     if (best.status == EpaStatus::converged) best.face = face_under_origin();
@@ -173,8 +175,9 @@ template <class F> class Epa {
     return edges + 1;
   }
 
-  const Gjk<F>& search_;
-  F flat_;  // [m] what is no height
+  const Search& search_;
+  F flat_;    // [m] what is no height
+  F enough_;  // [m]
   SupportPoint<F> points_[kMostPoints];
   Face faces_[kMostFaces];
   int count_ = 0, face_count_ = 0;

@@ -118,6 +118,18 @@ template <class S> ISO_INLINE bool nearest_on_tetrahedron(const Simplex<S>& from
   return outside;
 }
 
+/// To what is nearest of it to the origin. False: the origin is inside.
+template <class S> ISO_INLINE bool shrink(Simplex<S>& simplex) {
+  if (simplex.count == 2) simplex = nearest_on_segment(simplex, 0, 1);
+  else if (simplex.count == 3) simplex = nearest_on_triangle(simplex, 0, 1, 2);
+  else {
+    Simplex<S> best = simplex;
+    if (!nearest_on_tetrahedron(simplex, best)) return false;
+    simplex = best;
+  }
+  return true;
+}
+
 template <class S> class Gjk {
   using U = Unit<S>;
   static constexpr int kMostIterations = 32;
@@ -201,17 +213,6 @@ template <class S> class Gjk {
       if (simplex.points[i].vertex_a == point.vertex_a && simplex.points[i].vertex_b == point.vertex_b) return true;
     }
     return false;
-  }
-  /// To what is nearest of it to the origin. False: the origin is inside.
-  static ISO_INLINE bool shrink(Simplex<S>& simplex) {
-    if (simplex.count == 2) simplex = nearest_on_segment(simplex, 0, 1);
-    else if (simplex.count == 3) simplex = nearest_on_triangle(simplex, 0, 1, 2);
-    else {
-      Simplex<S> best = simplex;
-      if (!nearest_on_tetrahedron(simplex, best)) return false;
-      simplex = best;
-    }
-    return true;
   }
 
   ArrayView<Vec3<S>> a_, b_;  // [m] vertices, each solid's in its own frame

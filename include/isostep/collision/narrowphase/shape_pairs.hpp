@@ -7,7 +7,7 @@
 #include "isostep/collision/narrowphase/capsule_pairs.hpp"
 #include "isostep/collision/narrowphase/half_space_pairs.hpp"
 #include "isostep/collision/narrowphase/hull_pairs.hpp"
-#include "isostep/collision/narrowphase/revolved_pairs.hpp"
+#include "isostep/collision/narrowphase/solid_pairs.hpp"
 #include "isostep/collision/narrowphase/sphere_pairs.hpp"
 #include "isostep/collision/narrowphase/surface_pairs.hpp"
 
@@ -50,6 +50,10 @@ template <class S> struct ShapePairs {
 
   constexpr ShapePairs() {
     using enum ShapeType;
+    for (int a = 0; a < kShapeTypes; ++a) {
+      for (int b = a; b < kShapeTypes; ++b)
+        by_type[a][b] = of_all(static_cast<ShapeType>(a), static_cast<ShapeType>(b));
+    }
     add(sphere, sphere, collide_records<S, collide_sphere_sphere<S>>);
     add(sphere, box, collide_records<S, collide_sphere_box<S>>);
     add(sphere, capsule, collide_records<S, collide_sphere_capsule<S>>);
@@ -59,30 +63,11 @@ template <class S> struct ShapePairs {
     add(box, half_space, collide_records<S, collide_box_half_space<S>>);
     add(capsule, capsule, collide_records<S, collide_capsule_capsule<S>>);
     add(capsule, half_space, collide_records<S, collide_capsule_half_space<S>>);
-    add(half_space, half_space, collide_never<S>);
     add(sphere, hull, collide_views<S, collide_sphere_hull<S>>);
     add(box, hull, collide_box_hull<S>);
     add(capsule, hull, collide_views<S, collide_capsule_hull<S>>);
     add(half_space, hull, collide_views<S, collide_half_space_hull<S>>);
     add(hull, hull, collide_hull_hull<S>);
-    for (const ShapeType surface : {mesh, height_field}) {
-      for (const ShapeType convex : {sphere, box, capsule, hull})
-        add(convex, surface, collide_views<S, collide_with_surface<S>>);
-      add(half_space, surface, collide_never<S>);
-      add(mesh, surface, collide_never<S>);
-    }
-    add(height_field, height_field, collide_never<S>);
-    for (const ShapeType round : {cylinder, cone}) {
-      add(sphere, round, collide_views<S, collide_sphere_round<S>>);
-      add(box, round, collide_views<S, collide_box_round<S>>);
-      add(capsule, round, collide_views<S, collide_capsule_round<S>>);
-      add(half_space, round, collide_views<S, collide_half_space_round<S>>);
-      add(hull, round, collide_views<S, collide_hull_round<S>>);
-      add(mesh, round, collide_views<S, collide_surface_with<S>>);
-      add(height_field, round, collide_views<S, collide_surface_with<S>>);
-      add(cylinder, round, collide_views<S, collide_round_round<S>>);
-    }
-    add(cone, cone, collide_views<S, collide_round_round<S>>);
   }
   ISO_INLINE constexpr CollideShapes<S> of(ShapeType a, ShapeType b) const {
     return by_type[static_cast<std::uint32_t>(a)][static_cast<std::uint32_t>(b)];
@@ -97,6 +82,16 @@ template <class S> struct ShapePairs {
   }
 
  private:
+  /// What two shapes do that have no function of their own; none where one without an end is new.
+  static constexpr CollideShapes<S> of_all(ShapeType a, ShapeType b) {
+    if (!is_bounded(a) && !is_bounded(b)) return collide_never<S>;
+    if (is_surface(b)) return collide_views<S, collide_with_surface<S>>;
+    if (is_surface(a)) return collide_views<S, collide_surface_with<S>>;
+    if (a == ShapeType::half_space) return collide_views<S, collide_half_space_solid<S>>;
+    if (!is_bounded(a) || !is_bounded(b)) return nullptr;
+    if (a == ShapeType::sphere) return collide_views<S, collide_sphere_solid<S>>;
+    return collide_views<S, collide_solids<S>>;
+  }
   constexpr void add(ShapeType a, ShapeType b, CollideShapes<S> collide) {
     by_type[static_cast<std::uint32_t>(a)][static_cast<std::uint32_t>(b)] = collide;
   }

@@ -3,10 +3,9 @@
 #pragma once
 
 #include "isostep/collision/narrowphase/polyhedron_triangle.inl"
-#include "isostep/collision/narrowphase/revolved_pairs.hpp"
-#include "isostep/collision/narrowphase/revolved_triangle.inl"
 #include "isostep/collision/narrowphase/round_triangle.inl"
 #include "isostep/collision/narrowphase/rounded_polyhedra.inl"
+#include "isostep/collision/narrowphase/solid_triangle.inl"
 #include "isostep/collision/narrowphase/surface_pairs.hpp"
 #include "isostep/geometry/baked/box_solid.hpp"
 #include "isostep/geometry/baked/surface_queries.inl"
@@ -15,11 +14,12 @@
 namespace isostep {
 
 namespace detail {
-/// Where a convex shape must be in front of a triangle to touch it [m], in its frame.
-template <class S> ISO_INLINE Vec3<S> middle_of(ShapeView<S> view) {
-  if (view.primitive.type == ShapeType::hull) return shape_as<Hull>(view).centre_of_mass();
-  if (view.primitive.type == ShapeType::cone) return shape_as<Cone>(view).middle();
-  return Vec3<S>::zero();
+/// The same bits wherever both are, as long as the difference of their positions is exact.
+template <class S>
+ISO_INLINE SurfaceFrame<S> frame_from(const ShapeView<S>& a, const Transform<S>& ta, const Transform<S>& tb,
+                                      int exponent) {
+  const Transform<S> turn_a = {Vec3<S>::zero(), ta.rotation}, b_from_a = {tb.position - ta.position, tb.rotation};
+  return {turn_a, middle_of(a), b_from_a, exponent};
 }
 }  // namespace detail
 
@@ -28,8 +28,7 @@ void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> 
                            const Transform<S>& tb, S margin, Manifold<S>& out) {
   detail::visit_surface(b, [&](const auto& surface) ISO_INLINE_LAMBDA {
     const BakedTriangle baked = surface.triangle(triangle);
-    const Vec3<S> centre = detail::middle_of(a);
-    const SurfaceFrame<S> frame(ta, centre, tb, surface.exponent());
+    const SurfaceFrame<S> frame(ta, detail::middle_of(a), tb, surface.exponent());
     switch (a.primitive.type) {
       case ShapeType::sphere: return collide_sphere_triangle(a.primitive.radius, ta, frame, baked, margin, out);
       case ShapeType::capsule: {
@@ -45,10 +44,9 @@ void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> 
         if (!hull.is_rounded()) return collide_polyhedron_triangle(hull.polyhedron(), ta, frame, baked, margin, out);
         return collide_rounded_triangle(rounded_of(hull), ta, frame, baked, margin, out);
       }
-      case ShapeType::cylinder:
-      case ShapeType::cone:
-        return collide_revolved_triangle(detail::revolved_of(a.primitive), ta, frame, baked, margin, out);
-      default: return out.clear();
+      default:
+        if (!is_bounded(a.primitive.type)) return out.clear();
+        return collide_solid_triangle(a, ta, detail::frame_from(a, ta, tb, surface.exponent()), baked, margin, out);
     }
   });
 }

@@ -83,6 +83,29 @@ template <class S = Literal> struct Box {
     return S(0);
   }
 
+  ISO_INLINE Vec3<S> middle() const { return Vec3<S>::zero(); }
+  ISO_INLINE Vec3<S> support(Vec3<Unit<S>> n) const {
+    const Vec3<S>& h = half_extents;
+    return {n.x < Unit<S>(0) ? -h.x : h.x, n.y < Unit<S>(0) ? -h.y : h.y, n.z < Unit<S>(0) ? -h.z : h.z};
+  }
+  /// Corners as visit_core() counts them.
+  ISO_INLINE void find_face(Vec3<Unit<S>> n, Unit<S>, SolidFace<S>& face) const {
+    const Vec3<Unit<S>> size = abs(n);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int u = axis < 2 ? axis + 1 : 0, v = axis < 1 ? 2 : axis - 1;
+    const bool below = n[axis] < Unit<S>(0);
+    face.normal = Vec3<Unit<S>>::zero();
+    face.normal[axis] = below ? Unit<S>(-1) : Unit<S>(1);
+    face.name = static_cast<std::uint32_t>(axis) << 1 | (below ? 1u : 0u);
+    for (int k = 0; k < 4; ++k) {
+      bool above[3] = {};
+      above[axis] = !below, above[u] = k == 1 || k == 2, above[v] = k >= 2;
+      face.add({above[0] ? half_extents.x : -half_extents.x, above[1] ? half_extents.y : -half_extents.y,
+                above[2] ? half_extents.z : -half_extents.z},
+               (above[0] ? 4u : 0u) | (above[1] ? 2u : 0u) | (above[2] ? 1u : 0u));
+    }
+  }
+
   ISO_INLINE S mass(S density) const {
     return detail::saturating_product<S>({density, S(8), half_extents.x, half_extents.y, half_extents.z});
   }

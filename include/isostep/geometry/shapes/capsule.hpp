@@ -78,6 +78,13 @@ template <class S = Literal> struct Capsule {
     return radius - inset;
   }
 
+  ISO_INLINE Vec3<S> middle() const { return Vec3<S>::zero(); }
+  ISO_INLINE Vec3<S> support(Vec3<Unit<S>> n) const { return n.y < Unit<S>(0) ? -core() : core(); }
+  ISO_INLINE void find_face(Vec3<Unit<S>>, Unit<S>, SolidFace<S>& face) const {
+    face.add(-core(), 0);
+    face.add(core(), 1);
+  }
+
   ISO_INLINE S mass(S density) const {
     const S length = half_height + half_height + S(4.0 / 3) * radius;
     return detail::saturating_product<S>({density, S(detail::kPi), radius, radius, length});

@@ -53,6 +53,11 @@ template <class S = Literal> struct Cone {
   /// [m] The mean of the core's vertices: by it sweeps and contacts tell on which side of a surface it is.
   ISO_INLINE Vec3<S> middle() const { return {S(0), -half_height * S(1.0 / 3), S(0)}; }
 
+  ISO_INLINE Vec3<S> support(Vec3<Unit<S>> n) const { return detail::support_of_discs({radius, S(0)}, half_height, n); }
+  ISO_INLINE void find_face(Vec3<Unit<S>> n, Unit<S> flat, SolidFace<S>& face) const {
+    detail::find_face_of_discs({radius, S(0)}, half_height, n, flat, face);
+  }
+
   ISO_INLINE S mass(S density) const {
     return detail::saturating_product<S>({density, S(2 * detail::kPi / 3), radius, radius, half_height});
   }

@@ -40,6 +40,14 @@ template <class S = Literal> struct Cylinder {
     return S(0);
   }
 
+  ISO_INLINE Vec3<S> middle() const { return Vec3<S>::zero(); }
+  ISO_INLINE Vec3<S> support(Vec3<Unit<S>> n) const {
+    return detail::support_of_discs({radius, radius}, half_height, n);
+  }
+  ISO_INLINE void find_face(Vec3<Unit<S>> n, Unit<S> flat, SolidFace<S>& face) const {
+    detail::find_face_of_discs({radius, radius}, half_height, n, flat, face);
+  }
+
   ISO_INLINE S mass(S density) const {
     return detail::saturating_product<S>({density, S(2 * detail::kPi), radius, radius, half_height});
   }

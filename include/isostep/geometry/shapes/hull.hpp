@@ -73,6 +73,34 @@ template <class S = Literal> struct Hull {
     return left;
   }
 
+  ISO_INLINE Vec3<S> middle() const { return content->centre_of_mass; }
+  ISO_INLINE Vec3<S> support(Vec3<Unit<S>> n) const {
+    const ColumnsView<S> vertices = polyhedron().vertices;
+    std::uint32_t furthest = 0;
+    S most = dot(n, vertices[0]);
+    for (std::uint32_t i = 1; i < vertices.size(); ++i) {
+      const S reach = dot(n, vertices[i]);
+      if (reach > most) most = reach, furthest = i;
+    }
+    return vertices[furthest];
+  }
+  ISO_INLINE void find_face(Vec3<Unit<S>> n, Unit<S>, SolidFace<S>& face) const {
+    const Polyhedron<S> solid = polyhedron();
+    std::uint32_t best = 0;
+    Unit<S> most = dot(n, solid.normals[0]);
+    for (std::uint32_t f = 1; f < solid.faces.size(); ++f) {
+      const Unit<S> facing = dot(n, solid.normals[f]);
+      if (facing > most) most = facing, best = f;
+    }
+    face.normal = solid.normals[best];
+    face.name = best;
+    std::uint32_t edge = solid.faces[best];
+    do {
+      face.add(solid.vertices[solid.origin(edge)], solid.origin(edge));
+      edge = solid.half_edges[edge].next;
+    } while (edge != solid.faces[best] && face.count < SolidFace<S>::kMost);
+  }
+
   ISO_INLINE S mass(S density) const {
     const Vec3<S> w = widths();
     return detail::saturating_product<S>({density, convert<S>(content->filled), w.x, w.y, w.z});

@@ -23,6 +23,40 @@ template <class S> struct NearestInSection {
   Unit<S> out, along;  // [1] the normal
 };
 
+/// The radii [m] of two discs on one axis, the lower one first.
+template <class S> struct DiscRadii { S low, high; };
+/// Of the hull of both, at y = -half and half: the point furthest along n.
+template <class S> ISO_INLINE Vec3<S> support_of_discs(DiscRadii<S> radii, S half, Vec3<Unit<S>> n) {
+  const Direction<Unit<S>> d = direction_of(n.x, Unit<S>(0), n.z);
+  const S narrower = (radii.low - radii.high) * d.length, rise = half * n.y;
+  const bool upper = rise + rise > narrower;
+  const S radius = upper ? radii.high : radii.low;
+  return {radius * d.x, upper ? half : -half, radius * d.z};
+}
+/// What of it looks along n: a disc that leans by a sine of `flat` at most, as sixteen points of its rim that turn with
+/// it, or the line of the side that reaches furthest.
+inline constexpr std::uint32_t kLowerEnd = 32, kUpperEnd = 33;  // of that line, which is no line of the solid's own
+template <class S>
+ISO_INLINE void find_face_of_discs(DiscRadii<S> radii, S half, Vec3<Unit<S>> n, Unit<S> flat, SolidFace<S>& face) {
+  using U = Unit<S>;
+  const Direction<U> d = direction_of(n.x, U(0), n.z);
+  const bool upper = n.y > U(0);
+  const S radius = upper ? radii.high : radii.low;
+  face.is_disc = d.length <= flat && radius > S(0);
+  if (face.is_disc) {
+    face.normal = {U(0), upper ? U(1) : U(-1), U(0)};
+    face.name = upper ? 1 : 0;
+    for (int k = 0; k < 16; ++k) {
+      face.add({radius * cosine_of_sixteenths<S>(k), upper ? half : -half, radius * cosine_of_sixteenths<S>(k - 4)},
+               face.name << 4 | static_cast<std::uint32_t>(k));
+    }
+    return;
+  }
+  const U x = d.length > U(0) ? d.x : U(1), z = d.length > U(0) ? d.z : U(0);
+  face.add({radii.low * x, -half, radii.low * z}, kLowerEnd);
+  face.add({radii.high * x, half, radii.high * z}, kUpperEnd);
+}
+
 /// Discs of radius radii[0] at y = -half and radii[1] <= radii[0] at y = half, and what lies between them.
 template <class S> struct Revolved {
   using U = Unit<S>;

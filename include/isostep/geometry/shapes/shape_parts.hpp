@@ -8,6 +8,7 @@
 #include "isostep/geometry/primitive.hpp"
 #include "isostep/geometry/ray.hpp"
 #include "isostep/geometry/shape_fault.hpp"
+#include "isostep/geometry/shapes/solid_face.hpp"
 #include "isostep/math/aabb.hpp"
 #include "isostep/math/transform.hpp"
 #include "isostep/scalar/literal.hpp"

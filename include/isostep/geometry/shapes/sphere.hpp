@@ -33,6 +33,10 @@ template <class S = Literal> struct Sphere {
     return radius - inset;
   }
 
+  ISO_INLINE Vec3<S> middle() const { return Vec3<S>::zero(); }
+  ISO_INLINE Vec3<S> support(Vec3<Unit<S>>) const { return Vec3<S>::zero(); }
+  ISO_INLINE void find_face(Vec3<Unit<S>>, Unit<S>, SolidFace<S>& face) const { face.add(Vec3<S>::zero(), 0); }
+
   ISO_INLINE S mass(S density) const {
     return detail::saturating_product<S>({density, S(4.188790204786391), radius, radius, radius});
   }

@@ -51,6 +51,8 @@ inline constexpr Known kKnown[] = {
     {kPolyhedra, bit(ShapeType::height_field), as_deep_as_its_normal, 100},
     {kPolyhedra, bit(ShapeType::height_field), no_axis_is_better, 320},
     {kPolyhedra, bit(ShapeType::height_field), some_in_touch, 2},
+    // A search from a triangle's plane that finds no way from there.
+    {kRevolved, kSurfaces, none_apart, 2},
     {kRevolved, kSurfaces, some_in_touch, 90},
     {kRevolved, kSurfaces, as_deep_as_its_normal, 150},
     {kRevolved, kSurfaces, no_axis_is_better, 280},
