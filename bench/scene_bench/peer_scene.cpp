@@ -223,7 +223,7 @@ PeerJoint peer_joint(const scenes::SceneJoint& of, const std::vector<PeerBody>& 
   joint.upper = real(of.upper);
   joint.has_motor = (of.flags & joint_flag::kMotor) != 0;
   joint.motor_speed = real(of.motor_speed);
-  joint.motor_force = real(of.motor_torque);
+  joint.motor_force = real(of.max_force);
   joint.is_spring = (of.flags & joint_flag::kSpring) != 0;
   joint.collide = (of.flags & joint_flag::kCollideConnected) != 0;
   if (joint.is_spring) set_spring(joint, of, reduced_mass(joint, bodies));

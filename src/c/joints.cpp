@@ -222,9 +222,9 @@ ISO_C_FAMILIES(ISO_JOINTS)
       w.set_limits(id, same_bits<S>(lower), same_bits<S>(upper));                                                      \
     });                                                                                                                \
   }                                                                                                                    \
-  iso_status iso_##P##_joint_set_motor(iso_world* world, iso_joint joint, N speed, N torque) {                         \
-    return change_joint<S>(world, "joint_set_motor", joint, [&](auto& w, JointId id) {                                 \
-      w.set_motor(id, same_bits<S>(speed), same_bits<S>(torque));                                                      \
+  iso_status iso_##P##_joint_set_motor(iso_world* world, iso_joint joint, N speed, N max_force) { \
+    return change_joint<S>(world, "joint_set_motor", joint, [&](auto& w, JointId id) { \
+      w.set_motor(id, same_bits<S>(speed), same_bits<S>(max_force)); \
     });                                                                                                                \
   }                                                                                                                    \
   iso_status iso_##P##_joint_set_spring(iso_world* world, iso_joint joint, N frequency, N damping) {                   \

@@ -205,7 +205,7 @@ JointId add_joint(World<S>& world, const SceneJoint& joint, const std::vector<Bo
   properties.upper = read<S>(joint.upper, place + "/upper");
   properties.cone = read<S>(joint.cone, place + "/cone");
   properties.motor_speed = read<S>(joint.motor_speed, place + "/motor_speed");
-  properties.motor_torque = read<S>(joint.motor_torque, place + "/motor_torque");
+  properties.max_force = read<S>(joint.max_force, place + "/max_force");
   properties.spring_target = read<S>(joint.spring_target, place + "/spring_target");
   properties.spring_frequency = read<S>(joint.spring_frequency, place + "/spring_frequency");
   properties.spring_damping = read<S>(joint.spring_damping, place + "/spring_damping");

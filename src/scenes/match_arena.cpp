@@ -54,7 +54,7 @@ int add_mill(Scene& scene) {
   hinge.orientation = kAxisUp;
   hinge.flags = joint_flag::kMotor;
   hinge.motor_speed = 1.5;
-  hinge.motor_torque = 10;
+  hinge.max_force = 10;
   scene.joints.push_back(hinge);
   scene.bodies.push_back(body_of(box_part({1.8, 0.25, 0.2}), {0, 0.4, 0}));
   return static_cast<int>(scene.joints.size()) - 1;

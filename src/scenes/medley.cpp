@@ -79,7 +79,7 @@ void add_arms(Scene& scene) {
   Arm driven(scene, {5, 4, 0});
   SceneJoint& motor = driven.add(JointType::hinge, kMotor | kLimit, box_part({0.1, 0.2, 0.1}));
   motor.motor_speed = 2;
-  motor.motor_torque = 5;
+  motor.max_force = 5;
   motor.lower = -0.5;
   motor.upper = 1;
   driven.add(JointType::fixed, 0, capsule_part(0.1, 0.1));

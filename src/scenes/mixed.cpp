@@ -30,7 +30,7 @@ void add_machine(Scene& scene, Point at) {
   hinge.anchor = vector_of(at);
   hinge.flags = joint_flag::kMotor;
   hinge.motor_speed = 1.5;
-  hinge.motor_torque = 5;
+  hinge.max_force = 5;
   scene.joints.push_back(hinge);
   SceneJoint weld;
   weld.type = JointType::fixed;

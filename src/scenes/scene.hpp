@@ -123,7 +123,7 @@ struct SceneJoint {
   Number lower = 0, upper = 0;           // [rad] or [m]
   Number cone = 0;                       // [rad]
   Number motor_speed = 0;                // [rad/s]
-  Number motor_torque = 0;               // [N m]
+  Number max_force = 0;               // [N m]
   Number spring_target = 0;              // [rad] or [m]
   Number spring_frequency = 0;           // [Hz]
   Number spring_damping = 0;             // [1]

@@ -38,7 +38,7 @@ inline constexpr JointNumberKey kJointNumbers[] = {{"lower", &SceneJoint::lower}
                                                    {"upper", &SceneJoint::upper},
                                                    {"cone", &SceneJoint::cone},
                                                    {"motor_speed", &SceneJoint::motor_speed},
-                                                   {"motor_torque", &SceneJoint::motor_torque},
+                                                   {"max_force", &SceneJoint::max_force},
                                                    {"spring_target", &SceneJoint::spring_target},
                                                    {"spring_frequency", &SceneJoint::spring_frequency},
                                                    {"spring_damping", &SceneJoint::spring_damping}};

@@ -43,7 +43,7 @@ void add_lift(Scene& scene, Point at) {
   slide.flags = joint_flag::kLimit | joint_flag::kMotor;
   slide.upper = 1;
   slide.motor_speed = 0.25;
-  slide.motor_torque = 20'000;
+  slide.max_force = 20'000;
   scene.joints.push_back(slide);
 }
 

@@ -253,7 +253,7 @@ TEST(CJoints, AreAskedAndSet) {
   EXPECT_EQ(properties.flags, std::uint32_t{ISO_JOINT_FLAG_LIMIT});
   EXPECT_EQ(properties.upper, Q32Game::lean());
   properties.flags |= ISO_JOINT_FLAG_MOTOR;
-  properties.motor_torque = Q32Game::whole(3);
+  properties.max_force = Q32Game::whole(3);
   EXPECT_EQ(iso_q32_joint_set(game.world, game.joint, &properties), ISO_OK) << iso_last_error();
   std::int64_t position = 1;
   EXPECT_EQ(iso_q32_joint_get_position(game.world, game.joint, &position), ISO_OK);

@@ -49,7 +49,7 @@ template <class S> void build(World<S>& world) {
     if (type == JointType::hinge) {
       joint.flags = joint_flag::kMotor;
       joint.motor_speed = S(0.7);
-      joint.motor_torque = S(1.1);
+      joint.max_force = S(1.1);
     }
     world.create(joint);
   };

@@ -79,7 +79,7 @@ template <class S> class Island {
       if (tie.driven) {
         j.flags = joint_flag::kMotor;
         j.motor_speed = S(1);
-        j.motor_torque = num<S>(4);
+        j.max_force = num<S>(4);
       }
       EXPECT_TRUE(w.create(j)) << describe(w.fault());
     }

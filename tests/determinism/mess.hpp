@@ -180,7 +180,7 @@ template <class S> void hail(World<S>& w, std::uint64_t frame, Activity* activit
         if (type == JointType::hinge && dice.below(2) == 0) {
           j.flags = joint_flag::kMotor;
           j.motor_speed = num<S>(2);
-          j.motor_torque = num<S>(3);
+          j.max_force = num<S>(3);
         }
         done = static_cast<bool>(w.create(j));
         break;

@@ -68,7 +68,7 @@ template <class S> class SolverScene {
       if (i == 1) {
         j.flags = joint_flag::kMotor | joint_flag::kLimit;
         j.motor_speed = S(1);
-        j.motor_torque = num<S>(0.5);
+        j.max_force = num<S>(0.5);
         j.lower = num<S>(-0.5);
         j.upper = num<S>(0.25);
       }

@@ -57,7 +57,7 @@ template <class S> class CoupledTrains : public ::testing::Test {
     JointProperties<S> p;
     p.flags = joint_flag::kMotor;
     p.motor_speed = num<S>(speed);
-    p.motor_torque = num<S>(torque);
+    p.max_force = num<S>(torque);
     return p;
   }
   static JointId wheel(Built& b, double x, double mass, const JointProperties<S>& settings) {

@@ -40,7 +40,7 @@ template <class S> class Couplings : public ::testing::Test {
     JointProperties<S> p;
     p.flags = joint_flag::kMotor;
     p.motor_speed = num<S>(speed);
-    p.motor_torque = num<S>(torque);
+    p.max_force = num<S>(torque);
     return p;
   }
   BodyId body_of(JointId joint) { return {w.joint(joint)->body_b, w.joint(joint)->generation_b}; }
@@ -239,16 +239,18 @@ TYPED_TEST(Couplings, refuse_what_has_no_position_and_teeth_that_are_not_whole) 
   Coupling<S> coupling = gears<S>(a, 1, b, 1);
   coupling.ratio_b = num<S>(1.5);
   refused(coupling, "ratio_b");
-  coupling = gears<S>(a, 2000, b, 1);
-  refused(coupling, "ratio_a");
+  refused(gears<S>(a, kMostTeeth<S> + 1, b, 1), "ratio_a");
+  coupling = gears<S>(a, 1, b, 1);
+  coupling.ratio_c = S(1);
+  refused(coupling, "ratio_c");
   coupling = gears<S>(a, 1, b, 1);
   coupling.upper = S(7);
   refused(coupling, "upper");
   coupling.upper = S(-1);
   refused(coupling, "upper");
-  coupling = rack_and_pinion<S>(a, num<S>(0.3), c);
-  EXPECT_TRUE(this->w.add(coupling)) << describe(this->w.fault());
-  EXPECT_EQ(this->w.state().records->couplings.slot_map().count_taken(), 1u);
+  EXPECT_TRUE(this->w.add(rack_and_pinion<S>(a, num<S>(0.3), c))) << describe(this->w.fault());
+  EXPECT_TRUE(this->w.add(gears<S>(a, kMostTeeth<S>, b, 1))) << describe(this->w.fault());
+  EXPECT_EQ(this->w.state().records->couplings.slot_map().count_taken(), 2u);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ template <class S> AxisDrive<S> with_others_idle(AxisDrive<S> d, Dice& dice) {
     d.spring_damping = num<S>(dice.in(0, 1));
   }
   if (!sprung && !yields) d.spring_mass = num<S>(dice.in(1, 10));
-  if (!sprung && !d.motor) d.force = num<S>(dice.in(1, 10));
+  if (!sprung && !d.motor) d.max_force = num<S>(dice.in(1, 10));
   return d;
 }
 template <class S> JointProperties<S> with_others_idle(JointProperties<S> p, Dice& dice) {
@@ -43,7 +43,7 @@ template <class S> JointProperties<S> with_others_idle(JointProperties<S> p, Dic
   if ((p.flags & kCone) == 0) p.cone = num<S>(dice.in(0.1, 1.5));
   if (!motor) {
     p.motor_speed = num<S>(dice.in(-3, 3));
-    p.motor_torque = num<S>(dice.in(1, 10));
+    p.max_force = num<S>(dice.in(1, 10));
   }
   if (!sprung) {
     p.spring_target = num<S>(dice.in(-0.5, 0.5));

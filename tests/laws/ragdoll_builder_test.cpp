@@ -131,7 +131,7 @@ TYPED_TEST(Ragdolls, with_servos_hold_their_pose_from_a_fixed_pelvis) {
   for (const SolverName solver : {SolverName::soft_step, SolverName::direct}) {
     World<S> w(this->with(solver));
     RagdollSettings<S> posed;
-    posed.pose = {.frequency = S(5), .damping = S(1), .force = S(30)};
+    posed.pose = {.frequency = S(5), .damping = S(1), .max_force = S(30)};
     const std::vector<RagdollBone<S>> bones = this->skeleton(w, {0, 2, 0}, Quat<Unit<S>>::identity());
     const Ragdoll<S> figure = add_ragdoll<S>(w, bones, posed);
     ASSERT_EQ(figure.bodies.size(), bones.size()) << describe(w.first_fault());
@@ -185,16 +185,16 @@ TYPED_TEST(Ragdolls, say_by_name_what_makes_no_figure_and_leave_the_world_as_it_
   refused("friction", [](auto&, auto& how) { how.friction = S(-1); });
   refused("friction", [](auto&, auto& how) {
     how.friction = num<S>(0.1);
-    how.pose.force = S(30);
+    how.pose.max_force = S(30);
   });
-  refused("pose.force", [](auto&, auto& how) { how.pose.force = S(-1); });
+  refused("pose.max_force", [](auto&, auto& how) { how.pose.max_force = S(-1); });
   refused("pose.target", [](auto&, auto& how) {
-    how.pose.force = S(30);
+    how.pose.max_force = S(30);
     how.pose.target = num<S>(0.25);
   });
   refused("pose.mass", [](auto&, auto& how) { how.pose.mass = S(1); });
   refused("pose.frequency", [](auto&, auto& how) {
-    how.pose.force = S(30);
+    how.pose.max_force = S(30);
     how.pose.frequency = S(0);
   });
   EXPECT_EQ(add_ragdoll<S>(w, bones).bodies.size(), bones.size());

@@ -31,7 +31,7 @@ template <class S> class ShaftJoints : public ::testing::Test {
     JointProperties<S> bearing = held(JointType::hinge, {}, first, {0, 0, -1}, 0);
     bearing.flags = joint_flag::kMotor;
     bearing.motor_speed = S(3);
-    bearing.motor_torque = S(500);
+    bearing.max_force = S(500);
     EXPECT_TRUE(w.create(bearing));
     EXPECT_TRUE(w.create(held(JointType::hinge, {}, second, along, bend)));
     // One frame for each shaft: z along it.
@@ -91,7 +91,7 @@ TYPED_TEST(ShaftJoints, a_crank_moves_its_piston_as_geometry_says) {
   JointProperties<S> motor = this->held(JointType::hinge, {}, crank, {0, 0, 0}, 0);
   motor.flags = joint_flag::kMotor;
   motor.motor_speed = num<S>(2 * kPi);
-  motor.motor_torque = S(200);
+  motor.max_force = S(200);
   ASSERT_TRUE(world.create(motor));
   ASSERT_TRUE(world.create(this->held(JointType::hinge, crank, rod, {r, 0, 0}, 0)));
   ASSERT_TRUE(world.create(this->held(JointType::hinge, rod, piston, {r + l, 0, 0}, 0)));

@@ -139,7 +139,7 @@ TYPED_TEST(ShapeChanges, setters_of_joints_do_what_the_whole_record_does) {
   JointProperties<S> next = *whole.joint(joint);
   next.flags |= joint_flag::kLimit | joint_flag::kMotor | joint_flag::kSpring;
   next.lower = S(-0.5), next.upper = S(0.25);
-  next.motor_speed = S(2), next.motor_torque = S(5);
+  next.motor_speed = S(2), next.max_force = S(5);
   next.spring_frequency = S(3), next.spring_damping = S(0.5), next.spring_target = S(0.125);
   ASSERT_TRUE(whole.set_joint(joint, next));
   EXPECT_EQ(this->w.hash(), whole.hash());
@@ -149,7 +149,7 @@ TYPED_TEST(ShapeChanges, setters_of_joints_do_what_the_whole_record_does) {
   EXPECT_FALSE(this->w.set_limits(joint, S(1), S(0)));
   EXPECT_STREQ(this->w.fault().field, "lower");
   EXPECT_FALSE(this->w.set_motor(joint, S(1), S(-1)));
-  EXPECT_STREQ(this->w.fault().field, "motor_torque");
+  EXPECT_STREQ(this->w.fault().field, "max_force");
 }
 
 }  // namespace

@@ -328,7 +328,7 @@ template <class S> class JointTrials {
     p.upper = num<S>(j.upper);
     p.cone = num<S>(j.cone);
     p.motor_speed = num<S>(j.speed);
-    p.motor_torque = num<S>(j.torque);
+    p.max_force = num<S>(j.torque);
     p.spring_target = num<S>(j.target);
     p.spring_frequency = num<S>(j.frequency);
     p.spring_damping = num<S>(j.damping);

@@ -20,8 +20,8 @@ TYPED_TEST(SixAxisPresets, a_motor_joint_brings_a_body_to_where_its_frame_is) {
     servos.b = b;
     servos.frame_a = {vec<S>(D3{0, 4, 1}), turn<S>({0, 1, 0}, 0.75)};
     servos.frame_b = this->at({1, 2, 0});
-    servos.place = {.frequency = S(2), .damping = S(1), .force = S(60)};
-    servos.turn = {.frequency = S(2), .damping = S(1), .force = S(20)};
+    servos.place = {.frequency = S(2), .damping = S(1), .max_force = S(60)};
+    servos.turn = {.frequency = S(2), .damping = S(1), .max_force = S(20)};
     ASSERT_TRUE(w.create(motor(servos))) << describe(w.fault());
     for (int i = 0; i < 240; ++i) ASSERT_TRUE(w.step().clean());
     const D3 place = real(w.pose(b).position);
@@ -41,8 +41,8 @@ TYPED_TEST(SixAxisPresets, a_wheel_bears_steers_and_spins) {
   of.frame = this->at({0, 4, 0});
   of.suspension = {.frequency = S(2), .damping = S(1)};
   of.travel = {num<S>(-0.25), num<S>(0.25)};
-  of.steer = JointServo<S>{.frequency = S(4), .damping = S(1), .target = num<S>(0.5), .force = S(20)};
-  of.drive = JointMotor<S>{.speed = S(3), .force = S(2)};
+  of.steer = JointServo<S>{.frequency = S(4), .damping = S(1), .target = num<S>(0.5), .max_force = S(20)};
+  of.drive = JointMotor<S>{.speed = S(3), .max_force = S(2)};
   const JointId joint = w.create(wheel(of));
   ASSERT_TRUE(joint) << describe(w.fault());
   for (int i = 0; i < 240; ++i) ASSERT_TRUE(w.step().clean());
@@ -59,7 +59,7 @@ TYPED_TEST(SixAxisPresets, the_drives_of_a_preset_are_found_and_changed) {
   const JointId joint = w.create(wheel<S>({.b = axle,
                                            .frame = this->at({0, 4, 0}),
                                            .suspension = {.frequency = S(2), .damping = S(1)},
-                                           .drive = JointMotor<S>{.speed = S(3), .force = S(2)}}));
+                                           .drive = JointMotor<S>{.speed = S(3), .max_force = S(2)}}));
   const JointId hinged = w.create(hinge<S>({.b = other}));
   ASSERT_TRUE(joint);
   const AxisDriveId id = w.axis_drive(joint, JointAxis::twist);
@@ -89,7 +89,7 @@ TYPED_TEST(SixAxisPresets, a_wheel_rolls_forwards_at_a_positive_speed) {
                                  .b = ball,
                                  .frame = frame,
                                  .suspension = {.frequency = S(4), .damping = S(1)},
-                                 .drive = JointMotor<S>{.speed = S(4), .force = S(20)}})));
+                                 .drive = JointMotor<S>{.speed = S(4), .max_force = S(20)}})));
   for (int i = 0; i < 60; ++i) w.step();
   EXPECT_GT(to_double(w.velocity(ball).x), 0.5);
 }

@@ -69,7 +69,7 @@ TYPED_TEST(SixAxis, a_strong_motor_leaves_a_stop_at_its_own_speed) {
       OneAxisJoint<S> joint;
       joint.b = b;
       joint.limit = {{S(0), num<S>(of.range)}};
-      joint.motor = {{.speed = num<S>(-of.speed), .force = num<S>(of.force)}};
+      joint.motor = {{.speed = num<S>(-of.speed), .max_force = num<S>(of.force)}};
       const JointId id = of.slides ? w.create(slider(joint)) : w.create(hinge(joint));
       ASSERT_TRUE(id) << describe(w.fault());
       double last = 0, reached = 0;
@@ -163,7 +163,7 @@ TYPED_TEST(SixAxis, a_servo_holds_what_it_is_strong_enough_for_and_yields_to_mor
       servo.axis = JointAxis::y;
       servo.spring_frequency = S(2);
       servo.spring_damping = S(1);
-      servo.force = S(15);
+      servo.max_force = S(15);
       joint.drives[joint.drive_count++] = servo;
       const JointId id = w.create(six_axis(joint));
       const std::string what = this->name(solver) + ", " + std::to_string(mass) + " kg";
@@ -193,7 +193,7 @@ TYPED_TEST(SixAxis, a_brake_stops_a_spin_as_coulomb_says) {
     AxisDrive<S> brake;
     brake.axis = JointAxis::twist;
     brake.motor = true;
-    brake.force = num<S>(0.25);
+    brake.max_force = num<S>(0.25);
     joint.drives[joint.drive_count++] = brake;
     ASSERT_TRUE(w.create(six_axis(joint)));
     const double inertia = 3 * (0.5 * 0.5 + 0.5 * 0.5) / 12;  // 0.125: 2 rad/s^2
@@ -255,7 +255,7 @@ TYPED_TEST(SixAxis, is_rolled_back_with_all_its_drives) {
     joint.drives[joint.drive_count++] = this->limit(JointAxis::swing_y, -1.0, 1.0);
     AxisDrive<S> servo = this->limit(JointAxis::twist, -0.5, 0.25);
     servo.spring_frequency = S(2);
-    servo.force = S(3);
+    servo.max_force = S(3);
     joint.drives[joint.drive_count++] = servo;
     joints.push_back(w.create(six_axis(joint)));
     ASSERT_TRUE(joints.back()) << describe(w.fault());
@@ -270,7 +270,7 @@ TYPED_TEST(SixAxis, is_rolled_back_with_all_its_drives) {
       ASSERT_TRUE(id);
       AxisDrive<S> changed = *world.find(id);
       changed.motor = true;
-      changed.force = S(4);
+      changed.max_force = S(4);
       world.set(id, changed);
     }
   });
@@ -306,9 +306,9 @@ TYPED_TEST(SixAxis, refuses_what_no_axis_can_do) {
   d.upper = S(-1);
   refused(d, "lower");
   d.upper = S(1);
-  d.force = S(-1);
-  refused(d, "force");
-  d.force = S(0);
+  d.max_force = S(-1);
+  refused(d, "max_force");
+  d.max_force = S(0);
   d.spring_frequency = S(241);
   refused(d, "spring_frequency");
   d.spring_frequency = S(2);

@@ -87,7 +87,7 @@ template <class S> class OneBody {
     last_ = place;
     if ((p.flags & joint_flag::kMotor) != 0) {
       const bool turns = measure_of(kind_) == JointMeasure::angle;
-      given_ += to_double(p.motor_torque) * std::fabs(turns ? std::remainder(moved, 2 * kPi) : moved);
+      given_ += to_double(p.max_force) * std::fabs(turns ? std::remainder(moved, 2 * kPi) : moved);
     }
     const double mass = to_double(w.mass(body_)), moving = motion(w);
     const double allowed = std::max(given_ - (energy(w) - moving), 0.0);

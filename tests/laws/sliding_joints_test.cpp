@@ -69,7 +69,7 @@ TYPED_TEST(SlidingJoints, a_motor_lifts_what_it_can_and_slips_under_more) {
   JointProperties<S> motor;
   motor.flags = joint_flag::kMotor;
   motor.motor_speed = S(2);
-  motor.motor_torque = S(30);  // 20 N is the weight
+  motor.max_force = S(30);  // 20 N is the weight
   const BodyId light = this->block({0, 5, 0}, 2), heavy = this->block({4, 25, 0}, 4);
   this->slide(JointType::slider, {}, light, {0, 5, 0}, kPi / 2, motor);
   this->slide(JointType::slider, {}, heavy, {4, 25, 0}, kPi / 2, motor);

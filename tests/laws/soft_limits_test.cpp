@@ -159,7 +159,7 @@ TYPED_TEST(SoftLimits, let_a_servo_rest) {
     drive.spring_frequency = S(2);
     drive.spring_damping = S(1);
     drive.spring_target = S(1);
-    drive.force = S(20);
+    drive.max_force = S(20);
     Hung<S> h = this->hang(solver, drive, 0);
     this->run(h, 300);
     EXPECT_NEAR(this->at(h, JointAxis::x), 0.25, 0.002) << this->name(solver);
@@ -179,7 +179,7 @@ TYPED_TEST(SoftLimits, hold_a_motor) {
     AxisDrive<S> drive = this->soft(JointAxis::x, -0.25, 0.25, 3, 1);
     drive.motor = true;
     drive.motor_speed = S(1);
-    drive.force = S(20);
+    drive.max_force = S(20);
     Hung<S> h = this->hang(solver, drive, 0);
     this->run(h, 300);
     const double w = kTurn * 3;

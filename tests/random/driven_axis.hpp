@@ -35,7 +35,7 @@ class DrivenAxis {
     d.twists_ = p.type == JointType::ball;
     d.limited_ = (p.flags & joint_flag::kLimit) != 0 && p.type != JointType::distance;
     d.set_range(to_double(p.lower), to_double(p.upper));
-    if ((p.flags & joint_flag::kMotor) != 0) d.set_motor(to_double(p.motor_speed), to_double(p.motor_torque));
+    if ((p.flags & joint_flag::kMotor) != 0) d.set_motor(to_double(p.motor_speed), to_double(p.max_force));
     if ((p.flags & joint_flag::kSpring) != 0)
       d.set_spring(most_felt(w, p, d.turns_), to_double(p.spring_frequency), to_double(p.spring_target), 0);
     d.begin(w);
@@ -54,11 +54,11 @@ class DrivenAxis {
     d.limited_ = hard && !(d.swings_ && (p.flags & joint_flag::kCone) != 0);
     d.yields_ = asked.limited && !hard;
     d.set_range(to_double(asked.lower), to_double(asked.upper));
-    if (asked.motor) d.set_motor(to_double(asked.motor_speed), to_double(asked.force));
+    if (asked.motor) d.set_motor(to_double(asked.motor_speed), to_double(asked.max_force));
     if (S(0) < asked.spring_frequency) {
       const double mass = S(0) < asked.spring_mass ? to_double(asked.spring_mass) : most_felt(w, p, d.turns_);
       d.set_spring(mass, to_double(asked.spring_frequency), to_double(asked.spring_target),
-                   asked.motor ? 0.0 : to_double(asked.force));
+                   asked.motor ? 0.0 : to_double(asked.max_force));
     }
     d.begin(w);
     return d;

@@ -57,13 +57,13 @@ template <class S> class EnergyBook {
       const JointProperties<S>& p = motor.properties;
       const double speed = to_double(p.motor_speed), most = kMargin * std::fabs(speed) / hz;
       if (!w.contains(motor.joint)) {  // it broke
-        give(to_double(p.motor_torque) * most);
+        give(to_double(p.max_force) * most);
         continue;
       }
       const double moved = driven_place(w, p) - motor.place;
       const bool turns = measure_of(p.type) == JointMeasure::angle;
       const double turned = turns ? std::remainder(moved, 2 * 3.14159265358979323846) : moved;
-      give(to_double(p.motor_torque) * std::clamp(speed < 0 ? -turned : turned, 0.0, most));
+      give(to_double(p.max_force) * std::clamp(speed < 0 ? -turned : turned, 0.0, most));
     }
   }
 

@@ -103,7 +103,7 @@ template <class S> class RandomJointTree {
   /// draw_joint() is for bodies of a kilogram: motors that lift a quarter to four times the weight of theirs.
   void strengthen(JointProperties<S>& p, BodyId b, double arm) {
     const double lever = measure_of(p.type) == JointMeasure::angle ? arm : 1;
-    p.motor_torque = num<S>(10 * to_double(world.mass(b)) * lever * dice.magnitude(0.25, 4));
+    p.max_force = num<S>(10 * to_double(world.mass(b)) * lever * dice.magnitude(0.25, 4));
   }
 
   static bool locked(const JointProperties<S>& p, JointAxis axis) { return (p.flags & lock_of(axis)) != 0; }
@@ -147,7 +147,7 @@ template <class S> class RandomJointTree {
     d.upper = num<S>(dice.in(0.05, 1.5));
     d.motor = dice.one_in(3);
     d.motor_speed = num<S>(dice.one_in(2) ? 0 : dice.in(-3, 3));
-    if (d.motor || dice.one_in(2)) d.force = num<S>(load * dice.magnitude(0.25, 4));
+    if (d.motor || dice.one_in(2)) d.max_force = num<S>(load * dice.magnitude(0.25, 4));
     const bool yields = dice.one_in(3), sprung = dice.one_in(2), made_for = dice.one_in(2);
     // [1] The factor by which a spring is made for more than its own body: it swings by the root of that faster.
     const double heavier = dice.magnitude(0.125, 16);

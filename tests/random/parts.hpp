@@ -147,7 +147,7 @@ template <class S> void draw_joint(const World<S>& w, Dice& dice, Drive drive, J
       if (!motors || dice.one_in(2)) break;
       p.flags |= kMotor;
       p.motor_speed = num<S>((dice.one_in(2) ? 1 : -1) * dice.in(0.5, 5));
-      p.motor_torque = num<S>(dice.magnitude(0.25, 25));
+      p.max_force = num<S>(dice.magnitude(0.25, 25));
       break;
     case JointType::constant_velocity: p.flags |= dice.one_in(2) ? 0u : kCone; break;
     case JointType::fixed:
@@ -188,7 +188,7 @@ template <class S> void draw_axis_drives(World<S>& w, Dice& dice, Drive drive, J
     d.upper = num<S>(dice.in(0.05, 1.5));
     d.lower = (w.joint(joint)->flags & joint_flag::kCone) != 0 ? -d.upper : num<S>(-dice.in(0.05, 1.5));
     d.motor = dice.one_in(3);
-    if (d.motor || dice.one_in(2)) d.force = num<S>(dice.magnitude(0.25, 25));
+    if (d.motor || dice.one_in(2)) d.max_force = num<S>(dice.magnitude(0.25, 25));
     if (drive >= Drive::springs && dice.one_in(2)) {
       d.spring_frequency = num<S>(dice.magnitude(0.5, 6));
       d.spring_damping = num<S>(dice.in(0, 1));

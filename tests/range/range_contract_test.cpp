@@ -239,7 +239,7 @@ TYPED_TEST(RangeContract, DrivesOfEveryAxisCarryLoad) {
       drive.motor = i % 4 == 1;
       drive.motor_speed = S(20);
       drive.spring_frequency = i % 4 > 1 ? S(30) : S(0);
-      drive.force = S(i % 4 == 2 ? 0 : 20000);
+      drive.max_force = S(i % 4 == 2 ? 0 : 20000);
     }
     EXPECT_TRUE(this->world.create(six_axis(joint))) << describe(this->world.fault());
     last = body;

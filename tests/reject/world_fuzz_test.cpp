@@ -66,7 +66,7 @@ template <class S> class WorldFuzz : public ::testing::Test {
     j.flags = edges.below(32);
     j.lower = -edges.near(S(1));
     j.upper = edges.near(S(6));
-    j.motor_torque = edges.near(Limits<S>::mass());
+    j.max_force = edges.near(Limits<S>::mass());
     j.spring_frequency = edges.near(S(240));
     return static_cast<bool>(world.create(j));
   }

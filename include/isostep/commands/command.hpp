@@ -127,12 +127,12 @@ template <class S> struct SetJointLimits {
   S lower, upper;  // [rad], [m] of a length
   ISO_FIELDS(joint, lower, upper)
 };
-/// A motor drives the joint at that speed with at most that torque.
+/// A motor drives the joint at that speed with at most that force or torque.
 template <class S> struct SetJointMotor {
   JointId joint;
-  S speed;   // [rad/s], [m/s] along a length
-  S torque;  // [N m], [N] along a length; 0: no motor
-  ISO_FIELDS(joint, speed, torque)
+  S speed;      // [rad/s], [m/s] along a length
+  S max_force;  // [N m], [N] along a length; 0: no motor
+  ISO_FIELDS(joint, speed, max_force)
 };
 /// A spring pulls the joint to its target.
 template <class S> struct SetJointSpring {

@@ -94,9 +94,9 @@ template <class S> bool CommandExecutor<S>::execute(const SetJointLimits<S>& com
 }
 template <class S> bool CommandExecutor<S>::execute(const SetJointMotor<S>& command) {
   return change_joint(command.joint, [&](JointProperties<S>& joint, const auto& set_flag) {
-    set_flag(joint_flag::kMotor, !(command.torque == S(0)));
+    set_flag(joint_flag::kMotor, !(command.max_force == S(0)));
     joint.motor_speed = command.speed;
-    joint.motor_torque = command.torque;
+    joint.max_force = command.max_force;
   });
 }
 template <class S> bool CommandExecutor<S>::execute(const SetJointSpring<S>& command) {

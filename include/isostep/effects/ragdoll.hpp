@@ -24,7 +24,7 @@ template <class S> struct RagdollBone {
 /// The settings that all joints of a ragdoll share.
 template <class S> struct RagdollSettings {
   S friction = S(0);         // [N m] each axis resists; 0 where servos hold the pose
-  JointServo<S> pose = {};   // holds the rest pose where its `force` [N m] is above 0; its target is 0
+  JointServo<S> pose = {};   // holds the rest pose where its `max_force` [N m] is above 0; its target is 0
   S limit_frequency = S(0);  // [Hz] of limits that yield, as in AxisDrive; 0: hard ones
   S limit_damping = S(1);    // [1] ratio, 1 = critical
   Filter filter = {};        // of all bodies. Bones that a joint ties have no contacts with each other, and bones that

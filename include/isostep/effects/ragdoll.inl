@@ -37,16 +37,16 @@ template <class S> class RagdollBuilder {
  private:
   /// Checks what the world is not asked.
   FaultReport fault_of_plan() const {
-    const S friction = settings_.friction, force = settings_.pose.force;
+    const S friction = settings_.friction, force = settings_.pose.max_force;
     Checklist list;
     list.finite(friction, "friction")
-        .finite(force, "pose.force")
+        .finite(force, "pose.max_force")
         .proper(S(0) <= friction, "friction", "0 or more")
-        .proper(S(0) <= force, "pose.force", "0 or more")
+        .proper(S(0) <= force, "pose.max_force", "0 or more")
         .proper(friction == S(0) || force == S(0), "friction", "0 where servos hold the pose")
         .proper(settings_.pose.target == S(0), "pose.target", "0: that of every axis at rest")
         .proper(settings_.pose.mass == S(0), "pose.mass", "0: what hangs on each joint at rest")
-        .proper(force == S(0) || S(0) < settings_.pose.frequency, "pose.frequency", "above 0 where pose.force is");
+        .proper(force == S(0) || S(0) < settings_.pose.frequency, "pose.frequency", "above 0 where pose.max_force is");
     for (std::size_t i = 0; i < bones_.size(); ++i) {
       const int parent = bones_[i].parent;
       list.proper(parent == -1 || (0 <= parent && static_cast<std::size_t>(parent) < i), "parent",
@@ -102,7 +102,7 @@ template <class S> class RagdollBuilder {
     return min(sum, Limits<S>::mass());
   }
   JointDefinition<S> definition_of(const RagdollBone<S>& bone) const {
-    const bool acts = S(0) < settings_.friction || S(0) < settings_.pose.force || S(0) < settings_.limit_frequency;
+    const bool acts = S(0) < settings_.friction || S(0) < settings_.pose.max_force || S(0) < settings_.limit_frequency;
     const bool round = bone.swing_x == bone.swing_y;
     if (!acts && bone.hinge) return hinge<S>({.limit = JointRange<S>{bone.lower, bone.upper}});
     if (!acts && round) return ball<S>({.cone = bone.swing_x, .twist = JointRange<S>{bone.lower, bone.upper}});
@@ -121,11 +121,11 @@ template <class S> class RagdollBuilder {
     drive.limited = true;
     drive.lower = lower;
     drive.upper = upper;
-    drive.force = settings_.friction;
+    drive.max_force = settings_.friction;
     drive.limit_frequency = settings_.limit_frequency;
     drive.limit_damping = settings_.limit_damping;
-    if (S(0) < settings_.pose.force) {
-      drive.force = settings_.pose.force;
+    if (S(0) < settings_.pose.max_force) {
+      drive.max_force = settings_.pose.max_force;
       drive.spring_frequency = settings_.pose.frequency;
       drive.spring_damping = settings_.pose.damping;
     } else {

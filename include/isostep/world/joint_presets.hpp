@@ -24,7 +24,7 @@ template <class S> struct JointDefinition {
 template <class S> struct JointRange { S lower, upper; };  // [m] or [rad]
 template <class S> struct JointMotor {
   S speed = S(0);  // [m/s] or [rad/s]
-  S force = S(0);  // [N] or [N m] at most
+  S max_force = S(0);  // [N] or [N m] at most
 };
 template <class S> struct JointSpring {
   S frequency = S(1);  // [Hz]
@@ -35,7 +35,7 @@ template <class S> struct JointServo {
   S frequency = S(1);  // [Hz]
   S damping = S(1);    // [1] 1 = critical
   S target = S(0);     // [m] or [rad]
-  S force = S(0);      // [N] or [N m] at most; 0: any
+  S max_force = S(0);      // [N] or [N m] at most; 0: any
   S mass = S(0);       // [kg] or [kg m^2] that it is made for: AxisDrive::spring_mass
 };
 
@@ -128,7 +128,7 @@ template <class S> ISO_INLINE JointDefinition<S> one_axis(JointType type, const 
   if (!preset.motor) return made;
   made.settings.flags |= joint_flag::kMotor;
   made.settings.motor_speed = preset.motor->speed;
-  made.settings.motor_torque = preset.motor->force;
+  made.settings.max_force = preset.motor->max_force;
   return made;
 }
 template <class S> ISO_INLINE JointDefinition<S> swing(JointType type, const SwingJoint<S>& preset) {
@@ -161,7 +161,7 @@ template <class S> ISO_INLINE void add_servo(JointDefinition<S>& to, JointAxis a
   drive.spring_frequency = servo.frequency;
   drive.spring_damping = servo.damping;
   drive.spring_target = servo.target;
-  drive.force = servo.force;
+  drive.max_force = servo.max_force;
   drive.spring_mass = servo.mass;
 }
 }  // namespace detail
@@ -220,7 +220,7 @@ template <class S> ISO_INLINE JointDefinition<S> wheel(const WheelJoint<S>& of) 
   AxisDrive<S>& spin = detail::add_drive(made, JointAxis::twist);
   spin.motor = true;
   spin.motor_speed = of.drive->speed;
-  spin.force = of.drive->force;
+  spin.max_force = of.drive->max_force;
   return made;
 }
 template <class S> ISO_INLINE JointDefinition<S> motor(const MotorJoint<S>& of) {

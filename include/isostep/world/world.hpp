@@ -158,7 +158,7 @@ template <class S> class World final : public WorldBase<World<S>> {
   bool set_joint(JointId joint, const JointProperties<S>& properties);
   /// Sets a part of it, along joint_position(); set_joint has the rest. Six-axis joints have AxisDrives instead.
   bool set_limits(JointId joint, S lower, S upper);        // [rad] or [m]
-  bool set_motor(JointId joint, S speed, S torque);        // [rad/s], [N m] or [m/s], [N]; torque 0: no motor
+  bool set_motor(JointId joint, S speed, S max_force);     // [rad/s], [N m] or [m/s], [N]; max_force 0: no motor
   bool set_spring(JointId joint, S frequency, S damping);  // [Hz], [1] 1 is critical; frequency 0: no spring
   bool set_target(JointId joint, S target);                // [rad] or [m] that the spring pulls to
   const JointProperties<S>* joint(JointId joint) const;

@@ -14,8 +14,8 @@ template <class S> bool World<S>::destroy(JointId joint) { return apply(DestroyJ
 template <class S> bool World<S>::set_limits(JointId joint, S lower, S upper) {
   return apply(SetJointLimits<S>{joint, lower, upper});
 }
-template <class S> bool World<S>::set_motor(JointId joint, S speed, S torque) {
-  return apply(SetJointMotor<S>{joint, speed, torque});
+template <class S> bool World<S>::set_motor(JointId joint, S speed, S max_force) {
+  return apply(SetJointMotor<S>{joint, speed, max_force});
 }
 template <class S> bool World<S>::set_spring(JointId joint, S frequency, S damping) {
   return apply(SetJointSpring<S>{joint, frequency, damping});

@@ -694,7 +694,7 @@ typedef struct iso_f32_joint_properties {
   float motor_speed; /* [rad/s] or [m/s] of b against a */
   /* [N m] or [N] most that the motor gives; less where in one sub-step it would turn the bodies, were they free,
      beyond Limits<S>::surface_speed() */
-  float motor_torque;
+  float max_force;
   float spring_target; /* [rad] or [m], as lower */
   float spring_frequency; /* [Hz] up to half the sub-step rate; a spring's swing lasts up to 0.25 rad a sub-step */
   float spring_damping; /* [1] ratio, 1 = critical */
@@ -1468,7 +1468,7 @@ typedef struct iso_f64_hull {
 typedef struct iso_f64_joint_properties {
   uint32_t size; uint32_t reserved0; iso_joint_type type; uint32_t flags; uint32_t body_a; uint32_t body_b;
   uint32_t generation_a; uint32_t generation_b; uint64_t user_data; iso_f64_pose frame_a; iso_f64_pose frame_b;
-  double lower; double upper; double cone; double motor_speed; double motor_torque; double spring_target;
+  double lower; double upper; double cone; double motor_speed; double max_force; double spring_target;
   double spring_frequency; double spring_damping;
 } iso_f64_joint_properties;
 typedef struct iso_f64_ball {
@@ -1821,7 +1821,7 @@ typedef struct iso_q16_hull {
 typedef struct iso_q16_joint_properties {
   uint32_t size; uint32_t reserved0; iso_joint_type type; uint32_t flags; uint32_t body_a; uint32_t body_b;
   uint32_t generation_a; uint32_t generation_b; uint64_t user_data; iso_q16_pose frame_a; iso_q16_pose frame_b;
-  int32_t lower; int32_t upper; int32_t cone; int32_t motor_speed; int32_t motor_torque; int32_t spring_target;
+  int32_t lower; int32_t upper; int32_t cone; int32_t motor_speed; int32_t max_force; int32_t spring_target;
   int32_t spring_frequency; int32_t spring_damping;
 } iso_q16_joint_properties;
 typedef struct iso_q16_ball {
@@ -2177,7 +2177,7 @@ typedef struct iso_q32_hull {
 typedef struct iso_q32_joint_properties {
   uint32_t size; uint32_t reserved0; iso_joint_type type; uint32_t flags; uint32_t body_a; uint32_t body_b;
   uint32_t generation_a; uint32_t generation_b; uint64_t user_data; iso_q32_pose frame_a; iso_q32_pose frame_b;
-  int64_t lower; int64_t upper; int64_t cone; int64_t motor_speed; int64_t motor_torque; int64_t spring_target;
+  int64_t lower; int64_t upper; int64_t cone; int64_t motor_speed; int64_t max_force; int64_t spring_target;
   int64_t spring_frequency; int64_t spring_damping;
 } iso_q32_joint_properties;
 typedef struct iso_q32_ball {

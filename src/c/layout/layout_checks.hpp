@@ -49,7 +49,7 @@
   X(cone, true, O(radius), O(half_height)) \
   X(hull, true, O(radius)) \
   X(joint_properties, true, O(type), O(flags), O(body_a), O(body_b), O(generation_a), O(generation_b), O(user_data), \
-    O(frame_a), O(frame_b), O(lower), O(upper), O(cone), O(motor_speed), O(motor_torque), O(spring_target), \
+    O(frame_a), O(frame_b), O(lower), O(upper), O(cone), O(motor_speed), O(max_force), O(spring_target), \
     O(spring_frequency), O(spring_damping)) \
   X(ball, true, O(a), O(b), O(frame), O(has_cone), O(cone), O(has_twist), O(twist), O(collide)) \
   X(constant_velocity, true, O(a), O(b), O(frame), O(has_cone), O(cone), O(has_twist), O(twist), O(collide)) \

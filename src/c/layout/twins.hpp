@@ -187,14 +187,14 @@ template <class S> struct CFields<JointRange<S>> {
   ISO_C_FIELDS_OF(JointRange) { ISO_MEMBER(lower) ISO_MEMBER(upper) }
 };
 template <class S> struct CFields<JointMotor<S>> {
-  ISO_C_FIELDS_OF(JointMotor) { ISO_MEMBER(speed) ISO_MEMBER(force) }
+  ISO_C_FIELDS_OF(JointMotor) { ISO_MEMBER(speed) ISO_MEMBER(max_force) }
 };
 template <class S> struct CFields<JointSpring<S>> {
   ISO_C_FIELDS_OF(JointSpring) { ISO_MEMBER(frequency) ISO_MEMBER(damping) ISO_MEMBER(target) }
 };
 template <class S> struct CFields<JointServo<S>> {
   ISO_C_FIELDS_OF(JointServo) {
-    ISO_MEMBER(frequency) ISO_MEMBER(damping) ISO_MEMBER(target) ISO_MEMBER(force) ISO_MEMBER(mass)
+    ISO_MEMBER(frequency) ISO_MEMBER(damping) ISO_MEMBER(target) ISO_MEMBER(max_force) ISO_MEMBER(mass)
   }
 };
 template <class S> struct CFields<PlainJoint<S>> {

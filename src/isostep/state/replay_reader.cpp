@@ -139,7 +139,7 @@ bool ReplayReader::read_chunk(std::size_t offset, Chunk& chunk) {
   const auto type = load_le<std::uint32_t>(head);
   const auto length = load_le<std::uint32_t>(head + 4);
   if (!is_type(type)) return stop_at_damage(offset, kChunkHead, offset, "a chunk type is four letters");
-  // Version 1 stores payloads as they are; two equal lengths also tell a damaged length from a file that ends early.
+  // Payloads are stored as they are; two equal lengths also tell a damaged length from a file that ends early.
   if (load_le<std::uint32_t>(head + 8) != length) {
     return stop_at_damage(offset, kChunkHead, offset + 4, "the lengths differ");
   }

@@ -185,7 +185,7 @@ void add_joints(Scene& scene) {
                   joined(JointType::ball, bob, {21, 5, -4}), joined(JointType::six_axis, arm, {11.5, 4, -4})};
   scene.joints[0].flags = joint_flag::kMotor;
   scene.joints[0].motor_speed = 6;
-  scene.joints[0].motor_torque = 100;
+  scene.joints[0].max_force = 100;
   scene.joints[3].flags = joint_flag::kLockPoint | joint_flag::kCone;
   for (const int axis : {3, 4}) {
     scene.records.push_back({"axis_drive",
@@ -207,7 +207,7 @@ void add_joints(Scene& scene) {
                             {"spring_target", {0.5}},
                             {"spring_frequency", {2}},
                             {"spring_damping", {1}},
-                            {"force", {12}}}});
+                            {"max_force", {12}}}});
   scene.records.push_back({"joint_load", {{"joint", {2}}, {"break_force", {45}}}});
   scene.records.push_back(
       {"coupling", {{"joint_a", {0}}, {"joint_b", {1}}, {"ratio_a", {1}}, {"ratio_b", {2}}, {"upper", {0.125}}}});

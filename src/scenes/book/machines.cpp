@@ -87,7 +87,7 @@ Scene piston() {
   SceneJoint motor = joint_of(JointType::hinge, -1, 0, {0, 1, 0});
   motor.flags = joint_flag::kMotor;
   motor.motor_speed = 4;
-  motor.motor_torque = 100;
+  motor.max_force = 100;
   SceneJoint rod = joint_of(JointType::distance, 0, 1, {0.4, 1, 0});
   rod.anchor_b = {2, 1, 0};
   rod.flags = joint_flag::kLimit;

@@ -24,7 +24,7 @@ inline SceneBody apart(SceneBody body) {
 inline SceneJoint driven(SceneJoint joint, double speed, double torque) {
   joint.flags |= joint_flag::kMotor;
   joint.motor_speed = speed;
-  joint.motor_torque = torque;
+  joint.max_force = torque;
   return joint;
 }
 inline SceneJoint stopped(SceneJoint joint, double lower, double upper) {

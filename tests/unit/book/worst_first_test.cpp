@@ -371,7 +371,7 @@ TYPED_TEST(WorstFirstBodies, a_motor_turns_as_told_until_its_limit_stops_it) {
   JointProperties<S> j = w.joint_at(JointType::hinge, {}, id, Pose<S>::identity());
   j.flags = joint_flag::kMotor | joint_flag::kLimit;
   j.motor_speed = S(2);
-  j.motor_torque = S(10);
+  j.max_force = S(10);
   j.lower = num<S>(-0.5);
   j.upper = S(1);
   ASSERT_TRUE(w.create(j)) << describe(w.fault());

@@ -132,7 +132,7 @@ TYPED_TEST(Direct, AMotorGivesItsTorqueAndALimitHolds) {
   hinge.lower = S(-1);
   hinge.upper = S(0.5);
   hinge.motor_speed = S(10);
-  hinge.motor_torque = S(2);
+  hinge.max_force = S(2);
   const double inertia = 3 * (0.25 + (0.25 + 0.01) / 3);
   for (int frame = 0; frame < 15; ++frame) world.step();
   EXPECT_NEAR(to_double(world.states[door].angular_velocity.z), 2 / inertia * 0.25, 0.02);

@@ -120,7 +120,7 @@ template <class S> void add_driven(JointWorld<S>& world, int count) {
     joint(0, JointType::ball, joint_flag::kLimit | joint_flag::kCone).cone = S(0.25);
     JointProperties<S>& wheel = joint(1, JointType::hinge, joint_flag::kLimit | joint_flag::kMotor);
     wheel.motor_speed = from_double<S>(draw(4));
-    wheel.motor_torque = S(2);
+    wheel.max_force = S(2);
     JointProperties<S>& lift = joint(2, JointType::slider, joint_flag::kLimit | joint_flag::kSpring);
     lift.spring_frequency = S(2);
     lift.spring_damping = S(0.5);

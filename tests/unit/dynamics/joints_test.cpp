@@ -222,7 +222,7 @@ TYPED_TEST(Joints, MotorGathersSpeedByItsTorqueAndThenKeepsIt) {
   JointProperties<S>& hinge = world.join(JointType::hinge, kNoBody, bar, {0, 0, 0});
   hinge.flags = joint_flag::kMotor;
   hinge.motor_speed = S(4);
-  hinge.motor_torque = S(1.5);
+  hinge.max_force = S(1.5);
   const double inertia = 2 * ((0.25 + 0.01) / 3 + 0.25);  // about the hinge
   for (int frame = 0; frame < 30; ++frame) world.step();
   EXPECT_NEAR(to_double(world.states[bar].angular_velocity.z), 1.5 / inertia * 0.5, 0.02);
@@ -237,7 +237,7 @@ TYPED_TEST(Joints, MotorTooWeakForTheLoadLetsItFall) {
     const std::uint32_t bar = world.add_box({0.5, 0, 0}, 1, {0.5, 0.05, 0.05});
     JointProperties<S>& hinge = world.join(JointType::hinge, kNoBody, bar, {0, 0, 0});
     hinge.flags = joint_flag::kMotor;
-    hinge.motor_torque = JointWorld<S>::number(torque);
+    hinge.max_force = JointWorld<S>::number(torque);
     for (int frame = 0; frame < 60; ++frame) world.step();
     if (torque < 5) {
       EXPECT_LT(world.axis(bar, 0).y, -0.5);

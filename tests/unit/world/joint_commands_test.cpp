@@ -20,7 +20,7 @@ TYPED_TEST(JointCommands, bad_joints_are_refused) {
   expect_bad(Fault::bad_argument, [](auto& j) { j.type = static_cast<JointType>(kJointTypes); });
   expect_bad(Fault::bad_argument, [](auto& j) { j.flags = 1u << 5; });
   expect_bad(Fault::bad_argument, [](auto& j) { j.lower = S(1); });
-  expect_bad(Fault::bad_argument, [](auto& j) { j.motor_torque = S(-1); });
+  expect_bad(Fault::bad_argument, [](auto& j) { j.max_force = S(-1); });
   expect_bad(Fault::bad_argument, [](auto& j) { j.flags = joint_flag::kSpring; });
   expect_bad(Fault::bad_argument, [](auto& j) {
     j.flags = joint_flag::kSpring;

@@ -30,7 +30,7 @@ TYPED_TEST(JointPage, describes_joints_by_their_names) {
   const Vec3<S> hook = vec<S>(4, 4, 0), top = vec<S>(4, 2.25, 0);
   // README: begin
   world.create(hinge<S>(
-      {.a = frame, .b = door, .frame = pin, .limit = {{S(0), S(2)}}, .motor = {{.speed = S(1), .force = S(5)}}}));
+      {.a = frame, .b = door, .frame = pin, .limit = {{S(0), S(2)}}, .motor = {{.speed = S(1), .max_force = S(5)}}}));
   world.create(rope<S>({.b = lamp, .anchor_a = hook, .anchor_b = top, .length = S(2)}));
   // README: end
   ASSERT_EQ(world.joints().size(), 2u) << describe(world.first_fault());
@@ -39,7 +39,7 @@ TYPED_TEST(JointPage, describes_joints_by_their_names) {
   EXPECT_EQ(hinged.lower, S(0));
   EXPECT_EQ(hinged.upper, S(2));
   EXPECT_EQ(hinged.motor_speed, S(1));
-  EXPECT_EQ(hinged.motor_torque, S(5));
+  EXPECT_EQ(hinged.max_force, S(5));
   EXPECT_EQ(hung.flags, joint_flag::kLimit);
   EXPECT_EQ(hung.upper, S(2));
 }

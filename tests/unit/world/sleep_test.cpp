@@ -366,7 +366,7 @@ TYPED_TEST(WorldSleep, a_slow_motor_stays_awake_and_one_at_its_stop_does_not) {
     p.flags = joint_flag::kMotor | (stops ? joint_flag::kLimit : 0u);
     p.upper = num<S>(0.03);
     p.motor_speed = num<S>(0.03);
-    p.motor_torque = S(50);
+    p.max_force = S(50);
     const JointId joint = w.create(p);
     ASSERT_TRUE(joint) << describe(w.fault());
     run(w, 600);

@@ -30,7 +30,7 @@ template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_
   const char* expected = length ? "lengths up to Limits::position()" : "-2 pi to 2 pi";
   return Checklist()
       .finite(j.cone, "cone")
-      .finite(j.motor_torque, "motor_torque")
+      .finite(j.max_force, "max_force")
       .finite(j.spring_frequency, "spring_frequency")
       .finite(j.frame_a.position, "frame_a.position")
       .finite(j.frame_b.position, "frame_b.position")
@@ -45,7 +45,7 @@ template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_
       .proper(length || (j.flags & joint_flag::kLimit) == 0 || j.upper - j.lower <= kMaxAngle<S>, "upper",
               "no more than 2 pi above lower: a turn further is the same angle")
       .also(rules.own)
-      .proper(S(0) <= j.motor_torque, "motor_torque", "0 or more")
+      .proper(S(0) <= j.max_force, "max_force", "0 or more")
       .proper(!sprung || (S(0) < j.spring_frequency && j.spring_frequency <= S(substep_rate) * S(0.5)),
               "spring_frequency", "above 0, up to half the sub-step rate")
       .proper(!sprung || S(0) <= j.spring_damping, "spring_damping", "0 to 64")

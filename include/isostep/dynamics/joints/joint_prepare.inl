@@ -105,7 +105,7 @@ template <class S> ISO_INLINE void load_impulses(const JointState<S>& state, Joi
 
 /// [N] or [N m] The most that a drive's motor or servo gives.
 template <class S> ISO_INLINE S force_of(const JointDrive<S>& drive, const JointProperties<S>& p) {
-  return drive.asked == nullptr ? p.motor_torque : drive.asked->force;
+  return drive.asked == nullptr ? p.max_force : drive.asked->max_force;
 }
 /// [kg] The reduced mass for which impulses of the joint are counted.
 template <class S>

@@ -85,7 +85,7 @@ template <class S> struct JointProperties {
   S upper = S(0);
   S cone = S(0);              // [rad] largest angle between the z axes
   S motor_speed = S(0);       // [rad/s] or [m/s] of b against a
-  S motor_torque = S(0);      // [N m] or [N] most that the motor gives; less where in one sub-step it would turn the
+  S max_force = S(0);      // [N m] or [N] most that the motor gives; less where in one sub-step it would turn the
                               // bodies, were they free, beyond Limits<S>::surface_speed()
   S spring_target = S(0);     // [rad] or [m], as lower
   S spring_frequency = S(0);  // [Hz] up to half the sub-step rate; a spring's swing lasts up to 0.25 rad a sub-step
@@ -99,14 +99,14 @@ template <class S> struct JointProperties {
     upper = from.upper;
     cone = from.cone;
     motor_speed = from.motor_speed;
-    motor_torque = from.motor_torque;
+    max_force = from.max_force;
     spring_target = from.spring_target;
     spring_frequency = from.spring_frequency;
     spring_damping = from.spring_damping;
   }
 
   ISO_FIELDS(type, flags, body_a, body_b, generation_a, generation_b, user_data, frame_a, frame_b, lower, upper, cone,
-             motor_speed, motor_torque, spring_target, spring_frequency, spring_damping)
+             motor_speed, max_force, spring_target, spring_frequency, spring_damping)
 };
 
 static_assert(kHasNoPadding<JointState<float>> && kHasNoPadding<JointState<double>>);

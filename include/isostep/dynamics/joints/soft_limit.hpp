@@ -12,7 +12,7 @@ template <class S> ISO_INLINE bool is_soft(const AxisDrive<S>& asked) {
 /// Gives the drive its own spring.
 template <class S> ISO_INLINE void set_spring(const AxisDrive<S>& asked, JointDrive<S>& drive) {
   drive.sprung = S(0) < asked.spring_frequency;
-  drive.servo = drive.sprung && !drive.driven && !asked.motor && S(0) < asked.force;
+  drive.servo = drive.sprung && !drive.driven && !asked.motor && S(0) < asked.max_force;
   drive.frequency = asked.spring_frequency;
   drive.damping = asked.spring_damping;
 }

@@ -48,13 +48,13 @@ template <class S> struct AxisDrive {
   S spring_target = S(0);     // [m] or [rad]
   S spring_frequency = S(0);  // [Hz] up to half the sub-step rate; 0: no spring
   S spring_damping = S(0);    // [1] ratio, 1 = critical
-  S force = S(0);             // [N] or [N m] most that the motor gives; without a motor the spring, 0: any
+  S max_force = S(0);         // [N] or [N m] most that the motor gives; without a motor the spring, 0: any
   S spring_mass = S(0);       // [kg] or [kg m^2] that springs and soft limits are made for; 0: what they feel
   S limit_frequency = S(0);   // [Hz] of limits that yield, up to half the sub-step rate; 0: hard ones
   S limit_damping = S(0);     // [1] ratio, 1 = critical
 
   ISO_FIELDS(joint, axis, limited, motor, lower, upper, motor_speed, spring_target, spring_frequency, spring_damping,
-             force, spring_mass, limit_frequency, limit_damping)
+             max_force, spring_mass, limit_frequency, limit_damping)
 };
 
 /// A record as a step takes it: `joint` is the joint's place among those that are awake.
@@ -90,7 +90,7 @@ template <class S> struct RecordRules<AxisDrive<S>> : RecordDefaults<S> {
     const char* expected = length ? "lengths up to Limits::position()" : "-pi to pi";
     NumberChecks<S> checks;
     checks.not_negative(d.spring_frequency, "spring_frequency");
-    checks.not_negative(d.force, "force");
+    checks.not_negative(d.max_force, "max_force");
     checks.not_negative(d.spring_mass, "spring_mass");
     checks.not_negative(d.limit_frequency, "limit_frequency");
     return checks.list.also(fault_of_drive(d, length, reach, expected))

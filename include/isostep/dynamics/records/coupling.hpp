@@ -12,7 +12,8 @@ namespace isostep {
 
 using CouplingId = Id<struct CouplingTag>;
 
-inline constexpr int kMostTeeth = 1024;  // [1] of a ratio of an angle
+/// [1] Of a ratio of an angle. Q16.16 resolves no speeds that differ by more: gears of 256 to 1 gained energy.
+template <class S> inline constexpr int kMostTeeth = resolution<S>() > S(0x1p-20) ? 128 : 1024;
 
 /// Holds lower <= ratio_a q_a + ratio_b q_b + ratio_c q_c <= upper, where q is World::joint_position of a hinge, a
 /// slider, a cylindrical, planar or distance joint. Bodies are pushed along these coordinates alone; joints hold the
@@ -46,7 +47,8 @@ template <class S> struct CouplingState {
 template <class S> ISO_INLINE Coupling<S> gears(JointId a, int teeth_a, JointId b, int teeth_b) {
   return {a, b, {}, S(teeth_a), S(teeth_b), S(0), S(0), S(0)};
 }
-/// A pinion of that radius [m] on a hinge, which drives a rack on a slider forwards as it turns forwards.
+/// A pinion of that radius [m] on a hinge, which drives a rack on a slider forwards as it turns forwards. A radius
+/// that is too small is refused as ratio_b, -1 / radius.
 template <class S> ISO_INLINE Coupling<S> rack_and_pinion(JointId hinge, S radius, JointId slider) {
   return {hinge, slider, {}, S(1), -(S(1) / radius), S(0), S(0), S(0)};
 }
@@ -95,9 +97,9 @@ template <class S> struct RecordRules<Coupling<S>> : RecordDefaults<S> {
   static constexpr Acts kActs = Acts::not_here;
   static constexpr bool kTies = true;
   static FaultReport fault(const Coupling<S>& c) {
-    const S ratios[] = {c.ratio_a, c.ratio_b, c.ratio_c}, most = S(kMostTeeth);
+    const S ratios[] = {c.ratio_a, c.ratio_b, c.ratio_c}, most = S(kMostTeeth<S>);
     constexpr const char* kRatios[] = {"ratio_a", "ratio_b", "ratio_c"};
-    constexpr const char* kRatio = "a size from 1 / 1024 to 1024";
+    constexpr const char* kRatio = kMostTeeth<S> == 128 ? "a size from 1 / 128 to 128" : "a size from 1 / 1024 to 1024";
     Checklist list;
     for (int i = 0; i < (c.joint_c ? 3 : 2); ++i) {
       list.finite(ratios[i], kRatios[i]).in_range(within(ratios[i], most), kRatios[i], kRatio);
@@ -110,6 +112,7 @@ template <class S> struct RecordRules<Coupling<S>> : RecordDefaults<S> {
         .in_range(within(c.upper, Limits<S>::position()), "upper", "up to Limits::position()")
         .proper(c.lower <= c.upper, "upper", "lower or more")
         .proper(!(c.joint_a == c.joint_b), "joint_b", "another joint than joint_a")
+        .proper(c.joint_c || c.ratio_c == S(0), "ratio_c", "0 without joint_c")
         .proper(!c.joint_c || (!(c.joint_a == c.joint_c) && !(c.joint_b == c.joint_c)), "joint_c",
                 "another joint than joint_a and joint_b")
         .report();
