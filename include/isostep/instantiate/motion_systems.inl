@@ -4,11 +4,7 @@
 #pragma once
 
 #include "isostep/dynamics/carriers.inl"
-#include "isostep/systems/continuous/continuous_joined.inl"
-#include "isostep/systems/continuous/continuous_movers.inl"
-#include "isostep/systems/continuous/continuous_rules.inl"
-#include "isostep/systems/continuous/continuous_sweeps.inl"
-#include "isostep/systems/continuous/joined_bodies.inl"
+#include "isostep/systems/continuous/continuous_collision.inl"
 #include "isostep/systems/motion/body_finisher.inl"
 #include "isostep/systems/motion/move_targets.inl"
 #include "isostep/systems/motion/render_poses.inl"
@@ -19,7 +15,6 @@
   ISO_CARRIERS_OF(, S)                    \
   ISO_BODY_FINISHER_OF(, S)               \
   ISO_CONTINUOUS_COLLISION_OF(, S)        \
-  ISO_JOINED_BODIES_OF(, S)               \
   ISO_MOVE_TARGETS_OF(, S)                \
   ISO_SENSOR_MOUNTS_OF(, S)               \
   ISO_RENDER_POSES_OF(, S)

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "isostep/core/instantiate.hpp"
 #include "isostep/store/body_map.hpp"
 
 namespace isostep {
@@ -55,8 +54,5 @@ template <class S> class JoinedBodies {
   std::vector<std::uint32_t> members_;
   std::vector<Link> links_;
 };
-
-#define ISO_JOINED_BODIES_OF(extern, S) extern template class JoinedBodies<S>;
-ISO_EXTERN_FOR_EACH_SCALAR(ISO_JOINED_BODIES_OF)
 
 }  // namespace isostep

@@ -1,9 +1,12 @@
-// ContinuousCollision: what joints tie together stops together.
+// Bodies of stopped_mechanisms.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "isostep/dynamics/joints/joint_kinds.hpp"
-#include "isostep/systems/continuous/continuous_collision.inl"
+#include "isostep/systems/continuous/first_impacts.inl"
+#include "isostep/systems/continuous/joined_bodies.inl"
+#include "isostep/systems/continuous/stopped_bodies.inl"
+#include "isostep/systems/continuous/stopped_mechanisms.hpp"
 
 namespace isostep {
 
@@ -33,6 +36,11 @@ Unit<S> share_of_pull(const WorldState<S>& state, const BodyMap<S>& map, const t
   const BodyProperties<S>& other = state.awake.properties[map.location(holder).index];
   return other.type == BodyType::dynamic && other.mass < own ? divide_to<Unit<S>>(other.mass, own) : Unit<S>(1);
 }
+template <class S> Aabb<S> swept_box(const CoreMotion<S>& motion, S reach) {
+  const Vec3<S> all = {reach, reach, reach};
+  const Aabb<S> start = Aabb<S>::around(motion.start.position, all), end = Aabb<S>::around(motion.end.position, all);
+  return grow(merge(start, end), kFatMargin<S>);
+}
 template <class S> Vec3<S> no_longer_than(Vec3<S> v, S most) {
   const S size = length(v);
   return most < size ? v * divide_to<Unit<S>>(most, size) : v;
@@ -46,22 +54,20 @@ template <class S> inline constexpr S kFarTurn = S(1.5);
 /// chords, 0.17 m. So it is the joints that go part of their ways, and what they hold is held. As at an impact of one
 /// body, the rest of the step's time is lost. What nothing stopped stays as it is: who counts as fast depends on what
 /// other islands have, and islands do not.
-template <class S> void ContinuousCollision<S>::stop_joined() {
-  if (movers_.empty() || state_.joints.properties.empty()) return;
-  const std::size_t count = state_.awake.states.size();
+template <class S> void StoppedMechanisms<S>::update() {
+  if (fast_.movers().empty() || state_.joints.properties.empty()) return;
   joined_bodies_.begin();
-  ends_.resize(count);
-  mover_of_.assign(count, 0);
-  for (std::size_t i = 0; i < movers_.size(); ++i) mover_of_[movers_[i].index] = static_cast<std::uint32_t>(i + 1);
-  for (const Mover& mover : movers_) {
-    if (!joined_bodies_.is_known(mover.index)) stop_mechanism(joined_bodies_.find(mover.index));
+  ends_.resize(state_.awake.states.size());
+  fast_.number();
+  for (const Mover<S>& mover : fast_.movers()) {
+    if (!joined_bodies_.is_known(mover.index)) stop(joined_bodies_.find(mover.index));
   }
 }
 
 /// A body that would pass something where joints have it becomes the one that they begin from. If that does not help,
 /// each goes its own way, which is free, and joints come apart: a mechanism that stood still instead would never lose
 /// the speed that presses it against a wall.
-template <class S> void ContinuousCollision<S>::stop_mechanism(std::span<const std::uint32_t> mechanism) {
+template <class S> void StoppedMechanisms<S>::stop(std::span<const std::uint32_t> mechanism) {
   const bool hangs = joined_bodies_.is_held();
   if (mechanism.size() == 1 && !hangs) return;
   keep_ends(mechanism);
@@ -83,75 +89,74 @@ template <class S> void ContinuousCollision<S>::stop_mechanism(std::span<const s
     part = Unit<S>(1);
   }
   for (const std::uint32_t body : mechanism) {
-    if (!is_free) put_at(body, own_way(body, leader.fraction));
-    place(body);
+    if (!is_free) bodies_.put_at(body, own_way(body, leader.fraction));
+    bodies_.place(body);
   }
 }
 
 /// Keeps the poses that the solver gave; bodies that were stopped are elsewhere by now.
-template <class S> void ContinuousCollision<S>::keep_ends(std::span<const std::uint32_t> mechanism) {
+template <class S> void StoppedMechanisms<S>::keep_ends(std::span<const std::uint32_t> mechanism) {
   for (const std::uint32_t body : mechanism) {
-    const std::uint32_t mover = mover_of_[body];
-    ends_[body] = mover == 0 ? now(body) : movers_[mover - 1].poses[movers_[mover - 1].pieces];
+    const Mover<S>* const mover = fast_.mover_of(body);
+    ends_[body] = mover == nullptr ? motion_.now(body) : mover->to();
   }
 }
 
 /// The first that was stopped; ties go to the first in order.
 template <class S>
-typename ContinuousCollision<S>::Leader ContinuousCollision<S>::leader_of(
-    std::span<const std::uint32_t> mechanism) const {
+typename StoppedMechanisms<S>::Leader StoppedMechanisms<S>::leader_of(std::span<const std::uint32_t> mechanism) const {
   Leader first = {mechanism[0], Unit<S>(1)};
   for (const std::uint32_t body : mechanism) {
-    const Unit<S> fraction = mover_of_[body] == 0 ? Unit<S>(1) : movers_[mover_of_[body] - 1].fraction;
+    const Mover<S>* const mover = fast_.mover_of(body);
+    const Unit<S> fraction = mover == nullptr ? Unit<S>(1) : mover->fraction;
     if (fraction < first.fraction || (fraction == first.fraction && body < first.body)) first = {body, fraction};
   }
   return first;
 }
 
-template <class S> bool ContinuousCollision<S>::meets_carrier(std::span<const std::uint32_t> mechanism) const {
-  if (carriers_.empty()) return false;
+template <class S> bool StoppedMechanisms<S>::meets_carrier(std::span<const std::uint32_t> mechanism) const {
+  if (fast_.carriers().empty()) return false;
   for (const std::uint32_t body : mechanism) {
-    const Aabb<S> swept = detail::swept_box<S>({start_[body], ends_[body], Vec3<S>::zero()}, measure(body).reach);
-    for (const Carrier& carrier : carriers_) {
+    const CoreMotion<S> way = {motion_.start(body), ends_[body], Vec3<S>::zero()};
+    const Aabb<S> swept = detail::swept_box(way, motion_.measure(body).reach);
+    for (const auto& carrier : fast_.carriers()) {
       if (overlap(carrier.swept, swept)) return true;
     }
   }
   return false;
 }
 
-template <class S> void ContinuousCollision<S>::place_tree(std::span<const Link> tree, Unit<S> fraction, bool closes) {
+template <class S> void StoppedMechanisms<S>::place_tree(std::span<const Link> tree, Unit<S> fraction, bool closes) {
   for (const Link& link : tree) {
     const bool is_root = link.joint == JoinedBodies<S>::kNone;
     const Pose<S> own = own_way(link.body, fraction);
     if (is_root) {
-      put_at(link.body, own);
+      bodies_.put_at(link.body, own);
       continue;
     }
     Pose<S> there = joined_pose(link, fraction, closes);
-    const S most =
-        length(ends_[link.body].position - start_[link.body].position) * detail::share_of_pull(state_, map_, link);
+    const S most = length(ends_[link.body].position - motion_.start(link.body).position) *
+                   detail::share_of_pull(state_, map_, link);
     there.position = own.position + detail::no_longer_than(there.position - own.position, most);
-    put_at(link.body, there);
+    bodies_.put_at(link.body, there);
   }
 }
 
 /// The pose of a body after a fraction of the step that is no more than what is free of its own way.
-template <class S> Pose<S> ContinuousCollision<S>::own_way(std::uint32_t body, Unit<S> fraction) {
-  if (mover_of_[body] != 0) {
-    const Mover& mover = movers_[mover_of_[body] - 1];
-    return mover.fraction == fraction ? mover.stopped : way_of(mover, fraction);
-  }
-  put_at(body, ends_[body]);
-  return way_of(measure(body), fraction);
+template <class S> Pose<S> StoppedMechanisms<S>::own_way(std::uint32_t body, Unit<S> fraction) {
+  if (const Mover<S>* const mover = fast_.mover_of(body))
+    return mover->fraction == fraction ? mover->stopped : mover->way(fraction);
+  bodies_.put_at(body, ends_[body]);
+  return motion_.measure(body).way(fraction);
 }
 
 /// The pose that its joint gives a body after a fraction of the step, while the joint's other body is where it is now.
 /// `closes`: joints hold together what the solver left apart.
-template <class S> Pose<S> ContinuousCollision<S>::joined_pose(const Link& link, Unit<S> fraction, bool closes) {
+template <class S> Pose<S> StoppedMechanisms<S>::joined_pose(const Link& link, Unit<S> fraction, bool closes) {
   const JointProperties<S>& p = state_.joints.properties[link.joint];
   const Pose<S>& frame = link.is_b ? p.frame_b : p.frame_a;
   const Carriage other = carriage_of(link.is_b ? p.body_a : p.body_b, link.is_b ? p.frame_a : p.frame_b);
-  const Pose<S> start = detail::pose_from(other.start, compose(start_[link.body], frame));
+  const Pose<S> start = detail::pose_from(other.start, compose(motion_.start(link.body), frame));
   const Pose<S> end = detail::pose_from(other.end, compose(ends_[link.body], frame));
   Pose<S> joint = pose_at<S>({start, end, Vec3<S>::zero()}, fraction);
   if (closes && holds_point(p)) joint.position = Vec3<S>::zero();
@@ -166,20 +171,20 @@ template <class S> Pose<S> ContinuousCollision<S>::joined_pose(const Link& link,
 }
 
 /// Two poses of a joint do not tell a turn of more than half of one: then the bodies' own turns count.
-template <class S> bool ContinuousCollision<S>::turns_far(std::uint32_t slot) const {
+template <class S> bool StoppedMechanisms<S>::turns_far(std::uint32_t slot) const {
   if (slot == kNoBody || map_.location(slot).set != Location::kAwake) return false;
   const Vec3<S> spin = convert<S>(map_.state_at(map_.location(slot)).angular_velocity);
   return !(heading_of(spin).length / S(state_.settings.hz) < detail::kFarTurn<S>);
 }
 
 template <class S>
-typename ContinuousCollision<S>::Carriage ContinuousCollision<S>::carriage_of(std::uint32_t slot,
-                                                                              const Pose<S>& frame) const {
+typename StoppedMechanisms<S>::Carriage StoppedMechanisms<S>::carriage_of(std::uint32_t slot,
+                                                                          const Pose<S>& frame) const {
   const Pose<S> here = map_.centre_pose_at(slot);
   Carriage of = {here, here, compose(here, frame)};
   if (slot != kNoBody && map_.location(slot).set == Location::kAwake) {
     const std::uint32_t index = map_.location(slot).index;
-    of.start = start_[index];
+    of.start = motion_.start(index);
     if (state_.awake.properties[index].type == BodyType::dynamic) of.end = ends_[index];
   }
   of.start = compose(of.start, frame);
@@ -189,9 +194,9 @@ typename ContinuousCollision<S>::Carriage ContinuousCollision<S>::carriage_of(st
 
 /// A body one of whose frames is there, as far as its locked axes let it.
 template <class S>
-Pose<S> ContinuousCollision<S>::held_by_locks(std::uint32_t index, const Pose<S>& there, const Pose<S>& frame) const {
+Pose<S> StoppedMechanisms<S>::held_by_locks(std::uint32_t index, const Pose<S>& there, const Pose<S>& frame) const {
   const std::uint32_t flags = state_.awake.properties[index].flags;
-  const Pose<S>& start = start_[index];
+  const Pose<S>& start = motion_.start(index);
   Quat<Unit<S>> orientation = normalise(there.orientation * conjugate(frame.orientation));
   if ((flags & body_flag::kAngularLocks) != 0) {
     Quat<Unit<S>> turn = orientation * conjugate(start.orientation);
@@ -210,13 +215,13 @@ Pose<S> ContinuousCollision<S>::held_by_locks(std::uint32_t index, const Pose<S>
 
 /// The part of its way from the start to where it is up to which a body passes nothing. What gets no deeper by it than
 /// contacts push out in a step is free, but for its middle.
-template <class S> Unit<S> ContinuousCollision<S>::free_part(std::uint32_t body) {
-  if (!may_move(body)) return Unit<S>(1);
-  Mover mover = measure(body);
+template <class S> Unit<S> StoppedMechanisms<S>::free_part(std::uint32_t body) {
+  if (!motion_.may_move(body)) return Unit<S>(1);
+  Mover<S> mover = motion_.measure(body);
   mover.closely = true;
   const S shallow = mover.inner * S(0.25), least = min(shallow, detail::kGraze<S> * S(0.5));
   if (!(least < mover.motion)) return Unit<S>(1);
-  const Cut cut = first_impact(mover, false);
+  const MotionCut<S> cut = impacts_.find(mover, false);
   const auto part_of = [&](Unit<S> fraction, S deep) {
     return deep < mover.motion * (Unit<S>(1) - fraction) ? fraction : Unit<S>(1);
   };
@@ -224,7 +229,7 @@ template <class S> Unit<S> ContinuousCollision<S>::free_part(std::uint32_t body)
 }
 /// The obstruction of the body with the least free part; ties go to the first of the tree. The root goes its own way.
 template <class S>
-typename ContinuousCollision<S>::Obstruction ContinuousCollision<S>::worst_of(std::span<const Link> tree) {
+typename StoppedMechanisms<S>::Obstruction StoppedMechanisms<S>::worst_of(std::span<const Link> tree) {
   Obstruction worst = {tree[0].body, Unit<S>(1)};
   for (const Link& link : tree) {
     const Unit<S> part = link.joint == JoinedBodies<S>::kNone ? Unit<S>(1) : free_part(link.body);

@@ -1,0 +1,79 @@
+// FastBodies<S>: who moves so far in a step that it is swept, and what comes towards it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isostep/collision/broadphase/tree.hpp"
+#include "isostep/store/proxies.hpp"
+#include "isostep/systems/continuous/pair_sweep.hpp"
+
+namespace isostep {
+
+/// Input:   the state after the solver, how its bodies moved, the broad phase.
+/// Output:  movers: dynamic bodies that move by more than half of the inner radii of their part and of the thinnest
+///          static or kinematic one, or end deep inside of what is fixed, or that a fast kinematic body meets; then
+///          bullets in the way of others. Fast kinematic bodies. Where dynamic bodies were beyond their fat boxes.
+/// Keeps:   nothing from step to step but memory.
+/// Order:   who ends deep and who is fast by index among the awake bodies, then who is met, then bullets.
+template <class S> class FastBodies {
+ public:
+  /// A fast kinematic body.
+  struct Carrier {
+    std::uint32_t slot;
+    Aabb<S> swept;
+  };
+
+  ISO_INLINE FastBodies(const WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies,
+                        const StepMotion<S>& motion, const PairSweep<S>& pairs)
+      : state_(state), map_(map), proxies_(proxies), motion_(motion), pairs_(pairs) {}
+
+  /// Finds all movers but slow bullets.
+  void find();
+  /// Adds slow bullets, after what is fixed has cut the movers. Returns false if there are no bullets at all.
+  bool find_bullets();
+  ISO_INLINE std::span<Mover<S>> movers() { return movers_; }
+  ISO_INLINE std::span<const Carrier> carriers() const { return carriers_; }
+  /// Who may meet a bullet where its fat box is not: boxes around their ways, by slot.
+  ISO_INLINE const AabbTree<S>& comers() const { return comers_; }
+  /// Has mover_of() know the movers by index among the awake bodies.
+  void number();
+  /// Null: none.
+  ISO_INLINE const Mover<S>* mover_of(std::size_t index) const {
+    return mover_of_[index] == 0 ? nullptr : &movers_[mover_of_[index] - 1];
+  }
+
+ private:
+  /// The least of all values that the filter of bodies has to know.
+  struct Survey {
+    S thinnest;  // [m] inner radius of what stops a body, up to kThick
+    bool bullets, kinematic;
+  };
+  static constexpr std::uint32_t kAsked = 1, kDeepInside = 2;  // of mover_of_, before there are movers
+
+  Survey survey() const;
+  S thinnest_static() const;
+  std::uint64_t thinnest_of_page(std::size_t page) const;
+  void mark_deep(std::span<const std::uint32_t> asked);
+  void leave_out_joined();
+  void add_if_fast(std::size_t index);
+  void find_met_by_kinematic(S least);
+  void find_comers();
+
+  const WorldState<S>& state_;
+  const BodyMap<S>& map_;
+  const Proxies<S>& proxies_;
+  const StepMotion<S>& motion_;
+  const PairSweep<S>& pairs_;
+  Survey survey_ = {};  // of this step
+  std::vector<Mover<S>> movers_;
+  std::vector<Carrier> carriers_;
+  AabbTree<S> comers_;
+  std::vector<std::uint32_t> met_, sort_scratch_;  // by fast kinematic bodies: indices among the awake ones
+  std::vector<std::uint32_t> mover_of_;            // by that index: its place in movers_, plus 1; 0: none
+};
+
+}  // namespace isostep
