@@ -101,8 +101,6 @@ template <class N> class DirectSystem {
   void guess_friction(std::uint32_t patch, bool fresh);
   /// Holds rows whose bound is now on the other side there.
   void settle();
-  /// Releases rows that can give way: neither friction nor motors nor springs are solved from now on.
-  void release();
   /// Solves. False: no end was found within most_work, or one that does not hold. Then bounded answers are within
   /// bounds, and joints hold unless all was swept, as often as that allows, and kLeastSweeps at least. Firm: contacts,
   /// too, are not to yield, at the price of more passes. Equations never are.

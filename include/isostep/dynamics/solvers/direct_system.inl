@@ -172,13 +172,4 @@ template <class N> void DirectSystem<N>::settle() {
   }
 }
 
-template <class N> void DirectSystem<N>::release() {
-  for (DirectBlock<N>& block : blocks_) {
-    for (DirectRow<N>& row : block.rows) {
-      if (row.bound == DirectBound::boxed || row.soft != N(0)) row.bound = DirectBound::absent;
-      row.answer = N(0);
-    }
-  }
-}
-
 }  // namespace isostep
