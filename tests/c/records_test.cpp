@@ -1,4 +1,5 @@
-// Every struct crosses to C and back with all its members, and every kind of record does in C what it does in C++.
+// Every struct crosses to C and back with all its members; every kind of record does in C what it does in C++, and what
+// sets shapes and joints does too.
 // SPDX-License-Identifier: MIT
 #include "c/convert.hpp"
 #include "game.hpp"
@@ -250,11 +251,32 @@ iso_record expect_stale_settings_take_nothing_back(Twins<S>& twins, const Settin
     CharacterState<S> told;                                                                                            \
     ASSERT_EQ(take_sized("", &state, told), kOk);                                                                      \
     EXPECT_LT(to_double(told.velocity.y), -5.0) << "it falls for a second";                                            \
+    WheelSettings<S> wheel = twins.named.naming<WheelSettings<S>>();                                                   \
+    wheel.drive_share = S(1);                                                                                          \
+    iso_##P##_wheel wheel_c;                                                                                           \
+    iso_##P##_wheel_init(&wheel_c);                                                                                    \
+    ASSERT_EQ(put_sized("", &wheel_c, wheel), kOk);                                                                    \
+    iso_record driven = 0;                                                                                             \
+    ASSERT_EQ(iso_##P##_add_wheel(twins.c, &wheel_c, &driven), ISO_OK) << iso_last_error();                            \
+    ASSERT_EQ(id_bits(twins.cpp.add(wheel)), driven);                                                                  \
+    VehicleSettings<S> vehicle = twins.named.naming<VehicleSettings<S>>();                                             \
+    vehicle.engine_torque = vehicle.clutch_torque = S(100);                                                            \
+    vehicle.engine_inertia = S(1);                                                                                     \
     VehicleInput<S> drive;                                                                                             \
     drive.throttle = S(1);                                                                                             \
     expect_stale_settings_take_nothing_back<S, iso_##P##_vehicle, iso_##P##_vehicle_input>(                            \
-        twins, twins.named.naming<VehicleSettings<S>>(), drive, iso_##P##_add_vehicle, iso_##P##_set_vehicle,          \
+        twins, vehicle, drive, iso_##P##_add_vehicle,                                                                  \
+        [&](iso_world* world, iso_record id, const iso_##P##_vehicle* stale) {                                         \
+          EXPECT_EQ(iso_##P##_set_wheel(world, driven, &wheel_c), ISO_OK) << iso_last_error();                         \
+          return iso_##P##_set_vehicle(world, id, stale);                                                              \
+        },                                                                                                             \
         iso_##P##_set_vehicle_input);                                                                                  \
+    iso_##P##_wheel_state wheel_state;                                                                                 \
+    iso_##P##_wheel_state_init(&wheel_state);                                                                          \
+    ASSERT_EQ(iso_##P##_get_wheel_state(twins.c, driven, &wheel_state), ISO_OK);                                       \
+    WheelState<S> turned;                                                                                              \
+    ASSERT_EQ(take_sized("", &wheel_state, turned), kOk);                                                              \
+    EXPECT_GT(to_double(turned.spin), 25.0) << "the engine turns it for a second";                                     \
   }
 ISO_TEST(f32, float)
 ISO_TEST(f64, double)
@@ -278,6 +300,83 @@ ISO_TEST(q32, Q32_32)
     EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash());                                                          \
     EXPECT_NE(iso_##P##_wheel_set_spin(twins.c, 0, N{}), ISO_OK) << "no wheel";                                    \
   }
+ISO_TEST(q16, Q16_16, std::int32_t)
+ISO_TEST(q32, Q32_32, std::int64_t)
+#undef ISO_TEST
+
+// ---- Setters
+
+#define ISO_TEST(P, S)                                                                                                \
+  TEST(CSetters, ABodyThatGrowsStaysOnItsGroundIn_##P) {                                                              \
+    Twins<S> twins;                                                                                                   \
+    const ShapeId crate = twins.cpp.add_shape(Box{{0.25, 0.25, 0.25}});                                               \
+    const ShapeId ground = twins.cpp.add_shape(Box{{5, 1, 5}}), large = twins.cpp.add_shape(Box{{0.5, 0.5, 0.5}});    \
+    twins.cpp.create({.shape = ground, .position = {S(30), S(-1), S(0)}});                                            \
+    const BodyId body =                                                                                               \
+        twins.cpp.create({.type = BodyType::dynamic, .shape = crate, .position = {S(30), S(0.25), S(0)}});            \
+    ASSERT_NO_FATAL_FAILURE(twins.create_c(iso_##P##_settings_init, iso_##P##_world_create));                         \
+    EXPECT_EQ(iso_##P##_body_set_shape(twins.c, id_bits(body), id_bits(large), nullptr), ISO_OK) << iso_last_error(); \
+    EXPECT_TRUE(twins.cpp.set_shape(body, large));                                                                    \
+    for (int frame = 0; frame < 120; ++frame) {                                                                       \
+      EXPECT_EQ(iso_world_step(twins.c, nullptr), ISO_OK);                                                            \
+      twins.cpp.step();                                                                                               \
+    }                                                                                                                 \
+    EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash());                                                             \
+    EXPECT_NEAR(to_double(twins.cpp.pose(body).position.y), 0.5, 0.01);                                               \
+    const iso_shape stale = id_bits(large) + (std::uint64_t{1} << 32);                                                \
+    EXPECT_EQ(iso_##P##_body_set_shape(twins.c, id_bits(body), stale, nullptr), ISO_FAULT_STALE_ID);                  \
+    EXPECT_NE(std::string(iso_last_error()).find("shape:"), std::string::npos) << iso_last_error();                   \
+    EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash());                                                             \
+  }
+ISO_TEST(f32, float)
+ISO_TEST(f64, double)
+ISO_TEST(q16, Q16_16)
+ISO_TEST(q32, Q32_32)
+#undef ISO_TEST
+
+#define ISO_TEST(P, S, N)                                                                                      \
+  TEST(CSetters, OfAHingeDriveItIn_##P) {                                                                      \
+    Twins<S> twins;                                                                                            \
+    ASSERT_NO_FATAL_FAILURE(twins.create_c(iso_##P##_settings_init, iso_##P##_world_create));                  \
+    const JointId id = twins.named.hinge_b;                                                                    \
+    const iso_joint hinge = id_bits(id);                                                                       \
+    const auto n = [](S value) { return same_bits<N>(value); };                                                \
+    const auto expect_to_reach = [&](double angle) {                                                           \
+      for (int frame = 0; frame < 60; ++frame) {                                                               \
+        EXPECT_EQ(iso_world_step(twins.c, nullptr), ISO_OK);                                                   \
+        twins.cpp.step();                                                                                      \
+      }                                                                                                        \
+      EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash());                                                    \
+      N position{};                                                                                            \
+      EXPECT_EQ(iso_##P##_joint_get_position(twins.c, hinge, &position), ISO_OK);                              \
+      EXPECT_NEAR(to_double(same_bits<S>(position)), angle, 0.01);                                             \
+    };                                                                                                         \
+    EXPECT_EQ(iso_##P##_joint_set_motor(twins.c, hinge, n(S(1)), n(S(1000))), ISO_OK) << iso_last_error();     \
+    EXPECT_TRUE(twins.cpp.set_motor(id, S(1), S(1000)));                                                       \
+    expect_to_reach(1);                                                                                        \
+    EXPECT_EQ(iso_##P##_joint_set_limits(twins.c, hinge, n(S(-1.5)), n(S(1.25))), ISO_OK) << iso_last_error(); \
+    EXPECT_TRUE(twins.cpp.set_limits(id, S(-1.5), S(1.25)));                                                   \
+    expect_to_reach(1.25);                                                                                     \
+    EXPECT_EQ(iso_##P##_joint_set_motor(twins.c, hinge, n(S(0)), n(S(0))), ISO_OK) << iso_last_error();        \
+    EXPECT_EQ(iso_##P##_joint_set_spring(twins.c, hinge, n(S(4)), n(S(1))), ISO_OK) << iso_last_error();       \
+    EXPECT_EQ(iso_##P##_joint_set_target(twins.c, hinge, n(S(-0.5))), ISO_OK) << iso_last_error();             \
+    EXPECT_TRUE(twins.cpp.set_motor(id, S(0), S(0)));                                                          \
+    EXPECT_TRUE(twins.cpp.set_spring(id, S(4), S(1)));                                                         \
+    EXPECT_TRUE(twins.cpp.set_target(id, S(-0.5)));                                                            \
+    expect_to_reach(-0.5);                                                                                     \
+    const auto expect_refused = [&](iso_status status, const std::string& field) {                             \
+      EXPECT_NE(status, ISO_OK) << field;                                                                      \
+      EXPECT_NE(std::string(iso_last_error()).find(field + ":"), std::string::npos) << iso_last_error();       \
+      EXPECT_EQ(iso_world_hash(twins.c), twins.cpp.hash());                                                    \
+    };                                                                                                         \
+    const S too_fast = Limits<S>::angular_speed() + S(1);                                                      \
+    expect_refused(iso_##P##_joint_set_limits(twins.c, hinge, n(S(1)), n(S(0))), "lower");                     \
+    expect_refused(iso_##P##_joint_set_motor(twins.c, hinge, n(too_fast), n(S(1))), "motor_speed");            \
+    expect_refused(iso_##P##_joint_set_spring(twins.c, hinge, n(S(4)), n(S(-1))), "spring_damping");           \
+    expect_refused(iso_##P##_joint_set_target(twins.c, hinge, n(S(7))), "spring_target");                      \
+  }
+ISO_TEST(f32, float, float)
+ISO_TEST(f64, double, double)
 ISO_TEST(q16, Q16_16, std::int32_t)
 ISO_TEST(q32, Q32_32, std::int64_t)
 #undef ISO_TEST

@@ -24,6 +24,11 @@ internal static class WorldTest
             HelloFixed32.RecordsComeAndGo);
         Each("settings take nothing back", HelloF32.SettingsTakeNothingBack, HelloF64.SettingsTakeNothingBack,
             HelloFixed16.SettingsTakeNothingBack, HelloFixed32.SettingsTakeNothingBack);
+        Each("a body that grows stays on its ground", HelloF32.ABodyThatGrowsStaysOnItsGround,
+            HelloF64.ABodyThatGrowsStaysOnItsGround, HelloFixed16.ABodyThatGrowsStaysOnItsGround,
+            HelloFixed32.ABodyThatGrowsStaysOnItsGround);
+        Each("setters of a hinge drive it", HelloF32.SettersOfAHingeDriveIt, HelloF64.SettersOfAHingeDriveIt,
+            HelloFixed16.SettersOfAHingeDriveIt, HelloFixed32.SettersOfAHingeDriveIt);
         Each("a recording is proved", HelloF32.ARecordingIsProved, HelloF64.ARecordingIsProved,
             HelloFixed16.ARecordingIsProved, HelloFixed32.ARecordingIsProved);
         Each("nothing is allocated a frame", HelloF32.NothingIsAllocatedAFrame, HelloF64.NothingIsAllocatedAFrame,

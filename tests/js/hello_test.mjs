@@ -33,6 +33,28 @@ for (const scalar of scalars) {
     return world.hash;
   };
   equal(walked(true), walked(false), `${scalar}: stale settings`);
+  const driven = stale => {
+    const world = iso.createWorld();
+    const box = world.addShape('box', {halfExtents: [1, 0.5, 2]});
+    const body = world.createBody({type: 'dynamic', shape: box, position: [0, 20, 0]});
+    const engine = world.add('vehicle', {body, engineTorque: 100, engineInertia: 1, clutchTorque: 100});
+    const wheel = world.add('wheel', {body, driveShare: 1});
+    const copies = [world.get('vehicle', engine), world.get('wheel', wheel)];
+    for (let frame = 0; frame < 60; ++frame) {
+      if (stale) {
+        world.set('vehicle', engine, copies[0]);
+        world.set('wheel', wheel, copies[1]);
+      }
+      world.setInput('vehicle', engine, {throttle: 1});
+      world.step();
+    }
+    // In the air 100 N m turn an engine and a wheel of 1 kg m^2 each for a second.
+    const spins = [world.state('vehicle', engine).engineSpin, world.state('wheel', wheel).spin];
+    check(spins.every(spin => Math.abs(spin - 50) < 0.01), `${scalar}: engine and wheel spin at ${spins}`);
+    equal(world.input('vehicle', engine).throttle, 1, `${scalar}: the throttle`);
+    return world.hash;
+  };
+  equal(driven(true), driven(false), `${scalar}: stale settings of a vehicle and its wheel`);
   const {sound, recordings, text} = iso.selfcheck();
   check(sound && recordings > 0, `${scalar}: ${text}`);
 }

@@ -90,6 +90,29 @@ class Values(unittest.TestCase):
                 hashes.append(world.hash)
             self.assertEqual(hashes[0], hashes[1], scalar)
 
+    def test_settings_take_nothing_back_from_a_vehicle_and_its_wheel(self):
+        for scalar in isostep.SCALARS:
+            hashes = []
+            for stale in (False, True):
+                world = isostep.World(scalar)
+                box = world.add_shape("box", half_extents=(1, 0.5, 2))
+                body = world.create_body(type="dynamic", shape=box, position=(0, 20, 0))
+                vehicle = world.add_record("vehicle", body=body, engine_torque=100, engine_inertia=1, clutch_torque=100)
+                wheel = world.add_record("wheel", body=body, drive_share=1)
+                copies = world.get_record("vehicle", vehicle), world.get_record("wheel", wheel)
+                for _ in range(60):
+                    if stale:
+                        world.call("set_vehicle", vehicle, copies[0])
+                        world.call("set_wheel", wheel, copies[1])
+                    world.set_input("vehicle", vehicle, throttle=1)
+                    world.step()
+                # In the air 100 N m turn an engine and a wheel of 1 kg m^2 each for a second.
+                self.assertAlmostEqual(world.get_state("vehicle", vehicle).engine_spin, 50, places=1)
+                self.assertAlmostEqual(world.get_state("wheel", wheel).spin, 50, places=1)
+                self.assertEqual(world.get_input("vehicle", vehicle).throttle, 1)
+                hashes.append(world.hash)
+            self.assertEqual(hashes[0], hashes[1], scalar)
+
     def test_numbers_cross_by_their_bits(self):
         world = isostep.World("q32")
         shape = world.add_shape("sphere", radius=1)
@@ -116,6 +139,48 @@ class Values(unittest.TestCase):
             self.assertEqual(world.call("joints").tolist(), [hinge])
             world.destroy_joint(hinge)
             self.assertEqual(len(world.call("joints")), 0)
+
+    def test_a_body_that_grows_stays_on_its_ground(self):
+        for scalar in isostep.SCALARS:
+            world, body = support.crate(isostep, scalar)
+            large = world.add_shape("box", half_extents=(1, 1, 1))
+            for _ in range(120):
+                world.step()
+            mass, frame, hashes = world.properties(body).mass, world.save(), []
+            for _ in range(2):
+                world.load(frame)
+                world.call("body_set_shape", body, large, None)
+                self.assertEqual(world.properties(body).mass, mass)
+                for _ in range(120):
+                    world.step()
+                self.assertAlmostEqual(world.state(body).pose.position.y, 1, places=2)
+                hashes.append(world.hash)
+            self.assertEqual(hashes[0], hashes[1], scalar)
+            with self.assertRaises(isostep.Refused) as caught:
+                world.call("body_set_shape", body, large + (1 << 32), None)  # another generation
+            self.assertEqual(caught.exception.field, "shape")
+            self.assertEqual(world.hash, hashes[1])
+
+    def test_setters_of_a_hinge_drive_it(self):
+        for scalar in isostep.SCALARS:
+            world = isostep.World(scalar)
+            box = world.add_shape("box", half_extents=(0.5, 0.5, 0.5))
+            hinge = world.create_joint("hinge", a=world.create_body(type="dynamic", shape=box))
+            for setters, angle in (([("motor", 1, 100)], 1), ([("limits", -1.5, 1.25)], 1.25),
+                                   ([("motor", 0, 0), ("spring", 4, 1), ("target", -0.5)], -0.5)):
+                for name, *numbers in setters:
+                    world.call(f"joint_set_{name}", hinge, *numbers)
+                for _ in range(60):
+                    world.step()
+                self.assertAlmostEqual(world.call("joint_get_position", hinge), angle, places=2)
+            before = world.hash
+            too_fast = (1 << 17 if scalar == "f64" else 1 << 14) + 1  # beyond Limits::angular_speed()
+            for name, numbers, field in (("limits", (1, 0), "lower"), ("motor", (too_fast, 1), "motor_speed"),
+                                         ("spring", (4, -1), "spring_damping"), ("target", (7,), "spring_target")):
+                with self.assertRaises(isostep.Refused) as caught:
+                    world.call(f"joint_set_{name}", hinge, *numbers)
+                self.assertEqual((caught.exception.command, caught.exception.field), (f"set_joint_{name}", field))
+            self.assertEqual(world.hash, before)
 
     def test_queries(self):
         for scalar in isostep.SCALARS:
