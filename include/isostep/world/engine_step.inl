@@ -53,7 +53,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   hit_events_.collect(solved, events_);
   contact_points_.collect(solved, events_);
   after(Stage::emit_events);
-  sleep_.update(events_.fell_asleep, &belts_, solver_.pulls());
+  sleep_.update(events_.fell_asleep, render_poses_.start(), &belts_, solver_.pulls());
   after(Stage::update_sleep);
   characters_.update();
   targets_.end_step();

@@ -17,7 +17,8 @@
 
 namespace isostep {
 
-/// Input:   the state after a step: awake bodies with their sleep clocks, contacts and joints.
+/// Input:   the state after a step: awake bodies with their sleep clocks, contacts and joints; the centres' poses as the
+///          step began.
 /// Output:  sleep clocks; islands whose bodies have all rested for half a second, moved out of the awake arrays into
 ///          WorldState::sleeping; the ids of their bodies. The body map and the broad phase know of it.
 /// Keeps:   nothing from step to step but memory.
@@ -26,9 +27,9 @@ template <class S> class IslandSleep {
   ISO_INLINE IslandSleep(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies)
       : state_(state), map_(map), proxies_(proxies) {}
 
-  /// Appends to `fell_asleep`. Bodies that touch one of the belts stay awake; null: there are none. `pulls`: the
-  /// accelerations of each awake body beside gravity, or empty.
-  void update(std::vector<BodyId>& fell_asleep, const Belts<S>* belts = nullptr,
+  /// Appends to `fell_asleep`. `start`: the pose of each awake body as the step began. Bodies that touch one of the
+  /// belts stay awake; null: there are none. `pulls`: the accelerations of each awake body beside gravity, or empty.
+  void update(std::vector<BodyId>& fell_asleep, std::span<const Pose<S>> start, const Belts<S>* belts = nullptr,
               std::span<const Acceleration<S>> pulls = {});
 
   /// Puts the island of an awake dynamic body to sleep at once, whatever its bodies were about to do; the next step
@@ -37,7 +38,7 @@ template <class S> class IslandSleep {
 
  private:
   std::uint32_t delay() const;
-  void update_clocks(std::span<const Acceleration<S>> pulls);
+  void update_clocks(std::span<const Pose<S>> start, std::span<const Acceleration<S>> pulls);
   void stop_clocks_of_carried(const Belts<S>* belts);
   const Material<S>& surface_of(const BodyProperties<S>& body, std::uint32_t slot, std::uint32_t leaf) const;
   void stop_clocks_of_motors();

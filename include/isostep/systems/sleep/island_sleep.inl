@@ -22,13 +22,25 @@ template <class S> ISO_INLINE S rest_speed_under(Vec3<S> pull, S least) {
   return size <= least ? kSleepSpeed<S> : min(kSleepSpeed<S>, size * kSleepFall<S>);
 }
 inline constexpr std::uint32_t kStepsPerSleepDelay = 2;  // a second over this: half a second of rest
+/// Whether a step moved a body, which is slower than `limit` [m/s] and [rad/s], at twice that or more: what corrects
+/// positions moves it without velocity. Source: Box2D 3, positionSleepFactor. What coordinates and turns round to is no
+/// motion.
+template <class S>
+ISO_INLINE bool is_corrected(const Pose<S>& start, const BodyState<S>& state, S limit, std::int32_t hz) {
+  using U = Unit<S>;
+  const S most = (limit + limit) / S(hz);  // [m] and [rad] in a step
+  const S rounded = spacing_at(max(max_abs(start.position), max_abs(state.centre)));
+  if (max_abs(state.centre - start.position) > max(most, rounded + rounded)) return true;
+  const Quat<U> turn = conjugate(start.orientation) * state.orientation;  // half of the angle is the vector's length
+  return max_abs(Vec3<U>{turn.x, turn.y, turn.z}) > max(convert<U>(most * S(0.5)), U(0x1p-20));
+}
 }  // namespace detail
 
 template <class S>
-void IslandSleep<S>::update(std::vector<BodyId>& fell_asleep, const Belts<S>* belts,
+void IslandSleep<S>::update(std::vector<BodyId>& fell_asleep, std::span<const Pose<S>> start, const Belts<S>* belts,
                             std::span<const Acceleration<S>> pulls) {
   if (!state_.settings.allow_sleep) return;
-  update_clocks(pulls);
+  update_clocks(start, pulls);
   stop_clocks_of_carried(belts);
   stop_clocks_of_motors();
   stop_clocks_by_forces();
@@ -75,7 +87,8 @@ template <class S> std::uint32_t IslandSleep<S>::delay() const {
   return static_cast<std::uint32_t>(state_.settings.hz) / detail::kStepsPerSleepDelay;
 }
 
-template <class S> void IslandSleep<S>::update_clocks(std::span<const Acceleration<S>> pulls) {
+template <class S>
+void IslandSleep<S>::update_clocks(std::span<const Pose<S>> start, std::span<const Acceleration<S>> pulls) {
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
     BodyState<S>& state = state_.awake.states[i];
     const BodyProperties<S>& body = state_.awake.properties[i];
@@ -90,7 +103,8 @@ template <class S> void IslandSleep<S>::update_clocks(std::span<const Accelerati
                   detail::rest_speed_under(pulls[i].angular, detail::kLeastPull<S>));
     }
     const Velocity<S> limit = convert<Velocity<S>>(least);
-    const bool slow = max_abs(state.velocity) < limit && max_abs(state.angular_velocity) < limit;
+    const bool slow = max_abs(state.velocity) < limit && max_abs(state.angular_velocity) < limit &&
+                      !detail::is_corrected(start[i], state, least, state_.settings.hz);
     const bool rests = body.type == BodyType::kinematic ? still : slow;
     state.sleep_clock = may && rests ? state.sleep_clock + (state.sleep_clock < 0xffffffffu ? 1u : 0u) : 0u;
   }
