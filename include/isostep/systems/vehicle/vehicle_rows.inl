@@ -1,247 +1,105 @@
-// Bodies of vehicle_rows.hpp: a sub-step of suspensions and tyres.
+// Bodies of vehicle_rows.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/checks.hpp"
-#include "isostep/dynamics/solvers/schedule.hpp"
 #include "isostep/store/finite_guard.hpp"
-#include "isostep/systems/vehicle/wheel_clutch.inl"
-#include "isostep/systems/vehicle/wheel_drive.inl"
+#include "isostep/systems/vehicle/drive_train.inl"
+#include "isostep/systems/vehicle/step_wheels.inl"
+#include "isostep/systems/vehicle/suspension_rows.inl"
+#include "isostep/systems/vehicle/vehicle_rows.hpp"
 #include "isostep/systems/vehicle/wheel_ground.inl"
 #include "isostep/systems/vehicle/wheel_tracks.inl"
 
 namespace isostep {
 
+template <class S> void VehicleRows<S>::begin_step() {
+  wheels_.list();
+  ground_.begin_step();
+  for (Group& group : wheels_.groups()) {
+    tracks_.join(group);
+    train_.gear_up(group);
+    ground_.find(group);
+  }
+  wheels_.find_who_ends_early();
+}
+
 template <class S> void VehicleRows<S>::place(SolverBodies<S>& bodies, std::int32_t rate) {
-  bodies_ = &bodies;
-  rate_ = rate;
-  h_ = divide_to<Step<S>>(S(1), S(rate));
-  stop_softness_ = detail::contact_softness(S(rate));
-  follow_ground();
-  for (Group& group : groups_) {
-    const Mat3<U> turn = to_matrix(state_.awake.states[group.row - 1].orientation);
-    for (std::uint32_t r = group.first; r < group.end; ++r) place(runs_[r], turn);
-    drive(group);
+  wheels_.begin_substep(bodies, rate);
+  suspension_.begin_substep();
+  if (ground_.follow()) wheels_.find_who_ends_early();
+  for (Group& group : wheels_.groups()) {
+    const Mat3<Unit<S>> turn = to_matrix(state_.awake.states[group.row - 1].orientation);
+    for (Run& run : wheels_.runs_of(group)) suspension_.place(run, turn);
+    train_.drive(group);
   }
 }
 
 /// A group that ends early is done once a sweep changes nothing, for in a pass only its own wheels move it.
 template <class S> void VehicleRows<S>::solve(int sweeps) {
   for (int i = 0; i < sweeps; ++i) {
-    for (Group& group : groups_) group.done = i > 0 && group.ends_early && !group.changed;
-    sweep();
+    for (Group& group : wheels_.groups()) group.done = i > 0 && group.ends_early && !group.changed;
+    sweep(false);
   }
 }
 /// Solves the groups that closed an error by speed, which only the end of a travel does. The others are solved already.
 template <class S> void VehicleRows<S>::relax() {
   bool any = false;
-  for (Group& group : groups_) {
+  for (Group& group : wheels_.groups()) {
     group.done = !closes_errors(group);
     any = any || !group.done;
   }
-  if (!any) return;
-  relaxes_ = true;
-  sweep();
-  relaxes_ = false;
+  if (any) sweep(true);
 }
-template <class S> bool VehicleRows<S>::closes_errors(const Group& group) const {
-  for (std::uint32_t r = group.first; r < group.end; ++r) {
-    if (runs_[r].touches && V(0) < runs_[r].strut.stop) return true;
+template <class S> bool VehicleRows<S>::closes_errors(const Group& group) {
+  for (const Run& run : wheels_.runs_of(group)) {
+    if (run.touches && V(0) < run.strut.stop) return true;
   }
   return false;
 }
 /// Solves all groups that are not done, once.
-template <class S> void VehicleRows<S>::sweep() {
-  for (Group& group : groups_) {
+template <class S> void VehicleRows<S>::sweep(bool relaxes) {
+  for (Group& group : wheels_.groups()) {
     if (group.done) continue;
     group.changed = false;
-    lock(group);
-    engage(group);
+    train_.lock(group);
+    train_.engage(group);
   }
-  for (const std::uint32_t r : order_) {
-    if (Group& group = groups_[runs_[r].group]; !group.done && runs_[r].touches) group.changed |= sweep(runs_[r]);
+  for (const std::uint32_t r : wheels_.order()) {
+    Run& run = wheels_.runs()[r];
+    Group& group = wheels_.groups()[run.group];
+    if (!group.done && run.touches) group.changed |= suspension_.solve(run, relaxes);
   }
 }
 
-/// Where the wheel's middle is on its way down, so that it touches the ground's plane; and the rows there. `turn` is
-/// that of the body.
-template <class S> void VehicleRows<S>::place(Run& run, const Mat3<U>& turn) {
-  run.touches = false;
-  run.spin.brake = V(0);
-  const WheelSettings<S>& w = wheel(run);
-  run.length = w.free_length;
-  if (!run.met) return;
-  const bool stands = run.ground == 0;  // the ground
-  const Vec3<S> centre = state_.awake.states[run.row - 1].centre;
-  const Vec3<S> hard_arm = turn * (w.hard_point - state_.awake.properties[run.row - 1].local_centre);
-  const Vec3<U> down = turn * w.suspension;
-  const MotionRow<V>& moved = bodies_->displacement[run.ground];
-  const Vec3<S> point =
-      stands ? run.point : run.point + convert<S>(moved.linear) + cross(convert<S>(moved.angular), run.ground_arm);
-  const U facing = -dot(down, run.normal);
-  if (facing < kLeastFacing) return;
-  run.lean = divide_to<S>(S(1), facing);
-  const S height = dot(centre - point + hard_arm, run.normal);
-  const S length = saturate_to<S>(product(height - w.radius, run.lean));
-  if (w.free_length <= length) return;
-  run.touches = true;
-  const Vec3<S> arm = hard_arm + down * length - run.normal * w.radius;
-  run.at = centre + arm;
-  const Vec3<S> ground_arm = run.at - point + run.ground_arm;
-  const Vec3<U> forward = normalise(cross(turn * run.axle, run.normal));
-  const SolverMass<S>&body = bodies_->mass[run.row], &ground = bodies_->mass[run.ground];
-  const auto set = [&](Row& row, Vec3<U> way) ISO_INLINE_LAMBDA {
-    if (stands) row.set(way, body, arm);
-    else row.set(way, body, arm, ground, ground_arm);
-  };
-  set(run.up, run.normal);
-  set(run.along, forward);
-  set(run.across, cross(run.normal, forward));
-  compress(run, length);
-  MotionRow<V>& motion = bodies_->velocity[run.row];
-  move(run, run.up, motion, run.load);
-  move(run, run.along, motion, run.push_along);
-  move(run, run.across, motion, run.push_across);
-}
-
-/// Spring, damper, bar and stop at a length, and the tyre's grip.
-template <class S> void VehicleRows<S>::compress(Run& run, S length) const {
-  const WheelSettings<S>& w = wheel(run);
-  const S mass = bodies_->mass[run.row].mass;
-  const S stiffness = divide_to<S>(saturating_add(w.stiffness, run.anti_roll), mass);  // [1/s^2]
-  run.length = length;
-  const detail::SlipCurve<S> curve = {w.peak_slip, w.peak_grip, w.slide_slip, w.slide_grip};
-  const S part = curve.is_flat() ? S(1) : curve.at(run.slip);
-  run.grip_along = times(run.mu_along, part);
-  run.grip_across = times(run.mu_across, part);
-  run.strut.spring = times(stiffness, w.free_length - length);
-  run.strut.damping = saturating_add(divide_to<S>(w.damping, mass), stiffness * h_);
-  run.strut.bar = run.partner == kNone ? S(0) : divide_to<S>(run.anti_roll, mass);
-  const S firm = times(times(times(run.up.give, run.lean), run.lean), run.strut.damping * h_);
-  run.strut.firm = saturating_add(S(1), firm);
-  // The strut is no shorter than its travel leaves after the sub-step. Where it is shorter, it comes out of that as
-  // softly as contacts of soft step: at once, it and a joint that holds a load on the body make energy together.
-  const S room = divide_to<S>(length - (w.free_length - w.travel), run.lean);
-  const S pace = S(0) <= room ? S(rate_) : stop_softness_.bias_rate;
-  run.strut.stop = min(saturate_to<V>(product(-room, pace)), detail::kPushSpeed<S>);
-}
-
-/// [m/s] The speed along a row. Row 0 does not move.
-template <class S>
-ISO_INLINE Velocity<S> VehicleRows<S>::speed_of(const Run& run, const Row& row, const MotionRow<V>& body) const {
-  return run.ground == 0 ? row.speed(body) : row.speed(body, bodies_->velocity[run.ground]);
-}
-/// [m/s] The speed along a row without the impulse that it has made so far.
-template <class S>
-ISO_INLINE Velocity<S> VehicleRows<S>::without(const Run& run, const Row& row, V impulse,
-                                               const MotionRow<V>& body) const {
-  return saturating_subtract(speed_of(run, row, body), saturate_to<V>(product(row.give, impulse)));
-}
-template <class S> ISO_INLINE void VehicleRows<S>::move(const Run& run, const Row& row, MotionRow<V>& body, V impulse) {
-  if (run.ground == 0) row.push(body, impulse);
-  else row.push(body, bodies_->velocity[run.ground], impulse);
-}
-
-/// [m/s] For the end of travel.
-template <class S> ISO_INLINE Velocity<S> VehicleRows<S>::least_push(const Run& run) const {
-  return relaxes_ ? min(run.strut.stop, V(0)) : run.strut.stop;
-}
-/// What the strut pushes, of the length and speed that it leads to itself.
-template <class S> ISO_INLINE void VehicleRows<S>::press(Run& run, MotionRow<V>& body) {
-  const V others = without(run, run.up, run.load, body);
-  S force = run.strut.spring;  // [m/s^2] along the suspension
-  if (run.partner != kNone && runs_[run.partner].touches) {
-    const Run& other = runs_[run.partner];
-    const S speed = times(other.lean, convert<S>(speed_of(other, other.up, body)));
-    const S pressed = wheel(other).free_length - other.length - speed * h_;
-    force = saturating_add(force, -times(run.strut.bar, pressed));
-  }
-  force = saturating_add(force, -times(run.strut.damping, times(run.lean, convert<S>(others))));
-  const S pushed = divide_to<S>(times(force, run.lean), run.strut.firm);  // [m/s^2]
-  const V push = least_push(run);
-  V stop = divide_to<V>(push - others, run.up.give);
-  if (V(0) < push) stop = saturate_to<V>(product(stop_softness_.mass_scale, stop));
-  const V load = max(max(V(0), saturate_to<V>(product(pushed, h_))), stop);
-  move(run, run.up, body, load - run.load);
-  run.load = load;
-}
-
-template <class S> ISO_INLINE void VehicleRows<S>::grip(Run& run, MotionRow<V>& body) {
-  const auto most = [&](S mu) ISO_INLINE_LAMBDA { return saturate_to<V>(product(mu, run.load)); };
-  const V slip_along = without(run, run.along, run.push_along, body);
-  const V slip_across = without(run, run.across, run.push_across, body);
-  const detail::TyreImpulse<V> made = detail::tyre_impulse<S>(spin_of(run), run.along.give, run.across.give, slip_along,
-                                                              slip_across, most(run.grip_along), most(run.grip_across));
-  move(run, run.along, body, made.along - run.push_along);
-  move(run, run.across, body, made.across - run.push_across);
-  run.push_along = made.along;
-  run.push_across = made.across;
-}
-
-/// Whether that changed its impulses by more than kSettled.
-template <class S> bool VehicleRows<S>::sweep(Run& run) {
-  MotionRow<V> body = bodies_->velocity[run.row];  // no wheel of a body stands on that body
-  const V load = run.load, along = run.push_along, across = run.push_across;
-  press(run, body);
-  grip(run, body);
-  bodies_->velocity[run.row] = body;
-  const V most = run.load * kSettled;
-  return most < abs(run.load - load) || most < abs(run.push_along - along) || most < abs(run.push_across - across);
-}
-
-/// How far it turns in the sub-step; a track's leader before the others of it.
-template <class S> void VehicleRows<S>::turn_wheel(Run& run) const {
-  constexpr S kTurn = S(6.28318530717958647692);
-  const V fastest = convert<V>(min(Limits<S>::surface_speed(), Limits<S>::speed() + Limits<S>::speed()));
-  run.spin.rim = leads(run) ? clamp(end_of(run), -fastest, fastest) : runs_[run.leader].spin.rim;
-  const S spin = divide_to<S>(run.spin.rim, wheel(run).radius);
-  run.angle += clamp(spin * h_, -kTurn, kTurn);
-  if (kTurn <= run.angle) run.angle -= kTurn;
-  if (run.angle < S(0)) run.angle += kTurn;
-}
-
-/// [1] Of this sub-step and the ones before.
-template <class S> S VehicleRows<S>::slip_of(const Run& run) const {
-  const S before = run.slip * S(0.5);
-  if (!run.touches) return before;
-  const MotionRow<V>& body = bodies_->velocity[run.row];
-  const V along = speed_of(run, run.along, body), across = speed_of(run, run.across, body);
-  return before + convert<S>(detail::tyre_slip(saturating_subtract(along, run.spin.rim), across, along)) * S(0.5);
-}
-
-/// Spins and slips.
 template <class S> void VehicleRows<S>::end() {
-  for (Run& run : runs_) {
-    if (!run.touches) run.load = run.push_along = run.push_across = V(0);
-    turn_wheel(run);
-    run.slip = slip_of(run);
-  }
+  for (Run& run : wheels_.runs()) suspension_.end(run);
 }
 
 template <class S> void VehicleRows<S>::end_step() {
-  if (runs_.empty()) return;
-  end_engines();
-  for (const Run& run : runs_) {
-    WheelState<S>& w = state_.parts.wheel_states[run.slot];
-    const S mass = state_.awake.properties[run.row - 1].mass;
-    const auto force = [&](V impulse) {
-      return saturate_to<S>(product(mass, saturate_to<S>(product(impulse, S(rate_)))));
-    };
-    w.spin = divide_to<S>(run.spin.rim, wheel(run).radius);
-    w.angle = run.angle;
-    w.steered = run.steered;
-    w.length = run.length;
-    w.slip = run.slip;
-    w.contact_body = run.touches ? run.met : BodyId{};
-    w.contact_normal = run.touches ? run.normal : Vec3<U>{U(0), U(0), U(0)};
-    w.contact_point = run.touches ? run.at : Vec3<S>::zero();
-    w.load = force(run.load);
-    w.along = force(run.push_along);
-    w.across = force(run.push_across);
-    detail::keep_finite(w);
-    constexpr V kTurning = V(0.05);
-    if (kTurning < abs(run.spin.rim)) state_.awake.states[run.row - 1].sleep_clock = 0;
-  }
+  train_.end_step();
+  for (const Run& run : wheels_.runs()) write(run);
+}
+/// What turns does not fall asleep.
+template <class S> void VehicleRows<S>::write(const Run& run) {
+  WheelState<S>& w = state_.parts.wheel_states[run.slot];
+  const S mass = state_.awake.properties[run.row - 1].mass;
+  const auto force = [&](V impulse) {
+    return saturate_to<S>(product(mass, saturate_to<S>(product(impulse, wheels_.rate()))));
+  };
+  w.spin = divide_to<S>(run.spin.rim, wheels_.wheel(run).radius);
+  w.angle = run.angle;
+  w.steered = run.steered;
+  w.length = run.length;
+  w.slip = run.slip;
+  w.contact_body = run.touches ? run.met : BodyId{};
+  w.contact_normal = run.touches ? run.normal : Vec3<Unit<S>>::zero();
+  w.contact_point = run.touches ? run.at : Vec3<S>::zero();
+  w.load = force(run.load);
+  w.along = force(run.push_along);
+  w.across = force(run.push_across);
+  detail::keep_finite(w);
+  constexpr V kTurning = V(0.05);
+  if (kTurning < abs(run.spin.rim)) state_.awake.states[run.row - 1].sleep_clock = 0;
 }
 
 }  // namespace isostep
