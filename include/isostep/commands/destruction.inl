@@ -4,6 +4,7 @@
 
 #include "isostep/commands/destruction.hpp"
 #include "isostep/core/stable_sort.hpp"
+#include "isostep/store/contact_ends.hpp"
 #include "isostep/store/event_order.hpp"
 
 namespace isostep {
@@ -63,7 +64,7 @@ template <class S> void Destruction<S>::tell_ends() {
     const std::uint32_t a = contact.key.body_a, b = contact.key.body_b;
     if ((contact.flags & kBoth) != kBoth || pair_key(a, b) == told || !ends(a, b)) continue;
     told = pair_key(a, b);
-    state_.untold.contact_end.push_back(map_.named(contact.key));
+    state_.untold.contact_end.push_back(ends_of(state_, map_, contact.key));
   }
   for (const SensorOverlap overlap : state_.overlaps) {
     if (ends(overlap.sensor, overlap.other))
@@ -94,7 +95,7 @@ template <class S> void Destruction<S>::erase_records() {
   std::size_t kept = first_awake;
   for (std::size_t i = first_awake; i < set.states.size(); ++i) {
     if (is_marked(set.states[i].slot)) {
-      map_.count_use(set.properties[i].shape, ~0u);
+      map_.shapes.count_use(set.properties[i].shape, ~0u);
       continue;
     }
     set.states[kept] = set.states[i];
@@ -112,7 +113,7 @@ template <class S> void Destruction<S>::destroy_joint(std::uint32_t slot) {
     for (const JointId joint : detail::joints_of(record).all) named = named || (joint && joint.slot == slot);
     return named ? Turn{0} : kStays;
   });
-  map_.erase_joint(slot);
+  map_.joints.erase(slot);
   state_.joint_slots.give_back(slot);
 }
 
@@ -139,13 +140,13 @@ template <class S> void Destruction<S>::erase_joints() {
     if (first != kStays >> 33) {
       wake_.wake_joint(slot);
       joints_.push_back({turns_[slot] = first << 33 | slot, slot});
-      map_.place_joint(slot, Location{});
+      map_.joints.place(slot, Location{});
       continue;
     }
     if (kept != i) {
       set.states[kept] = set.states[i];
       set.properties[kept] = set.properties[i];
-      map_.place_joint(slot, {Location::kAwake, static_cast<std::uint32_t>(kept)});
+      map_.joints.place(slot, {Location::kAwake, static_cast<std::uint32_t>(kept)});
     }
     ++kept;
   }

@@ -50,8 +50,9 @@ template <class S> bool CommandExecutor<S>::check_mass(const BodyMass<S>& d, con
 /// Gives a body the mass that follows from its type and shape, as for the first time.
 template <class S> bool CommandExecutor<S>::give_mass(const BodyMass<S>& d, BodyProperties<S>& body) {
   const S zero = S(0);
-  const std::span<const Child<S>> children = map_.children_of(body.shape);
-  const MassProperties<S> shape = mass_properties(children, d.density > zero ? d.density : S(1), map_.contents());
+  const std::span<const Child<S>> children = map_.shapes.children_of(body.shape);
+  const MassProperties<S> shape =
+      mass_properties(children, d.density > zero ? d.density : S(1), map_.shapes.contents());
   body.local_centre = shape.centre;
   body.principal = shape.principal;
   body.mass = zero;
@@ -94,7 +95,7 @@ template <class S> BodyId CommandExecutor<S>::execute(const CreateBody<S>& comma
   if (!give_mass({d.density, d.mass, d.inertia}, body)) return {};
 
   BodyState<S> state = {};
-  const Pose<S> centre = BodyMap<S>::centre_pose({d.position, normalise(d.orientation)}, body.local_centre);
+  const Pose<S> centre = centre_pose({d.position, normalise(d.orientation)}, body.local_centre);
   state.orientation = centre.orientation;
   state.centre = centre.position;
   if (d.type != BodyType::static_) {
@@ -167,8 +168,8 @@ template <class S> bool CommandExecutor<S>::execute(const SetPose<S>& command) {
     return faults_.refuse({Fault::bad_argument, "", "orientation", detail::kUnitLength});
   const std::uint32_t slot = command.body.slot;
   const Location at = map_.location(slot);
-  const Pose<S> centre = BodyMap<S>::centre_pose({command.pose.position, normalise(command.pose.orientation)},
-                                                 map_.properties_at(at).local_centre);
+  const Pose<S> centre =
+      centre_pose({command.pose.position, normalise(command.pose.orientation)}, map_.properties_at(at).local_centre);
   if (!faults_.accept(detail::fault_of_place(centre.position, "position"))) return false;
   const Pose<S> from = map_.origin_pose_at(slot);
   wake_.wake_touching(slot);

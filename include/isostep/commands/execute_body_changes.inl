@@ -96,7 +96,7 @@ template <class S> void CommandExecutor<S>::wake_coupled(std::uint32_t slot) {
     const detail::NamedJoints joints = detail::joints_of(coupling);
     bool named = false;
     for (const JointId id : joints.all) {
-      const JointProperties<S>* const joint = map_.properties_of(id);
+      const JointProperties<S>* const joint = map_.joints.properties_of(id);
       named = named || (joint != nullptr && (joint->body_a == slot || joint->body_b == slot));
     }
     for (const JointId id : joints.all) {
@@ -188,7 +188,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetShape<S>& command) 
   next.shape = command.shape.slot;
   if (!give_mass(command.mass, next) || !check_ties(slot, next)) return false;
   BodyState<S> state = map_.state_at(map_.location(slot));
-  const Pose<S> centre = BodyMap<S>::centre_pose(map_.origin_pose_at(slot), next.local_centre);
+  const Pose<S> centre = centre_pose(map_.origin_pose_at(slot), next.local_centre);
   if (!faults_.accept(detail::fault_of_place(centre.position, "shape"))) return false;
   state.centre = centre.position;
   replace(slot, state, next);

@@ -43,7 +43,7 @@ template <class S> JointId CommandExecutor<S>::execute(const CreateJoint<S>& com
   const JointId id = state_.joint_slots.template take<JointId>(state_.settings.id_space);
   JointState<S> state = {};
   state.slot = id.slot;
-  map_.insert(state, joint);
+  map_.joints.insert(state, joint);
   return id;
 }
 
@@ -69,7 +69,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetJoint<S>& command) 
   if (!known(state_.joint_slots, command.joint, "joint")) return false;
   const JointProperties<S>& next = command.properties;
   if (!faults_.accept(detail::fault_of(next, substep_rate(state_.settings)))) return false;
-  if (next.type != map_.properties_of(command.joint)->type)
+  if (next.type != map_.joints.properties_of(command.joint)->type)
     return faults_.refuse({Fault::bad_argument, "", "type", "the one that the joint was made with"});
   if (!check_drives(command.joint, next)) return false;
   state_.joints.properties[wake_.wake_joint(command.joint.slot)].take_settings(next);
@@ -80,7 +80,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetJoint<S>& command) 
 /// joint_flag on or off.
 template <class S> template <class Change> bool CommandExecutor<S>::change_joint(JointId joint, const Change& change) {
   if (!known(state_.joint_slots, joint, "joint")) return false;
-  JointProperties<S> next = *map_.properties_of(joint);
+  JointProperties<S> next = *map_.joints.properties_of(joint);
   const auto set_flag = [&](std::uint32_t flag, bool on) { next.flags = on ? next.flags | flag : next.flags & ~flag; };
   change(next, set_flag);
   return execute(SetJoint<S>{joint, next});

@@ -40,8 +40,8 @@ template <class Record>
 detail::RecordPlace<S> CommandExecutor<S>::place_of(const Record& record, std::uint32_t slot,
                                                     const BodyProperties<S>* next) const {
   const auto body = [&](BodyId id) { return next != nullptr && id && id.slot == slot ? next : map_.properties_of(id); };
-  const auto joint = [&](JointId id) { return map_.properties_of(id); };
-  const auto children_of = [&](std::uint32_t shape) { return map_.children_of(shape); };
+  const auto joint = [&](JointId id) { return map_.joints.properties_of(id); };
+  const auto children_of = [&](std::uint32_t shape) { return map_.shapes.children_of(shape); };
   return detail::place_of<S>(record, state_.settings, body, joint, children_of);
 }
 

@@ -31,10 +31,10 @@ template <class S> ShapeId CommandExecutor<S>::execute(const AddShape<S>& comman
     std::uint32_t& blob = children.back().primitive.blob;
     if (blob == 0) continue;
     const std::uint32_t place = state_.geometry.change().take(blobs[blob - 1]);
-    map_.renew_content(place);
+    map_.shapes.renew_content(place);
     blob = 1 + place;
   }
-  map_.put_shape(id.slot, std::move(children));
+  map_.shapes.put(id.slot, std::move(children));
   return id;
 }
 
@@ -72,13 +72,13 @@ template <class S> bool CommandExecutor<S>::find_blobs(const AddShape<S>& comman
 template <class S> bool CommandExecutor<S>::execute(const RemoveShape& command) {
   if (!known(state_.shape_slots, command.shape, "shape")) return false;
   const std::uint32_t slot = command.shape.slot;
-  if (map_.is_used(slot)) return faults_.refuse({Fault::shape_in_use, "", "shape", "no body with it"});
-  for (const Child<S>& child : map_.children_of(slot)) {
+  if (map_.shapes.is_used(slot)) return faults_.refuse({Fault::shape_in_use, "", "shape", "no body with it"});
+  for (const Child<S>& child : map_.shapes.children_of(slot)) {
     if (child.primitive.blob == 0) continue;
     state_.geometry.change().give_back(child.primitive.blob - 1);
-    map_.renew_content(child.primitive.blob - 1);
+    map_.shapes.renew_content(child.primitive.blob - 1);
   }
-  map_.put_shape(slot, {});
+  map_.shapes.put(slot, {});
   state_.shape_slots.give_back(slot);
   return true;
 }
@@ -87,11 +87,11 @@ template <class S> bool CommandExecutor<S>::execute(const RemoveShape& command) 
 template <class S> bool CommandExecutor<S>::execute(const SetHeights& command) {
   if (!known(state_.shape_slots, command.shape, "shape")) return false;
   const std::uint32_t shape = command.shape.slot;
-  const Child<S>* const known_child = map_.height_field_of(shape, command.child);
+  const Child<S>* const known_child = map_.shapes.height_field_of(shape, command.child);
   if (known_child == nullptr) return faults_.refuse({Fault::bad_argument, "", "child", "a height field of the shape"});
   const Child<S> child = *known_child;
   const HeightPatch patch = command.patch();
-  const BakedHeightField& field = shape_as<HeightField>(map_.contents().view(child.primitive)).surface();
+  const BakedHeightField& field = shape_as<HeightField>(map_.shapes.contents().view(child.primitive)).surface();
   const Result<BakedHeightField> changed = field.with_heights(patch);
   if (!accept_patch(changed)) return false;
   const BakedHeightField before = field;  // the field itself may be gone when its shape has another
@@ -121,16 +121,16 @@ template <class S> bool CommandExecutor<S>::accept_patch(const Result<BakedHeigh
 template <class S>
 void CommandExecutor<S>::replace_blob(std::uint32_t shape, std::uint32_t child, const BlobRef& blob) {
   const BlobRef known = state_.geometry->find(BlobMention{blob->id(), nullptr}, assets_);
-  const std::span<const Child<S>> now = map_.children_of(shape);
+  const std::span<const Child<S>> now = map_.shapes.children_of(shape);
   std::vector<Child<S>> children(now.begin(), now.end());
   std::uint32_t& name = children[child].primitive.blob;
   GeometryStore& store = state_.geometry.change();
   const std::uint32_t old = name - 1, place = store.take(known != nullptr ? known : blob);
   name = 1 + place;
   store.give_back(old);
-  map_.renew_content(old);
-  map_.renew_content(place);
-  map_.put_shape(shape, std::move(children));
+  map_.shapes.renew_content(old);
+  map_.shapes.renew_content(place);
+  map_.shapes.put(shape, std::move(children));
 }
 /// A body whose field, at a pose in its frame, has changed.
 template <class S>
@@ -140,8 +140,7 @@ void CommandExecutor<S>::renew_ground(std::uint32_t body, const Pose<S>& field, 
   const Location now = map_.location(body);
   const BodyProperties<S>& properties = map_.properties_at(now);
   BodyState<S> state = map_.state_at(now);
-  const Transform<S> placed =
-      compose(Transform<S>::of(BodyMap<S>::origin_pose(state, properties)), Transform<S>::of(field));
+  const Transform<S> placed = compose(Transform<S>::of(origin_pose(state, properties)), Transform<S>::of(field));
   const Aabb<S> fat = state.fat;
   detail::renew_fat_box(map_, state, properties, true);
   if (!(state.fat == fat)) {
@@ -159,13 +158,14 @@ template <class S>
 void CommandExecutor<S>::lift_buried(std::uint32_t ground, const Transform<S>& placed, const Aabb<S>& there,
                                      const FieldChange& change) {
   const BodyProperties<S>& own = map_.properties_at(map_.location(ground));
-  const PartTraits<S>& field = map_.children_of(own.shape)[change.child].traits;
+  const PartTraits<S>& field = map_.shapes.children_of(own.shape)[change.child].traits;
   std::vector<std::uint32_t> met;
   proxies_.boxes().query(there, [&](std::uint32_t slot) {
     const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
-    if (body.type != BodyType::dynamic || !map_.has_contacts(own) || !map_.has_contacts(body)) return true;
+    if (body.type != BodyType::dynamic || !map_.shapes.has_contacts(own) || !map_.shapes.has_contacts(body))
+      return true;
     bool collides = false;
-    for (const Child<S>& part : map_.children_of(body.shape))
+    for (const Child<S>& part : map_.shapes.children_of(body.shape))
       collides = collides || parts_collide(field, own.filter, part.traits, body.filter);
     if (collides) met.push_back(slot);
     return true;

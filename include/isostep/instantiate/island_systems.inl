@@ -8,6 +8,8 @@
 #include "isostep/systems/sleep/island_wake.inl"
 
 #define ISO_INSTANTIATE_ISLAND_SYSTEMS(S) \
+  ISO_SHAPE_MAP_OF(, S)                   \
+  ISO_JOINT_MAP_OF(, S)                   \
   ISO_BODY_MAP_OF(, S)                    \
   ISO_ISLAND_WAKE_OF(, S)                 \
   ISO_ISLAND_SLEEP_OF(, S)

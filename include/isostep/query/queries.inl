@@ -24,8 +24,8 @@ template <class S> bool Queries<S>::sees(const QueryFilter& filter, std::uint32_
   }
   if (filter.ignore && id_of(slot) == filter.ignore) return false;
   const bool senses = (body.flags & body_flag::kSensor) != 0;
-  if (map_.traits_of(body.shape).flags == 0) return sees(filter, body.filter, body.material.kind, senses);
-  for (const Child<S>& child : map_.children_of(body.shape)) {
+  if (map_.shapes.traits_of(body.shape).flags == 0) return sees(filter, body.filter, body.material.kind, senses);
+  for (const Child<S>& child : map_.shapes.children_of(body.shape)) {
     if (sees_part(filter, body, child.traits)) return true;
   }
   return false;
@@ -60,12 +60,12 @@ std::optional<ClosestBody<S>> Queries<S>::closest_point(Vec3<S> point, S max_dis
     if (!sees(filter, slot)) return true;
     const Transform<S> placed = Transform<S>::of(map_.origin_pose_at(slot));
     const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
-    const std::span<const Child<S>> children = map_.children_of(body.shape);
-    const bool traits = map_.traits_of(body.shape).flags != 0;
+    const std::span<const Child<S>> children = map_.shapes.children_of(body.shape);
+    const bool traits = map_.shapes.traits_of(body.shape).flags != 0;
     for (std::uint32_t i = 0; i < children.size(); ++i) {
       const Child<S>& child = children[i];
       if (traits && !sees_part(filter, body, child.traits)) continue;
-      const ClosestPoint<S> found = isostep::closest_point(map_.contents().view(child.primitive),
+      const ClosestPoint<S> found = isostep::closest_point(map_.shapes.contents().view(child.primitive),
                                                            compose(placed, Transform<S>::of(child.pose)), point);
       if (max_distance < found.distance) continue;
       const bool nearer =
@@ -107,7 +107,7 @@ void Queries<S>::overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, cons
 // ---- joints
 
 template <class S> S Queries<S>::joint_error(JointId joint) const {
-  const JointProperties<S>* properties = map_.properties_of(joint);
+  const JointProperties<S>* properties = map_.joints.properties_of(joint);
   if (properties == nullptr) return S(0);
   const Pose<S> a = compose(map_.centre_pose_at(properties->body_a), properties->frame_a);
   const Pose<S> b = compose(map_.centre_pose_at(properties->body_b), properties->frame_b);
@@ -126,11 +126,11 @@ template <class S> ISO_INLINE JointFrames<S> frames_of(const BodyMap<S>& map, co
 }
 }  // namespace detail
 template <class S> S Queries<S>::joint_position(JointId joint) const {
-  const JointProperties<S>* properties = map_.properties_of(joint);
+  const JointProperties<S>* properties = map_.joints.properties_of(joint);
   return properties == nullptr ? S(0) : detail::position_of(properties->type, detail::frames_of(map_, *properties));
 }
 template <class S> S Queries<S>::joint_position(JointId joint, JointAxis axis) const {
-  const JointProperties<S>* properties = map_.properties_of(joint);
+  const JointProperties<S>* properties = map_.joints.properties_of(joint);
   if (properties == nullptr || properties->type != JointType::six_axis) return S(0);
   const auto& drives = state_.records->axis_drives;
   const auto find = [&](JointAxis of) { return drives.find(detail::drive_on(*state_.records, joint, of)); };

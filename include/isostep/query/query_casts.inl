@@ -32,8 +32,8 @@ void Queries<S>::meet(const Probe& probe, const QueryFilter& filter, std::uint32
   const Transform<S> placed = Transform<S>::of(map_.origin_pose_at(slot));
   const BodyProperties<S>& properties = map_.properties_at(map_.location(slot));
   const std::uint32_t shape = properties.shape;
-  const bool traits = map_.traits_of(shape).flags != 0;
-  const std::span<const Child<S>> children = map_.children_of(shape);
+  const bool traits = map_.shapes.traits_of(shape).flags != 0;
+  const std::span<const Child<S>> children = map_.shapes.children_of(shape);
   const BodyId body = id_of(slot);
   typename Probe::Hit first = {};
   const auto latest = [&] { return first.body ? min(first.fraction, list.latest()) : list.latest(); };
@@ -43,7 +43,7 @@ void Queries<S>::meet(const Probe& probe, const QueryFilter& filter, std::uint32
   };
   const auto meet_child = [&](std::uint32_t i) {
     if (traits && passes(children[i].traits)) return;
-    const ShapeView<S> part = map_.contents().view(children[i].primitive);
+    const ShapeView<S> part = map_.shapes.contents().view(children[i].primitive);
     const bool is_placed = children[i].pose.is_identity();
     const Transform<S> at = is_placed ? placed : compose(placed, Transform<S>::of(children[i].pose));
     if (filter.per == HitPer::triangle) {
@@ -56,7 +56,7 @@ void Queries<S>::meet(const Probe& probe, const QueryFilter& filter, std::uint32
     if (filter.per == HitPer::child) list.add(hit);
     else if (!first.body || detail::comes_before(hit, first)) first = hit;
   };
-  if (const ChildTree<S>* const tree = map_.tree_of(shape)) {
+  if (const ChildTree<S>* const tree = map_.shapes.tree_of(shape)) {
     tree->sweep(placed, probe.sweep(), [&](std::uint32_t i, Unit<S> most) {
       meet_child(i);
       return min(most, probe.beyond(latest()));

@@ -20,7 +20,7 @@ template <class S> FaultReport Queries<S>::fault_of_shape(const QueryShape<S>& s
   if (shape.of_world) {
     const FaultReport of_id = detail::fault_of_id(state_.shape_slots, shape.id, state_.settings.id_space, "shape");
     if (of_id != Fault::none) return of_id;
-    const std::span<const Child<S>> children = map_.children_of(shape.id.slot);
+    const std::span<const Child<S>> children = map_.shapes.children_of(shape.id.slot);
     if (children.size() != 1 || is_surface(children[0].primitive.type))
       return {Fault::bad_shape, "", "shape", "one convex part"};
   } else {
@@ -35,8 +35,8 @@ template <class S> FaultReport Queries<S>::fault_of_shape(const QueryShape<S>& s
 /// Of an accepted shape.
 template <class S> auto Queries<S>::asked_of(const QueryShape<S>& shape, const Pose<S>& pose) const -> Asked {
   if (!shape.of_world) return {shape.primitive, nullptr, pose};
-  const Child<S>& part = map_.children_of(shape.id.slot)[0];
-  return {part.primitive, map_.contents().view(part.primitive).content,
+  const Child<S>& part = map_.shapes.children_of(shape.id.slot)[0];
+  return {part.primitive, map_.shapes.contents().view(part.primitive).content,
           part.pose.is_identity() ? pose : compose(pose, part.pose)};
 }
 
@@ -70,13 +70,13 @@ void Queries<S>::visit_parts_near(const Asked& asked, std::uint32_t slot, Visit&
   const Transform<S> here = Transform<S>::of({Vec3<S>::zero(), asked.pose.orientation}),
                      there = Transform<S>::of(placed);
   const std::uint32_t shape = map_.properties_at(map_.location(slot)).shape;
-  const std::span<const Child<S>> children = map_.children_of(shape);
+  const std::span<const Child<S>> children = map_.shapes.children_of(shape);
   const auto visit_child = [&](std::uint32_t i) {
     const bool is_placed = children[i].pose.is_identity();
     const Transform<S> at = is_placed ? there : compose(there, Transform<S>::of(children[i].pose));
-    return visit(i, map_.contents().view(children[i].primitive), at, here);
+    return visit(i, map_.shapes.contents().view(children[i].primitive), at, here);
   };
-  if (const ChildTree<S>* const tree = map_.tree_of(shape)) {
+  if (const ChildTree<S>* const tree = map_.shapes.tree_of(shape)) {
     for (const std::uint32_t i : detail::children_near(*tree, there, bounds(asked.view(), here))) {
       if (!visit_child(i)) return;
     }
@@ -95,8 +95,8 @@ void Queries<S>::visit_overlaps(const Asked& asked, const QueryFilter& filter, s
                                 const Visit& visit) const {
   const BodyId body = id_of(slot);
   const BodyProperties<S>& properties = map_.properties_at(map_.location(slot));
-  const std::span<const Child<S>> children = map_.children_of(properties.shape);
-  const bool traits = map_.traits_of(properties.shape).flags != 0;
+  const std::span<const Child<S>> children = map_.shapes.children_of(properties.shape);
+  const bool traits = map_.shapes.traits_of(properties.shape).flags != 0;
   const auto visit_child = [&](std::uint32_t i, const ShapeView<S>& part, const Transform<S>& at,
                                const Transform<S>& here) {  // false: visit wants no more
     if (traits && !sees_part(filter, properties, children[i].traits)) return true;

@@ -106,7 +106,7 @@ template <class S> class Surroundings {
     for (const std::uint32_t kind : passed_kinds_) {
       if (kind == other.material.kind) return false;
     }
-    return (other.flags & body_flag::kCollide) != 0 && should_collide(collides_, map_.filter_of(other));
+    return (other.flags & body_flag::kCollide) != 0 && should_collide(collides_, map_.shapes.filter_of(other));
   }
   /// Of a body that has parts which are in the way.
   ISO_INLINE bool is_in_the_way(std::uint32_t slot, const Placed& part) const {

@@ -32,7 +32,7 @@ template <class S> void Surroundings<S>::begin_step() {
 template <class S>
 void Surroundings<S>::begin(ShapeId shape, const Pose<S>& pose, const QueryFilter& filter, const Filter& collides,
                             std::span<const std::uint32_t> passed_kinds) {
-  const Child<S>& own = map_.children_of(shape.slot)[0];
+  const Child<S>& own = map_.shapes.children_of(shape.slot)[0];
   const Pose<S> turned = {Vec3<S>::zero(), pose.orientation};
   const Transform<S> placed = Transform<S>::of(own.pose.is_identity() ? turned : compose(turned, own.pose));
   filter_ = filter;
@@ -41,7 +41,7 @@ void Surroundings<S>::begin(ShapeId shape, const Pose<S>& pose, const QueryFilte
   shape_ = &own.primitive;
   begin_ = pose.position;
   offset_ = placed.position;
-  visit_shape(map_.contents().view(own.primitive), [&](const auto& solid) ISO_INLINE_LAMBDA {
+  visit_shape(map_.shapes.contents().view(own.primitive), [&](const auto& solid) ISO_INLINE_LAMBDA {
     if constexpr (kIsSolid<std::remove_cvref_t<decltype(solid)>>) {
       core_.emplace(solid, S(0));
       box_ = solid.bounds(placed);
@@ -91,12 +91,12 @@ template <class S> void Surroundings<S>::find_bodies_near() {
 
 template <class S> auto Surroundings<S>::place(std::uint32_t slot) -> Range {
   const std::uint32_t shape = map_.properties_at(map_.location(slot)).shape;
-  if (const ChildTree<S>* const tree = map_.tree_of(shape)) return place_some(slot, *tree);
+  if (const ChildTree<S>* const tree = map_.shapes.tree_of(shape)) return place_some(slot, *tree);
   const BodyId body = state_.body_slots.template id_of<BodyId>(slot);
   const Transform<S> origin = Transform<S>::of(map_.origin_pose_at(slot));
   const auto first = static_cast<std::uint32_t>(placed_.size());
-  const bool traits = map_.traits_of(shape).flags != 0;
-  for (const Child<S>& child : map_.children_of(shape)) add_placed(body, origin, child, traits);
+  const bool traits = map_.shapes.traits_of(shape).flags != 0;
+  for (const Child<S>& child : map_.shapes.children_of(shape)) add_placed(body, origin, child, traits);
   return placed_of_[slot] = {first, static_cast<std::uint32_t>(placed_.size())};
 }
 /// Those in the region, anew for each region.
@@ -104,8 +104,8 @@ template <class S> auto Surroundings<S>::place_some(std::uint32_t slot, const Ch
   const BodyId body = state_.body_slots.template id_of<BodyId>(slot);
   const Transform<S> origin = Transform<S>::of(map_.origin_pose_at(slot));
   const std::uint32_t shape = map_.properties_at(map_.location(slot)).shape;
-  const std::span<const Child<S>> children = map_.children_of(shape);
-  const bool traits = map_.traits_of(shape).flags != 0;
+  const std::span<const Child<S>> children = map_.shapes.children_of(shape);
+  const bool traits = map_.shapes.traits_of(shape).flags != 0;
   children_.clear();
   tree.query(origin, region_, [&](std::uint32_t child) {
     children_.push_back(child);
@@ -119,7 +119,7 @@ template <class S> auto Surroundings<S>::place_some(std::uint32_t slot, const Ch
 }
 template <class S>
 void Surroundings<S>::add_placed(BodyId body, const Transform<S>& origin, const Child<S>& child, bool traits) {
-  const ShapeView<S> view = map_.contents().view(child.primitive);
+  const ShapeView<S> view = map_.shapes.contents().view(child.primitive);
   const Transform<S> at = child.pose.is_identity() ? origin : compose(origin, Transform<S>::of(child.pose));
   placed_.push_back({body, view, at, bounds(view, at), traits ? &child.traits : nullptr});
 }
@@ -232,7 +232,7 @@ template <class S> bool Surroundings<S>::is_parted(Part& part, Vec3<S> at, S mar
 
 template <class S> S Surroundings<S>::distance(Vec3<S> at, Vec3<S> point) const {
   const Transform<S> placed = {at + offset_, cast_.start.rotation};
-  return closest_point<S>(map_.contents().view(*shape_), placed, point).distance;
+  return closest_point<S>(map_.shapes.contents().view(*shape_), placed, point).distance;
 }
 
 template <class S> void Surroundings<S>::find_contacts(Vec3<S> at, S margin, std::vector<NearContact<S>>& out) {
@@ -249,7 +249,7 @@ template <class S>
 void Surroundings<S>::add_contacts_of(const Placed& part, Vec3<S> at, S margin,
                                       std::vector<NearContact<S>>& out) const {
   const Vec3<S> origin = at + offset_;
-  const ShapeView<S> shape = map_.contents().view(*shape_);
+  const ShapeView<S> shape = map_.shapes.contents().view(*shape_);
   const Transform<S> here = {Vec3<S>::zero(), cast_.start.rotation},
                      there = {part.at.position - origin, part.at.rotation};
   Manifold<S> manifold;

@@ -46,13 +46,13 @@ template <class S> LeafRange leaves_of_part(const BodyFrame<S>& frame, std::uint
 template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at) {
   const BodyState<S>& state = map.state_at(at);
   const BodyProperties<S>& body = map.properties_at(at);
-  const std::span<const Child<S>> children = map.children_of(body.shape);
+  const std::span<const Child<S>> children = map.shapes.children_of(body.shape);
   const Mat3<Unit<S>> turn = to_matrix(state.orientation);
   const Primitive<S>& first = children[0].primitive;
   const bool plain = children.size() == 1 && children[0].pose.is_identity();
-  const ShapeTraits& parts = map.traits_of(body.shape);
+  const ShapeTraits& parts = map.shapes.traits_of(body.shape);
   const bool traits = parts.flags != 0, sensor = (body.flags & body_flag::kSensor) != 0;
-  const ChildTree<S>* const tree = map.tree_of(body.shape);
+  const ChildTree<S>* const tree = map.shapes.tree_of(body.shape);
   const bool surfaces = body.type != BodyType::dynamic &&  // those have none
                         (tree != nullptr ? tree->has_surfaces() : detail::has_surfaces(children));
   return {first.half,
@@ -60,7 +60,7 @@ template <class S> BodyFrame<S> frame_at(const BodyMap<S>& map, Location at) {
           state.centre,
           {-(turn * body.local_centre), turn},
           children.data(),
-          map.contents(),
+          map.shapes.contents(),
           tree,
           static_cast<std::uint32_t>(children.size()),
           state.slot,

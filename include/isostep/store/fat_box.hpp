@@ -19,7 +19,7 @@ Aabb<S> box_without_sensors(const BodyMap<S>& map, const BodyState<S>& state, co
 /// [m] The fat box without what sensors alone reach: they weigh nothing and touch nothing.
 template <class S>
 ISO_INLINE Aabb<S> solid_box(const BodyMap<S>& map, const BodyState<S>& state, const BodyProperties<S>& body) {
-  const ShapeTraits& traits = map.traits_of(body.shape);
+  const ShapeTraits& traits = map.shapes.traits_of(body.shape);
   return traits.has(part_flag::kSensor) && traits.any_solid ? box_without_sensors(map, state, body) : state.fat;
 }
 

@@ -18,7 +18,7 @@ template <class S> void StateLoader<S>::find_differences(const WorldState<S>& fr
   bool other_shapes = state_.shapes.size() != from.shapes.size();
   for (std::size_t p = 0; p < from.shapes.pages(); ++p)
     other_shapes = other_shapes || !state_.shapes.shares_page(p, from.shapes);
-  if (other_shapes) map_.forget_thickness();
+  if (other_shapes) map_.shapes.forget_thickness();
 }
 
 template <class S> void StateLoader<S>::load(const WorldState<S>& from) {
@@ -26,7 +26,7 @@ template <class S> void StateLoader<S>::load(const WorldState<S>& from) {
   const bool other_blobs = !state_.geometry.is_same(from.geometry);
   forget_places();
   state_ = from;
-  if (other_blobs) map_.renew_contents();
+  if (other_blobs) map_.shapes.renew_contents();
   renew_places();
 }
 
@@ -48,17 +48,18 @@ template <class S> void StateLoader<S>::forget_places() {
 template <class S> void StateLoader<S>::forget(const BodySet<S>& bodies) {
   for (std::size_t i = 0; i < bodies.states.size(); ++i) {
     map_.place(bodies.states[i].slot, Location{});
-    map_.count_use(bodies.properties[i].shape, ~0u);
+    map_.shapes.count_use(bodies.properties[i].shape, ~0u);
     forgotten_.push_back(bodies.states[i].slot);
   }
 }
 template <class S> void StateLoader<S>::forget(const JointSet<S>& joints) {
-  for (const JointState<S>& joint : joints.states) map_.place_joint(joint.slot, Location{});
+  for (const JointState<S>& joint : joints.states) map_.joints.place(joint.slot, Location{});
 }
 
 /// Renews those places from the new state; the broad phase changes only where a body differs from what it knew.
 template <class S> void StateLoader<S>::renew_places() {
   map_.make_room();
+  map_.joints.make_room();
   for (const std::uint32_t p : other_pages_) {
     if (p >= state_.static_bodies.pages()) continue;
     map_.relabel_static(p);
@@ -66,12 +67,12 @@ template <class S> void StateLoader<S>::renew_places() {
   }
   map_.relabel(state_.awake, Location::kAwake, 0);
   place(state_.awake, true);
-  map_.relabel(state_.joints, Location::kAwake, 0);
+  map_.joints.relabel(state_.joints, Location::kAwake, 0);
   for (const std::uint32_t i : other_islands_) {
     if (i >= state_.sleeping.size()) continue;
     map_.relabel(state_.sleeping[i]->bodies, i, 0);
     place(state_.sleeping[i]->bodies, false);
-    map_.relabel(state_.sleeping[i]->joints, i, 0);
+    map_.joints.relabel(state_.sleeping[i]->joints, i, 0);
     map_.count_names(*state_.sleeping[i], 1);
   }
   for (const std::uint32_t slot : forgotten_) {
@@ -80,7 +81,7 @@ template <class S> void StateLoader<S>::renew_places() {
 }
 template <class S> void StateLoader<S>::place(const BodySet<S>& bodies, bool awake) {
   for (std::size_t i = 0; i < bodies.states.size(); ++i) {
-    map_.count_use(bodies.properties[i].shape, 1);
+    map_.shapes.count_use(bodies.properties[i].shape, 1);
     proxies_.place(bodies.states[i], bodies.properties[i], awake);
   }
 }

@@ -42,7 +42,7 @@ namespace isostep {
 /// header says what comes in, what goes out and what it keeps. Each but Proxies and Carriers knows the state; besides
 /// it a system knows those that it names in its constructor and no others, never the engine:
 ///
-///   BodyMap         -> no other
+///   BodyMap         -> no other (has a ShapeMap and a JointMap inside)
 ///   Proxies         -> no other (has a Crowd inside)
 ///   IslandWake      -> BodyMap, Proxies
 ///   IslandSleep     -> BodyMap, Proxies

@@ -78,7 +78,7 @@ template <class S> void complete_shapes(WorldState<S>& state) {
   find_contents<S>(state.geometry->contents(), contents);
   for (std::uint32_t slot = 0; slot < state.shapes.size(); ++slot) {
     std::shared_ptr<const StoredShape<S>>& shape = state.shapes.change(slot);
-    shape = BodyMap<S>::stored(shape->children, Contents<S>{contents.data()});
+    shape = stored_shape(shape->children, Contents<S>{contents.data()});
   }
 }
 }  // namespace detail

@@ -27,7 +27,7 @@ template <class S> void StepSolver<S>::list_axis_drives() {
   for (std::uint32_t slot = 0; slot < records.all().size(); ++slot) {
     if (!records.is_taken(slot)) continue;
     const AxisDrive<S>& drive = records.all()[slot];
-    const Location at = map_.joint_location(drive.joint.slot);
+    const Location at = map_.joints.location(drive.joint.slot);
     if (!at.is_asleep()) axis_drives_.push_back({at.index, &drive});
   }
   sorted_drives_.resize(axis_drives_.size());

@@ -128,9 +128,9 @@ template <class S> bool World<S>::set_heights(ShapeId shape, std::uint32_t child
 }
 template <class S> const BakedHeightField* World<S>::height_field(ShapeId shape, std::uint32_t child) const {
   if (!contains(shape)) return nullptr;
-  const Child<S>* const field = engine_->map_.height_field_of(shape.slot, child);
+  const Child<S>* const field = engine_->map_.shapes.height_field_of(shape.slot, child);
   if (field == nullptr) return nullptr;
-  return &shape_as<HeightField>(engine_->map_.contents().view(field->primitive)).surface();
+  return &shape_as<HeightField>(engine_->map_.shapes.contents().view(field->primitive)).surface();
 }
 template <class S> BodyId World<S>::create(const BodyDefinition<S>& definition) {
   return apply(CreateBody<S>{definition});
@@ -213,7 +213,7 @@ template <class S> BodyType World<S>::type(BodyId body) const {
 template <class S> Pose<S> World<S>::pose(BodyId body) const {
   const FloatEnvironment environment;
   if (!contains(body)) return Pose<S>::identity();
-  return BodyMap<S>::origin_pose(*engine_->map_.state_of(body), *engine_->map_.properties_of(body));
+  return origin_pose(*engine_->map_.state_of(body), *engine_->map_.properties_of(body));
 }
 template <class S> Vec3<S> World<S>::center_of_mass(BodyId body) const {
   const BodyState<S>* state = engine_->map_.state_of(body);
@@ -286,8 +286,8 @@ template <class S> BodyView<S> World<S>::view(BodyId body) const {
   const FloatEnvironment environment;
   const BodyState<S>* state = engine_->map_.state_of(body);
   const BodyProperties<S>* properties = engine_->map_.properties_of(body);
-  return {state, properties, engine_->map_.children_of(properties->shape), engine_->map_.contents(),
-          BodyMap<S>::origin_pose(*state, *properties)};
+  return {state, properties, engine_->map_.shapes.children_of(properties->shape), engine_->map_.shapes.contents(),
+          origin_pose(*state, *properties)};
 }
 
 template <class S> StepReport World<S>::step(const StageObserver& observer) {

@@ -27,7 +27,7 @@ template <class S> bool World<S>::set_joint(JointId joint, const JointProperties
   return apply(SetJoint<S>{joint, properties});
 }
 template <class S> const JointProperties<S>* World<S>::joint(JointId joint) const {
-  return engine_->map_.properties_of(joint);
+  return engine_->map_.joints.properties_of(joint);
 }
 template <class S> S World<S>::joint_error(JointId joint) const {
   const FloatEnvironment environment;

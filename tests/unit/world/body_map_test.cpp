@@ -62,13 +62,13 @@ TYPED_TEST(BodyMaps, joints_lie_ascending_and_one_can_be_erased) {
     joint.slot = slot;
     JointProperties<S> properties;
     properties.lower = S(static_cast<int>(slot));
-    this->map.insert(joint, properties);
+    this->map.joints.insert(joint, properties);
   }
-  this->map.erase_joint(1);
-  EXPECT_EQ(this->map.joint_location(0).index, 0u);
-  EXPECT_EQ(this->map.joint_location(1).set, Location::kNone);
-  EXPECT_EQ(this->map.joint_location(2).index, 1u);
-  EXPECT_EQ(this->map.properties_of(joints[2])->lower, S(2));
+  this->map.joints.erase(1);
+  EXPECT_EQ(this->map.joints.location(0).index, 0u);
+  EXPECT_EQ(this->map.joints.location(1).set, Location::kNone);
+  EXPECT_EQ(this->map.joints.location(2).index, 1u);
+  EXPECT_EQ(this->map.joints.properties_of(joints[2])->lower, S(2));
 }
 
 TYPED_TEST(BodyMaps, an_island_counts_the_bodies_that_it_names_as_often_as_it_does) {
@@ -93,7 +93,7 @@ TYPED_TEST(BodyMaps, the_origin_of_a_body_is_not_its_centre_of_mass) {
   body.centre = vec<S>(1, 2, 3);
   BodyProperties<S> properties = {};
   properties.local_centre = vec<S>(1, 0, 0);
-  expect_near(real(BodyMap<S>::origin_pose(body, properties).position), {1, 1, 3}, 1e-5);
+  expect_near(real(origin_pose(body, properties).position), {1, 1, 3}, 1e-5);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ template <class S> class IslandSleeps : public ::testing::Test {
     JointProperties<S> properties;
     properties.body_a = a;
     properties.body_b = b;
-    systems.map.insert(joint, properties);
+    systems.map.joints.insert(joint, properties);
     return id;
   }
   std::vector<BodyId> after(int steps) {
@@ -97,14 +97,14 @@ TYPED_TEST(IslandSleeps, bodies_that_a_joint_ties_fall_asleep_together_and_the_j
   EXPECT_EQ(state.sleeping[0]->joints.properties.size(), 1u);
   EXPECT_TRUE(state.joints.states.empty());
   EXPECT_TRUE(state.joints.properties.empty());
-  EXPECT_EQ(this->systems.map.joint_location(joint.slot).set, 0u);
+  EXPECT_EQ(this->systems.map.joints.location(joint.slot).set, 0u);
   EXPECT_EQ(this->systems.map.names(this->balls[1].slot), 2u);
 }
 
 TYPED_TEST(IslandSleeps, a_joint_to_the_world_sleeps_with_its_body) {
   const JointId joint = this->tie(kNoBody, this->balls[2].slot);
   EXPECT_EQ(this->after(30).size(), 3u);
-  EXPECT_TRUE(this->systems.map.joint_location(joint.slot).is_asleep());
+  EXPECT_TRUE(this->systems.map.joints.location(joint.slot).is_asleep());
   EXPECT_EQ(this->systems.state.sleeping[1]->joints.states.size(), 1u);
 }
 

@@ -77,10 +77,10 @@ TYPED_TEST(IslandWakes, all_wake_at_once_and_what_was_awake_rests_anew) {
 }
 
 TYPED_TEST(IslandWakes, a_joint_wakes_with_its_bodies_and_what_it_ties_rests_anew) {
-  EXPECT_TRUE(this->systems.map.joint_location(this->joints[0].slot).is_asleep());
+  EXPECT_TRUE(this->systems.map.joints.location(this->joints[0].slot).is_asleep());
   EXPECT_EQ(this->systems.wake.wake_joint(this->joints[0].slot), 0u);
   this->expect_awake({0, 3});
-  EXPECT_TRUE(this->systems.map.joint_location(this->joints[1].slot).is_asleep());
+  EXPECT_TRUE(this->systems.map.joints.location(this->joints[1].slot).is_asleep());
   EXPECT_EQ(this->systems.wake.wake_joint(this->joints[1].slot), 1u) << "its index among the awake ones";
   this->expect_awake({0, 2, 3, 5});
   ASSERT_EQ(this->systems.state.joints.states.size(), 2u);

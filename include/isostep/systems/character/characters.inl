@@ -22,17 +22,17 @@ bool is_solid_for(const BodyMap<S>& map, const Walker<S>& character, const BodyP
                   const Child<S>& part) {
   const BodyProperties<S>& own = *map.properties_of(character.body);
   const bool masked = (part.traits.filter_or(other.filter).category & character.mask) == 0;
-  return !masked && parts_collide(part.traits, other.filter, map.children_of(own.shape)[0].traits, own.filter);
+  return !masked && parts_collide(part.traits, other.filter, map.shapes.children_of(own.shape)[0].traits, own.filter);
 }
 /// The part of its ground whose surface is nearest to its foot, of equals the first.
 template <class S> std::uint32_t part_under(const BodyMap<S>& map, const Walker<S>& character) {
   const BodyProperties<S>& ground = *map.properties_of(character.ground);
-  const std::span<const Child<S>> parts = map.children_of(ground.shape);
+  const std::span<const Child<S>> parts = map.shapes.children_of(ground.shape);
   std::uint32_t nearest = 0;
   S least = highest<S>();
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
     if (!is_solid_for(map, character, ground, parts[i])) continue;
-    const ShapeView<S> view = map.contents().view(parts[i].primitive);
+    const ShapeView<S> view = map.shapes.contents().view(parts[i].primitive);
     const S gap = abs(closest_point<S>(view, Transform<S>::of(parts[i].pose), character.foot).distance);
     if (!(gap < least)) continue;
     least = gap;
@@ -196,10 +196,10 @@ template <class S> S Characters<S>::highest_of(const Walker<S>& character, BodyI
   const Transform<S> upright = Transform<S>::of({Vec3<S>::zero(), rotation_between(axis, y)});
   S highest = -Limits<S>::position();
   const BodyProperties<S>& properties = map_.properties_at(map_.location(body.slot));
-  for (const Child<S>& child : map_.children_of(properties.shape)) {
+  for (const Child<S>& child : map_.shapes.children_of(properties.shape)) {
     if (!detail::is_solid_for(map_, character, properties, child)) continue;
     const Transform<S> at = compose(upright, Transform<S>::of(child.pose));
-    highest = max(highest, bounds(map_.contents().view(child.primitive), at).high.y);
+    highest = max(highest, bounds(map_.shapes.contents().view(child.primitive), at).high.y);
   }
   return highest;
 }

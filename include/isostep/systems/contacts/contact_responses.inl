@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/store/contact_ends.hpp"
 #include "isostep/systems/contacts/contact_responses.hpp"
 
 namespace isostep {
@@ -12,9 +13,9 @@ template <class S> void ContactResponses<S>::update() {
   if (table_.empty()) return;
   const auto kind = [&](std::uint32_t slot, std::uint32_t leaf) {
     const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
-    if (!map_.traits_of(body.shape).has(part_flag::kOwnMaterial)) return body.material.kind;
-    const std::uint32_t child = map_.leaf_of(slot, leaf).child;
-    return map_.children_of(body.shape)[child].traits.material_or(body.material).kind;
+    if (!map_.shapes.traits_of(body.shape).has(part_flag::kOwnMaterial)) return body.material.kind;
+    const std::uint32_t child = leaf_of(map_, slot, leaf).child;
+    return map_.shapes.children_of(body.shape)[child].traits.material_or(body.material).kind;
   };
   for (std::uint32_t i = 0; i < state_.contacts.size(); ++i) {
     const ContactKey& key = state_.contacts[i].key;

@@ -300,7 +300,7 @@ template <class S>
 std::uint32_t NarrowPhase<S>::reported_flag(const BodyFrame<S>& a, const BodyFrame<S>& b, const ContactKey& key) const {
   const auto reports = [&](const BodyFrame<S>& body, std::uint32_t leaf) {
     return body.reports &&
-           map_.reports(map_.properties_at(map_.location(body.slot)), detail::leaf_at(body, leaf).child);
+           map_.shapes.reports(map_.properties_at(map_.location(body.slot)), detail::leaf_at(body, leaf).child);
   };
   return reports(a, key.child_a) || reports(b, key.child_b) ? contact_flag::kReported : 0u;
 }

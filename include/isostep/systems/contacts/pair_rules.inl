@@ -99,7 +99,7 @@ template <class S> bool PairRules<S>::still_meet(BodyId a, BodyId b) const {
   if (!overlap(grow(box_low, margin), box_high)) return false;
   const bool still = at_low.set != Location::kAwake && at_high.set != Location::kAwake;
   // Of a body that has other parts, those that sense do not keep the pair: what they see is no obstacle.
-  const bool senses = map_.is_sensor(of_low) || map_.is_sensor(of_high);
+  const bool senses = map_.shapes.is_sensor(of_low) || map_.shapes.is_sensor(of_high);
   return still || bodies_touch(map_, low, high, senses ? ByParts::any : ByParts::solid, margin);
 }
 
@@ -129,7 +129,7 @@ template <class S> bool PairRules<S>::may_judge(std::uint64_t key) const {
   if (ghost < ghosts_ && apart_[ghost] == key) return false;
   const Location at_a = map_.location(a), at_b = map_.location(b);
   if (at_a.is_asleep() || at_b.is_asleep()) return false;
-  if (map_.is_sensor(map_.properties_at(at_a)) || map_.is_sensor(map_.properties_at(at_b))) return false;
+  if (map_.shapes.is_sensor(map_.properties_at(at_a)) || map_.shapes.is_sensor(map_.properties_at(at_b))) return false;
   return detail::contacts_of<S>(state_.contacts, a, b).empty();
 }
 

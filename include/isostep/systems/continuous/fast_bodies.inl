@@ -12,9 +12,9 @@ namespace isostep {
 namespace detail {
 /// Around a body, exactly if it has few parts; else its fat box, which needs no look at them.
 template <class S> Aabb<S> box_of_few(const BodyMap<S>& map, const BodyState<S>& state, const BodyProperties<S>& body) {
-  if (map.tree_of(body.shape) != nullptr) return state.fat;
-  const Transform<S> origin = Transform<S>::of(BodyMap<S>::origin_pose(state, body));
-  return bounds(map.children_of(body.shape), origin, map.contents());
+  if (map.shapes.tree_of(body.shape) != nullptr) return state.fat;
+  const Transform<S> origin = Transform<S>::of(origin_pose(state, body));
+  return bounds(map.shapes.children_of(body.shape), origin, map.shapes.contents());
 }
 
 /// Bodies no point of which moves by `motion` [m]. Most are, and a few comparisons tell: the centre has not moved by
@@ -60,17 +60,17 @@ template <class S> S FastBodies<S>::thinnest_static() const {
 template <class S> std::uint64_t FastBodies<S>::thinnest_of_page(std::size_t page) const {
   S least = highest<S>();
   for (const BodyProperties<S>& body : state_.static_bodies.page(page).properties)
-    least = min(least, map_.thinnest_of(body.shape));
+    least = min(least, map_.shapes.thinnest_of(body.shape));
   return detail::number_to_keep(least);
 }
 
 /// Kinematic bodies are few, and may sleep: then any shape may be one's.
 template <class S> typename FastBodies<S>::Survey FastBodies<S>::survey() const {
   Survey found = {thinnest_static(), false, false};
-  if (!state_.sleeping.empty()) found.thinnest = min(found.thinnest, map_.least_thickness());
+  if (!state_.sleeping.empty()) found.thinnest = min(found.thinnest, map_.shapes.least_thickness());
   for (const BodyProperties<S>& body : state_.awake.properties) {
     if (body.type == BodyType::kinematic) {
-      found.thinnest = min(found.thinnest, map_.thinnest_of(body.shape));
+      found.thinnest = min(found.thinnest, map_.shapes.thinnest_of(body.shape));
       found.kinematic = true;
     }
     if ((body.flags & body_flag::kBullet) != 0) found.bullets = true;
@@ -84,7 +84,7 @@ template <class S> void FastBodies<S>::find() {
   survey_ = survey();
   const S thinnest = survey_.bullets ? S(0) : survey_.thinnest;
   if (detail::kThick<S> < thinnest) return;  // nothing stops anybody
-  const S fast = (map_.least_thickness() + thinnest) * S(0.5);
+  const S fast = (map_.shapes.least_thickness() + thinnest) * S(0.5);
   const bool is_fixed = !(detail::kThick<S> < survey_.thinnest);  // something is
   const detail::SlowBodies<S> are_slow(fast, state_.settings.hz);
   // Whom the ground is asked about follows from the body alone: shapes elsewhere change nothing of it.

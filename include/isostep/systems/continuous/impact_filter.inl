@@ -20,9 +20,10 @@ template <class S> void ImpactFilter<S>::begin(std::span<const std::uint64_t> jo
 
 template <class S> bool ImpactFilter<S>::may_stop(std::uint32_t index, std::uint32_t slot, bool moving) const {
   const BodyProperties<S>& other = map_.properties_at(map_.location(slot));
-  if ((other.type == BodyType::dynamic) != moving || !map_.has_contacts(other)) return false;
+  if ((other.type == BodyType::dynamic) != moving || !map_.shapes.has_contacts(other)) return false;
   if (moving && (other.flags & body_flag::kBullet) != 0) return false;
-  if (!should_collide(map_.filter_of(state_.awake.properties[index]), map_.filter_of(other))) return false;
+  if (!should_collide(map_.shapes.filter_of(state_.awake.properties[index]), map_.shapes.filter_of(other)))
+    return false;
   if (rules_.ways != nullptr && is_let_out(index, slot)) return false;
   if (rules_.ghosts != nullptr && are_ghosts(index, slot)) return false;
   const std::uint64_t key = pair_key(state_.awake.states[index].slot, slot);

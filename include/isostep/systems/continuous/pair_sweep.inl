@@ -154,9 +154,10 @@ template <class S> bool PairSweep<S>::find_touch(Mover<S>& mover, std::uint32_t 
 
 template <class S> bool PairSweep<S>::is_deep_in(std::uint32_t index, std::uint32_t slot, const Aabb<S>& box) const {
   const BodyProperties<S>& body = state_.awake.properties[index];
-  const Transform<S> origin = Transform<S>::of(BodyMap<S>::origin_pose(state_.awake.states[index], body));
-  const S deep = min(map_.thinnest_of(body.shape) * S(0.5), detail::kTooDeep<S>);
-  if (!overlap(grow(bounds(map_.children_of(body.shape), origin, map_.contents()), -deep), box)) return false;
+  const Transform<S> origin = Transform<S>::of(origin_pose(state_.awake.states[index], body));
+  const S deep = min(map_.shapes.thinnest_of(body.shape) * S(0.5), detail::kTooDeep<S>);
+  if (!overlap(grow(bounds(map_.shapes.children_of(body.shape), origin, map_.shapes.contents()), -deep), box))
+    return false;
   if (!filter_.may_stop(index, slot, false)) return false;
   const Pose<S> end = motion_.now(index);
   const Obstacle<S> obstacle = at_rest(slot, S(0));
@@ -175,11 +176,11 @@ void PairSweep<S>::visit_parts(std::uint32_t index, const CoreMotion<S>& motion,
                                const Visit& visit) const {
   const BodyProperties<S>& body = state_.awake.properties[index];
   const BodyProperties<S>& other = map_.properties_at(map_.location(obstacle.slot));
-  const std::span<const Child<S>> parts_of_other = map_.children_of(other.shape);
-  const ChildTree<S>* const tree = map_.tree_of(other.shape);
+  const std::span<const Child<S>> parts_of_other = map_.shapes.children_of(other.shape);
+  const ChildTree<S>* const tree = map_.shapes.tree_of(other.shape);
   const Transform<S> frame = Transform<S>::of(obstacle.motion.start);
-  const bool traits = (map_.traits_of(body.shape).flags | map_.traits_of(other.shape).flags) != 0;
-  for (const Child<S>& child : map_.children_of(body.shape)) {
+  const bool traits = (map_.shapes.traits_of(body.shape).flags | map_.shapes.traits_of(other.shape).flags) != 0;
+  for (const Child<S>& child : map_.shapes.children_of(body.shape)) {
     const PlacedShape<S> part = detail::placed_part(map_, body, child);
     const Aabb<S> swept = detail::swept_bounds(part, motion);
     const auto visit_one = [&](const Child<S>& child_of_other) {

@@ -15,13 +15,13 @@ namespace detail {
 template <class S>
 PlacedShape<S> placed_part(const BodyMap<S>& map, const BodyProperties<S>& body, const Child<S>& child) {
   const Pose<S> at = {child.pose.position - body.local_centre, child.pose.orientation};
-  return {map.contents().view(child.primitive), Transform<S>::of(at)};
+  return {map.shapes.contents().view(child.primitive), Transform<S>::of(at)};
 }
 }  // namespace detail
 
 template <class S> bool StepMotion<S>::may_move(std::size_t index) const {
   const BodyProperties<S>& body = state_.awake.properties[index];
-  return body.type == BodyType::dynamic && map_.has_contacts(body);
+  return body.type == BodyType::dynamic && map_.shapes.has_contacts(body);
 }
 template <class S> bool StepMotion<S>::is_at_rest(Location at) const {
   if (at.set != Location::kAwake) return true;
@@ -64,7 +64,7 @@ template <class S> Mover<S> StepMotion<S>::measure(std::size_t index, const Body
   mover.inner = detail::kThick<S>;
   const Transform<S> turned[] = {{Vec3<S>::zero(), to_matrix(mover.from().orientation)},
                                  {Vec3<S>::zero(), to_matrix(mover.to().orientation)}};
-  for (const Child<S>& child : map_.children_of(body.shape)) {
+  for (const Child<S>& child : map_.shapes.children_of(body.shape)) {
     if (child.traits.has(part_flag::kSensor)) continue;
     const PlacedShape<S> part = detail::placed_part(map_, body, child);
     const Aabb<S> box = bounds(part.shape, part.at);

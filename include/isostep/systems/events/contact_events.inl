@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/reduced_mass.hpp"
+#include "isostep/store/contact_ends.hpp"
 #include "isostep/store/contact_pairs.hpp"
 #include "isostep/store/event_order.hpp"
 #include "isostep/store/finite_guard.hpp"
@@ -64,7 +65,7 @@ template <class S> void ContactEvents<S>::collect(const SolvedContacts<S>& conta
     for (; new_pair == pair; new_pair = pair_at(now, j)) j = reported(now, j + 1);
     const std::size_t was = detail::first_touching<S>(old, first_old, i);
     const std::size_t is = detail::first_touching<S>(now, first_now, j);
-    if (was < i && is == j) events.contact_end.push_back(map_.named(old[was].key));
+    if (was < i && is == j) events.contact_end.push_back(ends_of(state_, map_, old[was].key));
     if (was == i && is < j) events.contact_begin.push_back(begin_of(contacts, is));
   }
   if (told) detail::sort_ends(events.contact_end, end_scratch_);
@@ -73,7 +74,7 @@ template <class S> void ContactEvents<S>::collect(const SolvedContacts<S>& conta
 /// Of a pair that touches first in that contact.
 template <class S>
 ContactBegin<S> ContactEvents<S>::begin_of(const SolvedContacts<S>& contacts, std::size_t first) const {
-  const ContactEnd parts = map_.named(contacts.now[first].key);
+  const ContactEnd parts = ends_of(state_, map_, contacts.now[first].key);
   const std::size_t end = detail::end_of_pair(contacts.now, first);
   const S impulse = detail::normal_impulse(state_, contacts, first, end, contact_flag::kReported);
   return {parts.a, parts.b, parts.child_a, parts.child_b, impulse, contacts.geometry[first].normal};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/store/contact_ends.hpp"
 #include "isostep/systems/events/contact_events.inl"
 #include "isostep/systems/events/contact_points.hpp"
 
@@ -26,8 +27,8 @@ void ContactPoints<S>::tell(const SolvedContacts<S>& contacts, std::size_t at, E
   const Contact<S>& contact = contacts.now[at];
   const ContactGeometry<S>& g = contacts.geometry[at];
   const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };
-  const Leaf a = map_.leaf_of(contact.key.body_a, contact.key.child_a);
-  const Leaf b = map_.leaf_of(contact.key.body_b, contact.key.child_b);
+  const Leaf a = leaf_of(map_, contact.key.body_a, contact.key.child_a);
+  const Leaf b = leaf_of(map_, contact.key.body_b, contact.key.child_b);
   const Vec3<S> centre_b = map_.state_at(map_.location(contact.key.body_b)).centre;
   const S total = detail::normal_impulse(state_, contacts, at, at + 1);
   Velocity<S> largest = Velocity<S>(0);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/store/contact_ends.hpp"
 #include "isostep/store/contact_pairs.hpp"
 #include "isostep/systems/events/hit_events.hpp"
 
@@ -74,7 +75,7 @@ void HitEvents<S>::tell(const SolvedContacts<S>& contacts, std::size_t first, st
   const Approach& approach = approaches_[fastest];
   const auto beyond = [&](S threshold) { return !(threshold < S(0)) && threshold < approach.speed; };
   if (!beyond(thresholds_[key.body_a]) && !beyond(thresholds_[key.body_b])) return;
-  const ContactEnd parts = map_.named(contacts.now[fastest].key);
+  const ContactEnd parts = ends_of(state_, map_, contacts.now[fastest].key);
   const ContactGeometry<S>& g = contacts.geometry[fastest];
   const Vec3<S> at = map_.state_at(map_.location(key.body_b)).centre + g.points[approach.point].arm_b;
   events.hits.push_back({parts.a, parts.b, parts.child_a, parts.child_b, at, g.normal, approach.speed});

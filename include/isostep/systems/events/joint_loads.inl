@@ -17,7 +17,7 @@ template <class S> std::span<JointImpulse<S>> JointLoads<S>::impulses() {
 
 /// Writes what it bore. True: that breaks it.
 template <class S> bool JointLoads<S>::measure(const JointLoad<S>& load, JointLoadState<S>& state) const {
-  const Location at = map_.joint_location(load.joint.slot);
+  const Location at = map_.joints.location(load.joint.slot);
   if (at.is_asleep()) return false;
   const JointImpulse<S>& impulse = impulses_[at.index];
   const JointProperties<S>& joint = state_.joints.properties[at.index];
@@ -40,7 +40,7 @@ template <class S> void JointLoads<S>::update(Events<S>& events) {
     const JointLoad<S>& load = loads.all()[slot];
     JointLoadState<S>& state = state_.parts.joint_load_states[slot];
     if (!measure(load, state)) continue;
-    const JointProperties<S>& joint = *map_.properties_of(load.joint);
+    const JointProperties<S>& joint = *map_.joints.properties_of(load.joint);
     const auto id = [](std::uint32_t body, std::uint32_t generation) {
       return body == kNoBody ? BodyId{} : BodyId{body, generation};
     };

@@ -64,7 +64,7 @@ void SensorOverlaps<S>::find_sleepers(std::uint32_t sensor, std::vector<SensorOv
   if (!proxies_.present(sensor)) return;
   const auto traits_of = [&](std::uint32_t slot, bool awake) {
     const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
-    return ProxyTraits::of(body, map_.traits_of(body.shape), awake);
+    return ProxyTraits::of(body, map_.shapes.traits_of(body.shape), awake);
   };
   const ProxyTraits traits = traits_of(sensor, true);
   proxies_.boxes().query(proxies_.boxes().box(sensor), [&](std::uint32_t other) {

@@ -16,10 +16,10 @@ template <class S> Vec3<S> BlastShields<S>::exposed_point(std::uint32_t row, Vec
   const Vec3<S> query = from - state.centre;
   Vec3<S> nearest = Vec3<S>::zero();
   S least = highest<S>();
-  for (const Child<S>& child : map_.children_of(body.shape)) {
+  for (const Child<S>& child : map_.shapes.children_of(body.shape)) {
     if (child.traits.has(part_flag::kSensor)) continue;
     const Transform<S> at = compose(origin, Transform<S>::of(child.pose));
-    const ClosestPoint<S> found = closest_point<S>(map_.contents().view(child.primitive), at, query);
+    const ClosestPoint<S> found = closest_point<S>(map_.shapes.contents().view(child.primitive), at, query);
     if (!(found.distance < least)) continue;
     least = found.distance;
     nearest = found.point;
@@ -35,14 +35,14 @@ template <class S> bool BlastShields<S>::is_shielded(Vec3<S> from, Vec3<S> to) c
     const Location location = map_.location(slot);
     if (hit || location.set != Location::kStatic) return most;
     const BodyProperties<S>& body = map_.properties_at(location);
-    if (!map_.has_contacts(body)) return most;
-    const Transform<S> placed = Transform<S>::of(BodyMap<S>::origin_pose(map_.state_at(location), body));
-    for (const Child<S>& child : map_.children_of(body.shape)) {
+    if (!map_.shapes.has_contacts(body)) return most;
+    const Transform<S> placed = Transform<S>::of(origin_pose(map_.state_at(location), body));
+    for (const Child<S>& child : map_.shapes.children_of(body.shape)) {
       if (child.traits.has(part_flag::kSensor)) continue;
       RayHit<S> found;
       const Transform<S> at = compose(placed, Transform<S>::of(child.pose));
-      hit = hit ||
-            (ray_cast<S>(map_.contents().view(child.primitive), at, from, way, S(1), found, true) && !found.inside);
+      hit = hit || (ray_cast<S>(map_.shapes.contents().view(child.primitive), at, from, way, S(1), found, true) &&
+                    !found.inside);
     }
     return most;
   });

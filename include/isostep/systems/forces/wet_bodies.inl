@@ -19,10 +19,10 @@ Wet<S> WetBodies<S>::displaced(std::uint32_t row, S density, const detail::Water
   const Mat3<U> turn = to_matrix(bodies_.state(row).orientation);
   const Transform<S> origin = {-(turn * body.local_centre), turn};
   Wet<S> wet = {S(0), Vec3<S>::zero(), row, nullptr, Vec3<S>::zero()};
-  for (const Child<S>& child : map_.children_of(body.shape)) {
+  for (const Child<S>& child : map_.shapes.children_of(body.shape)) {
     if (child.traits.has(part_flag::kSensor)) continue;
     const Transform<S> at = compose(origin, Transform<S>::of(child.pose));
-    const ShapeView<S> part = map_.contents().view(child.primitive);
+    const ShapeView<S> part = map_.shapes.contents().view(child.primitive);
     const Vec3<U> up = transposed_times(at.rotation, surface.normal);
     const Submersion<S> sunk = submersion<S>(part, up, surface.depth - dot(surface.normal, at.position));
     if (!(U(0) < sunk.share)) continue;

@@ -25,14 +25,14 @@ template <class S> void CouplingRows<S>::begin_step() {
 }
 template <class S> bool CouplingRows<S>::sleeps(const Coupling<S>& coupling) const {
   for (const JointId joint : detail::joints_of(coupling).all) {
-    if (joint && map_.joint_location(joint.slot).is_asleep()) return true;
+    if (joint && map_.joints.location(joint.slot).is_asleep()) return true;
   }
   return false;
 }
 /// Whether all of its joints, which are awake, hold their bodies.
 template <class S> bool CouplingRows<S>::acts(const Coupling<S>& coupling) const {
   for (const JointId joint : detail::joints_of(coupling).all) {
-    if (joint && !map_.is_enabled(*map_.properties_of(joint))) return false;
+    if (joint && !map_.is_enabled(*map_.joints.properties_of(joint))) return false;
   }
   return true;
 }
@@ -48,7 +48,7 @@ template <class S> void CouplingRows<S>::list_run(std::uint32_t slot, const Coup
   run.begins = true;
   for (int i = 0; i < run.count; ++i) {
     Term& term = run.terms[i];
-    term.index = map_.joint_location(joints[i].slot).index;
+    term.index = map_.joints.location(joints[i].slot).index;
     const JointProperties<S>& joint = state_.joints.properties[term.index];
     term.rows[0] = map_.row_of(joint.body_a);
     term.rows[1] = map_.row_of(joint.body_b);

@@ -15,7 +15,7 @@ namespace isostep {
 namespace detail {
 /// The pose of the centre of mass as a body's origin is at the pose.
 template <class S> ISO_INLINE Pose<S> centre_at(const Pose<S>& pose, Vec3<S> local_centre) {
-  return BodyMap<S>::centre_pose({pose.position, normalise(pose.orientation)}, local_centre);
+  return centre_pose({pose.position, normalise(pose.orientation)}, local_centre);
 }
 }  // namespace detail
 

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "isostep/core/instantiate.hpp"
-#include "isostep/store/body_map.hpp"
+#include "isostep/store/body_poses.hpp"
+#include "isostep/store/state.hpp"
 #include "isostep/store/views.hpp"
 
 namespace isostep {

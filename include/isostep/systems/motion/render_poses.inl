@@ -42,13 +42,13 @@ template <class S> const std::vector<RenderPose>& RenderPoses<S>::fill(float alp
 template <class S>
 void RenderPoses<S>::add(const BodyState<S>& state, const BodyProperties<S>& body, const Pose<S>* start, float alpha) {
   const auto number = [](auto x) { return static_cast<float>(to_double(x)); };
-  const Pose<S> now = BodyMap<S>::origin_pose(state, body);
+  const Pose<S> now = origin_pose(state, body);
   BodyState<S> then_state = state;
   if (start != nullptr) {
     then_state.centre = start->position;
     then_state.orientation = start->orientation;
   }
-  const Pose<S> then = BodyMap<S>::origin_pose(then_state, body);
+  const Pose<S> then = origin_pose(then_state, body);
   const auto blend = [&](auto from, auto to) { return number(from) + alpha * (number(to) - number(from)); };
   const Quat<Unit<S>> p = then.orientation, q = now.orientation;
   const float sign =

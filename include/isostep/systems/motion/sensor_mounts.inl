@@ -38,7 +38,7 @@ template <class S> template <class Visit> void SensorMounts<S>::for_each(const V
 template <class S>
 void SensorMounts<S>::put(BodyState<S>& sensor, const BodyProperties<S>& body, const SensorMount<S>& mount) {
   const Pose<S> origin = compose(map_.origin_pose_at(mount.on.slot), mount.frame);
-  const Pose<S> to = BodyMap<S>::centre_pose(origin, body.local_centre);
+  const Pose<S> to = centre_pose(origin, body.local_centre);
   const Vec3<S> centre = held_within(to.position, Limits<S>::position());
   if (sensor.centre == centre && sensor.orientation == to.orientation) return;
   sensor.centre = centre;

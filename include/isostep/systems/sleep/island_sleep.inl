@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "isostep/state/members.hpp"
+#include "isostep/store/contact_ends.hpp"
 #include "isostep/store/fat_box.hpp"
 #include "isostep/systems/sleep/island_sleep.hpp"
 
@@ -130,8 +131,8 @@ template <class S> void IslandSleep<S>::stop_clocks_by_forces() {
 template <class S>
 const Material<S>& IslandSleep<S>::surface_of(const BodyProperties<S>& body, std::uint32_t slot,
                                               std::uint32_t leaf) const {
-  if (!map_.traits_of(body.shape).has(part_flag::kOwnMaterial)) return body.material;
-  return map_.children_of(body.shape)[map_.leaf_of(slot, leaf).child].traits.material_or(body.material);
+  if (!map_.shapes.traits_of(body.shape).has(part_flag::kOwnMaterial)) return body.material;
+  return map_.shapes.children_of(body.shape)[leaf_of(map_, slot, leaf).child].traits.material_or(body.material);
 }
 /// A body that rests on something that moves is not at rest: a drum or a conveyor carries it.
 template <class S> void IslandSleep<S>::stop_clocks_of_carried(const Belts<S>* belts) {
@@ -169,7 +170,7 @@ template <class S> void IslandSleep<S>::stop_clocks_of_motors() {
   }
   for (const AxisDrive<S>& drive : state_.records->axis_drives.all()) {
     if (!drive.motor || !is_slow(drive.motor_speed)) continue;
-    const Location at = map_.joint_location(drive.joint.slot);
+    const Location at = map_.joints.location(drive.joint.slot);
     if (!at.is_asleep()) stop_if_runs(at.index, static_cast<std::uint32_t>(drive.axis));
   }
 }
@@ -213,7 +214,7 @@ template <class S> void IslandSleep<S>::find_islands() {
 template <class S> void IslandSleep<S>::tie_coupled(const Coupling<S>& coupling) {
   std::uint32_t first = kNoBody;
   for (const JointId id : detail::joints_of(coupling).all) {
-    const JointProperties<S>* joint = map_.properties_of(id);
+    const JointProperties<S>* joint = map_.joints.properties_of(id);
     if (joint == nullptr) continue;
     for (const std::uint32_t body : {joint->body_a, joint->body_b}) {
       if (body == kNoBody || !is_dynamic(body)) continue;
@@ -335,13 +336,13 @@ template <class S> void IslandSleep<S>::move_bodies(std::vector<BodyId>& fell_as
 /// Lists the islands in order of their first bodies.
 template <class S> void IslandSleep<S>::list_islands() {
   map_.relabel(state_.awake, Location::kAwake, 0);
-  map_.relabel(state_.joints, Location::kAwake, 0);
+  map_.joints.relabel(state_.joints, Location::kAwake, 0);
   for (const std::shared_ptr<SleepingIsland<S>>& island : asleep_) {
     if (island == nullptr) continue;
     island->hash = detail::hash_sections(*island);
     const auto name = static_cast<std::uint32_t>(state_.sleeping.size());
     map_.relabel(island->bodies, name, 0);
-    map_.relabel(island->joints, name, 0);
+    map_.joints.relabel(island->joints, name, 0);
     for (std::size_t i = 0; i < island->bodies.states.size(); ++i)
       proxies_.place(island->bodies.states[i], island->bodies.properties[i], false);
     map_.count_names(*island, 1);

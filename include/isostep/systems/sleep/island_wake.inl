@@ -61,14 +61,15 @@ template <class S> bool IslandWake<S>::wake_touched() {
 /// before they touch.
 template <class S> void IslandWake<S>::find_run_over(std::size_t index) {
   const BodyProperties<S>& body = state_.awake.properties[index];
-  if (body.type != BodyType::kinematic || !map_.has_contacts(body)) return;
+  if (body.type != BodyType::kinematic || !map_.shapes.has_contacts(body)) return;
   const BodyState<S>& state = state_.awake.states[index];
   const Step<S> h = divide_to<Step<S>>(S(1), S(state_.settings.hz));
   const Vec3<S> way = convert<S>(state.velocity) * h;
   if (!(detail::kSpeculativeDistance<S> < max_abs(way))) return;  // it touches first
   S thick = Limits<S>::extent();
-  for (const Child<S>& child : map_.children_of(body.shape)) {
-    if (!child.traits.has(part_flag::kSensor)) thick = min(thick, thickness<S>(map_.contents().view(child.primitive)));
+  for (const Child<S>& child : map_.shapes.children_of(body.shape)) {
+    if (!child.traits.has(part_flag::kSensor))
+      thick = min(thick, thickness<S>(map_.shapes.contents().view(child.primitive)));
   }
   if (max_abs(way) < thick) return;
   const Aabb<S> there = {saturating_add(state.fat.low, way), saturating_add(state.fat.high, way)};
@@ -78,8 +79,8 @@ template <class S> void IslandWake<S>::find_run_over(std::size_t index) {
     const Location at = map_.location(other);
     if (!at.is_asleep() || !overlap(swept, map_.state_at(at).fat)) return true;
     const BodyProperties<S>& sleeper = map_.properties_at(at);
-    const bool collides = should_collide(map_.filter_of(body), map_.filter_of(sleeper));
-    if (map_.has_contacts(sleeper) && collides && may_run_over(state, way, other) &&
+    const bool collides = should_collide(map_.shapes.filter_of(body), map_.shapes.filter_of(sleeper));
+    if (map_.shapes.has_contacts(sleeper) && collides && may_run_over(state, way, other) &&
         !are_ghosts(state_, map_, state.slot, other))
       met.push_back(other);
     return true;
@@ -93,16 +94,16 @@ template <class S>
 bool IslandWake<S>::may_run_over(const BodyState<S>& state, Vec3<S> way, std::uint32_t sleeper) const {
   const BodyProperties<S>& body = map_.properties_at(map_.location(state.slot));
   const BodyProperties<S>& other = map_.properties_at(map_.location(sleeper));
-  if ((map_.traits_of(body.shape).flags | map_.traits_of(other.shape).flags) == 0) return true;
+  if ((map_.shapes.traits_of(body.shape).flags | map_.shapes.traits_of(other.shape).flags) == 0) return true;
   const Transform<S> own_frame = Transform<S>::of(map_.origin_pose_at(state.slot));
   const Transform<S> other_frame = Transform<S>::of(map_.origin_pose_at(sleeper));
-  for (const Child<S>& part : map_.children_of(body.shape)) {
-    const Aabb<S> here = bounds(part, own_frame, map_.contents());
+  for (const Child<S>& part : map_.shapes.children_of(body.shape)) {
+    const Aabb<S> here = bounds(part, own_frame, map_.shapes.contents());
     const Aabb<S> there = {saturating_add(here.low, way), saturating_add(here.high, way)};
     const Aabb<S> swept = grow(merge(here, there), detail::kFatMargin<S>);
-    for (const Child<S>& met : map_.children_of(other.shape)) {
+    for (const Child<S>& met : map_.shapes.children_of(other.shape)) {
       if (parts_collide(part.traits, body.filter, met.traits, other.filter) &&
-          overlap(swept, bounds(met, other_frame, map_.contents())))
+          overlap(swept, bounds(met, other_frame, map_.shapes.contents())))
         return true;
     }
   }
@@ -118,14 +119,14 @@ template <class S> bool IslandWake<S>::is_touched(std::uint64_t pair) const {
   const BodyProperties<S>& body = state_.awake.properties[mover.index];
   const bool still = state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
   if (body.type == BodyType::kinematic && still) return false;
-  if (map_.is_sensor(body) || map_.is_sensor(map_.properties_at(a.is_asleep() ? a : b))) return false;
+  if (map_.shapes.is_sensor(body) || map_.shapes.is_sensor(map_.properties_at(a.is_asleep() ? a : b))) return false;
   return bodies_touch(map_, pair_a(pair), pair_b(pair), ByParts::solid) &&
          !are_ghosts(state_, map_, pair_a(pair), pair_b(pair));
 }
 
 /// A sensor sees others and touches none.
 template <class S> bool IslandWake<S>::is_sensor(std::uint32_t slot) const {
-  return map_.is_sensor(map_.properties_at(map_.location(slot)));
+  return map_.shapes.is_sensor(map_.properties_at(map_.location(slot)));
 }
 template <class S> void IslandWake<S>::wake_touching(std::uint32_t slot) {
   if (!proxies_.present(slot)) return;
@@ -135,7 +136,7 @@ template <class S> void IslandWake<S>::wake_touching(std::uint32_t slot) {
 template <class S> void IslandWake<S>::wake_touching(const Aabb<S>& box, std::uint32_t slot) {
   if (!state_.settings.allow_sleep) return;  // nobody sleeps, nor counts the time
   const bool is_still = map_.location(slot).set == Location::kStatic;
-  if (is_still && map_.senses(map_.properties_at(map_.location(slot))))
+  if (is_still && map_.shapes.senses(map_.properties_at(map_.location(slot))))
     state_.untold.sensors.push_back(state_.body_slots.template id_of<BodyId>(slot));
   if (is_sensor(slot)) return;
   if (state_.awake.states.empty() && state_.sleeping.empty()) return;  // a level before anything is in it
@@ -177,12 +178,12 @@ template <class S> void IslandWake<S>::wake_wheels_on(std::uint32_t slot, const 
 }
 
 template <class S> std::uint32_t IslandWake<S>::wake_joint(std::uint32_t slot) {
-  const Location at = map_.joint_location(slot);
+  const Location at = map_.joints.location(slot);
   if (at.is_asleep()) {
     start_waking(at.set);
     merge_woken();
   }
-  const std::uint32_t index = map_.joint_location(slot).index;
+  const std::uint32_t index = map_.joints.location(slot).index;
   const JointProperties<S>& properties = state_.joints.properties[index];
   reset_clock(properties.body_a);
   reset_clock(properties.body_b);
@@ -210,7 +211,7 @@ template <class S> void IslandWake<S>::start_waking(std::uint32_t index) {
     const std::shared_ptr<const SleepingIsland<S>> moved = state_.sleeping[last];
     state_.sleeping.change(index) = moved;
     map_.relabel(moved->bodies, index, 0);
-    map_.relabel(moved->joints, index, 0);
+    map_.joints.relabel(moved->joints, index, 0);
   }
   state_.sleeping.pop_back();
   map_.count_names(*island, ~0u);
@@ -228,7 +229,7 @@ template <class S> void IslandWake<S>::merge_woken() {
       state_.joints, [](const SleepingIsland<S>& island) -> const auto& { return island.joints; });
   merge_contacts();
   map_.relabel(state_.awake, Location::kAwake, 0);
-  map_.relabel(state_.joints, Location::kAwake, 0);
+  map_.joints.relabel(state_.joints, Location::kAwake, 0);
   for (const auto& island : woken_) {
     for (const BodyState<S>& asleep : island->bodies.states) {
       const std::uint32_t index = map_.location(asleep.slot).index;

@@ -10,7 +10,7 @@ namespace isostep {
 /// Whether parts of the two might collide.
 template <class S> bool WheelGround<S>::bears(std::uint32_t body, std::uint32_t ground) const {
   const BodyProperties<S>&a = state_.awake.properties[body - 1], &b = map_.properties_at(map_.location(ground));
-  return (b.flags & body_flag::kCollide) != 0 && should_collide(a.filter, map_.filter_of(b));
+  return (b.flags & body_flag::kCollide) != 0 && should_collide(a.filter, map_.shapes.filter_of(b));
 }
 /// The first that is not held from the start and is not too steep.
 template <class S>
@@ -78,7 +78,7 @@ template <class S> void WheelGround<S>::stand_on(Run& run, const Ground& ground)
   run.ground_arm = ground.point - map_.state_at(at).centre;
   run.normal = ground.normal;
   const BodyProperties<S>& body = map_.properties_at(at);
-  const S friction = map_.children_of(body.shape)[ground.child].traits.material_or(body.material).friction;
+  const S friction = map_.shapes.children_of(body.shape)[ground.child].traits.material_or(body.material).friction;
   run.mu_along = sqrt(saturate_to<S>(product(wheels_.wheel(run).grip_along, friction)));
   run.mu_across = sqrt(saturate_to<S>(product(wheels_.wheel(run).grip_across, friction)));
 }
