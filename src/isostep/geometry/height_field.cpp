@@ -1,4 +1,4 @@
-// Height fields: what is refused, their pyramid of heights, their triangles and their canonical bytes.
+// Height fields: what is refused, their triangles and their canonical bytes.
 // SPDX-License-Identifier: MIT
 #include "isostep/geometry/baked/height_field.hpp"
 
@@ -46,32 +46,46 @@ struct Offset {
 constexpr Offset kOpposite[3] = {{-1, 1}, {1, 1}, {1, -1}};  // across edge k
 constexpr Offset kCells[3] = {{-1, 0}, {0, 0}, {0, -1}};     // from the cell to the one across edge k
 
-}  // namespace
-
-/// Half 1 is half 0 turned about the middle of the cell.
-BakedHeightField::Place BakedHeightField::place_of(std::uint32_t id) const {
-  const std::uint32_t cell = id / 2, half = id % 2, k = cell / cells_x();
-  return {cell - k * cells_x(), k, half == 0 ? 1 : -1};
+/// The place of a triangle: its cell, and 1 for half 0, -1 for half 1. Half 1 is half 0 turned about the middle of the
+/// cell.
+struct Place {
+  std::uint32_t i, k;
+  std::int32_t sign;
+};
+Place place_of(const HeightGrid& grid, std::uint32_t id) {
+  const std::uint32_t cell = id / 2, half = id % 2, k = cell / grid.cells_x();
+  return {cell - k * grid.cells_x(), k, half == 0 ? 1 : -1};
 }
-std::uint32_t BakedHeightField::cell_across(Place place, int k) const {
+/// The number of the cell across edge k, a ghost's too, or kNoTriangle where it is outside or a hole.
+std::uint32_t cell_across(const HeightCells& field, Place place, int k) {
   const std::uint32_t i = place.i + static_cast<std::uint32_t>(place.sign * kCells[k].i),
                       row = place.k + static_cast<std::uint32_t>(place.sign * kCells[k].k);
-  if (i >= cells_x() || row >= cells_z()) return kNoTriangle;  // -1 too
-  const std::uint32_t cell = row * cells_x() + i;
-  return materials_[cell] == kHole ? kNoTriangle : cell;
+  if (i >= field.grid.cells_x() || row >= field.grid.cells_z()) return kNoTriangle;  // -1 too
+  const std::uint32_t cell = row * field.grid.cells_x() + i;
+  return field.materials[cell] == BakedHeightField::kHole ? kNoTriangle : cell;
 }
 
+CellRange cells_about(const HeightGrid& grid, const HeightPatch& patch) {
+  const auto before = [](std::uint32_t v) { return v == 0 ? 0 : v - 1; };
+  return {{before(patch.column), before(patch.row)},
+          {std::min(patch.column + patch.columns - 1, grid.cells_x() - 1),
+           std::min(patch.row + patch.rows - 1, grid.cells_z() - 1)}};
+}
+
+}  // namespace
+
 std::uint32_t BakedHeightField::neighbour(std::uint32_t id, int k) const {
-  const std::uint32_t cell = cell_across(place_of(id), k);
+  const std::uint32_t cell = cell_across(cells(), place_of(grid_, id), k);
   return cell == kNoTriangle ? kNoTriangle : 2 * cell + (1 - id % 2);
 }
 
 /// The triangles of an edge span a parallelogram of the grid, so the sum of the heights across tells how they lie to
 /// each other when it is compared with the sum along.
 BakedTriangle BakedHeightField::triangle(std::uint32_t id) const {
-  const Place place = place_of(id);
+  const HeightCells field = cells();
+  const Place place = place_of(grid_, id);
   const std::uint32_t i = place.i + id % 2, k = place.k + id % 2;
-  const std::int16_t* const corner = heights_.data() + static_cast<std::size_t>(k) * grid_.columns + i;
+  const std::int16_t* const corner = field.heights + static_cast<std::size_t>(k) * grid_.columns + i;
   const std::int32_t pitch = place.sign * static_cast<std::int32_t>(grid_.pitch), unit = 1 << grid_.height_shift;
   const auto x = static_cast<std::int32_t>(i * grid_.pitch), z = static_cast<std::int32_t>(k * grid_.pitch);
   const std::ptrdiff_t column = place.sign, row = column * static_cast<std::ptrdiff_t>(grid_.columns);
@@ -80,7 +94,7 @@ BakedTriangle BakedHeightField::triangle(std::uint32_t id) const {
   };
   BakedTriangle baked = {corners(id), {}, {}, materials_[id / 2]};
   for (int e = 0; e < 3; ++e) {
-    if (cell_across(place, e) == kNoTriangle) continue;
+    if (cell_across(field, place, e) == kNoTriangle) continue;
     const MeshPoint a = baked.points[e], b = baked.points[(e + 1) % 3], c = baked.points[(e + 2) % 3];
     baked.opposite[e] = at(kOpposite[e]);
     const std::int32_t rise = baked.opposite[e].y + c.y - a.y - b.y;
@@ -89,67 +103,24 @@ BakedTriangle BakedHeightField::triangle(std::uint32_t id) const {
   return baked;
 }
 
-/// Returns false where no triangle touches the box.
-bool BakedHeightField::range_of(const MeshBox& box, CellRange& range) const {
+bool BakedHeightField::range_of(const MeshBox& box, CellBox& range) const {
   const MeshBox own = bounds();
   if (!own.touches(box)) return false;
   const std::int64_t pitch = grid_.pitch, unit = std::int64_t{1} << grid_.height_shift;
-  const std::uint32_t cells[2] = {cells_x(), cells_z()};
+  const std::uint32_t last[2] = {grid_.cells_x() - 1, grid_.cells_z() - 1};
   for (int side = 0; side < 2; ++side) {
     const int axis = 2 * side;
     if (box.low[axis] > box.high[axis]) return false;
     const std::int64_t low = std::max(box.low[axis], own.low[axis]), high = std::min(box.high[axis], own.high[axis]);
     // A cell ends where the next begins.
     range.low[side] = low == 0 ? 0 : static_cast<std::uint32_t>((low - 1) / pitch);
-    range.high[side] = std::min(cells[side] - 1, static_cast<std::uint32_t>(high / pitch));
+    range.high[side] = std::min(last[side], static_cast<std::uint32_t>(high / pitch));
   }
   if (box.low[1] > box.high[1]) return false;
   const std::int64_t low = std::max(box.low[1], own.low[1]), high = std::min(box.high[1], own.high[1]);
   range.low_height = static_cast<std::int32_t>((low + unit - 1) >> grid_.height_shift);
   range.high_height = static_cast<std::int32_t>(high >> grid_.height_shift);
   return true;
-}
-
-void BakedHeightField::lay_out() {
-  std::size_t total = 0;
-  for (levels_ = 0; levels_ == 0 || blocks_x(levels_ - 1) > 1 || blocks_z(levels_ - 1) > 1; ++levels_) {
-    starts_[levels_] = total;
-    total += static_cast<std::size_t>(blocks_x(levels_)) * blocks_z(levels_);
-  }
-  spans_.resize(total);
-}
-
-/// Renews the spans of all blocks that hold the cells.
-void BakedHeightField::refresh(const CellRange& cells) {
-  for (std::uint32_t level = 0; level < levels_; ++level) {
-    const std::uint32_t bits = kBlockBits + level;
-    for (std::uint32_t z = cells.low[1] >> bits; z <= cells.high[1] >> bits; ++z) {
-      for (std::uint32_t x = cells.low[0] >> bits; x <= cells.high[0] >> bits; ++x) {
-        const Block block = {x, z, level};
-        spans_[place_of(block)] = computed_span(block);
-      }
-    }
-  }
-}
-
-BakedHeightField::Span BakedHeightField::computed_span(Block block) const {
-  Span span = {INT16_MAX, INT16_MIN};
-  if (block.level > 0) {
-    Block parts[4];
-    int count = 0;
-    push_parts(block, 0, parts, count);
-    for (int i = 0; i < count; ++i) {
-      const Span part = span_of(parts[i]);
-      span = {std::min(span.low, part.low), std::max(span.high, part.high)};
-    }
-    return span;
-  }
-  for (std::uint32_t k = block.z * kBlock; k < std::min((block.z + 1) * kBlock, cells_z()); ++k) {
-    for (std::uint32_t i = block.x * kBlock; i < std::min((block.x + 1) * kBlock, cells_x()); ++i) {
-      if (is_solid(static_cast<std::size_t>(k) * cells_x() + i)) add_cell(span, i, k);
-    }
-  }
-  return span;
 }
 
 Result<BakedHeightField> height_field(const HeightGrid& grid, std::span<const std::int16_t> heights,
@@ -171,28 +142,20 @@ Result<BakedHeightField> height_field(const HeightGrid& grid, std::span<const st
   field.materials_.assign(numbers.begin(), numbers.end());
   field.materials_.resize(cells, 0);
   field.table_.assign(materials.table.begin(), materials.table.end());
-  field.lay_out();
-  field.refresh({{0, 0}, {grid.columns - 2, grid.rows - 2}, 0, 0});
-  if (field.is_empty()) return fault("materials", kNothingThere);
+  field.blocks_.lay_out(grid);
+  field.blocks_.refresh(field.cells(), field.all_cells());
+  if (field.blocks_.span().is_empty()) return fault("materials", kNothingThere);
   return field;
 }
 
-/// The cells about a patch, in a CellRange whose heights say nothing.
-BakedHeightField::CellRange BakedHeightField::cells_about(const HeightPatch& patch) const {
-  const auto before = [](std::uint32_t v) { return v == 0 ? 0 : v - 1; };
-  return {
-      {before(patch.column), before(patch.row)},
-      {std::min(patch.column + patch.columns - 1, cells_x() - 1), std::min(patch.row + patch.rows - 1, cells_z() - 1)},
-      0,
-      0};
-}
 MeshBox BakedHeightField::bounds_about(const HeightPatch& patch) const {
-  const CellRange cells = cells_about(patch);
-  Span span = {INT16_MAX, INT16_MIN};
-  for (std::uint32_t k = cells.low[1]; k <= cells.high[1]; ++k) {
-    for (std::uint32_t i = cells.low[0]; i <= cells.high[0]; ++i) add_cell(span, i, k);
+  const HeightCells field = cells();
+  const CellRange about = cells_about(grid_, patch);
+  HeightSpan span;
+  for (std::uint32_t k = about.low[1]; k <= about.high[1]; ++k) {
+    for (std::uint32_t i = about.low[0]; i <= about.high[0]; ++i) field.add_cell(span, i, k);
   }
-  return box_of(cells.low[0], cells.low[1], cells.high[0] + 1, cells.high[1] + 1, span.low, span.high);
+  return field.box_of(about, span);
 }
 
 Result<BakedHeightField> BakedHeightField::with_heights(const HeightPatch& patch) const {
@@ -205,8 +168,8 @@ Result<BakedHeightField> BakedHeightField::with_heights(const HeightPatch& patch
       check_count("heights", patch.heights.size(), std::uint64_t{patch.columns} * patch.rows, "places");
   if (!places) return places.error();
   const std::uint64_t numbers = patch.materials.size();
-  const Result<void> cells = check_count("materials", numbers, numbers == 0 ? 0 : wide * deep, "cells");
-  if (!cells) return cells.error();
+  const Result<void> of_cells = check_count("materials", numbers, numbers == 0 ? 0 : wide * deep, "cells");
+  if (!of_cells) return of_cells.error();
   BakedHeightField field = *this;
   const auto copy_row = [&](auto from, auto& to, std::uint64_t length, std::uint64_t k, std::uint64_t line) {
     const auto row = from.subspan(k * length, length);
@@ -215,15 +178,15 @@ Result<BakedHeightField> BakedHeightField::with_heights(const HeightPatch& patch
   const std::uint64_t numbered = numbers == 0 ? 0 : deep;
   for (std::uint64_t k = 0; k < patch.rows; ++k)
     copy_row(patch.heights, field.heights_, patch.columns, k, grid_.columns);
-  for (std::uint64_t k = 0; k < numbered; ++k) copy_row(patch.materials, field.materials_, wide, k, cells_x());
-  field.refresh(cells_about(patch));
-  if (field.is_empty()) return fault("materials", kNothingThere);
+  for (std::uint64_t k = 0; k < numbered; ++k) copy_row(patch.materials, field.materials_, wide, k, grid_.cells_x());
+  field.blocks_.refresh(field.cells(), cells_about(grid_, patch));
+  if (field.blocks_.span().is_empty()) return fault("materials", kNothingThere);
   return field;
 }
 
 std::size_t BakedHeightField::memory() const {
   return sizeof(*this) + heights_.size() * sizeof(std::int16_t) + materials_.size() +
-         table_.size() * sizeof(SurfaceMaterial) + spans_.size() * sizeof(Span);
+         table_.size() * sizeof(SurfaceMaterial) + blocks_.memory();
 }
 
 std::vector<std::uint8_t> BakedHeightField::bytes() const {
