@@ -4,7 +4,7 @@
 #pragma once
 
 #include "isostep/instantiate/acting_records.inl"
-#include "isostep/query/queries.inl"
+#include "isostep/instantiate/world_queries.inl"
 #include "isostep/world/engine_fields.inl"
 #include "own_world.hpp"
 

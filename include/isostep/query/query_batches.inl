@@ -1,15 +1,15 @@
-// Queries: many rays or casts at once, on the threads that the game lends.
+// Bodies of cast_queries.hpp: many rays or casts at once, on the threads that the game lends.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/query/cast_queries.hpp"
 #include "isostep/query/hit_list.hpp"
-#include "isostep/query/queries.hpp"
 #include "isostep/query/query_probes.hpp"
 
 namespace isostep {
 
 /// The pieces of a batch, by index. Each query fills its own hits and reads the world alone.
-template <class S> template <class Work> struct Queries<S>::Batch {
+template <class S> template <class Work> struct CastQueries<S>::Batch {
   const Work& work;
   std::size_t pieces;
 
@@ -46,7 +46,7 @@ BatchWork(std::span<const Asked>, std::span<Hit>, const Fault&, const Gather&) -
 /// The fault is that of the first query that is refused, however many threads there are.
 template <class S>
 template <class Work>
-bool Queries<S>::run_batch(const char* name, const Work& work, const TaskRunner& runner) const {
+bool CastQueries<S>::run_batch(const char* name, const Work& work, const TaskRunner& runner) const {
   if (work.size() == 0) return true;
   const bool fits = work.hits.size() >= work.size();
   if (!fits) return faults_.refuse_call(name, {Fault::bad_argument, "", "hits", "room for one hit or more a query"});
@@ -63,8 +63,8 @@ bool Queries<S>::run_batch(const char* name, const Work& work, const TaskRunner&
 }
 
 template <class S>
-bool Queries<S>::cast_rays(std::span<const RayCast<S>> rays, std::span<RayCastHit<S>> hits,
-                           const TaskRunner& runner) const {
+bool CastQueries<S>::cast_rays(std::span<const RayCast<S>> rays, std::span<RayCastHit<S>> hits,
+                               const TaskRunner& runner) const {
   const auto fault = [&](std::size_t i) { return fault_of_ray(rays[i].origin, rays[i].translation); };
   const auto gather_one = [&](const RayCast<S>& ray, std::span<RayCastHit<S>> out) {
     detail::NearestHits<S, S> list(out);
@@ -75,8 +75,8 @@ bool Queries<S>::cast_rays(std::span<const RayCast<S>> rays, std::span<RayCastHi
 }
 
 template <class S>
-bool Queries<S>::cast_shapes(std::span<const ShapeCast<S>> casts, std::span<ShapeCastHit<S>> hits,
-                             const TaskRunner& runner) const {
+bool CastQueries<S>::cast_shapes(std::span<const ShapeCast<S>> casts, std::span<ShapeCastHit<S>> hits,
+                                 const TaskRunner& runner) const {
   const auto fault = [&](std::size_t i) { return fault_of_cast(casts[i]); };
   const auto gather_one = [&](const ShapeCast<S>& cast, std::span<ShapeCastHit<S>> out) {
     detail::NearestHits<S, Unit<S>> list(out);

@@ -12,7 +12,8 @@
 #include "isostep/collision/query/round_parting.hpp"
 #include "isostep/collision/query/solid_cast.hpp"
 #include "isostep/core/instantiate.hpp"
-#include "isostep/query/queries.hpp"
+#include "isostep/query/query_sight.hpp"
+#include "isostep/store/proxies.hpp"
 
 namespace isostep {
 
@@ -34,15 +35,14 @@ template <class S> struct ObstacleHit {
 
 /// Input:   the state and its caches, which stay as they are from `begin_step` to the last question. Positions are of
 ///          the body's origin.
-/// Output:  the contacts and hits that Queries would find among what the filter sees.
+/// Output:  the contacts and hits that CastQueries would find among what the filter sees.
 /// Keeps:   through a step, where the parts are that some character has come near; of one character, the parts around
 ///          it, and planes that part it from them: nothing is looked at again while its plane shows that it is not in
 ///          the way.
 template <class S> class Surroundings {
  public:
-  ISO_INLINE Surroundings(const WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies,
-                          const Queries<S>& queries)
-      : state_(state), map_(map), proxies_(proxies), queries_(queries) {}
+  ISO_INLINE Surroundings(const WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
+      : state_(state), map_(map), proxies_(proxies), sight_(state, map) {}
 
   void begin_step();
   /// For a body of one convex part that does not turn. Lists that the filter names outlive what is asked. What the
@@ -112,7 +112,7 @@ template <class S> class Surroundings {
   ISO_INLINE bool is_in_the_way(std::uint32_t slot, const Placed& part) const {
     if (part.traits == nullptr) return true;
     const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
-    return queries_.sees_part(filter_, body, *part.traits) &&
+    return sight_.sees_part(filter_, body, *part.traits) &&
            should_collide(collides_, part.traits->filter_or(body.filter));
   }
   Range place(std::uint32_t slot);
@@ -132,7 +132,7 @@ template <class S> class Surroundings {
   const WorldState<S>& state_;
   const BodyMap<S>& map_;
   const Proxies<S>& proxies_;
-  const Queries<S>& queries_;
+  QuerySight<S> sight_;
 
   // Of the step.
   std::vector<Placed> placed_;

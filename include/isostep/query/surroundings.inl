@@ -82,7 +82,7 @@ template <class S> void Surroundings<S>::find_bodies_near() {
     const Range parts = parts_of(slot);
     bool meets = false;
     for (std::uint32_t i = parts.first; i < parts.last && !meets; ++i) meets = overlap(placed_[i].box, region_);
-    if (meets && queries_.sees(filter_, slot) && collides_with(slot)) near_.push_back({slot, parts});
+    if (meets && sight_.sees(filter_, slot) && collides_with(slot)) near_.push_back({slot, parts});
     return true;
   });
   near_scratch_.resize(near_.size());

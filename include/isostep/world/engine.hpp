@@ -7,7 +7,8 @@
 #include "isostep/commands/command_executor.hpp"
 #include "isostep/commands/destruction.hpp"
 #include "isostep/dynamics/carriers.hpp"
-#include "isostep/query/queries.hpp"
+#include "isostep/query/cast_queries.hpp"
+#include "isostep/query/overlap_queries.hpp"
 #include "isostep/state/fields.hpp"
 #include "isostep/state/world_desk.hpp"
 #include "isostep/store/body_map.hpp"
@@ -64,8 +65,8 @@ namespace isostep {
 ///   MoveTargets     -> BodyMap
 ///   SensorMounts    -> BodyMap, Proxies
 ///   CommandExecutor -> BodyMap, Proxies, IslandWake, IslandSleep, Destruction, RenderPoses; faults, journal, assets
-///   Queries         -> BodyMap, Proxies; faults
-///   Characters      -> BodyMap, Proxies, IslandWake, Queries, CommandExecutor
+///   CastQueries, OverlapQueries -> BodyMap, Proxies; faults
+///   Characters      -> BodyMap, Proxies, IslandWake, CommandExecutor
 ///   StateLoader     -> BodyMap, Proxies
 ///
 /// BodyMap and Proxies are caches of the state: whoever moves bodies tells them. What else one system needs of another,
@@ -121,8 +122,9 @@ template <class S> class WorldEngine {
   JointLoads<S> joint_loads_{state_, map_, destruction_};
   CommandExecutor<S> commands_{state_,       map_,          proxies_, wake_,        sleep_,
                                destruction_, render_poses_, assets_,  desk_.faults, desk_.journal};
-  Queries<S> queries_{state_, map_, proxies_, desk_.faults};
-  Characters<S> characters_{state_, map_, proxies_, wake_, queries_, commands_};
+  CastQueries<S> casts_{state_, map_, proxies_, desk_.faults};
+  OverlapQueries<S> overlaps_{state_, map_, proxies_, desk_.faults};
+  Characters<S> characters_{state_, map_, proxies_, wake_, commands_};
   StateLoader<S> loader_{state_, map_, proxies_};
 
  private:

@@ -309,7 +309,7 @@ template <class S> const std::vector<RenderPose>& World<S>::poses_float(float al
 
 }  // namespace isostep
 
-/// World<S>, and how states come into it. What it calls: executing_commands.inl, queries.inl, engine_step.inl.
+/// World<S>, and how states come into it. What it calls: executing_commands.inl, world_queries.inl, engine_step.inl.
 #define ISO_INSTANTIATE_WORLD(S)                       \
   ISO_STATE_LOADER_OF(, S)                             \
   template std::uint64_t WorldEngine<S>::hash() const; \

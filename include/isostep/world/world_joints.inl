@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "isostep/query/joint_queries.hpp"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/world.hpp"
 
@@ -31,16 +32,16 @@ template <class S> const JointProperties<S>* World<S>::joint(JointId joint) cons
 }
 template <class S> S World<S>::joint_error(JointId joint) const {
   const FloatEnvironment environment;
-  return engine_->queries_.joint_error(joint);
+  return detail::joint_error(engine_->map_, joint);
 }
 template <class S> S World<S>::joint_position(JointId joint) const {
   const FloatEnvironment environment;
-  return engine_->queries_.joint_position(joint);
+  return detail::joint_position(engine_->map_, joint);
 }
 
 template <class S> S World<S>::joint_position(JointId joint, JointAxis axis) const {
   const FloatEnvironment environment;
-  return engine_->queries_.joint_position(joint, axis);
+  return detail::joint_position(engine_->state_, engine_->map_, joint, axis);
 }
 
 /// Makes both frames from one frame in the world, as the bodies lie now. A frame whose orientation is none stays so,

@@ -1,6 +1,6 @@
 // Queries of worlds for every shipped scalar.
 // SPDX-License-Identifier: MIT
-#include "isostep/query/queries.inl"
+#include "isostep/instantiate/world_queries.inl"
 
 namespace isostep {
 

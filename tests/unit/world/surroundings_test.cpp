@@ -29,8 +29,8 @@ template <class S> class SurroundingsOf : public ::testing::Test {
   ShapeId probe;
   Systems<S> systems;
   FaultLog faults;
-  Queries<S> queries{systems.state, systems.map, systems.proxies, faults};
-  Surroundings<S> around{systems.state, systems.map, systems.proxies, queries};
+  CastQueries<S> casts{systems.state, systems.map, systems.proxies, faults};
+  Surroundings<S> around{systems.state, systems.map, systems.proxies};
 };
 TYPED_TEST_SUITE(SurroundingsOf, SystemScalars);
 
@@ -45,7 +45,7 @@ TYPED_TEST(SurroundingsOf, casts_meet_what_casts_among_all_bodies_meet) {
       for (const double z : {-3.0, -0.5, 0.25, 1.0}) {
         const Vec3<S> way = vec<S>(x, y, z);
         const auto here = this->around.cast(start.position, way);
-        const auto anywhere = this->queries.cast_shape({this->probe, start, way, {}});
+        const auto anywhere = this->casts.cast_shape({this->probe, start, way, {}});
         ASSERT_EQ(here.has_value(), anywhere.has_value()) << x << " " << y << " " << z;
         if (!here) continue;
         ++met;

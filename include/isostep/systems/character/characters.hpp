@@ -7,7 +7,7 @@
 
 #include "isostep/commands/command_executor.hpp"
 #include "isostep/core/instantiate.hpp"
-#include "isostep/query/queries.hpp"
+#include "isostep/query/asked_shape.hpp"
 #include "isostep/systems/character/character_walk.hpp"
 
 namespace isostep {
@@ -19,14 +19,8 @@ namespace isostep {
 template <class S> class Characters {
  public:
   ISO_INLINE Characters(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies, IslandWake<S>& wake,
-                        const Queries<S>& queries, CommandExecutor<S>& commands)
-      : state_(state),
-        map_(map),
-        proxies_(proxies),
-        wake_(wake),
-        queries_(queries),
-        commands_(commands),
-        around_(state, map, proxies, queries) {}
+                        CommandExecutor<S>& commands)
+      : state_(state), map_(map), proxies_(proxies), wake_(wake), commands_(commands), around_(state, map, proxies) {}
 
   void update();
 
@@ -62,7 +56,6 @@ template <class S> class Characters {
   const BodyMap<S>& map_;
   Proxies<S>& proxies_;
   IslandWake<S>& wake_;
-  const Queries<S>& queries_;
   CommandExecutor<S>& commands_;
   std::vector<std::uint8_t> walks_;  // by body slot: detail::obstacle
   std::vector<Move> moves_;

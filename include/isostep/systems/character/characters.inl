@@ -123,7 +123,7 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
   QueryFilter filter = seen_by(character);
   filter.ignore_all = passed_;
   around_.begin(asking.shape, asking.pose, filter, map_.properties_of(character.body)->filter, passed_kinds_);
-  const Place place = {asking.pose.position, queries_.reach_of(asking.shape, asking.pose.orientation, -up), up,
+  const Place place = {asking.pose.position, detail::reach_of(map_, asking.shape, asking.pose.orientation, -up), up,
                        settings.gravity, settings.hz};
   CharacterWalk<S> walk(around_, place, walks_, memory_, character);
   walk.run(detail::carried_by_ground(state_, map_, character));
@@ -172,8 +172,8 @@ bool Characters<S>::is_above(const Walker<S>& character, const Asking& asking, c
   const BodyState<S>& state = map_.state_at(map_.location(way.body.slot));
   const S rises = max(convert<S>(saturate_to<Velocity<S>>(dot_sum(state.velocity, axis))), S(0)) / hz;
   const S slack = character.skin * S(0.5) + rises;
-  const S lowest =
-      dot(asking.pose.position - pose.position, axis) - queries_.reach_of(asking.shape, asking.pose.orientation, -axis);
+  const S lowest = dot(asking.pose.position - pose.position, axis) -
+                   detail::reach_of(map_, asking.shape, asking.pose.orientation, -axis);
   if (!(lowest < highest_of(character, way.body, way.axis) - slack)) return true;
   if (!knows_contacts_) {
     const S way_of_step = (max_abs(character.velocity) + max_abs(character.move)) / hz;

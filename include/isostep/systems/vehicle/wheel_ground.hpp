@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "isostep/core/fault_log.hpp"
-#include "isostep/query/queries.hpp"
+#include "isostep/query/cast_queries.hpp"
 #include "isostep/systems/vehicle/step_wheels.hpp"
 
 namespace isostep {
@@ -24,7 +24,7 @@ template <class S> class WheelGround {
 
   ISO_INLINE WheelGround(const WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies,
                          StepWheels<S>& wheels)
-      : state_(state), map_(map), queries_(state, map, proxies, faults_), wheels_(wheels) {}
+      : state_(state), map_(map), casts_(state, map, proxies, faults_), wheels_(wheels) {}
 
   ISO_INLINE void begin_step() { near_.clear(); }
   /// Below all wheels of a body, from one look around them.
@@ -70,8 +70,8 @@ template <class S> class WheelGround {
 
   const WorldState<S>& state_;
   const BodyMap<S>& map_;
-  FaultLog faults_;  // of queries that are refused
-  Queries<S> queries_;
+  FaultLog faults_;  // of casts that are refused
+  CastQueries<S> casts_;
   StepWheels<S>& wheels_;
   std::vector<std::uint32_t> near_;  // slots of what wheels might stand on, body by body
 };

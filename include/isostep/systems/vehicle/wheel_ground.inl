@@ -41,7 +41,7 @@ template <class S> void WheelGround<S>::look_around(Group& group, const Aabb<S>&
   filter.ignore = wheels_.wheel(wheels_.runs()[group.first]).body;
   group.region = box;
   group.first_near = static_cast<std::uint32_t>(near_.size());
-  queries_.find_near(box, filter, near_);
+  casts_.find_near(box, filter, near_);
   std::size_t kept = group.first_near;
   for (std::size_t i = kept; i < near_.size(); ++i) {
     if (bears(group.row, near_[i])) near_[kept++] = near_[i];
@@ -59,13 +59,13 @@ template <class S> auto WheelGround<S>::ground_below(const Run& run, const Stanc
   ShapeCastHit<S> met[kMostMet];
   const Filter& own = state_.awake.properties[run.row - 1].filter;
   const std::size_t count =
-      queries_.cast_among(nearby, search.box, own, {sphere, {search.start, Quat<U>::identity()}, search.way},
-                          std::span<ShapeCastHit<S>>(met));
+      casts_.cast_among(nearby, search.box, own, {sphere, {search.start, Quat<U>::identity()}, search.way},
+                        std::span<ShapeCastHit<S>>(met));
   const Ground ground = first_that_bears(std::span(met, count), at.down);
   if (count == 0 || ground.body) return ground;
   RayCastHit<S> struck[kMostMet];
   const RayCast<S> ray = {search.start, search.way + at.down * wheels_.wheel(run).radius};
-  const std::size_t rays = queries_.ray_among(nearby, search.box, own, ray, std::span<RayCastHit<S>>(struck));
+  const std::size_t rays = casts_.ray_among(nearby, search.box, own, ray, std::span<RayCastHit<S>>(struck));
   return first_that_bears(std::span(struck, rays), at.down);
 }
 template <class S> void WheelGround<S>::stand_on(Run& run, const Ground& ground) {

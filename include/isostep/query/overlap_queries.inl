@@ -1,44 +1,16 @@
-// Queries: what a shape overlaps.
+// Bodies of overlap_queries.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "isostep/collision/narrowphase/collide.hpp"
 #include "isostep/collision/narrowphase/surface_pairs.hpp"
+#include "isostep/collision/query/closest_point.hpp"
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/dynamics/checks.hpp"
 #include "isostep/geometry/bounds.hpp"
-#include "isostep/math/rotations.hpp"
-#include "isostep/query/queries.hpp"
+#include "isostep/query/overlap_queries.hpp"
 
 namespace isostep {
-
-template <class S> FaultReport Queries<S>::fault_of_shape(const QueryShape<S>& shape, const Pose<S>& pose) const {
-  const auto kind = [](ShapeFault f) { return f == ShapeFault::not_finite ? Fault::not_finite : Fault::bad_shape; };
-  const ShapeFault of_pose = validate(pose);
-  const bool turned = of_pose == ShapeFault::orientation_not_unit;
-  const FaultReport bad_pose = {kind(of_pose), "", turned ? "pose.orientation" : "pose", expected_of(of_pose)};
-  if (shape.of_world) {
-    const FaultReport of_id = detail::fault_of_id(state_.shape_slots, shape.id, state_.settings.id_space, "shape");
-    if (of_id != Fault::none) return of_id;
-    const std::span<const Child<S>> children = map_.shapes.children_of(shape.id.slot);
-    if (children.size() != 1 || is_surface(children[0].primitive.type))
-      return {Fault::bad_shape, "", "shape", "one convex part"};
-  } else {
-    const Child<S> part = {shape.primitive, Pose<S>::identity()};
-    FaultReport of_shape = detail::report_of(find_fault(std::span<const Child<S>>(&part, 1)));
-    of_shape.child = FaultReport::kNoChild;  // it has one alone
-    if (of_shape.fault != Fault::none) return of_shape;
-  }
-  return of_pose == ShapeFault::none ? FaultReport{} : bad_pose;
-}
-
-/// Of an accepted shape.
-template <class S> auto Queries<S>::asked_of(const QueryShape<S>& shape, const Pose<S>& pose) const -> Asked {
-  if (!shape.of_world) return {shape.primitive, nullptr, pose};
-  const Child<S>& part = map_.shapes.children_of(shape.id.slot)[0];
-  return {part.primitive, map_.shapes.contents().view(part.primitive).content,
-          part.pose.is_identity() ? pose : compose(pose, part.pose)};
-}
 
 namespace detail {
 template <class S> ISO_INLINE std::uint8_t material_of(const ShapeView<S>& surface, std::uint32_t triangle) {
@@ -64,7 +36,7 @@ std::vector<std::uint32_t> children_near(const ChildTree<S>& tree, const Transfo
 /// both relative to the latter's position, as the narrow phase wants them.
 template <class S>
 template <class Visit>
-void Queries<S>::visit_parts_near(const Asked& asked, std::uint32_t slot, Visit&& visit) const {
+void OverlapQueries<S>::visit_parts_near(const detail::AskedShape<S>& asked, std::uint32_t slot, Visit&& visit) const {
   Pose<S> placed = map_.origin_pose_at(slot);
   placed.position -= asked.pose.position;
   const Transform<S> here = Transform<S>::of({Vec3<S>::zero(), asked.pose.orientation}),
@@ -91,15 +63,15 @@ void Queries<S>::visit_parts_near(const Asked& asked, std::uint32_t slot, Visit&
 /// each child, or the lowest of all. Children ascend.
 template <class S>
 template <class Visit>
-void Queries<S>::visit_overlaps(const Asked& asked, const QueryFilter& filter, std::uint32_t slot,
-                                const Visit& visit) const {
-  const BodyId body = id_of(slot);
+void OverlapQueries<S>::visit_overlaps(const detail::AskedShape<S>& asked, const QueryFilter& filter,
+                                       std::uint32_t slot, const Visit& visit) const {
+  const BodyId body = sight_.id_of(slot);
   const BodyProperties<S>& properties = map_.properties_at(map_.location(slot));
   const std::span<const Child<S>> children = map_.shapes.children_of(properties.shape);
   const bool traits = map_.shapes.traits_of(properties.shape).flags != 0;
   const auto visit_child = [&](std::uint32_t i, const ShapeView<S>& part, const Transform<S>& at,
                                const Transform<S>& here) {  // false: visit wants no more
-    if (traits && !sees_part(filter, properties, children[i].traits)) return true;
+    if (traits && !sight_.sees_part(filter, properties, children[i].traits)) return true;
     Manifold<S> manifold;
     const bool is_whole = !is_surface(part.primitive.type), each = filter.per == HitPer::triangle;
     std::uint32_t lowest = kNoTriangle;
@@ -139,15 +111,15 @@ struct ByPartOfOverlap {
 }  // namespace detail
 
 template <class S>
-void Queries<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
-                               const QueryFilter& filter) const {
-  if (!faults_.accept_call("overlap_shape", fault_of_shape(shape, pose))) return;
-  const Asked asked = asked_of(shape, pose);
+void OverlapQueries<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
+                                      const QueryFilter& filter) const {
+  if (!faults_.accept_call("overlap_shape", detail::fault_of_shape(state_, shape, pose))) return;
+  const detail::AskedShape<S> asked = detail::asked_of(map_, shape, pose);
   const std::size_t first = out.size();
   QueryFilter any = filter;
   any.per = HitPer::triangle;  // the first that is found will do
   proxies_.boxes().query(bounds(asked.view(), Transform<S>::of(asked.pose)), [&](std::uint32_t slot) {
-    if (!sees(filter, slot)) return true;
+    if (!sight_.sees(filter, slot)) return true;
     visit_overlaps(asked, any, slot, [&](const OverlapHit& hit) {
       out.push_back(hit.body);
       return false;
@@ -160,13 +132,13 @@ void Queries<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, 
 }
 
 template <class S>
-void Queries<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<OverlapHit>& out,
-                               const QueryFilter& filter) const {
-  if (!faults_.accept_call("overlap_shape", fault_of_shape(shape, pose))) return;
-  const Asked asked = asked_of(shape, pose);
+void OverlapQueries<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<OverlapHit>& out,
+                                      const QueryFilter& filter) const {
+  if (!faults_.accept_call("overlap_shape", detail::fault_of_shape(state_, shape, pose))) return;
+  const detail::AskedShape<S> asked = detail::asked_of(map_, shape, pose);
   const std::size_t first = out.size();
   proxies_.boxes().query(bounds(asked.view(), Transform<S>::of(asked.pose)), [&](std::uint32_t slot) {
-    if (!sees(filter, slot)) return true;
+    if (!sight_.sees(filter, slot)) return true;
     visit_overlaps(asked, filter, slot, [&](const OverlapHit& hit) {
       out.push_back(hit);
       return true;
@@ -180,15 +152,15 @@ void Queries<S>::overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, 
 }
 
 template <class S>
-std::optional<OverlapHit> Queries<S>::overlap_first(const QueryShape<S>& shape, const Pose<S>& pose,
-                                                    const QueryFilter& filter) const {
-  if (!faults_.accept_call("overlap_first", fault_of_shape(shape, pose))) return {};
-  const Asked asked = asked_of(shape, pose);
+std::optional<OverlapHit> OverlapQueries<S>::overlap_first(const QueryShape<S>& shape, const Pose<S>& pose,
+                                                           const QueryFilter& filter) const {
+  if (!faults_.accept_call("overlap_first", detail::fault_of_shape(state_, shape, pose))) return {};
+  const detail::AskedShape<S> asked = detail::asked_of(map_, shape, pose);
   std::optional<OverlapHit> first;
   QueryFilter of_bodies = filter;
   of_bodies.per = HitPer::body;
   proxies_.boxes().query(bounds(asked.view(), Transform<S>::of(asked.pose)), [&](std::uint32_t slot) {
-    if ((first && first->body.slot < slot) || !sees(filter, slot)) return true;
+    if ((first && first->body.slot < slot) || !sight_.sees(filter, slot)) return true;
     visit_overlaps(asked, of_bodies, slot, [&](const OverlapHit& hit) {
       first = hit;
       return false;
@@ -198,11 +170,64 @@ std::optional<OverlapHit> Queries<S>::overlap_first(const QueryShape<S>& shape, 
   return first;
 }
 
-/// By the box of the shape in a frame whose y is that direction.
-template <class S> S Queries<S>::reach_of(ShapeId shape, const Quat<Unit<S>>& orientation, Vec3<Unit<S>> along) const {
-  const Vec3<Unit<S>> y = {Unit<S>(0), Unit<S>(1), Unit<S>(0)};
-  const Quat<Unit<S>> turned = rotation_between(along, y) * orientation;
-  return bounds(asked_of(shape, {Vec3<S>::zero(), turned}).view(), Transform<S>::of({Vec3<S>::zero(), turned})).high.y;
+template <class S>
+std::optional<ClosestBody<S>> OverlapQueries<S>::closest_point(Vec3<S> point, S max_distance,
+                                                               const QueryFilter& filter) const {
+  const S edge = Limits<S>::position();
+  if (!faults_.accept_call("closest_point", detail::Checklist()
+                                                .also(detail::fault_of_place(point, "point"))
+                                                .finite(max_distance, "max_distance")
+                                                .proper(S(0) <= max_distance, "max_distance", "0 or more")
+                                                .report()))
+    return {};
+  std::optional<ClosestBody<S>> best;
+  const S reach = min(max_distance, edge);
+  proxies_.boxes().query(Aabb<S>::around(point, {reach, reach, reach}), [&](std::uint32_t slot) {
+    if (!sight_.sees(filter, slot)) return true;
+    const Transform<S> placed = Transform<S>::of(map_.origin_pose_at(slot));
+    const BodyProperties<S>& body = map_.properties_at(map_.location(slot));
+    const std::span<const Child<S>> children = map_.shapes.children_of(body.shape);
+    const bool traits = map_.shapes.traits_of(body.shape).flags != 0;
+    for (std::uint32_t i = 0; i < children.size(); ++i) {
+      const Child<S>& child = children[i];
+      if (traits && !sight_.sees_part(filter, body, child.traits)) continue;
+      const ClosestPoint<S> found = isostep::closest_point(map_.shapes.contents().view(child.primitive),
+                                                           compose(placed, Transform<S>::of(child.pose)), point);
+      if (max_distance < found.distance) continue;
+      const bool nearer =
+          !best || found.distance < best->distance || (found.distance == best->distance && slot < best->body.slot);
+      if (nearer) best = ClosestBody<S>{sight_.id_of(slot), i, found.point, found.normal, found.distance};
+    }
+    return true;
+  });
+  return best;
+}
+
+template <class S> bool OverlapQueries<S>::accept_box(const Aabb<S>& box) const {
+  const S edge = Limits<S>::position() + Limits<S>::position();
+  return faults_.accept_call(
+      "overlap_aabb",
+      detail::Checklist()
+          .finite(box.low, "box.low")
+          .finite(box.high, "box.high")
+          .in_range(detail::within(box.low, edge), "box.low", "coordinates up to 2 Limits::position()")
+          .in_range(detail::within(box.high, edge), "box.high", "coordinates up to 2 Limits::position()")
+          .proper(min(box.low, box.high) == box.low, "box.low", "no coordinate above one of box.high")
+          .report());
+}
+
+template <class S>
+void OverlapQueries<S>::overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, const QueryFilter& filter) const {
+  if (!accept_box(box)) return;
+  const std::size_t first = out.size();
+  proxies_.boxes().query(box, [&](std::uint32_t slot) {
+    if (sight_.sees(filter, slot)) out.push_back(sight_.id_of(slot));
+    return true;
+  });
+  const auto count = static_cast<std::uint32_t>(out.size() - first);
+  if (count <= kInsertionSortLimit) return insertion_sort(out.data() + first, count, detail::BySlotOfId{});
+  std::vector<BodyId> scratch(count);
+  stable_sort(out.data() + first, scratch.data(), count, detail::BySlotOfId{});
 }
 
 }  // namespace isostep

@@ -1,4 +1,4 @@
-// Queries<S>: questions about space.
+// CastQueries<S>: what rays and moving shapes meet.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,21 +10,21 @@
 #include "isostep/core/fault_log.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/core/task_runner.hpp"
+#include "isostep/query/query_sight.hpp"
 #include "isostep/store/body_map.hpp"
 #include "isostep/store/proxies.hpp"
 #include "isostep/store/query_types.hpp"
-#include "isostep/store/views.hpp"
 
 namespace isostep {
 
 /// Input:   the state, the body map and the broad phase, as the last step or command left them.
 /// Output:  what World's calls of the same names return; the log holds the fault of a question that is refused.
-/// Keeps:   nothing: any number of threads may query at once, as long as no question is refused.
-/// Files:   queries.inl, points and joints; query_casts.inl, rays and casts; query_overlaps.inl; query_batches.inl.
-template <class S> class Queries {
+/// Keeps:   nothing: any number of threads may ask at once, as long as no question is refused.
+/// Files:   cast_queries.inl, single rays and casts; query_batches.inl, many at once.
+template <class S> class CastQueries {
  public:
-  ISO_INLINE Queries(const WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies, FaultLog& faults)
-      : state_(state), map_(map), proxies_(proxies), faults_(faults) {}
+  ISO_INLINE CastQueries(const WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies, FaultLog& faults)
+      : state_(state), map_(map), proxies_(proxies), sight_(state, map), faults_(faults) {}
 
   std::optional<RayCastHit<S>> cast_ray(Vec3<S> origin, Vec3<S> translation, const QueryFilter& filter) const;
   void cast_ray_all(Vec3<S> origin, Vec3<S> translation, std::vector<RayCastHit<S>>& out,
@@ -46,34 +46,10 @@ template <class S> class Queries {
   bool cast_shapes(std::span<const ShapeCast<S>> casts, std::span<ShapeCastHit<S>> hits,
                    const TaskRunner& runner) const;
 
-  std::optional<ClosestBody<S>> closest_point(Vec3<S> point, S max_distance, const QueryFilter& filter) const;
-  void overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<BodyId>& out,
-                     const QueryFilter& filter) const;
-  void overlap_shape(const QueryShape<S>& shape, const Pose<S>& pose, std::vector<OverlapHit>& out,
-                     const QueryFilter& filter) const;
-  std::optional<OverlapHit> overlap_first(const QueryShape<S>& shape, const Pose<S>& pose,
-                                          const QueryFilter& filter) const;
-  bool sees(const QueryFilter& filter, std::uint32_t slot) const;  // whether the filter takes a part of that body
-  bool sees_part(const QueryFilter& filter, const BodyProperties<S>& body, const PartTraits<S>& part) const;
-  /// [m] how far a shape of the world reaches from its frame's origin along a direction.
-  S reach_of(ShapeId shape, const Quat<Unit<S>>& orientation, Vec3<Unit<S>> along) const;
-  void overlap_aabb(const Aabb<S>& box, std::vector<BodyId>& out, const QueryFilter& filter) const;
-  S joint_error(JointId joint) const;
-  S joint_position(JointId joint) const;
-  S joint_position(JointId joint, JointAxis axis) const;
-
  private:
-  /// A shape to ask with, in the world.
-  struct Asked {
-    Primitive<S> primitive;
-    const void* content;  // of its blob
-    Pose<S> pose;         // of the primitive's frame, world
-
-    ISO_INLINE ShapeView<S> view() const { return {primitive, content}; }
-  };
   template <class Work> struct Batch;
 
-  // query_casts.inl
+  // cast_queries.inl
   static FaultReport fault_of_ray(Vec3<S> origin, Vec3<S> translation);
   FaultReport fault_of_cast(const ShapeCast<S>& cast) const;
   template <class Probe, class List> void gather(const Probe& probe, const QueryFilter& filter, List& list) const;
@@ -87,24 +63,15 @@ template <class S> class Queries {
                   const Aabb<S>& box, const Filter& own, List& list) const;
   // query_batches.inl
   template <class Work> bool run_batch(const char* name, const Work& work, const TaskRunner& runner) const;
-  // query_overlaps.inl
-  FaultReport fault_of_shape(const QueryShape<S>& shape, const Pose<S>& pose) const;
-  Asked asked_of(const QueryShape<S>& shape, const Pose<S>& pose) const;
-  template <class Visit> void visit_parts_near(const Asked& asked, std::uint32_t slot, Visit&& visit) const;
-  template <class Visit>
-  void visit_overlaps(const Asked& asked, const QueryFilter& filter, std::uint32_t slot, const Visit& visit) const;
-  // queries.inl
-  static bool sees(const QueryFilter& filter, const Filter& of, std::uint32_t kind, bool senses);
-  bool accept_box(const Aabb<S>& box) const;
-  BodyId id_of(std::uint32_t slot) const;
 
   const WorldState<S>& state_;
   const BodyMap<S>& map_;
   const Proxies<S>& proxies_;
+  QuerySight<S> sight_;
   FaultLog& faults_;
 };
 
-#define ISO_QUERIES_OF(extern, S) extern template class Queries<S>;
-ISO_EXTERN_FOR_EACH_SCALAR(ISO_QUERIES_OF)
+#define ISO_CAST_QUERIES_OF(extern, S) extern template class CastQueries<S>;
+ISO_EXTERN_FOR_EACH_SCALAR(ISO_CAST_QUERIES_OF)
 
 }  // namespace isostep
