@@ -8,7 +8,7 @@ namespace iso = isostep;
 
 int main() {
   // README: begin
-  const iso::SelfcheckResult check = iso::selfcheck();  // half a second, at the first start after an update
+  const iso::SelfcheckResult check = iso::selfcheck();  // a second or two, at the first start after an update
   std::printf("%s\n", iso::describe(check).c_str());    // one line for the log
   if (!check.sound()) return 1;                         // do not let this machine into a match
   // README: end

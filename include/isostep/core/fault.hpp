@@ -17,7 +17,7 @@ enum class Fault : std::uint32_t {
   not_finite,     // NaN or infinity where a number is expected
   out_of_range,   // beyond the scalar's limits
   bad_shape,      // sizes, normals or parts that make no shape
-  bad_mass,       // mass or inertia that nothing can have
+  bad_mass,       // a mass or inertia that is not valid: below 0, or beyond the scalar
   bad_argument,   // a flag, count, ratio or enumerator that is not valid
   shape_in_use,   // bodies still name the shape, or particles the material
   not_dynamic,    // forces on what no force moves

@@ -11,7 +11,7 @@ const char* fault_text(Fault fault) {
     case Fault::not_finite: return "a number is not finite";
     case Fault::out_of_range: return "a number is beyond the scalar's limits";
     case Fault::bad_shape: return "the sizes, normals or parts make no shape";
-    case Fault::bad_mass: return "nothing can have this mass or inertia";
+    case Fault::bad_mass: return "not a valid mass or inertia";
     case Fault::bad_argument: return "not a valid value";
     case Fault::shape_in_use: return "something still names it";
     case Fault::not_dynamic: return "no force moves it";
