@@ -58,7 +58,7 @@ class OneStep {
  private:
   WorldState<S> state_;
   BodyMap<S> map_{state_};
-  Proxies<S> proxies_;
+  Proxies<S> proxies_{state_.shapes};
   StateLoader<S> loader_{state_, map_, proxies_};
   StepTools<S> tools_ = {};
   NarrowPhase<S> phase_{state_, map_};

@@ -82,7 +82,8 @@
   ISO_ROUNDED_POLYHEDRON_OF(, OwnScalar)                                                            \
   ISO_POLYHEDRA_OF(, OwnScalar)                                                                     \
   ISO_ROUNDED_POLYHEDRA_OF(, OwnScalar)                                                             \
-  ISO_ROUNDED_REVOLVED_OF(, OwnScalar)                                                              \
+  ISO_SOLID_PAIRS_OF(, OwnScalar)                                                                   \
+  ISO_SOLID_TRIANGLE_OF(, OwnScalar)                                                                \
   ISO_GJK_OF(, OwnScalar)                                                                           \
   ISO_ROUND_POLYHEDRON_OF(, OwnScalar)                                                              \
   ISO_EPA_OF(, OwnScalar)                                                                           \
