@@ -38,9 +38,9 @@ ISO_C_SIZED(ISO_F32, float)
 ISO_C_SIZED(ISO_F64, double)
 ISO_C_SIZED(ISO_Q16, Q16_16)
 ISO_C_SIZED(ISO_Q32, Q32_32)
-#define ISO_RECORD_INITS(P, S)                                                   \
-  ISO_FOR_EACH_RECORD_WITH(ISO_RECORD_INIT, P, S)                                \
-  ISO_FOR_EACH_INPUT_WITH(ISO_INPUT_INIT, P, S)                                  \
+#define ISO_RECORD_INITS(P, S)                    \
+  ISO_FOR_EACH_RECORD_WITH(ISO_RECORD_INIT, P, S) \
+  ISO_FOR_EACH_INPUT_WITH(ISO_INPUT_INIT, P, S)   \
   ISO_FOR_EACH_RECORD_STATE_WITH(ISO_STATE_INIT, P, S)
 #define ISO_RECORD_INIT(P, name, Type, Id, S) ISO_INIT(P, name, Type)
 #define ISO_INPUT_INIT(P, name, Type, Id, S) ISO_INIT(P, name##_input, Type)
@@ -56,10 +56,10 @@ namespace {
 /// Rounds to the nearest number, whatever the caller's float environment: languages without such numbers come through
 /// here.
 template <class S> S number_of(double value) {
-  return isostep::detail::pinned([&] { return from_double<S>(value); });
+  return isostep::pin_floats([&] { return from_double<S>(value); });
 }
 template <class S> double double_of(S value) {
-  return isostep::detail::pinned([&] { return to_double(value); });
+  return isostep::pin_floats([&] { return to_double(value); });
 }
 }  // namespace
 #define ISO_NUMBERS(P, S, N)                                                                     \

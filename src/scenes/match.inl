@@ -37,22 +37,23 @@ template <class S> MatchState::Player& Match<S>::player_state(int player) {
 }
 
 template <class S> void Match<S>::step(InputView<MatchInput> inputs) {
-  const FloatEnvironment environment;
-  MatchState& own = state_.user;
-  event_count_ = 0;
-  cool_down();
-  for (int player = 0; player < settings_.players; ++player) {
-    const auto n = static_cast<std::size_t>(player);
-    const bool away = n < inputs.statuses.size() && inputs.status(n) == InputStatus::disconnected;
-    attend(player, away);
-    if (!away && n < inputs.size() && inputs[n].valid()) act(player, inputs[n]);
-  }
-  if (own.level_at == own.tick) state_.world.set_gravity({S(0), MatchRules<S>::kFall, S(0)});
-  report_ = state_.world.step();
-  count_touches();
-  count_goals();
-  put_back_fallen();
-  ++own.tick;
+  pin_floats([&] {
+    MatchState& own = state_.user;
+    event_count_ = 0;
+    cool_down();
+    for (int player = 0; player < settings_.players; ++player) {
+      const auto n = static_cast<std::size_t>(player);
+      const bool away = n < inputs.statuses.size() && inputs.status(n) == InputStatus::disconnected;
+      attend(player, away);
+      if (!away && n < inputs.size() && inputs[n].valid()) act(player, inputs[n]);
+    }
+    if (own.level_at == own.tick) state_.world.set_gravity({S(0), MatchRules<S>::kFall, S(0)});
+    report_ = state_.world.step();
+    count_touches();
+    count_goals();
+    put_back_fallen();
+    ++own.tick;
+  });
 }
 
 template <class S> void Match<S>::cool_down() {

@@ -90,6 +90,22 @@ TEST(GateNames, EstimatesAndFlushingOperationsAreSeen) {
   expect_all(InstructionSet::aarch64, Concern::unknown, ".inst");
 }
 
+TEST(GateNames, WhatSetsTheEnvironmentAndWhatObeysItAreToldApart) {
+  for (const std::string& name : words("ldmxcsr vldmxcsr")) {
+    EXPECT_TRUE(sets_environment(InstructionSet::x86, name)) << name;
+  }
+  for (const std::string& name : words("stmxcsr fldcw mov")) {
+    EXPECT_FALSE(sets_environment(InstructionSet::x86, name)) << name;
+  }
+  for (const std::string& name :
+       words("addss subsd mulps divss vdivpd vaddps sqrtss cvtsi2ss cvttsd2si vcvtdq2ps cvtsd2ss haddps")) {
+    EXPECT_TRUE(obeys_environment(InstructionSet::x86, name)) << name;
+  }
+  for (const std::string& name : words("movss maxps ucomiss cmpltps andps add mul imul paddd unpcklps vpaddq")) {
+    EXPECT_FALSE(obeys_environment(InstructionSet::x86, name)) << name;
+  }
+}
+
 TEST(GateNames, CallsOfTheCLibraryAreSeenHoweverTheyAreDecorated) {
   for (const std::string& name : words(
            "sin sinf sinl sinf128 cosf atan2 pow powf exp2f fma fmaf fmin fmaxf floor rintf sqrt sqrtf lrint llroundl "

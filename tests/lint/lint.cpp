@@ -184,8 +184,15 @@ void check_macros(const fs::path& root) {
 // ---- pinned
 
 /// Functions for games that the library compiles compute in a pinned float environment: each body in math/ is a call of
-/// detail::pinned, so that a new one cannot forget it. What is ISO_INLINE follows its caller.
+/// pin_floats, so that a new one cannot forget it. What is ISO_INLINE follows its caller. A guard in a scope pins
+/// nothing for sure, since compilers move arithmetic out of it.
 void check_pinned(const fs::path& root) {
+  for (const File& file : read_tree(root, {"include", "src"})) {
+    for (std::size_t i = 0; i < file.code.size(); ++i) {
+      if (file.code[i].find("FloatEnvironment") != std::string::npos)
+        report(file, i, "arithmetic leaves the scope of a FloatEnvironment: call pin_floats");
+    }
+  }
   const std::regex function("^template <[^>]*>+ (?!struct|class|using)[^=;]*\\(.*");
   for (const File& file : read_tree(root, {"include/isostep/math"})) {
     if (!ends_with(file.path, ".inl")) continue;
@@ -197,8 +204,8 @@ void check_pinned(const fs::path& root) {
       if (ours || line.find("ISO_INLINE") != std::string::npos || !std::regex_match(line, function)) continue;
       std::string body;
       for (std::size_t j = i; j < file.code.size() && j < i + 4; ++j) body += file.code[j];
-      if (body.find("{  return detail::pinned(") == std::string::npos)
-        report(file, i, "a function that the library compiles begins with return detail::pinned(");
+      if (body.find("{  return pin_floats(") == std::string::npos)
+        report(file, i, "a function that the library compiles begins with return pin_floats(");
     }
   }
 }

@@ -12,6 +12,7 @@
 #include "isostep/articulation/articulation_validator.hpp"
 #include "isostep/articulation/free_motion.inl"
 #include "isostep/articulation/joint_work.inl"
+#include "isostep/scalar/environment.hpp"
 #include "isostep/state/members.hpp"
 
 namespace isostep {
@@ -53,11 +54,12 @@ template <class S> void Articulation<S>::Engine::use(std::shared_ptr<const Tree>
 }
 
 template <class S> Result<void> Articulation<S>::build(const ArticulationDefinition<S>& definition) {
-  const FloatEnvironment environment;
-  const auto tree = detail::make_tree(definition);
-  if (!tree) return tree.error();
-  engine_->use(tree.value());
-  return {};
+  return pin_floats([&]() -> Result<void> {
+    const auto tree = detail::make_tree(definition);
+    if (!tree) return tree.error();
+    engine_->use(tree.value());
+    return {};
+  });
 }
 template <class S> const ArticulationDefinition<S>& Articulation<S>::definition() const {
   return engine_->tree->definition;
@@ -185,33 +187,36 @@ template <class S, class Engine> Vec3<S> origin_of(const Engine& e) {
 
 template <class S> Pose<S> Articulation<S>::link_pose(std::uint32_t link) const {
   if (links() <= link) return Pose<S>::identity();
-  const FloatEnvironment environment;
-  const Engine& e = *engine_;
-  const detail::LinkWork<S>& w = e.links.of(link);
-  const Vec3<S> back = w.turn * e.tree->definition.links[link].frame_b.position;
-  return {detail::origin_of<S>(e) + detail::held_product(w.place, e.tree->unscale) - back, w.orientation};
+  return pin_floats([&]() -> Pose<S> {
+    const Engine& e = *engine_;
+    const detail::LinkWork<S>& w = e.links.of(link);
+    const Vec3<S> back = w.turn * e.tree->definition.links[link].frame_b.position;
+    return {detail::origin_of<S>(e) + detail::held_product(w.place, e.tree->unscale) - back, w.orientation};
+  });
 }
 
 template <class S> Vec3<S> Articulation<S>::link_centre(std::uint32_t link) const {
   if (links() <= link) return Vec3<S>::zero();
-  const FloatEnvironment environment;
-  const Engine& e = *engine_;
-  const detail::LinkWork<S>& w = e.links.of(link);
-  return detail::origin_of<S>(e) + detail::held_product(w.place + w.centre, e.tree->unscale);
+  return pin_floats([&] {
+    const Engine& e = *engine_;
+    const detail::LinkWork<S>& w = e.links.of(link);
+    return detail::origin_of<S>(e) + detail::held_product(w.place + w.centre, e.tree->unscale);
+  });
 }
 
 template <class S> LinkVelocity<S> Articulation<S>::link_velocity(std::uint32_t link) const {
   if (links() <= link) return {Vec3<S>::zero(), Vec3<S>::zero()};
-  const FloatEnvironment environment;
-  const Engine& e = *engine_;
-  const detail::LinkWork<S>& w = e.links.of(link);
-  Vec3<S> linear = detail::held_product(w.moving, e.tree->unscale);
-  if (e.tree->free) {
-    const S* const v = e.state.speeds.data() + e.tree->links[0].speed;
-    linear = detail::held_sum(linear, e.links.of(0).frame * Vec3<S>{v[0], v[1], v[2]});
-  }
-  const Vec3<S> back = w.turn * e.tree->definition.links[link].frame_b.position;
-  return {detail::held_sum(linear, -detail::held_cross(w.spin, back)), w.spin};
+  return pin_floats([&]() -> LinkVelocity<S> {
+    const Engine& e = *engine_;
+    const detail::LinkWork<S>& w = e.links.of(link);
+    Vec3<S> linear = detail::held_product(w.moving, e.tree->unscale);
+    if (e.tree->free) {
+      const S* const v = e.state.speeds.data() + e.tree->links[0].speed;
+      linear = detail::held_sum(linear, e.links.of(0).frame * Vec3<S>{v[0], v[1], v[2]});
+    }
+    const Vec3<S> back = w.turn * e.tree->definition.links[link].frame_b.position;
+    return {detail::held_sum(linear, -detail::held_cross(w.spin, back)), w.spin};
+  });
 }
 
 template <class S> LinkLoad<S> Articulation<S>::joint_load(std::uint32_t link) const {
@@ -252,28 +257,29 @@ template <class S> void Articulation<S>::write_portable(Writer& writer) const {
   ArticulationState<S>::members(detail::StateWriter(writer), std::as_const(engine_->state));
 }
 template <class S> Result<void> Articulation<S>::read_portable(Reader& reader) {
-  const FloatEnvironment environment;
-  if (reader.read<std::uint32_t>() != (ScalarTraits<S>::kId | detail::kArticulationBit) && reader.ok())
-    reader.fail(ErrorCode::incompatible, "not written by an articulation of this scalar");
-  const ArticulationDefinition<S> definition = detail::read_definition<S>(reader);
-  ArticulationState<S> next;
-  ArticulationState<S>::members(detail::StateReader(reader), next);
-  std::shared_ptr<const detail::ArticulatedTree<S>> tree = std::make_shared<detail::ArticulatedTree<S>>();
-  if (reader.ok() && !definition.links.empty()) {
-    const auto made = detail::make_tree(definition);
-    if (!made) reader.fail(ErrorCode::corrupt, "its definition is refused");
-    else tree = made.value();
-  }
-  if (reader.ok()) {
-    if (const char* rule = detail::ArticulationValidator<S>(*tree, next).broken_rule())
-      reader.fail(ErrorCode::corrupt, rule);
-  }
-  const Result<void> result = reader.result("articulation");
-  if (!reader.ok()) return result;
-  engine_->use(std::move(tree));
-  engine_->state = std::move(next);
-  engine_->refresh();
-  return result;
+  return pin_floats([&]() -> Result<void> {
+    if (reader.read<std::uint32_t>() != (ScalarTraits<S>::kId | detail::kArticulationBit) && reader.ok())
+      reader.fail(ErrorCode::incompatible, "not written by an articulation of this scalar");
+    const ArticulationDefinition<S> definition = detail::read_definition<S>(reader);
+    ArticulationState<S> next;
+    ArticulationState<S>::members(detail::StateReader(reader), next);
+    std::shared_ptr<const detail::ArticulatedTree<S>> tree = std::make_shared<detail::ArticulatedTree<S>>();
+    if (reader.ok() && !definition.links.empty()) {
+      const auto made = detail::make_tree(definition);
+      if (!made) reader.fail(ErrorCode::corrupt, "its definition is refused");
+      else tree = made.value();
+    }
+    if (reader.ok()) {
+      if (const char* rule = detail::ArticulationValidator<S>(*tree, next).broken_rule())
+        reader.fail(ErrorCode::corrupt, rule);
+    }
+    const Result<void> result = reader.result("articulation");
+    if (!reader.ok()) return result;
+    engine_->use(std::move(tree));
+    engine_->state = std::move(next);
+    engine_->refresh();
+    return result;
+  });
 }
 
 }  // namespace isostep

@@ -26,23 +26,24 @@ template <class S> Quat<Unit<S>> turned(Quat<Unit<S>> q, Vec3<S> w, Step<S> h) {
 }  // namespace detail
 
 template <class S> ArticulationReport Articulation<S>::Engine::step() {
-  const FloatEnvironment environment;
-  ArticulationReport report;
-  links.prepare(*tree, state);
-  report.clamped += links.spin(*tree, state.speeds) ? 0u : 1u;  // what was set between steps
-  if (tree->free) {
-    links.follow(*tree, state.speeds);
-    free.begin(*tree, links, state);
-  }
-  for (std::int32_t i = 0; i < tree->definition.settings.substeps; ++i) substep(report);
-  for (const detail::PreparedLink<S>& l : tree->links) {
-    const std::size_t i = static_cast<std::size_t>(&l - tree->links.data());
-    report.stopped += links.of(i).joint.stop != detail::Stop::none ? 1u : 0u;
-  }
-  state.loads.assign(state.loads.size(), LinkLoad<S>{Vec3<S>::zero(), Vec3<S>::zero()});
-  ++state.tick;
-  refresh();
-  return report;
+  return pin_floats([&] {
+    ArticulationReport report;
+    links.prepare(*tree, state);
+    report.clamped += links.spin(*tree, state.speeds) ? 0u : 1u;  // what was set between steps
+    if (tree->free) {
+      links.follow(*tree, state.speeds);
+      free.begin(*tree, links, state);
+    }
+    for (std::int32_t i = 0; i < tree->definition.settings.substeps; ++i) substep(report);
+    for (const detail::PreparedLink<S>& l : tree->links) {
+      const std::size_t i = static_cast<std::size_t>(&l - tree->links.data());
+      report.stopped += links.of(i).joint.stop != detail::Stop::none ? 1u : 0u;
+    }
+    state.loads.assign(state.loads.size(), LinkLoad<S>{Vec3<S>::zero(), Vec3<S>::zero()});
+    ++state.tick;
+    refresh();
+    return report;
+  });
 }
 
 template <class S> void Articulation<S>::Engine::substep(ArticulationReport& report) {
@@ -138,11 +139,12 @@ template <class S> bool Articulation<S>::Engine::is_finite_now() const {
 
 /// Poses and speeds for who asks, after anything that changed them.
 template <class S> void Articulation<S>::Engine::refresh() {
-  const FloatEnvironment environment;
-  links.place(*tree, state);
-  middle = state.speeds;
-  links.spin(*tree, middle);
-  links.follow(*tree, state.speeds);
+  pin_floats([&] {
+    links.place(*tree, state);
+    middle = state.speeds;
+    links.spin(*tree, middle);
+    links.follow(*tree, state.speeds);
+  });
 }
 
 }  // namespace isostep

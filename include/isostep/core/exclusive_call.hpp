@@ -4,12 +4,10 @@
 
 #include "isostep/core/fault_log.hpp"
 #include "isostep/core/one_at_a_time.hpp"
-#include "isostep/scalar/environment.hpp"
 
 namespace isostep {
 
-/// Pins the float environment, and keeps other calls out. A call from inside another one, as an observer of stages
-/// could make it, is refused.
+/// Keeps other calls out: a call from inside another one, as an observer of stages could make it, is refused.
 class ExclusiveCall {
  public:
   ISO_INLINE ExclusiveCall(OneAtATime& of, FaultLog& faults, const char* name) : entry_(of) {
@@ -18,7 +16,6 @@ class ExclusiveCall {
   ISO_INLINE bool allowed() const { return entry_.alone(); }
 
  private:
-  FloatEnvironment environment_;
   OneAtATime::Entry entry_;
 };
 

@@ -253,16 +253,16 @@ template <class S> class BodySketch {
 }  // namespace detail
 
 template <class S> void draw(const World<S>& world, DebugDraw& to, const DrawOptions& options) {
-  const FloatEnvironment environment;
-  detail::BodySketch<S>(world, to, options).draw_all();
+  pin_floats([&] { detail::BodySketch<S>(world, to, options).draw_all(); });
 }
 template <class S> void draw(const ParticleWorld<S>& world, DebugDraw& to, const DrawOptions& options) {
-  const FloatEnvironment environment;
-  const detail::ParticleSketch<S> sketch(world, to, options);
-  if (options.particles) sketch.draw_particles();
-  if (options.springs) sketch.draw_springs();
-  if (options.links) sketch.draw_links();
-  if (options.colliders) sketch.draw_colliders();
+  pin_floats([&] {
+    const detail::ParticleSketch<S> sketch(world, to, options);
+    if (options.particles) sketch.draw_particles();
+    if (options.springs) sketch.draw_springs();
+    if (options.links) sketch.draw_links();
+    if (options.colliders) sketch.draw_colliders();
+  });
 }
 
 }  // namespace isostep

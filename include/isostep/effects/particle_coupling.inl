@@ -28,18 +28,16 @@ template <class S> bool ParticleCoupling<S>::before_step(const World<S>& bodies,
   report_ = {};
   hz_ = 0;
   if (bodies.settings().hz != particles.settings().hz) return false;
-  const FloatEnvironment environment;
-  find_touches(bodies, particles);
-  return true;
+  return pin_floats([&] {
+    find_touches(bodies, particles);
+    return true;
+  });
 }
 
 template <class S> bool ParticleCoupling<S>::after_step(World<S>& bodies, const ParticleWorld<S>& particles) {
   const bool stepped = hz_ != 0 && particles.tick() == tick_ + 1 &&
                        first_touch_ + touching_.size() <= particles.events().touch_impulses.size();
-  if (stepped) {
-    const FloatEnvironment environment;
-    push_bodies(bodies, particles);
-  }
+  if (stepped) pin_floats([&] { push_bodies(bodies, particles); });
   hz_ = 0;
   return stepped;
 }

@@ -158,11 +158,12 @@ template <class S> class RagdollBuilder {
 
 template <class S>
 Ragdoll<S> add_ragdoll(World<S>& world, std::span<const RagdollBone<S>> bones, const RagdollSettings<S>& settings) {
-  const FloatEnvironment environment;
-  detail::RagdollBuilder<S> builder(world, bones, settings);
-  if (builder.build()) return builder.take();
-  builder.take_back();
-  return {};
+  return pin_floats([&]() -> Ragdoll<S> {
+    detail::RagdollBuilder<S> builder(world, bones, settings);
+    if (builder.build()) return builder.take();
+    builder.take_back();
+    return {};
+  });
 }
 
 }  // namespace isostep

@@ -127,34 +127,35 @@ template <class S> void remove_expired(World<S>& world, const Breakable<S>& reco
 }  // namespace detail
 
 template <class S> BreakReport break_bodies(World<S>& world, std::uint32_t most) {
-  const FloatEnvironment environment;
-  BreakReport report;
-  const auto& registry = world.state().records->breakables;
-  std::vector<BreakableId> due;
-  for (const BreakableId id : registry.slot_map().template ids<BreakableId>()) {
-    const Breakable<S>& record = *registry.find(id);
-    const bool is_over = record.expires != 0 && record.expires <= world.tick();
-    if (!world.is_enabled(record.body)) continue;
-    if (is_over || S(0) < world.input(id)->impulse) due.push_back(id);
-  }
-  for (const BreakableId id : due) {
-    const Breakable<S> record = *world.find(id);
-    if (record.expires != 0 && record.expires <= world.tick()) {
-      detail::remove_expired(world, record);
-      ++report.expired;
-      continue;
+  return pin_floats([&] {
+    BreakReport report;
+    const auto& registry = world.state().records->breakables;
+    std::vector<BreakableId> due;
+    for (const BreakableId id : registry.slot_map().template ids<BreakableId>()) {
+      const Breakable<S>& record = *registry.find(id);
+      const bool is_over = record.expires != 0 && record.expires <= world.tick();
+      if (!world.is_enabled(record.body)) continue;
+      if (is_over || S(0) < world.input(id)->impulse) due.push_back(id);
     }
-    if (report.broken + report.whole >= most) continue;
-    const std::uint32_t pieces = detail::Breaking<S>(world, record, *world.input(id)).run();
-    report.pieces += pieces;
-    if (pieces > 0) {
-      ++report.broken;
-      continue;
+    for (const BreakableId id : due) {
+      const Breakable<S> record = *world.find(id);
+      if (record.expires != 0 && record.expires <= world.tick()) {
+        detail::remove_expired(world, record);
+        ++report.expired;
+        continue;
+      }
+      if (report.broken + report.whole >= most) continue;
+      const std::uint32_t pieces = detail::Breaking<S>(world, record, *world.input(id)).run();
+      report.pieces += pieces;
+      if (pieces > 0) {
+        ++report.broken;
+        continue;
+      }
+      ++report.whole;
+      world.set_input(id, Blow<S>{});
     }
-    ++report.whole;
-    world.set_input(id, Blow<S>{});
-  }
-  return report;
+    return report;
+  });
 }
 
 }  // namespace isostep

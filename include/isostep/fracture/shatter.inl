@@ -196,40 +196,42 @@ template <class S> ISO_INLINE bool may_shatter(const BodyView<S>& body) {
 template <class S>
 Result<std::vector<BodyDefinition<S>>> shatter(const Fracture& pieces, const BodyView<S>& body,
                                                std::span<const ShapeId> shapes) {
-  const FloatEnvironment environment;
-  if (!detail::may_shatter(body))
-    return detail::bad_fracture_number("body", "a dynamic body whose one part is a box or a hull without a radius");
-  if (pieces.pieces.empty()) return detail::bad_fracture_number("pieces", "one or more, as fracture gives them");
-  if (shapes.size() != pieces.pieces.size()) return detail::bad_fracture_number("shapes", "one for each piece");
-  detail::Shattering<S> parts(body);
-  if (!parts.take(pieces)) return parts.error();
-  const Quat<Unit<S>> orientation = parts.orientation();
-  const Mat3<Unit<S>> turn = to_matrix(orientation);
-  const Vec3<S> velocity = convert<S>(body.state->velocity), spin = convert<S>(body.state->angular_velocity);
-  const Vec3<S> turning = spin + turn * parts.change_of_turning(transposed_times(turn, spin));
-  std::vector<BodyDefinition<S>> definitions;
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const detail::ShatterPiece<S>& piece = parts.pieces()[i];
-    BodyDefinition<S> d = detail::likeness_of(*body.properties, body.children[0].traits);
-    d.shape = shapes[i];
-    d.mass = piece.mass;
-    d.orientation = orientation;
-    d.position = body.state->centre + turn * (piece.origin - parts.centre());
-    d.velocity = velocity + cross(turning, turn * (piece.centre - parts.centre()));
-    d.angular_velocity = turning;
-    definitions.push_back(d);
-  }
-  return definitions;
+  return pin_floats([&]() -> Result<std::vector<BodyDefinition<S>>> {
+    if (!detail::may_shatter(body))
+      return detail::bad_fracture_number("body", "a dynamic body whose one part is a box or a hull without a radius");
+    if (pieces.pieces.empty()) return detail::bad_fracture_number("pieces", "one or more, as fracture gives them");
+    if (shapes.size() != pieces.pieces.size()) return detail::bad_fracture_number("shapes", "one for each piece");
+    detail::Shattering<S> parts(body);
+    if (!parts.take(pieces)) return parts.error();
+    const Quat<Unit<S>> orientation = parts.orientation();
+    const Mat3<Unit<S>> turn = to_matrix(orientation);
+    const Vec3<S> velocity = convert<S>(body.state->velocity), spin = convert<S>(body.state->angular_velocity);
+    const Vec3<S> turning = spin + turn * parts.change_of_turning(transposed_times(turn, spin));
+    std::vector<BodyDefinition<S>> definitions;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      const detail::ShatterPiece<S>& piece = parts.pieces()[i];
+      BodyDefinition<S> d = detail::likeness_of(*body.properties, body.children[0].traits);
+      d.shape = shapes[i];
+      d.mass = piece.mass;
+      d.orientation = orientation;
+      d.position = body.state->centre + turn * (piece.origin - parts.centre());
+      d.velocity = velocity + cross(turning, turn * (piece.centre - parts.centre()));
+      d.angular_velocity = turning;
+      definitions.push_back(d);
+    }
+    return definitions;
+  });
 }
 
 template <class S> std::vector<ShapeId> add_piece_shapes(World<S>& world, const Fracture& pieces) {
-  const FloatEnvironment environment;
-  std::vector<ShapeId> shapes;
-  for (const FracturePiece& piece : pieces.pieces) {
-    shapes.push_back(piece.blob != nullptr ? world.add_shape(piece.blob)
-                                           : world.add_shape(piece_box<S>(piece, pieces.exponent)));
-  }
-  return shapes;
+  return pin_floats([&] {
+    std::vector<ShapeId> shapes;
+    for (const FracturePiece& piece : pieces.pieces) {
+      shapes.push_back(piece.blob != nullptr ? world.add_shape(piece.blob)
+                                             : world.add_shape(piece_box<S>(piece, pieces.exponent)));
+    }
+    return shapes;
+  });
 }
 
 }  // namespace isostep

@@ -203,7 +203,7 @@ std::span<const Child<S>> what_weighs(std::span<const Child<S>> children, std::v
 }  // namespace detail
 
 template <class S> MassProperties<S> mass_properties(std::span<const Child<S>> all, S density, Contents<S> contents) {
-  return detail::pinned([&]() -> MassProperties<S> {
+  return pin_floats([&]() -> MassProperties<S> {
     std::vector<Child<S>> solid;
     const std::span<const Child<S>> children = detail::what_weighs(all, solid);
     const detail::Parts<S> parts(children, contents);

@@ -32,7 +32,7 @@ template <class F> Mat3<F> times(const Mat3<F>& m, F s) { return {{m.rows[0] * s
 
 /// The vertices add up to nothing about the centroid; moments are a fifth of those of a quarter of the mass at each.
 template <class S> MassTensor<S> MassTensor<S>::tetrahedron(S mass, Vec3<S> a, Vec3<S> b, Vec3<S> c, Vec3<S> d) {
-  return detail::pinned([&]() -> MassTensor<S> {
+  return pin_floats([&]() -> MassTensor<S> {
     using F = Finer<S>;
     const Vec3<F> corners[4] = {detail::finer_vector(a), detail::finer_vector(b), detail::finer_vector(c),
                                 detail::finer_vector(d)};
@@ -47,7 +47,7 @@ template <class S> MassTensor<S> MassTensor<S>::tetrahedron(S mass, Vec3<S> a, V
 }
 
 template <class S> MassTensor<S> MassTensor<S>::placed(const Pose<S>& pose) const {
-  return detail::pinned([&]() -> MassTensor<S> {
+  return pin_floats([&]() -> MassTensor<S> {
     using F = Finer<S>;
     const Mat3<Unit<S>> r = to_matrix(pose.orientation);
     const auto fine = [](Vec3<Unit<S>> v) {
@@ -60,7 +60,7 @@ template <class S> MassTensor<S> MassTensor<S>::placed(const Pose<S>& pose) cons
 }
 
 template <class S> Mat3<S> MassTensor<S>::about(Vec3<S> point) const {
-  return detail::pinned([&]() -> Mat3<S> {
+  return pin_floats([&]() -> Mat3<S> {
     using F = Finer<S>;
     const Mat3<F> arm = detail::moment_of_arm(detail::finer_vector(centre) - detail::finer_vector(point));
     return detail::coarser_symmetric<S>(detail::finer_matrix(tensor) + detail::times(arm, finer<F>(mass)));
@@ -69,7 +69,7 @@ template <class S> Mat3<S> MassTensor<S>::about(Vec3<S> point) const {
 
 /// Joins by both tensors and the moment of the reduced mass at d between the centres: nothing is subtracted.
 template <class S> MassTensor<S> MassTensor<S>::joined(const MassTensor& other) const {
-  return detail::pinned([&]() -> MassTensor<S> {
+  return pin_floats([&]() -> MassTensor<S> {
     using F = Finer<S>;
     const F a = finer<F>(mass), b = finer<F>(other.mass);
     const Unit<F> share = divide_to<Unit<F>>(b, a + b);
@@ -83,7 +83,7 @@ template <class S> MassTensor<S> MassTensor<S>::joined(const MassTensor& other) 
 }
 
 template <class S> MassProperties<S> MassTensor<S>::properties() const {
-  return detail::pinned([&]() -> MassProperties<S> {
+  return pin_floats([&]() -> MassProperties<S> {
     using F = Finer<S>;
     const MassProperties<S> immovable = {mass, centre, Vec3<S>::zero(), Quat<Unit<S>>::identity()};
     Mat3<F> specific = detail::finer_matrix(tensor);

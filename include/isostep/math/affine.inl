@@ -22,11 +22,11 @@ template <class S> ISO_INLINE bool divides(S a, S b) {
 }  // namespace detail
 
 template <class S> S determinant(const Mat3<S>& m) {
-  return detail::pinned([&]() -> S { return dot(m.rows[0], cross(m.rows[1], m.rows[2])); });
+  return pin_floats([&]() -> S { return dot(m.rows[0], cross(m.rows[1], m.rows[2])); });
 }
 
 template <class S> Inverse<Mat3<S>> inverse_of(const Mat3<S>& m) {
-  return detail::pinned([&]() -> Inverse<Mat3<S>> {
+  return pin_floats([&]() -> Inverse<Mat3<S>> {
     using U = Unit<S>;
     const Inverse<Mat3<S>> none = {Mat3<S>::identity(), false};
     const Heading<S> rows[3] = {heading_of(m.rows[0]), heading_of(m.rows[1]), heading_of(m.rows[2])};
@@ -47,7 +47,7 @@ template <class S> Inverse<Mat3<S>> inverse_of(const Mat3<S>& m) {
   });
 }
 template <class S> Inverse<Affine<S>> inverse_of(const Affine<S>& a) {
-  return detail::pinned([&]() -> Inverse<Affine<S>> {
+  return pin_floats([&]() -> Inverse<Affine<S>> {
     const Inverse<Mat3<S>> linear = inverse_of(a.linear);
     if (!linear.exists) return {Affine<S>::identity(), false};
     return {{linear.inverse, -(linear.inverse * a.position)}, true};

@@ -8,7 +8,7 @@
 namespace isostep {
 
 template <class S> S wrap_angle(S angle) {
-  return detail::pinned([&]() -> S {
+  return pin_floats([&]() -> S {
     const S half_turn = S(3.14159265358979323846);
     if (-half_turn <= angle && angle <= half_turn) return angle;
     // A remainder of the rounded circumference would be wrong by one rounding a turn: sine and cosine reduce exactly.
@@ -17,13 +17,13 @@ template <class S> S wrap_angle(S angle) {
   });
 }
 template <class S> S angle_difference(S from, S to) {
-  return detail::pinned([&]() -> S { return wrap_angle(to - from); });
+  return pin_floats([&]() -> S { return wrap_angle(to - from); });
 }
 template <class S> S lerp_angle(S from, S to, Unit<S> t) {
-  return detail::pinned([&]() -> S { return wrap_angle(from + angle_difference(from, to) * t); });
+  return pin_floats([&]() -> S { return wrap_angle(from + angle_difference(from, to) * t); });
 }
 template <class S> S turn_towards(S from, S to, S most) {
-  return detail::pinned([&]() -> S {
+  return pin_floats([&]() -> S {
     const S way = angle_difference(from, to);
     if (abs(way) <= most) return to;
     return wrap_angle(way < S(0) ? from - most : from + most);
@@ -31,10 +31,10 @@ template <class S> S turn_towards(S from, S to, S most) {
 }
 
 template <class S> S to_degrees(S radians) {
-  return detail::pinned([&]() -> S { return radians * S(57.2957795130823208768); });
+  return pin_floats([&]() -> S { return radians * S(57.2957795130823208768); });
 }
 template <class S> S to_radians(S degrees) {
-  return detail::pinned([&]() -> S { return degrees * Unit<S>(0.01745329251994329577); });
+  return pin_floats([&]() -> S { return degrees * Unit<S>(0.01745329251994329577); });
 }
 
 }  // namespace isostep

@@ -41,16 +41,16 @@ template <class S> ISO_INLINE S number_between(S a, S b, Unit<S> t) {
 }  // namespace detail
 
 template <class S> S lerp(S a, S b, Unit<S> t) {
-  return detail::pinned([&]() -> S { return detail::number_between(a, b, t); });
+  return pin_floats([&]() -> S { return detail::number_between(a, b, t); });
 }
 template <class S> Vec3<S> lerp(Vec3<S> a, Vec3<S> b, Unit<S> t) {
-  return detail::pinned([&]() -> Vec3<S> {
+  return pin_floats([&]() -> Vec3<S> {
     using detail::number_between;
     return {number_between(a.x, b.x, t), number_between(a.y, b.y, t), number_between(a.z, b.z, t)};
   });
 }
 template <class S> Unit<S> inverse_lerp(S a, S b, S x) {
-  return detail::pinned([&]() -> Unit<S> {
+  return pin_floats([&]() -> Unit<S> {
     using U = Unit<S>;
     if (a == b) return U(0);
     const bool rises = a < b;
@@ -60,13 +60,13 @@ template <class S> Unit<S> inverse_lerp(S a, S b, S x) {
   });
 }
 template <class U> U smooth_step(U t) {
-  return detail::pinned([&]() -> U {
+  return pin_floats([&]() -> U {
     const U square = t * t, rest = square * (U(1) - t);
     return square + rest + rest;
   });
 }
 template <class U> U smoother_step(U t) {
-  return detail::pinned([&]() -> U {
+  return pin_floats([&]() -> U {
     const U u = U(1) - t, cube = t * t * t, next = cube * u, last = next * u;  // t^3 (1 + 3 u + 6 u^2)
     const U thrice = last + last + last;
     return cube + next + next + next + thrice + thrice;
@@ -74,7 +74,7 @@ template <class U> U smoother_step(U t) {
 }
 
 template <class S> S polynomial(std::span<const S> coefficients, S x) {
-  return detail::pinned([&]() -> S {
+  return pin_floats([&]() -> S {
     S sum = S(0);
     for (std::size_t i = coefficients.size(); i-- > 0;) sum = sum * x + coefficients[i];
     return sum;
@@ -83,10 +83,10 @@ template <class S> S polynomial(std::span<const S> coefficients, S x) {
 
 #define ISO_CUBIC(name, weights)                                                           \
   template <class S> S name(S a, S b, S c, S d, Unit<S> t) {                               \
-    return detail::pinned([&] { return detail::mixed(a, b, c, d, weights(t)); });          \
+    return pin_floats([&] { return detail::mixed(a, b, c, d, weights(t)); });              \
   }                                                                                        \
   template <class S> Vec3<S> name(Vec3<S> a, Vec3<S> b, Vec3<S> c, Vec3<S> d, Unit<S> t) { \
-    return detail::pinned([&] { return detail::mixed(a, b, c, d, weights(t)); });          \
+    return pin_floats([&] { return detail::mixed(a, b, c, d, weights(t)); });              \
   }
 ISO_CUBIC(hermite, detail::hermite_weights)
 ISO_CUBIC(hermite_slope, detail::hermite_slopes)

@@ -21,7 +21,7 @@ template <class S, class R> ISO_INLINE Unit<S> random_part(R& random) {
 }  // namespace detail
 
 template <class S, class R> S random_normal(R& random) {
-  return detail::pinned([&]() -> S {
+  return pin_floats([&]() -> S {
     std::uint32_t u24 = random.next_u24();
     while (u24 == 0) u24 = random.next_u24();
     const S minus_log = -log_to<S>(unit_interval<S>(u24));
@@ -30,7 +30,7 @@ template <class S, class R> S random_normal(R& random) {
   });
 }
 template <class S, class R> Vec3<Unit<S>> random_direction(R& random) {
-  return detail::pinned([&]() -> Vec3<Unit<S>> {
+  return pin_floats([&]() -> Vec3<Unit<S>> {
     using U = Unit<S>;
     const U part = detail::random_part<S>(random), height = part + part - U(1);
     const SinCos<U> turn = detail::random_turn<S>(random);
@@ -39,7 +39,7 @@ template <class S, class R> Vec3<Unit<S>> random_direction(R& random) {
   });
 }
 template <class S, class R> Vec3<S> random_in_ball(R& random, S radius) {
-  return detail::pinned([&]() -> Vec3<S> {
+  return pin_floats([&]() -> Vec3<S> {
     const Vec3<Unit<S>> direction = random_direction<S>(random);
     Unit<S> part = detail::random_part<S>(random);
     for (int i = 0; i < 2; ++i) part = max(part, detail::random_part<S>(random));
@@ -47,7 +47,7 @@ template <class S, class R> Vec3<S> random_in_ball(R& random, S radius) {
   });
 }
 template <class S, class R> Vec3<S> random_in_disc(R& random, S radius) {
-  return detail::pinned([&]() -> Vec3<S> {
+  return pin_floats([&]() -> Vec3<S> {
     const SinCos<Unit<S>> turn = detail::random_turn<S>(random);
     const Unit<S> first = detail::random_part<S>(random), second = detail::random_part<S>(random);
     const S way = radius * max(first, second);
@@ -55,13 +55,13 @@ template <class S, class R> Vec3<S> random_in_disc(R& random, S radius) {
   });
 }
 template <class S, class R> Vec3<S> random_in_box(R& random, Vec3<S> low, Vec3<S> high) {
-  return detail::pinned([&]() -> Vec3<S> {
+  return pin_floats([&]() -> Vec3<S> {
     const S x = uniform(random, low.x, high.x), y = uniform(random, low.y, high.y);
     return {x, y, uniform(random, low.z, high.z)};
   });
 }
 template <class S, class R> Quat<Unit<S>> random_rotation(R& random) {
-  return detail::pinned([&]() -> Quat<Unit<S>> {
+  return pin_floats([&]() -> Quat<Unit<S>> {
     using U = Unit<S>;
     const U part = detail::random_part<S>(random), low = sqrt(U(1) - part), high = sqrt(part);
     const SinCos<U> first = detail::random_turn<S>(random), second = detail::random_turn<S>(random);

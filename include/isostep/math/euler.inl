@@ -29,7 +29,7 @@ template <class U> ISO_INLINE U length2(U x, U y) { return direction_of(x, y, U(
 }  // namespace detail
 
 template <class S> Quat<Unit<S>> rotation_of(EulerOrder order, S first, S second, S third) {
-  return detail::pinned([&]() -> Quat<Unit<S>> {
+  return pin_floats([&]() -> Quat<Unit<S>> {
     const detail::EulerAxes axes = detail::axes_of(order);
     return detail::turn_about(axes.first, first) * detail::turn_about(axes.second, second) *
            detail::turn_about(axes.third, third);
@@ -37,7 +37,7 @@ template <class S> Quat<Unit<S>> rotation_of(EulerOrder order, S first, S second
 }
 
 template <class S> EulerAngles<S> euler_angles_of(EulerOrder order, Quat<Unit<S>> q) {
-  return detail::pinned([&]() -> EulerAngles<S> {
+  return pin_floats([&]() -> EulerAngles<S> {
     using U = Unit<S>;
     const detail::EulerAxes axes = detail::axes_of(order);
     const Vec3<U> v = {q.x, q.y, q.z};

@@ -9,7 +9,7 @@
 namespace isostep {
 
 template <class S> Basis<Unit<S>> basis_of(Vec3<S> a, Vec3<S> b) {
-  return detail::pinned([&]() -> Basis<Unit<S>> {
+  return pin_floats([&]() -> Basis<Unit<S>> {
     using U = Unit<S>;
     const Vec3<U> x = normalise(a);
     const Heading<U> across = heading_of(cross(x, normalise(b)));
@@ -19,7 +19,7 @@ template <class S> Basis<Unit<S>> basis_of(Vec3<S> a, Vec3<S> b) {
   });
 }
 template <class S> Mat3<S> change_of_basis(const Mat3<Unit<S>>& r, const Mat3<S>& m) {
-  return detail::pinned([&]() -> Mat3<S> { return r * m * transpose(r); });
+  return pin_floats([&]() -> Mat3<S> { return r * m * transpose(r); });
 }
 
 }  // namespace isostep

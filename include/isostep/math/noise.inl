@@ -72,7 +72,7 @@ template <class S> ISO_INLINE Unit<S> half_gradient_noise(Vec3<S> p, std::uint32
 }  // namespace detail
 
 template <class S> Unit<S> value_noise(Vec3<S> p, std::uint32_t seed) {
-  return detail::pinned([&]() -> Unit<S> {
+  return pin_floats([&]() -> Unit<S> {
     using U = Unit<S>;
     const detail::NoiseCell<U> cell = detail::cell_of(p, 0);
     U corners[8];
@@ -82,13 +82,13 @@ template <class S> Unit<S> value_noise(Vec3<S> p, std::uint32_t seed) {
   });
 }
 template <class S> Unit<S> gradient_noise(Vec3<S> p, std::uint32_t seed) {
-  return detail::pinned([&]() -> Unit<S> {
+  return pin_floats([&]() -> Unit<S> {
     const Unit<S> half = detail::half_gradient_noise(p, seed, 0);
     return half + half;
   });
 }
 template <class S> Unit<S> fractal_noise(Vec3<S> p, std::uint32_t seed, int octaves) {
-  return detail::pinned([&]() -> Unit<S> {
+  return pin_floats([&]() -> Unit<S> {
     using U = Unit<S>;
     U sum = U(0), height = U(1);
     for (int octave = 0; octave < octaves && octave < detail::kMostOctaves; ++octave) {

@@ -29,7 +29,7 @@ template <class U> ISO_INLINE Vec3<U> perpendicular(Vec3<U> across, Vec3<U> z) {
 }  // namespace detail
 
 template <class S> AxisAngle<S> axis_angle_of(Quat<Unit<S>> q) {
-  return detail::pinned([&]() -> AxisAngle<S> {
+  return pin_floats([&]() -> AxisAngle<S> {
     using U = Unit<S>;
     const Quat<U> turn = detail::shorter(q);
     const Heading<U> axis = heading_of(detail::vector_of(turn));
@@ -40,20 +40,20 @@ template <class S> AxisAngle<S> axis_angle_of(Quat<Unit<S>> q) {
 }
 
 template <class S> Vec3<S> rotation_vector_of(Quat<Unit<S>> q) {
-  return detail::pinned([&]() -> Vec3<S> {
+  return pin_floats([&]() -> Vec3<S> {
     const AxisAngle<S> turn = axis_angle_of<S>(q);
     return turn.axis * turn.angle;
   });
 }
 template <class S> Quat<Unit<S>> rotation_by(Vec3<S> v) {
-  return detail::pinned([&]() -> Quat<Unit<S>> {
+  return pin_floats([&]() -> Quat<Unit<S>> {
     const Heading<S> turn = heading_of(v);
     return rotation(turn.direction, turn.length);
   });
 }
 
 template <class U> Quat<U> to_quaternion(const Mat3<U>& m) {
-  return detail::pinned([&]() -> Quat<U> {
+  return pin_floats([&]() -> Quat<U> {
     const auto sum = [](U a, U b) ISO_INLINE_LAMBDA { return round_to<U>(product(a, U(0.25)) + product(b, U(0.25))); };
     const auto difference = [](U a, U b)
                                 ISO_INLINE_LAMBDA { return round_to<U>(product(a, U(0.25)) - product(b, U(0.25))); };
@@ -75,7 +75,7 @@ template <class U> Quat<U> to_quaternion(const Mat3<U>& m) {
 }
 
 template <class U> Quat<U> rotation_between(Vec3<U> from, Vec3<U> to) {
-  return detail::pinned([&]() -> Quat<U> {
+  return pin_floats([&]() -> Quat<U> {
     const Heading<U> across = heading_of(cross(from, to));
     const U cosine = dot(from, to), half = U(0.5);
     Vec3<U> axis = tangents_of(from).t;
@@ -93,7 +93,7 @@ template <class U> Quat<U> rotation_between(Vec3<U> from, Vec3<U> to) {
   });
 }
 template <class S> Quat<Unit<S>> look_rotation(Vec3<S> forward, Vec3<S> up) {
-  return detail::pinned([&]() -> Quat<Unit<S>> {
+  return pin_floats([&]() -> Quat<Unit<S>> {
     using U = Unit<S>;
     const Vec3<U> z = normalise(forward);
     const Heading<U> across = heading_of(cross(normalise(up), z));
@@ -104,10 +104,10 @@ template <class S> Quat<Unit<S>> look_rotation(Vec3<S> forward, Vec3<S> up) {
 }
 
 template <class S> S angle_between(Quat<Unit<S>> a, Quat<Unit<S>> b) {
-  return detail::pinned([&]() -> S { return axis_angle_of<S>(conjugate(a) * b).angle; });
+  return pin_floats([&]() -> S { return axis_angle_of<S>(conjugate(a) * b).angle; });
 }
 template <class U> Quat<U> slerp(Quat<U> a, Quat<U> b, U t) {
-  return detail::pinned([&]() -> Quat<U> {
+  return pin_floats([&]() -> Quat<U> {
     const Quat<U> way = detail::shorter(conjugate(a) * b);
     const Heading<U> axis = heading_of(detail::vector_of(way));
     const SinCos<U> part = sin_cos_to<U>(t * atan2_to<U>(axis.length, way.w));
@@ -116,7 +116,7 @@ template <class U> Quat<U> slerp(Quat<U> a, Quat<U> b, U t) {
   });
 }
 template <class U> Quat<U> nlerp(Quat<U> a, Quat<U> b, U t) {
-  return detail::pinned([&]() -> Quat<U> {
+  return pin_floats([&]() -> Quat<U> {
     const Quat<U> end = detail::dot4(a, b) < U(0) ? detail::negated(b) : b;
     const U rest = U(1) - t;
     const auto mixed = [&](U from, U to)
@@ -126,7 +126,7 @@ template <class U> Quat<U> nlerp(Quat<U> a, Quat<U> b, U t) {
 }
 
 template <class U> SwingTwist<U> swing_twist_of(Quat<U> q, Vec3<U> axis) {
-  return detail::pinned([&]() -> SwingTwist<U> {
+  return pin_floats([&]() -> SwingTwist<U> {
     const Vec3<U> v = axis * dot(detail::vector_of(q), axis);
     const Quat<U> twist = normalise(Quat<U>{v.x, v.y, v.z, q.w});
     return {normalise(q * conjugate(twist)), twist};

@@ -9,6 +9,7 @@
 #include "isostep/particles/engine_state.inl"
 #include "isostep/particles/particle_engine.hpp"
 #include "isostep/particles/removal.inl"
+#include "isostep/scalar/environment.hpp"
 #include "isostep/state/world_base.inl"
 
 namespace isostep {
@@ -89,9 +90,10 @@ template <class S> Vec3<S> ParticleWorld<S>::velocity(ParticleId particle) const
   return contains(particle) ? convert<S>(engine_->state_.velocity[particle.slot]) : Vec3<S>::zero();
 }
 template <class S> S ParticleWorld<S>::mass(ParticleId particle) const {
-  const FloatEnvironment environment;
-  const InverseMass<S> w = contains(particle) ? engine_->state_.inverse_mass[particle.slot] : InverseMass<S>(0);
-  return InverseMass<S>(0) < w ? divide_to<S>(S(1), w) : S(0);
+  return pin_floats([&] {
+    const InverseMass<S> w = contains(particle) ? engine_->state_.inverse_mass[particle.slot] : InverseMass<S>(0);
+    return InverseMass<S>(0) < w ? divide_to<S>(S(1), w) : S(0);
+  });
 }
 template <class S> ParticleMaterialId ParticleWorld<S>::material(ParticleId particle) const {
   if (!contains(particle)) return {};
@@ -120,7 +122,7 @@ template <class S> ParticleReport ParticleWorld<S>::step(const ParticleStageObse
   const ExclusiveCall call = engine_->desk_.enter("step");
   if (!call.allowed()) return {};
   engine_->desk_.journal.record_step();
-  return engine_->step(observer);
+  return pin_floats([&] { return engine_->step(observer); });
 }
 template <class S> const ParticleEvents<S>& ParticleWorld<S>::events() const { return engine_->step_.events; }
 

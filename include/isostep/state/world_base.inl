@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "isostep/scalar/environment.hpp"
 #include "isostep/state/fields.hpp"
 #include "isostep/state/members.hpp"
 #include "isostep/state/world_base.hpp"
@@ -91,14 +92,14 @@ template <class World> bool WorldBase<World>::load(const Snapshot& from) {
   typename Parts::Settings its = from.state_->settings;
   its.gravity = settings().gravity;
   if (!(its == settings())) return refuse("one of a world with the same settings");
-  engine_->load(*from.state_);
+  pin_floats([&] { engine_->load(*from.state_); });
   return true;
 }
 template <class World> std::uint64_t WorldBase<World>::hash() const { return engine_->hash(); }
 template <class World> void WorldBase<World>::write_portable(Writer& writer) const { engine_->write_portable(writer); }
 template <class World> Result<void> WorldBase<World>::read_portable(Reader& reader) {
   const ExclusiveCall call = engine_->desk_.enter("read_portable");
-  if (call.allowed()) return engine_->read_portable(reader);
+  if (call.allowed()) return pin_floats([&] { return engine_->read_portable(reader); });
   reader.fail(ErrorCode::invalid, "read while the world steps");
   return reader.result(Parts::kName);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "isostep/core/exclusive_call.hpp"
+#include "isostep/scalar/environment.hpp"
 #include "isostep/state/command_journal.hpp"
 
 namespace isostep {
@@ -27,7 +28,7 @@ struct WorldDesk {
     const ExclusiveCall call = enter(name);
     if (!call.allowed()) return Result{};
     faults.clear();
-    const Result result = executor.execute(command);
+    const Result result = pin_floats([&] { return executor.execute(command); });
     faults.sign(name);
     if (static_cast<bool>(result)) journal.record<typename Executor::Command>(command);
     return result;

@@ -25,7 +25,7 @@ template <class S> bool World<S>::use_broad_phase(BroadPhaseName name) {
   if (!call.allowed() || static_cast<std::uint32_t>(name) >= kBroadPhases) return false;
   if (const char* instead = expected_instead_of(name))
     return engine_->desk_.faults.refuse_call("use_broad_phase", {Fault::bad_argument, "", "name", instead});
-  if (name != broad_phase()) engine_->proxies_.use(name);
+  if (name != broad_phase()) pin_floats([&] { engine_->proxies_.use(name); });
   return true;
 }
 template <class S> BroadPhaseName World<S>::broad_phase() const { return engine_->proxies_.boxes().name(); }
@@ -62,8 +62,7 @@ template <class S, class Shape> ShapeId add_one(World<S>& world, const Shape& sh
 #define ISO_ADD_SHAPE(name, Shape)                                                                                \
   template <class S> ShapeId World<S>::add_shape(const Shape<S>& shape) { return detail::add_one(*this, shape); } \
   template <class S> ShapeId World<S>::add_shape(const Shape<Literal>& shape) {                                   \
-    const FloatEnvironment environment;                                                                           \
-    return detail::add_one(*this, Shape<S>::of(shape));                                                           \
+    return pin_floats([&] { return detail::add_one(*this, Shape<S>::of(shape)); });                               \
   }
 ISO_FOR_EACH_SHAPE(ISO_ADD_SHAPE)
 #undef ISO_ADD_SHAPE
@@ -140,7 +139,7 @@ template <class S> std::size_t World<S>::destroy(std::span<const BodyId> bodies)
   const ExclusiveCall call = engine_->desk_.enter("destroy");
   if (!call.allowed()) return 0;
   engine_->desk_.faults.clear();
-  return engine_->commands_.destroy_all(bodies);
+  return pin_floats([&] { return engine_->commands_.destroy_all(bodies); });
 }
 template <class S> bool World<S>::wake(BodyId body) { return apply(WakeBody{body}); }
 template <class S> bool World<S>::set_pose(BodyId body, const Pose<S>& pose) { return apply(SetPose<S>{body, pose}); }
@@ -184,17 +183,19 @@ template <class S> bool World<S>::apply_force(BodyId body, Vec3<S> force, Vec3<S
   return apply(ApplyForce<S>{body, force, torque});
 }
 template <class S> bool World<S>::apply_force_at(BodyId body, Vec3<S> force, Vec3<S> point) {
-  const FloatEnvironment environment;
-  if (!engine_->desk_.faults.accept_call("apply_force_at", detail::fault_of_place(point, "point"))) return false;
-  return apply_force(body, force, detail::saturated_cross(point - center_of_mass(body), force));
+  return pin_floats([&]() -> bool {
+    if (!engine_->desk_.faults.accept_call("apply_force_at", detail::fault_of_place(point, "point"))) return false;
+    return apply_force(body, force, detail::saturated_cross(point - center_of_mass(body), force));
+  });
 }
 template <class S> bool World<S>::apply_impulse(BodyId body, Vec3<S> impulse, Vec3<S> angular_impulse) {
   return apply(ApplyImpulse<S>{body, impulse, angular_impulse});
 }
 template <class S> bool World<S>::apply_impulse_at(BodyId body, Vec3<S> impulse, Vec3<S> point) {
-  const FloatEnvironment environment;
-  if (!engine_->desk_.faults.accept_call("apply_impulse_at", detail::fault_of_place(point, "point"))) return false;
-  return apply_impulse(body, impulse, detail::saturated_cross(point - center_of_mass(body), impulse));
+  return pin_floats([&]() -> bool {
+    if (!engine_->desk_.faults.accept_call("apply_impulse_at", detail::fault_of_place(point, "point"))) return false;
+    return apply_impulse(body, impulse, detail::saturated_cross(point - center_of_mass(body), impulse));
+  });
 }
 
 template <class S> bool World<S>::contains(BodyId body) const { return engine_->state_.body_slots.holds(body); }
@@ -211,9 +212,10 @@ template <class S> BodyType World<S>::type(BodyId body) const {
   return properties == nullptr ? BodyType::static_ : properties->type;
 }
 template <class S> Pose<S> World<S>::pose(BodyId body) const {
-  const FloatEnvironment environment;
-  if (!contains(body)) return Pose<S>::identity();
-  return origin_pose(*engine_->map_.state_of(body), *engine_->map_.properties_of(body));
+  return pin_floats([&]() -> Pose<S> {
+    if (!contains(body)) return Pose<S>::identity();
+    return origin_pose(*engine_->map_.state_of(body), *engine_->map_.properties_of(body));
+  });
 }
 template <class S> Vec3<S> World<S>::center_of_mass(BodyId body) const {
   const BodyState<S>* state = engine_->map_.state_of(body);
@@ -228,17 +230,18 @@ template <class S> Vec3<S> World<S>::angular_velocity(BodyId body) const {
   return state == nullptr ? Vec3<S>::zero() : convert<S>(state->angular_velocity);
 }
 template <class S> Vec3<S> World<S>::velocity_at(BodyId body, Vec3<S> point) const {
-  const FloatEnvironment environment;
-  const BodyState<S>* state = engine_->map_.state_of(body);
-  if (state == nullptr) return Vec3<S>::zero();
-  return velocity(body) + detail::saturated_cross(angular_velocity(body), point - state->centre);
+  return pin_floats([&]() -> Vec3<S> {
+    const BodyState<S>* state = engine_->map_.state_of(body);
+    if (state == nullptr) return Vec3<S>::zero();
+    return velocity(body) + detail::saturated_cross(angular_velocity(body), point - state->centre);
+  });
 }
 template <class S> S World<S>::mass(BodyId body) const {
   const BodyProperties<S>* properties = engine_->map_.properties_of(body);
   return properties == nullptr ? S(0) : properties->mass;
 }
 template <class S> S World<S>::inertia(BodyId body, Vec3<Unit<S>> axis) const {
-  return detail::pinned([&]() -> S {
+  return pin_floats([&]() -> S {
     const BodyProperties<S>* properties = engine_->map_.properties_of(body);
     if (properties == nullptr) return S(0);
     const Quat<Unit<S>> principal = pose(body).orientation * properties->principal;
@@ -283,18 +286,19 @@ template <class S> WorldCounts World<S>::counts() const {
 
 template <class S> BodyView<S> World<S>::view(BodyId body) const {
   if (!contains(body)) return {};
-  const FloatEnvironment environment;
-  const BodyState<S>* state = engine_->map_.state_of(body);
-  const BodyProperties<S>* properties = engine_->map_.properties_of(body);
-  return {state, properties, engine_->map_.shapes.children_of(properties->shape), engine_->map_.shapes.contents(),
-          origin_pose(*state, *properties)};
+  return pin_floats([&]() -> BodyView<S> {
+    const BodyState<S>* state = engine_->map_.state_of(body);
+    const BodyProperties<S>* properties = engine_->map_.properties_of(body);
+    return {state, properties, engine_->map_.shapes.children_of(properties->shape), engine_->map_.shapes.contents(),
+            origin_pose(*state, *properties)};
+  });
 }
 
 template <class S> StepReport World<S>::step(const StageObserver& observer) {
   const ExclusiveCall call = engine_->desk_.enter("step");
   if (!call.allowed()) return {};
   engine_->desk_.journal.record_step();
-  return engine_->step(observer);
+  return pin_floats([&] { return engine_->step(observer); });
 }
 template <class S> void World<S>::contacts_of(BodyId body, std::vector<ContactPoint<S>>& out) const {
   for (const ContactPoint<S>& point : engine_->events_.contacts) {
@@ -303,8 +307,7 @@ template <class S> void World<S>::contacts_of(BodyId body, std::vector<ContactPo
 }
 template <class S> const Events<S>& World<S>::events() const { return engine_->events_; }
 template <class S> const std::vector<RenderPose>& World<S>::poses_float(float alpha) {
-  const FloatEnvironment environment;
-  return engine_->render_poses_.fill(alpha);
+  return *pin_floats([&] { return &engine_->render_poses_.fill(alpha); });
 }
 
 }  // namespace isostep

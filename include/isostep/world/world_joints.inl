@@ -5,6 +5,7 @@
 #include <span>
 
 #include "isostep/query/joint_queries.hpp"
+#include "isostep/scalar/environment.hpp"
 #include "isostep/world/engine.hpp"
 #include "isostep/world/world.hpp"
 
@@ -31,17 +32,14 @@ template <class S> const JointProperties<S>* World<S>::joint(JointId joint) cons
   return engine_->map_.joints.properties_of(joint);
 }
 template <class S> S World<S>::joint_error(JointId joint) const {
-  const FloatEnvironment environment;
-  return detail::joint_error(engine_->map_, joint);
+  return pin_floats([&] { return detail::joint_error(engine_->map_, joint); });
 }
 template <class S> S World<S>::joint_position(JointId joint) const {
-  const FloatEnvironment environment;
-  return detail::joint_position(engine_->map_, joint);
+  return pin_floats([&] { return detail::joint_position(engine_->map_, joint); });
 }
 
 template <class S> S World<S>::joint_position(JointId joint, JointAxis axis) const {
-  const FloatEnvironment environment;
-  return detail::joint_position(engine_->state_, engine_->map_, joint, axis);
+  return pin_floats([&] { return detail::joint_position(engine_->state_, engine_->map_, joint, axis); });
 }
 
 /// Makes both frames from one frame in the world, as the bodies lie now. A frame whose orientation is none stays so,
@@ -56,21 +54,22 @@ template <class S> AxisDriveId World<S>::axis_drive(JointId joint, JointAxis axi
 template <class S>
 JointProperties<S> World<S>::joint_between(JointType type, BodyId a, const Pose<S>& frame_a, BodyId b,
                                            const Pose<S>& frame_b) const {
-  const FloatEnvironment environment;
-  JointProperties<S> joint;
-  joint.type = type;
-  const auto local = [&](BodyId body, const Pose<S>& frame, std::uint32_t& slot, std::uint32_t& generation) {
-    if (!body) return frame;
-    slot = body.slot;
-    generation = body.generation;
-    if (!contains(body) || !detail::is_unit<S>(frame.orientation)) return frame;
-    const Pose<S> centre = engine_->map_.centre_pose_at(body.slot);
-    const Vec3<S> arm = transposed_times(to_matrix(centre.orientation), frame.position - centre.position);
-    return Pose<S>{arm, normalise(conjugate(centre.orientation) * frame.orientation)};
-  };
-  joint.frame_a = local(a, frame_a, joint.body_a, joint.generation_a);
-  joint.frame_b = local(b, frame_b, joint.body_b, joint.generation_b);
-  return joint;
+  return pin_floats([&]() -> JointProperties<S> {
+    JointProperties<S> joint;
+    joint.type = type;
+    const auto local = [&](BodyId body, const Pose<S>& frame, std::uint32_t& slot, std::uint32_t& generation) {
+      if (!body) return frame;
+      slot = body.slot;
+      generation = body.generation;
+      if (!contains(body) || !detail::is_unit<S>(frame.orientation)) return frame;
+      const Pose<S> centre = engine_->map_.centre_pose_at(body.slot);
+      const Vec3<S> arm = transposed_times(to_matrix(centre.orientation), frame.position - centre.position);
+      return Pose<S>{arm, normalise(conjugate(centre.orientation) * frame.orientation)};
+    };
+    joint.frame_a = local(a, frame_a, joint.body_a, joint.generation_a);
+    joint.frame_b = local(b, frame_b, joint.body_b, joint.generation_b);
+    return joint;
+  });
 }
 template <class S> JointId World<S>::create(const JointDefinition<S>& definition) {
   JointProperties<S> joint =

@@ -29,23 +29,24 @@ class StagedWork {
       : pieces_(pieces), threads_(threads), piece_(piece), data_(data), board_(opened(0)) {}
 
   void work() {
-    const FloatEnvironment environment;  // threads that are lent may have any
-    const std::uint32_t thread = arrived_.fetch_add(1, std::memory_order_relaxed) % threads_;
-    for (std::uint32_t waited = 0; waited < kPatience;) {
-      std::uint64_t board = board_.load(std::memory_order_acquire);
-      if (stage_of(board) == pieces_.size()) return;
-      if (unclaimed_of(board) == 0) {
-        relax_processor();
-        ++waited;
-        continue;
+    pin_floats([&] {  // threads that are lent may have any environment
+      const std::uint32_t thread = arrived_.fetch_add(1, std::memory_order_relaxed) % threads_;
+      for (std::uint32_t waited = 0; waited < kPatience;) {
+        std::uint64_t board = board_.load(std::memory_order_acquire);
+        if (stage_of(board) == pieces_.size()) return;
+        if (unclaimed_of(board) == 0) {
+          relax_processor();
+          ++waited;
+          continue;
+        }
+        const std::uint32_t piece = choose(unclaimed_of(board), thread);
+        if (!board_.compare_exchange_weak(board, board & ~(std::uint64_t{1} << piece), std::memory_order_acquire))
+          continue;
+        waited = 0;
+        piece_(data_, stage_of(board), piece);
+        finish_piece(stage_of(board));
       }
-      const std::uint32_t piece = choose(unclaimed_of(board), thread);
-      if (!board_.compare_exchange_weak(board, board & ~(std::uint64_t{1} << piece), std::memory_order_acquire))
-        continue;
-      waited = 0;
-      piece_(data_, stage_of(board), piece);
-      finish_piece(stage_of(board));
-    }
+    });
   }
 
  private:

@@ -233,55 +233,59 @@ GridVector ConvexHull::normal(std::uint8_t face) const {
 }
 
 Result<std::vector<GridPoint>> simplified(std::span<const GridPoint> points, std::uint32_t count) {
-  const FloatEnvironment environment;
-  if (count < 4) return error(ErrorCode::invalid, "fewer than 4 points are asked for");
-  std::vector<GridPoint> distinct;
-  if (!take_distinct(points, distinct)) return out_of_grid();
-  const std::vector<HullTriangle> triangles = Quickhull(distinct).run(count);
-  if (triangles.empty()) return no_volume();
-  std::vector<std::uint8_t> is_vertex(distinct.size(), 0);
-  for (const HullTriangle& triangle : triangles) {
-    for (const std::uint32_t p : triangle.vertices) is_vertex[p] = 1;
-  }
-  std::vector<GridPoint> kept;
-  for (std::size_t p = 0; p < distinct.size(); ++p) {
-    if (is_vertex[p]) kept.push_back(distinct[p]);
-  }
-  return kept;
+  return pin_floats([&]() -> Result<std::vector<GridPoint>> {
+    if (count < 4) return error(ErrorCode::invalid, "fewer than 4 points are asked for");
+    std::vector<GridPoint> distinct;
+    if (!take_distinct(points, distinct)) return out_of_grid();
+    const std::vector<HullTriangle> triangles = Quickhull(distinct).run(count);
+    if (triangles.empty()) return no_volume();
+    std::vector<std::uint8_t> is_vertex(distinct.size(), 0);
+    for (const HullTriangle& triangle : triangles) {
+      for (const std::uint32_t p : triangle.vertices) is_vertex[p] = 1;
+    }
+    std::vector<GridPoint> kept;
+    for (std::size_t p = 0; p < distinct.size(); ++p) {
+      if (is_vertex[p]) kept.push_back(distinct[p]);
+    }
+    return kept;
+  });
 }
 
 Result<ConvexHull> convex_hull(std::span<const GridPoint> points) {
-  const FloatEnvironment environment;
-  std::vector<GridPoint> distinct;
-  if (!take_distinct(points, distinct)) return out_of_grid();
-  const std::vector<HullTriangle> triangles = Quickhull(distinct).run();
-  if (triangles.empty()) return no_volume();
-  const FaceLoops faces(distinct, triangles);
-  const std::vector<std::uint32_t> corners = faces.corners();
-  if (corners.size() > ConvexHull::kMaxVertices) return too_many(corners.size(), "vertices", ConvexHull::kMaxVertices);
-  if (faces.loops().size() > ConvexHull::kMaxFaces)
-    return too_many(faces.loops().size(), "faces", ConvexHull::kMaxFaces);
+  return pin_floats([&]() -> Result<ConvexHull> {
+    std::vector<GridPoint> distinct;
+    if (!take_distinct(points, distinct)) return out_of_grid();
+    const std::vector<HullTriangle> triangles = Quickhull(distinct).run();
+    if (triangles.empty()) return no_volume();
+    const FaceLoops faces(distinct, triangles);
+    const std::vector<std::uint32_t> corners = faces.corners();
+    if (corners.size() > ConvexHull::kMaxVertices)
+      return too_many(corners.size(), "vertices", ConvexHull::kMaxVertices);
+    if (faces.loops().size() > ConvexHull::kMaxFaces)
+      return too_many(faces.loops().size(), "faces", ConvexHull::kMaxFaces);
 
-  ConvexHull hull;
-  std::vector<std::uint32_t> vertex_of(distinct.size(), kNone);
-  for (const std::uint32_t corner : corners) {
-    vertex_of[corner] = static_cast<std::uint32_t>(hull.vertices.size());
-    hull.vertices.push_back(distinct[corner]);
-  }
-  const std::vector<std::vector<std::uint32_t>> loops = in_order(faces, vertex_of);
-  std::vector<std::uint64_t> edges;
-  for (const std::vector<std::uint32_t>& loop : loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const std::uint32_t from = loop[i], to = loop[(i + 1) % loop.size()];
-      if (from < to) edges.push_back(pair_of(from, to));
+    ConvexHull hull;
+    std::vector<std::uint32_t> vertex_of(distinct.size(), kNone);
+    for (const std::uint32_t corner : corners) {
+      vertex_of[corner] = static_cast<std::uint32_t>(hull.vertices.size());
+      hull.vertices.push_back(distinct[corner]);
     }
-  }
-  if (edges.size() > ConvexHull::kMaxEdges) return too_many(edges.size(), "edges", ConvexHull::kMaxEdges);
-  sort(edges, NumberKey{});
-  link(hull, loops, edges);
-  if (!is_thick(hull))
-    return error(ErrorCode::invalid, "the points are flat: thinner than 4 steps of the grid or 1/1024 of their width");
-  return hull;
+    const std::vector<std::vector<std::uint32_t>> loops = in_order(faces, vertex_of);
+    std::vector<std::uint64_t> edges;
+    for (const std::vector<std::uint32_t>& loop : loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const std::uint32_t from = loop[i], to = loop[(i + 1) % loop.size()];
+        if (from < to) edges.push_back(pair_of(from, to));
+      }
+    }
+    if (edges.size() > ConvexHull::kMaxEdges) return too_many(edges.size(), "edges", ConvexHull::kMaxEdges);
+    sort(edges, NumberKey{});
+    link(hull, loops, edges);
+    if (!is_thick(hull))
+      return error(ErrorCode::invalid,
+                   "the points are flat: thinner than 4 steps of the grid or 1/1024 of their width");
+    return hull;
+  });
 }
 
 }  // namespace isostep

@@ -8,11 +8,13 @@
 namespace isostep {
 
 Result<SurfaceMaterial> surface_material(double friction, double restitution) {
-  const FloatEnvironment environment;
-  if (!(friction >= 0 && friction <= 16)) return Error{ErrorCode::invalid, "friction is 0 to 16", "friction"};
-  if (!(restitution >= 0 && restitution <= 1)) return Error{ErrorCode::invalid, "restitution is 0 to 1", "restitution"};
-  return SurfaceMaterial{static_cast<std::uint16_t>(nearest_scaled(friction, SurfaceMaterial::kBits)),
-                         static_cast<std::uint16_t>(nearest_scaled(restitution, SurfaceMaterial::kBits))};
+  return pin_floats([&]() -> Result<SurfaceMaterial> {
+    if (!(friction >= 0 && friction <= 16)) return Error{ErrorCode::invalid, "friction is 0 to 16", "friction"};
+    if (!(restitution >= 0 && restitution <= 1))
+      return Error{ErrorCode::invalid, "restitution is 0 to 1", "restitution"};
+    return SurfaceMaterial{static_cast<std::uint16_t>(nearest_scaled(friction, SurfaceMaterial::kBits)),
+                           static_cast<std::uint16_t>(nearest_scaled(restitution, SurfaceMaterial::kBits))};
+  });
 }
 
 Result<void> check_table(std::span<const SurfaceMaterial> table) {

@@ -4,6 +4,7 @@
 
 #include "isostep/core/version.hpp"
 #include "isostep/replay/replay_check.hpp"
+#include "isostep/scalar/environment.hpp"
 #include "isostep/world/world.hpp"
 
 namespace isostep {
@@ -51,8 +52,7 @@ template <class S> void replay_in(std::span<const SelfcheckRecording> recordings
 }
 
 std::uint32_t engine_deviations() {
-  const FloatEnvironment as_in_steps;
-  return probe_environment();
+  return pin_floats([&] { return probe_environment(); });
 }
 
 void add_word(std::string& words, const char* word) {

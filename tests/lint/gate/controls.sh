@@ -17,7 +17,7 @@ trap 'exit 130' INT TERM HUP
 has() { grep -Eq "^#define ($1) " "$dir/macros"; }
 
 concerns='fused libm'
-if has '__x86_64__|__i386__'; then concerns="$concerns x87 loose"; fi
+if has '__x86_64__|__i386__'; then concerns="$concerns x87 loose unpinned"; fi
 if has '__arm__'; then concerns="$concerns flushes"; fi
 if has '__aarch64__|__riscv|__powerpc64__|__wasm__'; then concerns="$concerns soft"; fi
 

@@ -28,6 +28,18 @@ struct Task {
   std::vector<std::string> files;
 };
 
+/// What one function does about the float environment.
+struct Body {
+  std::string file, rounds;  // its last instruction that rounds
+  bool sets = false;
+
+  void take(const Instruction& instruction) {
+    sets = sets || sets_environment(instruction.set, instruction.mnemonic);
+    if (obeys_environment(instruction.set, instruction.mnemonic))
+      rounds = std::string(instruction.mnemonic) + " " + std::string(instruction.operands);
+  }
+};
+
 class Gate {
  public:
   explicit Gate(const Task& task) : task_(task) {}
@@ -64,7 +76,12 @@ class Gate {
       const bool read = disassembly.read(line, [&](const Instruction& instruction) {
         if (instruction.function.find(task_.functions) == std::string::npos) return;
         ++instructions_;
-        if (instruction.function != last_) functions_.insert(last_ = instruction.function);
+        if (instruction.function != last_) {
+          report_unpinned();
+          functions_.insert(last_ = instruction.function);
+          body_ = {instruction.file};
+        }
+        body_.take(instruction);
         const Concern concern = concern_of(instruction.set, instruction.mnemonic, instruction.operands);
         if (concern == Concern::none) return;
         report(instruction.file, instruction.function, concern,
@@ -72,6 +89,8 @@ class Gate {
       });
       known = known && read;
     });
+    report_unpinned();
+    last_.clear();
     if (!known) std::fprintf(stderr, "%s: an instruction set that the gate does not know\n", file.c_str());
     if (!ok) std::fprintf(stderr, "%s: %s fails\n", file.c_str(), task_.objdump.c_str());
     if (instructions_ == before) std::fprintf(stderr, "%s: no instruction could be read\n", file.c_str());
@@ -93,10 +112,19 @@ class Gate {
     return ok;
   }
 
+  /// pin_floats() has its arithmetic in a function of its own, so what changes the environment rounds nothing.
+  void report_unpinned() {
+    const bool computes =
+        last_.find("run_alone<") == std::string::npos && last_.find("probe_environment") == std::string::npos;
+    if (computes && body_.sets && !body_.rounds.empty()) report(body_.file, last_, Concern::unpinned, body_.rounds);
+    body_ = {};
+  }
+
   const Task& task_;
   std::size_t instructions_ = 0, calls_ = 0, found_[kConcerns] = {};
   std::set<std::string> functions_;
   std::string last_;
+  Body body_;
 };
 
 bool parse(const std::vector<std::string>& words, Task& task) {

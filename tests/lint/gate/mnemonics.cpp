@@ -132,6 +132,20 @@ Concern concern_of(InstructionSet set, std::string_view mnemonic, std::string_vi
   return at->second == Concern::flushes && single ? Concern::none : at->second;
 }
 
+bool sets_environment(InstructionSet set, std::string_view mnemonic) {
+  return set == InstructionSet::x86 && (mnemonic == "ldmxcsr" || mnemonic == "vldmxcsr");
+}
+
+/// Intel's manual 1, 10.2.3: arithmetic, square roots and conversions of SSE. Moves, comparisons and min round nothing.
+bool obeys_environment(InstructionSet set, std::string_view mnemonic) {
+  static const std::regex kRounds("v?(add|sub|addsub|hadd|hsub|mul|div|sqrt)[sp][sd]|v?cvt\\w+");
+  static std::map<std::string, bool> known;
+  if (set != InstructionSet::x86) return false;
+  const auto [at, fresh] = known.insert({std::string(mnemonic), false});
+  if (fresh) at->second = std::regex_match(at->first, kRounds);
+  return at->second;
+}
+
 bool is_prefix(InstructionSet set, std::string_view mnemonic) {
   if (set != InstructionSet::x86) return false;
   for (const char* prefix : {"rep", "repz", "repnz", "lock", "data16", "addr32", "cs", "ds", "es", "ss", "fs", "gs",

@@ -1,12 +1,14 @@
-// FloatEnvironment against callers that left the floating-point unit in every wrong state, and the probe that tells.
+// pin_floats against callers that left the floating-point unit in every wrong state, and the probe that tells.
 // SPDX-License-Identifier: MIT
 #include "isostep/scalar/environment.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 namespace isostep {
@@ -54,24 +56,23 @@ std::vector<std::uint64_t> hostile_states(std::uint64_t sound) {
 #endif
 }
 
-class FloatEnvironmentTest : public testing::Test {
+class PinFloatsTest : public testing::Test {
  protected:
   void TearDown() override { State::write(before_); }
   std::uint64_t before_ = State::read();
 };
 
-TEST_F(FloatEnvironmentTest, AGuardedScopeComputesRightWhateverTheCallerSet) {
+TEST_F(PinFloatsTest, APinnedCallComputesRightWhateverTheCallerSet) {
   const std::uint64_t expected = sums();
   for (const std::uint64_t state : hostile_states(before_)) {
     State::write(state);
     std::uint64_t inside = 0;
     std::uint32_t here = 1, library = 1;
-    {
-      FloatEnvironment guard;
+    pin_floats([&] {
       inside = sums();
       here = probe_here();
       library = probe_environment();
-    }
+    });
     State::write(before_);
     EXPECT_EQ(inside, expected) << std::hex << state;
     EXPECT_EQ(here, 0u) << std::hex << state;
@@ -79,14 +80,50 @@ TEST_F(FloatEnvironmentTest, AGuardedScopeComputesRightWhateverTheCallerSet) {
   }
 }
 
-TEST_F(FloatEnvironmentTest, TheCallersStateReturnsBitForBit) {
+template <class S> struct Triple { S x, y, z; };
+
+/// As the library's functions are written: numbers of the arguments, a number returned, all in one function.
+template <class S> __attribute__((noinline)) S quotient(S a, S b) {
+  return pin_floats([&] { return a / b; });
+}
+template <class S> __attribute__((noinline)) Triple<S> midway(Triple<S> a, Triple<S> b, S share) {
+  return pin_floats([&]() -> Triple<S> {
+    if (share == S(0)) return a;
+    return {a.x + (b.x - a.x) * share, a.y + (b.y - a.y) * share, a.z + (b.z - a.z) * share};
+  });
+}
+
+/// A compiler knows nothing of the state, and clang moved a last division behind the caller's return.
+TEST_F(PinFloatsTest, NoArithmeticOfAFunctionLiesOutside) {
+  const auto all = [](auto tag) {
+    using S = decltype(tag);
+    const Triple<S> between = midway<S>({S(0.1), S(0.7), S(-0.3)}, {S(1.3), S(0x1p-100), S(7)}, S(0.3));
+    return std::array{quotient(S(1), S(3)),
+                      quotient(S(-1), S(3)),
+                      quotient(std::numeric_limits<S>::min(), S(3)),
+                      between.x,
+                      between.y,
+                      between.z};
+  };
+  const auto floats = all(float{});
+  const auto doubles = all(double{});
+  for (const std::uint64_t state : hostile_states(before_)) {
+    State::write(state);
+    const auto floats_now = all(float{});
+    const auto doubles_now = all(double{});
+    State::write(before_);
+    EXPECT_EQ(floats_now, floats) << std::hex << state;
+    EXPECT_EQ(doubles_now, doubles) << std::hex << state;
+  }
+}
+
+TEST_F(PinFloatsTest, TheCallersStateReturnsBitForBit) {
   for (const std::uint64_t state : hostile_states(before_)) {
     State::write(state);
     const std::uint64_t set = State::read();
-    {
-      FloatEnvironment guard;
+    pin_floats([&] {
       sums();  // raises the inexact and underflow flags
-    }
+    });
     const std::uint64_t left = State::read();
     State::write(before_);
     EXPECT_EQ(left, set) << std::hex << state;
@@ -94,30 +131,29 @@ TEST_F(FloatEnvironmentTest, TheCallersStateReturnsBitForBit) {
   }
 }
 
-TEST_F(FloatEnvironmentTest, GuardsNest) {
+TEST_F(PinFloatsTest, CallsNest) {
   for (const std::uint64_t state : hostile_states(before_)) {
     State::write(state);
     std::uint64_t between = 0;
-    {
-      FloatEnvironment outer;
-      { FloatEnvironment inner; }
+    pin_floats([&] {
+      pin_floats([] {});
       between = State::read();
-    }
+    });
     const std::uint64_t left = State::read();
     State::write(before_);
-    EXPECT_EQ(State::pinned(between), between) << "the inner guard must leave the outer's state";
+    EXPECT_EQ(State::pinned(between), between) << "the inner call must leave the outer's state";
     EXPECT_EQ(left, state);
   }
 }
 
-TEST_F(FloatEnvironmentTest, ASoundStateIsNotWritten) {
+TEST_F(PinFloatsTest, ASoundStateIsNotWritten) {
   const std::uint64_t sound = State::pinned(before_);
   EXPECT_EQ(State::pinned(sound), sound);
   State::write(sound);
   EXPECT_EQ(probe_here(), 0u);
 }
 
-TEST_F(FloatEnvironmentTest, EveryHostileStateIsTold) {
+TEST_F(PinFloatsTest, EveryHostileStateIsTold) {
   for (const std::uint64_t state : hostile_states(before_)) {
     if (State::pinned(state) == state) continue;  // only sticky flags differ
     State::write(state);
@@ -130,7 +166,7 @@ TEST_F(FloatEnvironmentTest, EveryHostileStateIsTold) {
 }
 
 #if defined(__SSE2__)
-TEST_F(FloatEnvironmentTest, TheProbeNamesTheCause) {
+TEST_F(PinFloatsTest, TheProbeNamesTheCause) {
   const auto probe_under = [&](std::uint64_t bits) {
     State::write(before_ | bits);
     const std::uint32_t found = probe_here();
@@ -145,7 +181,7 @@ TEST_F(FloatEnvironmentTest, TheProbeNamesTheCause) {
   }
 }
 
-TEST_F(FloatEnvironmentTest, TheProbeNeitherTrapsNorLeavesFlags) {
+TEST_F(PinFloatsTest, TheProbeNeitherTrapsNorLeavesFlags) {
   const std::uint64_t trapping = before_ & ~std::uint64_t{0x1fbf};  // every mask and every flag
   State::write(trapping);
   const std::uint32_t here = probe_here(), library = probe_environment();
@@ -155,14 +191,13 @@ TEST_F(FloatEnvironmentTest, TheProbeNeitherTrapsNorLeavesFlags) {
   EXPECT_EQ(left, trapping);
 }
 
-TEST_F(FloatEnvironmentTest, ExceptionsAreMaskedInside) {
+TEST_F(PinFloatsTest, ExceptionsAreMaskedInside) {
   State::write(before_ & ~std::uint64_t{0x0200});  // a division by zero would now end the program
-  {
-    FloatEnvironment guard;
+  pin_floats([&] {
     volatile float one = 1, zero = 0;
     volatile float infinite = one / zero;
     static_cast<void>(infinite);
-  }
+  });
   State::write(before_);
   SUCCEED();
 }
@@ -170,16 +205,15 @@ TEST_F(FloatEnvironmentTest, ExceptionsAreMaskedInside) {
 
 #if defined(__i386__)
 /// The x87 traps at the instruction after: a flag that a guarded conversion left would end a caller who has no mask.
-TEST_F(FloatEnvironmentTest, ConversionsInsideDoNotTrapOutside) {
+TEST_F(PinFloatsTest, ConversionsInsideDoNotTrapOutside) {
   constexpr std::uint64_t kInexactMask = 0x0020'0000'0000, kInexactFlag = 0x0020'0000'0000'0000;
   const std::uint64_t unmasked = before_ & ~(kInexactMask | kInexactFlag);
   State::write(unmasked);
   std::uint64_t inside = 0;
-  {
-    FloatEnvironment guard;
+  pin_floats([&] {
     sums();
     inside = State::read();
-  }
+  });
   __asm__ volatile("fwait");
   const std::uint64_t left = State::read();
   State::write(before_);

@@ -4,6 +4,7 @@
 
 #include "isostep/particles/bodies/bridge.hpp"
 #include "isostep/particles/bodies/builder.inl"
+#include "isostep/scalar/environment.hpp"
 
 namespace isostep {
 namespace detail {
@@ -29,22 +30,24 @@ template <class S> Link<S> bridge_support(const BridgeDefinition<S>& d, std::uin
 }  // namespace detail
 
 template <class S> ParticleBody build(ParticleWorld<S>& world, const BridgeDefinition<S>& d) {
-  detail::BodyBuilder<S> builder(world);
-  const std::uint32_t count = 2 * d.columns;
-  builder.demand(2 <= d.columns && d.columns <= kMostBodyRow && S(0) < d.deck_length && S(0) < d.width);
-  builder.demand_places({d.centre, {S(0), d.support_height, S(0)}});
-  if (!builder.good()) return builder.finish();
-  for (std::uint32_t i = 0; builder.good() && i < count; ++i) {
-    builder.particle(detail::bridge_point(d.centre, d.columns, d.spacing, d.width, i), d.mass, false, d.material);
-  }
-  for (std::uint32_t i = 0; builder.good() && i + 2 < count; ++i) {
-    builder.link(LinkType::cable, i, i + 2, d.deck_length, d.deck_restitution);
-  }
-  for (std::uint32_t i = 0; builder.good() && i < count; ++i) {
-    builder.link(detail::bridge_support(d, i, builder.particle(i)));
-  }
-  for (std::uint32_t i = 0; builder.good() && i < count; i += 2) builder.link(LinkType::rod, i, i + 1, d.width);
-  return builder.finish();
+  return pin_floats([&] {
+    detail::BodyBuilder<S> builder(world);
+    const std::uint32_t count = 2 * d.columns;
+    builder.demand(2 <= d.columns && d.columns <= kMostBodyRow && S(0) < d.deck_length && S(0) < d.width);
+    builder.demand_places({d.centre, {S(0), d.support_height, S(0)}});
+    if (!builder.good()) return builder.finish();
+    for (std::uint32_t i = 0; builder.good() && i < count; ++i) {
+      builder.particle(detail::bridge_point(d.centre, d.columns, d.spacing, d.width, i), d.mass, false, d.material);
+    }
+    for (std::uint32_t i = 0; builder.good() && i + 2 < count; ++i) {
+      builder.link(LinkType::cable, i, i + 2, d.deck_length, d.deck_restitution);
+    }
+    for (std::uint32_t i = 0; builder.good() && i < count; ++i) {
+      builder.link(detail::bridge_support(d, i, builder.particle(i)));
+    }
+    for (std::uint32_t i = 0; builder.good() && i < count; i += 2) builder.link(LinkType::rod, i, i + 1, d.width);
+    return builder.finish();
+  });
 }
 
 }  // namespace isostep

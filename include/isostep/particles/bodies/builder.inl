@@ -108,7 +108,6 @@ template <class S> class BodyBuilder {
     if (id) ids.push_back(id);
   }
 
-  const FloatEnvironment environment_;  // a builder lives as long as its function
   ParticleWorld<S>& world_;
   ParticleBody body_;
   std::vector<Vec3<S>> positions_;

@@ -4,6 +4,7 @@
 
 #include "isostep/particles/bodies/builder.inl"
 #include "isostep/particles/bodies/cloth.hpp"
+#include "isostep/scalar/environment.hpp"
 
 namespace isostep {
 namespace detail {
@@ -40,28 +41,30 @@ void weave(BodyBuilder<S>& builder, const ClothDefinition<S>& d, const SpringKin
 }  // namespace detail
 
 template <class S> ParticleBody build(ParticleWorld<S>& world, const ClothDefinition<S>& d) {
-  detail::BodyBuilder<S> builder(world);
-  builder.demand(2 <= d.columns && d.columns <= kMostBodyRow && 2 <= d.rows && d.rows <= kMostBodyRow &&
-                 std::uint64_t{d.columns} * d.rows <= kMostBodyParticles && d.pins <= ClothPins::edge);
-  builder.demand_places({d.corner, d.across, d.down});
-  if (!builder.good()) return builder.finish();
-  const S mass = d.mass / S(d.columns) / S(d.rows);
-  for (std::uint32_t r = 0; builder.good() && r < d.rows; ++r) {
-    const Vec3<S> first = detail::on_the_way(d.corner, d.corner + d.down, r, d.rows - 1);
-    for (std::uint32_t c = 0; c < d.columns; ++c) {
-      const Vec3<S> at = detail::on_the_way(first, first + d.across, c, d.columns - 1);
-      builder.particle(at, mass, detail::pins_cloth_at(d, r, c), d.material);
+  return pin_floats([&] {
+    detail::BodyBuilder<S> builder(world);
+    builder.demand(2 <= d.columns && d.columns <= kMostBodyRow && 2 <= d.rows && d.rows <= kMostBodyRow &&
+                   std::uint64_t{d.columns} * d.rows <= kMostBodyParticles && d.pins <= ClothPins::edge);
+    builder.demand_places({d.corner, d.across, d.down});
+    if (!builder.good()) return builder.finish();
+    const S mass = d.mass / S(d.columns) / S(d.rows);
+    for (std::uint32_t r = 0; builder.good() && r < d.rows; ++r) {
+      const Vec3<S> first = detail::on_the_way(d.corner, d.corner + d.down, r, d.rows - 1);
+      for (std::uint32_t c = 0; c < d.columns; ++c) {
+        const Vec3<S> at = detail::on_the_way(first, first + d.across, c, d.columns - 1);
+        builder.particle(at, mass, detail::pins_cloth_at(d, r, c), d.material);
+      }
     }
-  }
-  const SpringKind<S> structural = builder.resolve(d.structural, mass, S(0.125));
-  const SpringKind<S> shear = builder.resolve(d.shear, mass, S(0.0625));
-  const SpringKind<S> bend = builder.resolve(d.bend, mass, S(0.03125));
-  detail::weave(builder, d, structural, 1, 0);
-  detail::weave(builder, d, structural, 0, 1);
-  detail::weave(builder, d, shear, 1, 1);
-  detail::weave(builder, d, bend, 2, 0);
-  detail::weave(builder, d, bend, 0, 2);
-  return builder.finish();
+    const SpringKind<S> structural = builder.resolve(d.structural, mass, S(0.125));
+    const SpringKind<S> shear = builder.resolve(d.shear, mass, S(0.0625));
+    const SpringKind<S> bend = builder.resolve(d.bend, mass, S(0.03125));
+    detail::weave(builder, d, structural, 1, 0);
+    detail::weave(builder, d, structural, 0, 1);
+    detail::weave(builder, d, shear, 1, 1);
+    detail::weave(builder, d, bend, 2, 0);
+    detail::weave(builder, d, bend, 0, 2);
+    return builder.finish();
+  });
 }
 
 }  // namespace isostep

@@ -4,6 +4,7 @@
 
 #include "isostep/particles/bodies/builder.inl"
 #include "isostep/particles/bodies/soft_box.hpp"
+#include "isostep/scalar/environment.hpp"
 
 namespace isostep {
 namespace detail {
@@ -64,17 +65,19 @@ template <class S> class SoftBoxBuilder {
 }  // namespace detail
 
 template <class S> ParticleBody build(ParticleWorld<S>& world, const SoftBoxDefinition<S>& d) {
-  detail::BodyBuilder<S> builder(world);
-  for (const std::uint32_t count : {d.columns, d.rows, d.layers}) builder.demand(2 <= count && count <= kMostBodyRow);
-  builder.demand(std::uint64_t{d.columns} * d.rows <= kMostBodyParticles &&
-                 std::uint64_t{d.columns} * d.rows * d.layers <= kMostBodyParticles);
-  builder.demand_places({d.centre, d.size});
-  if (!builder.good()) return builder.finish();
-  const S mass = d.mass / S(d.columns) / S(d.rows) / S(d.layers);
-  detail::SoftBoxBuilder<S> box(builder, d, mass);
-  box.for_each([&](std::uint32_t c, std::uint32_t r, std::uint32_t l) ISO_INLINE_LAMBDA { box.place(c, r, l); });
-  box.for_each([&](std::uint32_t c, std::uint32_t r, std::uint32_t l) ISO_INLINE_LAMBDA { box.tie(c, r, l); });
-  return builder.finish();
+  return pin_floats([&] {
+    detail::BodyBuilder<S> builder(world);
+    for (const std::uint32_t count : {d.columns, d.rows, d.layers}) builder.demand(2 <= count && count <= kMostBodyRow);
+    builder.demand(std::uint64_t{d.columns} * d.rows <= kMostBodyParticles &&
+                   std::uint64_t{d.columns} * d.rows * d.layers <= kMostBodyParticles);
+    builder.demand_places({d.centre, d.size});
+    if (!builder.good()) return builder.finish();
+    const S mass = d.mass / S(d.columns) / S(d.rows) / S(d.layers);
+    detail::SoftBoxBuilder<S> box(builder, d, mass);
+    box.for_each([&](std::uint32_t c, std::uint32_t r, std::uint32_t l) ISO_INLINE_LAMBDA { box.place(c, r, l); });
+    box.for_each([&](std::uint32_t c, std::uint32_t r, std::uint32_t l) ISO_INLINE_LAMBDA { box.tie(c, r, l); });
+    return builder.finish();
+  });
 }
 
 }  // namespace isostep

@@ -1,9 +1,12 @@
-// The processor's floating-point state: pinned for a scope, restored after; and a probe of what is not as it must be.
+// The processor's floating-point state: pinned for a call, restored after; and a probe of what is not as it must be.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <bit>
 #include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "isostep/scalar/platform.hpp"
 
@@ -140,19 +143,18 @@ struct FloatState {
 };
 }  // namespace detail
 
-/// A guard: while it lives, this thread computes as IEEE 754 starts out: to nearest, denormals kept, no traps. A
-/// library linked with -ffast-math, a driver or a game may have left it otherwise. The caller's state, sticky flags
-/// included, returns bit for bit. It costs a read or two when nothing is amiss, for a write stalls the pipeline.
-/// Limits: the compiler knows nothing of it. Arithmetic of the same function may be moved out of the scope, so put the
-///         guard where a function that is not inlined is called.
+namespace detail {
+/// A guard: while it lives, this thread computes as IEEE 754 starts out: to nearest, denormals kept, no traps. The
+/// caller's state, sticky flags included, returns bit for bit. It costs a read or two when nothing is amiss, for a
+/// write stalls the pipeline. Only pin_floats() holds one: a compiler knows nothing of it, and moves arithmetic over it.
 class FloatEnvironment {
  public:
-  ISO_INLINE FloatEnvironment() : caller_(detail::FloatState::read()) {
-    const std::uint64_t pinned = detail::FloatState::pinned(caller_);
-    if (pinned != caller_) detail::FloatState::write(pinned);
+  ISO_INLINE FloatEnvironment() : caller_(FloatState::read()) {
+    const std::uint64_t pinned = FloatState::pinned(caller_);
+    if (pinned != caller_) FloatState::write(pinned);
   }
   ISO_INLINE ~FloatEnvironment() {
-    if (detail::FloatState::read() != caller_) detail::FloatState::write(caller_);
+    if (FloatState::read() != caller_) FloatState::write(caller_);
   }
   FloatEnvironment(const FloatEnvironment&) = delete;
   FloatEnvironment& operator=(const FloatEnvironment&) = delete;
@@ -161,21 +163,45 @@ class FloatEnvironment {
   std::uint64_t caller_;
 };
 
-namespace detail {
-template <class Work, class Result> ISO_NOINLINE void run_alone(const Work& work, Result& result) { result = work(); }
-/// work() in a pinned environment: the body of a function that the library compiles, that computes and that returns a
-/// number. `work` takes all by reference and is not inlined, so that none of its arithmetic leaves the scope.
-template <class Work> ISO_INLINE auto pinned(const Work& work) -> decltype(work()) {
-  const FloatEnvironment environment;
-  decltype(work()) result = {};
-  run_alone(work, result);
-  return result;
+/// What `of` refers to is read or written on the other side of this line, not moved over it.
+template <class T> ISO_INLINE void hold_in_memory(const T& of) {
+#if defined(__GNUC__)
+  __asm__ volatile("" : : "r"(&of) : "memory");
+#else
+  static_cast<void>(of);  // a call that is not inlined suffices where the compiler does not analyse it
+#endif
 }
+template <class Work> ISO_NOINLINE void run_alone(const Work& work) { work(); }
+}  // namespace detail
+
+/// Runs work() while this thread computes as IEEE 754 starts out, and returns its result: to nearest, denormals kept,
+/// no traps. A library linked with -ffast-math, a driver or a game may have left it otherwise; the caller's state
+/// returns afterwards. `work` takes numbers by reference: then its operands are read from memory after the environment
+/// is set, its result is there before the caller's returns, and none of its arithmetic lies outside.
+template <class Work> ISO_INLINE auto pin_floats(const Work& work) -> decltype(work()) {
+  if constexpr (std::is_void_v<decltype(work())>) {
+    const detail::FloatEnvironment environment;
+    detail::hold_in_memory(work);
+    detail::run_alone(work);
+  } else {
+    std::optional<decltype(work())> result;
+    const auto keep = [&] { result.emplace(work()); };
+    {
+      const detail::FloatEnvironment environment;
+      detail::hold_in_memory(keep);
+      detail::run_alone(keep);
+      detail::hold_in_memory(result);
+    }
+    return *std::move(result);
+  }
+}
+
+namespace detail {
 /// The number that a call returns, taken through memory. For functions that call several: on i386 a number comes back
 /// in an x87 register, and a compiler may keep it there, 80 bits wide, over the calls that follow.
 template <class Call> ISO_INLINE auto stored(const Call& call) -> decltype(call()) {
   decltype(call()) result = {};
-  run_alone(call, result);
+  run_alone([&] { result = call(); });
   return result;
 }
 }  // namespace detail
