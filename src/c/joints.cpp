@@ -202,8 +202,8 @@ iso_status iso_joint_get_axis_drive(const iso_world* world, iso_joint joint, iso
   iso_status iso_##P##_coupling_gears(iso_joint a, int32_t teeth_a, iso_joint b, int32_t teeth_b,                     \
                                       iso_##P##_coupling* out) {                                                      \
     constexpr const char* kCall = "coupling_gears";                                                                   \
-    const bool has_teeth = 1 <= teeth_a && teeth_a <= kMostTeeth && 1 <= teeth_b && teeth_b <= kMostTeeth;            \
-    if (!has_teeth) return refuse(kMisused, kCall, "teeth", "1 to 1024");                                             \
+    const bool has_teeth = 1 <= teeth_a && teeth_a <= kMostTeeth<S> && 1 <= teeth_b && teeth_b <= kMostTeeth<S>;      \
+    if (!has_teeth) return refuse(kMisused, kCall, "teeth", kMostTeeth<S> == 128 ? "1 to 128" : "1 to 1024");         \
     return put_coupling<S>(kCall, out, gears<S>(id_of<JointId>(a), teeth_a, id_of<JointId>(b), teeth_b));             \
   }                                                                                                                   \
   iso_status iso_##P##_coupling_differential(iso_joint shaft, iso_joint left, iso_joint right,                        \
@@ -218,13 +218,12 @@ ISO_C_FAMILIES(ISO_JOINTS)
 
 #define ISO_NUMBERED(P, S, N)                                                                                          \
   iso_status iso_##P##_joint_set_limits(iso_world* world, iso_joint joint, N lower, N upper) {                         \
-    return change_joint<S>(world, "joint_set_limits", joint, [&](auto& w, JointId id) {                                \
-      w.set_limits(id, same_bits<S>(lower), same_bits<S>(upper));                                                      \
-    });                                                                                                                \
+    return change_joint<S>(world, "joint_set_limits", joint,                                                           \
+                           [&](auto& w, JointId id) { w.set_limits(id, same_bits<S>(lower), same_bits<S>(upper)); });  \
   }                                                                                                                    \
-  iso_status iso_##P##_joint_set_motor(iso_world* world, iso_joint joint, N speed, N max_force) { \
-    return change_joint<S>(world, "joint_set_motor", joint, [&](auto& w, JointId id) { \
-      w.set_motor(id, same_bits<S>(speed), same_bits<S>(max_force)); \
+  iso_status iso_##P##_joint_set_motor(iso_world* world, iso_joint joint, N speed, N max_force) {                      \
+    return change_joint<S>(world, "joint_set_motor", joint, [&](auto& w, JointId id) {                                 \
+      w.set_motor(id, same_bits<S>(speed), same_bits<S>(max_force));                                                   \
     });                                                                                                                \
   }                                                                                                                    \
   iso_status iso_##P##_joint_set_spring(iso_world* world, iso_joint joint, N frequency, N damping) {                   \
