@@ -429,7 +429,7 @@ typedef struct iso_f32_joint_range {
 } iso_f32_joint_range;
 typedef struct iso_f32_joint_motor {
   float speed; /* [m/s] or [rad/s] */
-  float force; /* [N] or [N m] at most */
+  float max_force; /* [N] or [N m] at most */
 } iso_f32_joint_motor;
 typedef struct iso_f32_joint_spring {
   float frequency; /* [Hz] */
@@ -440,7 +440,7 @@ typedef struct iso_f32_joint_servo {
   float frequency; /* [Hz] */
   float damping; /* [1] 1 = critical */
   float target; /* [m] or [rad] */
-  float force; /* [N] or [N m] at most; 0: any */
+  float max_force; /* [N] or [N m] at most; 0: any */
   float mass; /* [kg] or [kg m^2] that it is made for: AxisDrive::spring_mass */
 } iso_f32_joint_servo;
 typedef struct iso_f32_drive {
@@ -455,7 +455,7 @@ typedef struct iso_f32_drive {
   float spring_target; /* [m] or [rad] */
   float spring_frequency; /* [Hz] up to half the sub-step rate; 0: no spring */
   float spring_damping; /* [1] ratio, 1 = critical */
-  float force; /* [N] or [N m] most that the motor gives; without a motor the spring, 0: any */
+  float max_force; /* [N] or [N m] most that the motor gives; without a motor the spring, 0: any */
   float spring_mass; /* [kg] or [kg m^2] that springs and soft limits are made for; 0: what they feel */
   float limit_frequency; /* [Hz] of limits that yield, up to half the sub-step rate; 0: hard ones */
   float limit_damping; /* [1] ratio, 1 = critical */
@@ -901,7 +901,7 @@ typedef struct iso_f32_ragdoll_settings {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
   uint32_t reserved0;
   float friction; /* [N m] each axis resists; 0 where servos hold the pose */
-  iso_f32_joint_servo pose; /* holds the rest pose where its `force` [N m] is above 0; its target is 0 */
+  iso_f32_joint_servo pose; /* holds the rest pose where its `max_force` [N m] is above 0; its target is 0 */
   float limit_frequency; /* [Hz] of limits that yield, as in AxisDrive; 0: hard ones */
   float limit_damping; /* [1] ratio, 1 = critical */
   /* of all bodies. Bones that a joint ties have no contacts with each other, and bones that overlap at rest none
@@ -1234,7 +1234,7 @@ typedef struct iso_f32_axis_drive {
   float spring_target; /* [m] or [rad] */
   float spring_frequency; /* [Hz] up to half the sub-step rate; 0: no spring */
   float spring_damping; /* [1] ratio, 1 = critical */
-  float force; /* [N] or [N m] most that the motor gives; without a motor the spring, 0: any */
+  float max_force; /* [N] or [N m] most that the motor gives; without a motor the spring, 0: any */
   float spring_mass; /* [kg] or [kg m^2] that springs and soft limits are made for; 0: what they feel */
   float limit_frequency; /* [Hz] of limits that yield, up to half the sub-step rate; 0: hard ones */
   float limit_damping; /* [1] ratio, 1 = critical */
@@ -1374,18 +1374,18 @@ typedef struct iso_f64_joint_range {
   double lower; double upper;
 } iso_f64_joint_range;
 typedef struct iso_f64_joint_motor {
-  double speed; double force;
+  double speed; double max_force;
 } iso_f64_joint_motor;
 typedef struct iso_f64_joint_spring {
   double frequency; double damping; double target;
 } iso_f64_joint_spring;
 typedef struct iso_f64_joint_servo {
-  double frequency; double damping; double target; double force; double mass;
+  double frequency; double damping; double target; double max_force; double mass;
 } iso_f64_joint_servo;
 typedef struct iso_f64_drive {
   iso_joint joint; iso_joint_axis axis; uint8_t limited; uint8_t motor; uint8_t reserved1[2]; double lower;
-  double upper; double motor_speed; double spring_target; double spring_frequency; double spring_damping; double force;
-  double spring_mass; double limit_frequency; double limit_damping;
+  double upper; double motor_speed; double spring_target; double spring_frequency; double spring_damping;
+  double max_force; double spring_mass; double limit_frequency; double limit_damping;
 } iso_f64_drive;
 typedef struct iso_f64_ragdoll_bone {
   int32_t parent; uint8_t reserved1[4]; iso_shape shape; iso_f64_pose pose; double mass; iso_f64_pose joint;
@@ -1650,7 +1650,7 @@ typedef struct iso_f64_coupling {
 typedef struct iso_f64_axis_drive {
   uint32_t size; uint32_t reserved0; iso_joint joint; iso_joint_axis axis; uint8_t limited; uint8_t motor;
   uint8_t reserved1[2]; double lower; double upper; double motor_speed; double spring_target; double spring_frequency;
-  double spring_damping; double force; double spring_mass; double limit_frequency; double limit_damping;
+  double spring_damping; double max_force; double spring_mass; double limit_frequency; double limit_damping;
 } iso_f64_axis_drive;
 typedef struct iso_f64_kind_ghost {
   uint32_t size; uint32_t reserved0; uint32_t kind_a; uint32_t kind_b;
@@ -1727,18 +1727,18 @@ typedef struct iso_q16_joint_range {
   int32_t lower; int32_t upper;
 } iso_q16_joint_range;
 typedef struct iso_q16_joint_motor {
-  int32_t speed; int32_t force;
+  int32_t speed; int32_t max_force;
 } iso_q16_joint_motor;
 typedef struct iso_q16_joint_spring {
   int32_t frequency; int32_t damping; int32_t target;
 } iso_q16_joint_spring;
 typedef struct iso_q16_joint_servo {
-  int32_t frequency; int32_t damping; int32_t target; int32_t force; int32_t mass;
+  int32_t frequency; int32_t damping; int32_t target; int32_t max_force; int32_t mass;
 } iso_q16_joint_servo;
 typedef struct iso_q16_drive {
   iso_joint joint; iso_joint_axis axis; uint8_t limited; uint8_t motor; uint8_t reserved1[2]; int32_t lower;
   int32_t upper; int32_t motor_speed; int32_t spring_target; int32_t spring_frequency; int32_t spring_damping;
-  int32_t force; int32_t spring_mass; int32_t limit_frequency; int32_t limit_damping;
+  int32_t max_force; int32_t spring_mass; int32_t limit_frequency; int32_t limit_damping;
 } iso_q16_drive;
 typedef struct iso_q16_ragdoll_bone {
   int32_t parent; uint8_t reserved1[4]; iso_shape shape; iso_q16_pose pose; int32_t mass; iso_q16_pose joint;
@@ -2003,7 +2003,7 @@ typedef struct iso_q16_coupling {
 typedef struct iso_q16_axis_drive {
   uint32_t size; uint32_t reserved0; iso_joint joint; iso_joint_axis axis; uint8_t limited; uint8_t motor;
   uint8_t reserved1[2]; int32_t lower; int32_t upper; int32_t motor_speed; int32_t spring_target;
-  int32_t spring_frequency; int32_t spring_damping; int32_t force; int32_t spring_mass; int32_t limit_frequency;
+  int32_t spring_frequency; int32_t spring_damping; int32_t max_force; int32_t spring_mass; int32_t limit_frequency;
   int32_t limit_damping;
 } iso_q16_axis_drive;
 typedef struct iso_q16_kind_ghost {
@@ -2083,18 +2083,18 @@ typedef struct iso_q32_joint_range {
   int64_t lower; int64_t upper;
 } iso_q32_joint_range;
 typedef struct iso_q32_joint_motor {
-  int64_t speed; int64_t force;
+  int64_t speed; int64_t max_force;
 } iso_q32_joint_motor;
 typedef struct iso_q32_joint_spring {
   int64_t frequency; int64_t damping; int64_t target;
 } iso_q32_joint_spring;
 typedef struct iso_q32_joint_servo {
-  int64_t frequency; int64_t damping; int64_t target; int64_t force; int64_t mass;
+  int64_t frequency; int64_t damping; int64_t target; int64_t max_force; int64_t mass;
 } iso_q32_joint_servo;
 typedef struct iso_q32_drive {
   iso_joint joint; iso_joint_axis axis; uint8_t limited; uint8_t motor; uint8_t reserved1[2]; int64_t lower;
   int64_t upper; int64_t motor_speed; int64_t spring_target; int64_t spring_frequency; int64_t spring_damping;
-  int64_t force; int64_t spring_mass; int64_t limit_frequency; int64_t limit_damping;
+  int64_t max_force; int64_t spring_mass; int64_t limit_frequency; int64_t limit_damping;
 } iso_q32_drive;
 typedef struct iso_q32_ragdoll_bone {
   int32_t parent; uint8_t reserved1[4]; iso_shape shape; iso_q32_pose pose; int64_t mass; iso_q32_pose joint;
@@ -2360,7 +2360,7 @@ typedef struct iso_q32_coupling {
 typedef struct iso_q32_axis_drive {
   uint32_t size; uint32_t reserved0; iso_joint joint; iso_joint_axis axis; uint8_t limited; uint8_t motor;
   uint8_t reserved1[2]; int64_t lower; int64_t upper; int64_t motor_speed; int64_t spring_target;
-  int64_t spring_frequency; int64_t spring_damping; int64_t force; int64_t spring_mass; int64_t limit_frequency;
+  int64_t spring_frequency; int64_t spring_damping; int64_t max_force; int64_t spring_mass; int64_t limit_frequency;
   int64_t limit_damping;
 } iso_q32_axis_drive;
 typedef struct iso_q32_kind_ghost {

@@ -15,11 +15,11 @@
   X(part_traits, false, O(flags), O(filter), O(material)) \
   X(child, false, O(primitive), O(pose), O(traits), O(user_data)) \
   X(joint_range, false, O(lower), O(upper)) \
-  X(joint_motor, false, O(speed), O(force)) \
+  X(joint_motor, false, O(speed), O(max_force)) \
   X(joint_spring, false, O(frequency), O(damping), O(target)) \
-  X(joint_servo, false, O(frequency), O(damping), O(target), O(force), O(mass)) \
+  X(joint_servo, false, O(frequency), O(damping), O(target), O(max_force), O(mass)) \
   X(drive, false, O(joint), O(axis), O(limited), O(motor), O(lower), O(upper), O(motor_speed), O(spring_target), \
-    O(spring_frequency), O(spring_damping), O(force), O(spring_mass), O(limit_frequency), O(limit_damping)) \
+    O(spring_frequency), O(spring_damping), O(max_force), O(spring_mass), O(limit_frequency), O(limit_damping)) \
   X(ragdoll_bone, false, O(parent), O(shape), O(pose), O(mass), O(joint), O(hinge), O(swing_x), O(swing_y), O(lower), \
     O(upper)) \
   X(ray_hit, false, O(body), O(child), O(triangle), O(point), O(normal), O(fraction), O(material), O(inside)) \
@@ -111,7 +111,7 @@
   X(joint_load, true, O(joint), O(break_force), O(break_torque)) \
   X(coupling, true, O(joint_a), O(joint_b), O(joint_c), O(ratio_a), O(ratio_b), O(ratio_c), O(lower), O(upper)) \
   X(axis_drive, true, O(joint), O(axis), O(limited), O(motor), O(lower), O(upper), O(motor_speed), O(spring_target), \
-    O(spring_frequency), O(spring_damping), O(force), O(spring_mass), O(limit_frequency), O(limit_damping)) \
+    O(spring_frequency), O(spring_damping), O(max_force), O(spring_mass), O(limit_frequency), O(limit_damping)) \
   X(kind_ghost, true, O(kind_a), O(kind_b)) \
   X(kind_response, true, O(kind_a), O(kind_b), O(inverse_mass_scale_a), O(inverse_mass_scale_b), \
     O(inverse_inertia_scale_a), O(inverse_inertia_scale_b), O(max_force)) \

@@ -59,7 +59,8 @@ TYPED_TEST(Executors, what_is_refused_names_its_field_and_changes_nothing) {
   ASSERT_TRUE(joint);
   IslandSleep<S>& islands = this->sleep;
   std::vector<BodyId> fell_asleep;
-  for (int i = 0; i < 30; ++i) islands.update(fell_asleep);
+  this->render_poses.keep_start();
+  for (int i = 0; i < 30; ++i) islands.update(fell_asleep, this->render_poses.start());
   ASSERT_TRUE(this->systems.is_asleep(asleep));
   const BodyId awake = this->executor.execute(CreateBody<S>{moving<S>(this->shape, {0.75, 0, 0})});
   const BodyId gone = this->executor.execute(CreateBody<S>{moving<S>(this->shape, {8, 0, 0})});

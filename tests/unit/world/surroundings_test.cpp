@@ -3,6 +3,8 @@
 
 #include "isostep/query/surroundings.hpp"
 
+#include "isostep/core/fault_log.hpp"
+#include "isostep/query/cast_queries.hpp"
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
