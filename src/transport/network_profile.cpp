@@ -90,7 +90,8 @@ bool take_prefix(std::string_view& text, std::string_view prefix) {
 
 Result<void> apply_item(std::string_view item, NetworkProfile& profile) {
   const std::size_t equals = item.find('=');
-  if (equals == std::string_view::npos) return refusal("expected key=value, or first a profile such as lan, wifi, mobile, severe", item);
+  if (equals == std::string_view::npos)
+    return refusal("expected key=value, or first a profile such as lan, wifi, mobile, severe", item);
   std::string_view name = item.substr(0, equals);
   const bool up_only = take_prefix(name, "up.");
   const bool down_only = !up_only && take_prefix(name, "down.");

@@ -23,7 +23,7 @@ template <class S> void add_heap(World<S>& world, Pcg32& random, int count, D3 a
 }
 template <class S> Settings<S> small_budget() {
   Settings<S> s = settings<S>(-10, 60, 4);
-  s.most_pairs = 520;
+  s.most_pairs = 800;
   return s;
 }
 template <class S> void build_crowds(World<S>& world) {

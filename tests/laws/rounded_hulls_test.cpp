@@ -123,10 +123,10 @@ TYPED_TEST(RoundedHulls, piles_of_them_on_a_mesh_gain_no_energy_and_come_to_rest
   }
   const double bound = this->energy_of(world, bodies);
   double most = -1e9, fastest = 0;
-  for (int frame = 0; frame < 900; ++frame) {
+  for (int frame = 0; frame < 1080; ++frame) {
     world.step();
     most = std::max(most, this->energy_of(world, bodies));
-    if (frame < 840) continue;
+    if (frame < 1020) continue;
     for (const BodyId body : bodies) fastest = std::max(fastest, length(real(world.velocity(body))));
   }
   EXPECT_LT(most, bound + 0.5);

@@ -1,4 +1,4 @@
-// Laws of sleep and joints: what a joint still pulls together stays awake, for it closes without velocity; then it rests.
+// Laws of sleep and joints: bodies that a joint still pulls together stay awake, for it closes without velocity.
 // SPDX-License-Identifier: MIT
 
 #include <algorithm>

@@ -23,7 +23,8 @@ void fail_scene(const std::string& name_or_file, const scenes::SceneError& error
 scenes::Scene load_scene_file(const std::string& name_or_file) {
   if (!looks_like_file(name_or_file)) {
     if (std::filesystem::exists(name_or_file)) {
-      throw ToolError(exit_status::kUsage, name_or_file + ": neither a recording nor a scene, whose file ends in .json");
+      throw ToolError(exit_status::kUsage,
+                      name_or_file + ": neither a recording nor a scene, whose file ends in .json");
     }
     throw ToolError(exit_status::kUsage,
                     "no scene is named \"" + name_or_file + "\": `isostep scenes` lists them, a file ends in .json");

@@ -112,11 +112,14 @@ class Gate {
     return ok;
   }
 
-  /// pin_floats() has its arithmetic in a function of its own, so what changes the environment rounds nothing.
+  /// pin_floats() has its arithmetic in run_alone and in the lambda it is given, which may call it again. Any other
+  /// function that changes the environment rounds nothing.
   void report_unpinned() {
-    const bool computes =
-        last_.find("run_alone<") == std::string::npos && last_.find("probe_environment") == std::string::npos;
-    if (computes && body_.sets && !body_.rounds.empty()) report(body_.file, last_, Concern::unpinned, body_.rounds);
+    bool inside = false;
+    for (const char* name : {"run_alone", "{lambda", "probe_environment"}) {
+      inside = inside || last_.find(name) != std::string::npos;
+    }
+    if (!inside && body_.sets && !body_.rounds.empty()) report(body_.file, last_, Concern::unpinned, body_.rounds);
     body_ = {};
   }
 

@@ -71,8 +71,8 @@ constexpr const char* kRecords[] = {
     R"({"type": "coupling", "joint_a": 0, "joint_b": 1, "joint_c": 2, "ratio_a": 2, "ratio_b": -0.5, "ratio_c": 1, )"
     R"("lower": -1, "upper": 1})",
     R"({"type": "axis_drive", "joint": 3, "axis": "swing_y", "limited": true, "motor": true, "lower": -1, )"
-    R"("upper": 1, "motor_speed": 2, "spring_target": 0.5, "spring_frequency": 4, "spring_damping": 1, "force": 3, )"
-    R"("spring_mass": 2, "limit_frequency": 8, "limit_damping": 1})",
+    R"("upper": 1, "motor_speed": 2, "spring_target": 0.5, "spring_frequency": 4, "spring_damping": 1, )"
+    R"("max_force": 3, "spring_mass": 2, "limit_frequency": 8, "limit_damping": 1})",
     R"({"type": "surface_velocity", "body": 0, "linear": [2, 0, 0.5], "angular": [0, 1, 0], "part": 0})",
     R"({"type": "sensor_mount", "sensor": 3, "on": 0, "position": [0, 0.5, 0], "orientation": [0, 1, 0, 0]})",
     R"({"type": "ghost", "a": 0, "b": 1})",

@@ -66,15 +66,15 @@ template <class S> class SolidOverPlane {
   ISO_INLINE SolidOverPlane(const SolidView<S>& solid, const Transform<S>& frame, S margin, S tie, Manifold<S>& out)
       : solid_(solid), frame_(frame), margin_(margin), tie_(tie), out_(out) {}
 
-  /// The normal is the plane's, reversed. False: nothing is over it.
+  /// The normal is the plane's, reversed. False: nothing is over it. True without a point: a neighbour's side of the
+  /// plane has them.
   ISO_INLINE bool touch(const RestPlane<S>& plane) const {
     const Vec3<U> n = -plane.normal;
     SolidFace<S> part;
     solid_.find_face(n, U(kFlatDisc), part);
-    if (part.is_flat()) face_over(plane, part);
-    else line_over(plane, part, n);
+    const bool is_over = part.is_flat() ? face_over(plane, part) : line_over(plane, part, n);
     if (out_.count > 0) out_.normal = frame_.rotation * n;
-    return out_.count > 0;
+    return is_over;
   }
   /// The lowest point alone, [m] it is at `height`.
   ISO_INLINE void touch_lowest(const RestPlane<S>& plane, Vec3<S> p, S height) const {
@@ -105,7 +105,7 @@ template <class S> class SolidOverPlane {
 
   /// A flat face, by its corners' places in it; of those that are kept where the plane goes on beyond its sides,
   /// neighbours choose the same ones.
-  ISO_INLINE void face_over(const RestPlane<S>& plane, const SolidFace<S>& part) const {
+  ISO_INLINE bool face_over(const RestPlane<S>& plane, const SolidFace<S>& part) const {
     const Tangents<U> across = tangents_of(plane.normal);
     Polygon polygons[2];
     polygons[0].count = part.count;
@@ -125,6 +125,8 @@ template <class S> class SolidOverPlane {
       ends = ends || (cuts && !plane.sides[k].goes_on);
     }
     Polygon& polygon = polygons[now];
+    bool is_over = false;
+    for (int i = 0; i < polygon.count; ++i) is_over = is_over || polygon.points[i].height <= margin_;
     keep_near(polygon, [&](const ClipPoint<S>& p) ISO_INLINE_LAMBDA {
       return is_own(p) ? ends || !cut || kept[p.after] : !is_cut_flat(plane, p);
     });
@@ -135,6 +137,7 @@ template <class S> class SolidOverPlane {
       add(plane, at, p.height,
           is_own(p) ? plane.own | part.names[p.after] : plane.cut | name(p.before) << 8 | name(p.after));
     }
+    return is_over;
   }
   /// The corners that would be kept if the plane had no sides.
   ISO_INLINE void choose(const SolidFace<S>& part, const Tangents<U>& across, const RestPlane<S>& plane,
@@ -165,7 +168,7 @@ template <class S> class SolidOverPlane {
 
   /// A line as far as it is over the plane's face, and of a disc that leans the points beside its lowest one; of one
   /// whose lowest point is not over the face, what else of it is. A point is a line of no length.
-  ISO_INLINE void line_over(const RestPlane<S>& plane, const SolidFace<S>& line, Vec3<U> n) const {
+  ISO_INLINE bool line_over(const RestPlane<S>& plane, const SolidFace<S>& line, Vec3<U> n) const {
     const int last = line.count - 1;
     Vec3<S> ends[2] = {line.points[0], line.points[last]};
     const Vec3<S> whole[2] = {ends[0], ends[1]};
@@ -175,13 +178,14 @@ template <class S> class SolidOverPlane {
     solid_.find_face(n, U(kLeaningDisc), disc);
     const bool leans = disc.is_disc, is_over = clip_line(plane, ends, sides);
     if (leans && (!is_over || sides[lower] != 0)) return face_over(plane, disc);
-    if (!is_over) return;
+    if (!is_over) return false;
     for (int k = 0; k <= last; ++k) {
       const std::uint32_t side = sides[k], end = line.names[k];
       if (side != 0 && plane.sides[side - kSideName].goes_on) continue;
       add(plane, ends[k], plane.height(ends[k]), side == 0 ? plane.own | end : plane.cut | side << 8 | end);
     }
     if (leans) quarter_turns_over(plane, disc, whole[lower]);
+    return min(plane.height(ends[0]), plane.height(ends[last])) <= margin_;
   }
   ISO_INLINE void quarter_turns_over(const RestPlane<S>& plane, const SolidFace<S>& disc, Vec3<S> lowest) const {
     const Vec3<S> centre = (disc.points[0] + disc.points[disc.count / 2]) * S(0.5);

@@ -45,15 +45,18 @@ template <class S> class SolidOverTriangle {
     gap.climb(finer<F>(margin_), finer<F>(max(solid_.inner * S(1.0 / 16), tolerance_)));
     const S separation = coarser<S>(gap.best().separation);
     if (separation > margin_) return;
-    const bool owned = owns(coarser_of<U>(gap.best().normal), tolerance_ * S(0.125));
+    const bool owned = owns(coarser_of<U>(gap.best().normal), tie());
     const bool by_plane = !owned || separation <= height() + tolerance_;
     if (by_plane && (touch_plane() || touch_lowest())) return;
-    if (owned) SolidTouch<S>(solid_, here, other, here, margin_, tolerance_, out_).touch(gap, allows());
+    // Where the axis is the plane's, what is not over it touches nothing: the corners of a rim are inside of it.
+    if (owned && separation > height() + tie())
+      SolidTouch<S>(solid_, here, other, here, margin_, tolerance_, out_).touch(gap, allows());
   }
 
  private:
   static constexpr double kAlongEdge = 0.02;  // sine within which a direction is across an edge
 
+  ISO_INLINE S tie() const { return tolerance_ * S(0.125); }  // [m] that tells nothing
   ISO_INLINE Vec3<S> support(Vec3<U> n) const { return coarser_of<S>(solid_.support(finer_of<Unit<F>>(n))); }
   ISO_INLINE bool is_over() const {
     for (int k = 0; k < 3; ++k) {
@@ -86,7 +89,7 @@ template <class S> class SolidOverTriangle {
   }
   /// Of what a flat face of the solid looks along.
   ISO_INLINE auto allows() const {
-    return [this](Vec3<U> n) ISO_INLINE_LAMBDA { return owns(n, tolerance_ * S(0.125)); };
+    return [this](Vec3<U> n) ISO_INLINE_LAMBDA { return owns(n, tie()); };
   }
 
   ISO_INLINE RestPlane<S> plane() const {
@@ -105,7 +108,7 @@ template <class S> class SolidOverTriangle {
   }
   ISO_INLINE bool touch_plane() const {
     const Transform<S> here = {Vec3<S>::zero(), Mat3<U>::identity()};
-    return SolidOverPlane<S>(solid_, here, margin_, tolerance_ * S(0.125), out_).touch(plane());
+    return SolidOverPlane<S>(solid_, here, margin_, tie(), out_).touch(plane());
   }
   /// The lowest point alone, where it is a little beyond an edge that is not flat: over a ridge it is over neither
   /// side.

@@ -17,8 +17,8 @@
 
 namespace isostep {
 
-/// Input:   the state after a step: awake bodies with their sleep clocks, contacts and joints; the centres' poses as the
-///          step began.
+/// Input:   the state after a step: awake bodies with their sleep clocks, contacts and joints; their centres' poses as
+///          the step began.
 /// Output:  sleep clocks; islands whose bodies have all rested for half a second, moved out of the awake arrays into
 ///          WorldState::sleeping; the ids of their bodies. The body map and the broad phase know of it.
 /// Keeps:   nothing from step to step but memory.

@@ -146,7 +146,7 @@ struct FloatState {
 namespace detail {
 /// A guard: while it lives, this thread computes as IEEE 754 starts out: to nearest, denormals kept, no traps. The
 /// caller's state, sticky flags included, returns bit for bit. It costs a read or two when nothing is amiss, for a
-/// write stalls the pipeline. Only pin_floats() holds one: a compiler knows nothing of it, and moves arithmetic over it.
+/// write stalls the pipeline. Only pin_floats() holds one: compilers know nothing of it, and move arithmetic over it.
 class FloatEnvironment {
  public:
   ISO_INLINE FloatEnvironment() : caller_(FloatState::read()) {
