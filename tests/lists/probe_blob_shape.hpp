@@ -54,6 +54,9 @@ template <class S = Literal> struct Probe {
   template <class Point> ISO_INLINE S visit_core(S inset, const Point& point) const {
     return box().visit_core(inset, point);
   }
+  ISO_INLINE Vec3<S> middle() const { return box().middle(); }
+  ISO_INLINE Vec3<S> support(Vec3<Unit<S>> n) const { return box().support(n); }
+  ISO_INLINE void find_face(Vec3<Unit<S>> n, Unit<S> flat, SolidFace<S>& face) const { box().find_face(n, flat, face); }
   ISO_INLINE S mass(S density) const { return box().mass(density); }
   ISO_INLINE Vec3<S> kappa() const { return box().kappa(); }
   ISO_INLINE Unit<S> relative_volume(S scale) const { return box().relative_volume(scale); }

@@ -18,23 +18,24 @@ class ShapeList : public ListProbe {
          "#include \"isostep/geometry/shapes/sphere.hpp\"\n#include \"isostep/geometry/shapes/probe.hpp\"");
   }
   void add_submersion() {
-    edit("include/isostep/geometry/submersion.inl", "/// What does not move.",
+    constexpr const char* kAfterTheOthers = "template <class S, class Shape>\nrequires(!Shape::kBounded)";
+    edit("include/isostep/geometry/submersion.inl", kAfterTheOthers,
          "template <class S> Submersion<S> submersion_of(const Probe<S>& c, Vec3<Unit<S>> up, S level) {\n"
          "  return revolved_below(c.radius, c.half_height, c.centre_of_mass(), up, level, [](CutSlices<S>& slices) {\n"
          "    using U = Unit<S>;\n"
          "    slices.add_straight(U(-1), U(1), U(0.75), U(-0.25));\n"
-         "    return U(7.0 / 12);\n  });\n}\n"
-         "/// What does not move.");
+         "    return U(7.0 / 12);\n  });\n}\n" +
+             std::string(kAfterTheOthers));
   }
   void add_keys() {
-    edit("src/scenes/shape_keys.hpp", "/// A part of a baked file has",
+    edit("src/scenes/shape_keys.hpp", "template <class Part, class Visit> void visit_sizes(Part& part",
          "template <class Part, class Visit> void visit_sizes(ShapeClass<Probe>, Part& part, const Visit& visit) {\n"
          "  visit(\"radius\", part.radius, SizeRule::positive);\n"
          "  visit(\"half_height\", part.half_height, SizeRule::positive);\n}\n"
          "template <class S, class Read> Probe<S> shape_of(ShapeClass<Probe>, const ScenePart& part, const Read& read) "
          "{\n"
          "  return {read.size(\"radius\", part.radius), read.size(\"half_height\", part.half_height)};\n}\n"
-         "/// A part of a baked file has");
+         "template <class Part, class Visit> void visit_sizes(Part& part");
   }
   void add_oracle() { edit("src/scenes/distance.cpp", "kShapeTypes == 9", "kShapeTypes == 10"); }
 };
