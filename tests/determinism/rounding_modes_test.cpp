@@ -114,6 +114,8 @@ template <class S> void ask_masses(const Arguments<S>& x, Answers& to) {
   to.matrix("MassTensor::about", solid.about(x.w));
   tensor("MassTensor::joined", solid.joined(MassTensor<S>::point(x.a, x.w)));
   to.turn("MassTensor::properties", solid.properties().principal);
+  const Quat<Unit<S>> long_turn = {Unit<S>(0.1), Unit<S>(0.2), Unit<S>(0.3), Unit<S>(0.9)};
+  to.turn("normalised", normalised(Child<S>{primitive_of(Sphere<S>{S(1)}), {x.v, long_turn}}).pose.orientation);
   const Child<S> parts[] = {{primitive_of(Box<S>{{x.a, x.b, x.c}}), {x.v, x.p}},
                             {primitive_of(Sphere<S>{x.a}), {x.w, x.q}}};
   const MassProperties<S> both = mass_properties<S>(parts, S(3));
@@ -273,6 +275,14 @@ template <class S> void ask_articulation(Answers& to) {
     for (int i = 0; i < 20; ++i) tree.step();
     to.hash("Articulation::step", tree.hash());
     to.vector("Articulation::link_pose", tree.link_pose(1).position);
+    JointCoordinates<S> moved;
+    moved.position.x = S(7.3), moved.velocity.x = S(0.7);
+    EXPECT_TRUE(tree.set_coordinates(0, moved));
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_TRUE(tree.apply_force(1, {S(0.7), S(-0.3), S(0.1)}, {S(0.3), S(0.1), S(0.7)}));
+      EXPECT_TRUE(tree.apply_torque(1, {S(0.1), S(0.3), S(0.7)}));
+    }
+    to.hash("Articulation's commands", tree.hash());
   }
 }
 

@@ -84,72 +84,81 @@ template <class S> FaultReport Articulation<S>::Engine::fault_of_link(std::uint3
 }
 
 template <class S> bool Articulation<S>::set_coordinates(std::uint32_t link, const JointCoordinates<S>& to) {
-  Engine& e = *engine_;
-  if (!e.faults.accept_call("set_coordinates", e.fault_of_link(link))) return false;
-  const detail::PreparedLink<S>& l = e.tree->links[link];
-  const FaultReport report =
-      detail::Checklist()
-          .in_range(detail::fits_position(e.tree->definition.links[link], to.position), "coordinates.position",
-                    "32768 rad, twice Limits::extent() or, of a free link, Limits::position()")
-          .proper(detail::is_rotation<S>(to.rotation), "coordinates.rotation", detail::kUnitLength)
-          .in_range(detail::fits_velocity(to), "coordinates.velocity", "Limits::speed() and 1024 rad/s along each axis")
-          .report();
-  if (!e.faults.accept_call("set_coordinates", report)) return false;
-  const bool free = l.type == ArticulationJoint::free;
-  for (std::uint32_t k = 0; k < (free ? 3u : detail::is_scalar(l.type) ? 1u : 0u); ++k) {
-    e.state.coordinates[l.coordinate + k] = to.position[static_cast<int>(k)];
-    e.state.speeds[l.speed + k] = to.velocity[static_cast<int>(k)];
-  }
-  if (l.type == ArticulationJoint::hinge && !l.limited) {
-    const S whole = detail::kHalfTurn<S> + detail::kHalfTurn<S>;
-    S& q = e.state.coordinates[l.coordinate];
-    while (detail::kHalfTurn<S> < q) q -= whole;
-    while (q < -detail::kHalfTurn<S>) q += whole;
-  }
-  for (std::uint32_t k = 0; k < 3 && detail::has_rotation(l.type); ++k)
-    e.state.speeds[l.speed + k + (free ? 3u : 0u)] = to.angular_velocity[static_cast<int>(k)];
-  if (detail::has_rotation(l.type)) e.state.rotations[l.rotation] = normalise(to.rotation);
-  e.refresh();
-  return true;
+  return pin_floats([&] {
+    Engine& e = *engine_;
+    if (!e.faults.accept_call("set_coordinates", e.fault_of_link(link))) return false;
+    const detail::PreparedLink<S>& l = e.tree->links[link];
+    const FaultReport report =
+        detail::Checklist()
+            .in_range(detail::fits_position(e.tree->definition.links[link], to.position), "coordinates.position",
+                      "32768 rad, twice Limits::extent() or, of a free link, Limits::position()")
+            .proper(detail::is_rotation<S>(to.rotation), "coordinates.rotation", detail::kUnitLength)
+            .in_range(detail::fits_velocity(to), "coordinates.velocity",
+                      "Limits::speed() and 1024 rad/s along each axis")
+            .report();
+    if (!e.faults.accept_call("set_coordinates", report)) return false;
+    const bool free = l.type == ArticulationJoint::free;
+    for (std::uint32_t k = 0; k < (free ? 3u : detail::is_scalar(l.type) ? 1u : 0u); ++k) {
+      e.state.coordinates[l.coordinate + k] = to.position[static_cast<int>(k)];
+      e.state.speeds[l.speed + k] = to.velocity[static_cast<int>(k)];
+    }
+    if (l.type == ArticulationJoint::hinge && !l.limited) {
+      const S whole = detail::kHalfTurn<S> + detail::kHalfTurn<S>;
+      S& q = e.state.coordinates[l.coordinate];
+      while (detail::kHalfTurn<S> < q) q -= whole;
+      while (q < -detail::kHalfTurn<S>) q += whole;
+    }
+    for (std::uint32_t k = 0; k < 3 && detail::has_rotation(l.type); ++k)
+      e.state.speeds[l.speed + k + (free ? 3u : 0u)] = to.angular_velocity[static_cast<int>(k)];
+    if (detail::has_rotation(l.type)) e.state.rotations[l.rotation] = normalise(to.rotation);
+    e.refresh();
+    return true;
+  });
 }
 
 template <class S> bool Articulation<S>::set_drive(std::uint32_t link, const ArticulationDrive<S>& drive) {
-  Engine& e = *engine_;
-  if (!e.faults.accept_call("set_drive", e.fault_of_link(link))) return false;
-  const bool sound = detail::check_drive(*e.tree, link, drive).ok();
-  const auto report = detail::Checklist().proper(sound, "drive", "what a definition's drive may be").report();
-  if (!e.faults.accept_call("set_drive", report)) return false;
-  e.state.drives[link] = drive;
-  return true;
+  return pin_floats([&] {
+    Engine& e = *engine_;
+    if (!e.faults.accept_call("set_drive", e.fault_of_link(link))) return false;
+    const bool sound = detail::check_drive(*e.tree, link, drive).ok();
+    const auto report = detail::Checklist().proper(sound, "drive", "what a definition's drive may be").report();
+    if (!e.faults.accept_call("set_drive", report)) return false;
+    e.state.drives[link] = drive;
+    return true;
+  });
 }
 
 template <class S> bool Articulation<S>::apply_force(std::uint32_t link, Vec3<S> force, Vec3<S> point) {
-  Engine& e = *engine_;
-  if (!e.faults.accept_call("apply_force", e.fault_of_link(link))) return false;
-  const auto fits = [](Vec3<S> v) { return is_finite(v) && detail::within(v, detail::kMostLoad<S>); };
-  const bool nearby = is_finite(point) && detail::within(point, Limits<S>::position());
-  Vec3<S> lever = nearby ? point - link_centre(link) : Vec3<S>::zero();
-  const Vec3<S> all = fits(force) ? saturating_add(e.state.loads[link].force, force) : force;
-  const Vec3<S> torque =
-      fits(force) ? saturating_add(e.state.loads[link].torque, detail::held_cross(lever, force)) : Vec3<S>::zero();
-  const auto report = detail::Checklist()
-                          .in_range(nearby, "point", detail::kWithinPosition)
-                          .in_range(fits(force) && fits(all) && fits(torque), "force", detail::kMostLoadText)
-                          .report();
-  if (!e.faults.accept_call("apply_force", report)) return false;
-  e.state.loads[link] = {all, torque};
-  return true;
+  return pin_floats([&] {
+    Engine& e = *engine_;
+    if (!e.faults.accept_call("apply_force", e.fault_of_link(link))) return false;
+    const auto fits = [](Vec3<S> v) { return is_finite(v) && detail::within(v, detail::kMostLoad<S>); };
+    const bool nearby = is_finite(point) && detail::within(point, Limits<S>::position());
+    Vec3<S> lever = nearby ? point - link_centre(link) : Vec3<S>::zero();
+    const Vec3<S> all = fits(force) ? saturating_add(e.state.loads[link].force, force) : force;
+    const Vec3<S> torque =
+        fits(force) ? saturating_add(e.state.loads[link].torque, detail::held_cross(lever, force)) : Vec3<S>::zero();
+    const auto report = detail::Checklist()
+                            .in_range(nearby, "point", detail::kWithinPosition)
+                            .in_range(fits(force) && fits(all) && fits(torque), "force", detail::kMostLoadText)
+                            .report();
+    if (!e.faults.accept_call("apply_force", report)) return false;
+    e.state.loads[link] = {all, torque};
+    return true;
+  });
 }
 
 template <class S> bool Articulation<S>::apply_torque(std::uint32_t link, Vec3<S> torque) {
-  Engine& e = *engine_;
-  if (!e.faults.accept_call("apply_torque", e.fault_of_link(link))) return false;
-  const auto fits = [](Vec3<S> v) { return is_finite(v) && detail::within(v, detail::kMostLoad<S>); };
-  const Vec3<S> all = fits(torque) ? saturating_add(e.state.loads[link].torque, torque) : torque;
-  const auto report = detail::Checklist().in_range(fits(all), "torque", detail::kMostLoadText).report();
-  if (!e.faults.accept_call("apply_torque", report)) return false;
-  e.state.loads[link].torque = all;
-  return true;
+  return pin_floats([&] {
+    Engine& e = *engine_;
+    if (!e.faults.accept_call("apply_torque", e.fault_of_link(link))) return false;
+    const auto fits = [](Vec3<S> v) { return is_finite(v) && detail::within(v, detail::kMostLoad<S>); };
+    const Vec3<S> all = fits(torque) ? saturating_add(e.state.loads[link].torque, torque) : torque;
+    const auto report = detail::Checklist().in_range(fits(all), "torque", detail::kMostLoadText).report();
+    if (!e.faults.accept_call("apply_torque", report)) return false;
+    e.state.loads[link].torque = all;
+    return true;
+  });
 }
 
 // ---- what it tells

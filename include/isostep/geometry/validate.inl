@@ -7,23 +7,28 @@
 #include "isostep/geometry/limits.hpp"
 #include "isostep/geometry/surfaces.hpp"
 #include "isostep/geometry/validate.hpp"
+#include "isostep/scalar/environment.hpp"
 
 namespace isostep {
 template <class S> ShapeFault validate(const Primitive<S>& p) {
-  if (static_cast<std::uint32_t>(p.type) >= kShapeTypes) return ShapeFault::unknown_type;
-  if (!is_finite(p.half) || !is_finite(p.radius) || !is_finite(p.normal) || !is_finite(p.offset)) {
-    return ShapeFault::not_finite;
-  }
-  return visit_shape(
-      p, [&](const auto& shape) { return shape.primitive() == p ? shape.fault() : ShapeFault::unused_field_set; });
+  return pin_floats([&]() -> ShapeFault {
+    if (static_cast<std::uint32_t>(p.type) >= kShapeTypes) return ShapeFault::unknown_type;
+    if (!is_finite(p.half) || !is_finite(p.radius) || !is_finite(p.normal) || !is_finite(p.offset)) {
+      return ShapeFault::not_finite;
+    }
+    return visit_shape(
+        p, [&](const auto& shape) { return shape.primitive() == p ? shape.fault() : ShapeFault::unused_field_set; });
+  });
 }
 
 template <class S> ShapeFault validate(const Pose<S>& pose) {
-  const Quat<Unit<S>> q = pose.orientation;
-  if (!is_finite(pose.position) || !is_finite(q.x) || !is_finite(q.y) || !is_finite(q.z) || !is_finite(q.w)) {
-    return ShapeFault::not_finite;
-  }
-  return detail::nearly_unit(q.x, q.y, q.z, q.w) ? ShapeFault::none : ShapeFault::orientation_not_unit;
+  return pin_floats([&]() -> ShapeFault {
+    const Quat<Unit<S>> q = pose.orientation;
+    if (!is_finite(pose.position) || !is_finite(q.x) || !is_finite(q.y) || !is_finite(q.z) || !is_finite(q.w)) {
+      return ShapeFault::not_finite;
+    }
+    return detail::nearly_unit(q.x, q.y, q.z, q.w) ? ShapeFault::none : ShapeFault::orientation_not_unit;
+  });
 }
 
 namespace detail {
@@ -107,27 +112,31 @@ template <class S> ShapeFault fault_of_child(const Child<S>& child, const Blob* 
 }  // namespace detail
 
 template <class S> ShapeFaultPlace find_fault(std::span<const Child<S>> children, std::span<const BlobRef> blobs) {
-  if (children.empty()) return {ShapeFault::no_children, 0, ""};
-  std::uint64_t leaves = 0;
-  for (std::uint32_t i = 0; i < children.size(); ++i) {
-    const std::uint32_t name = children[i].primitive.blob;
-    const Blob* blob = name != 0 && name <= blobs.size() ? blobs[name - 1].get() : nullptr;
-    const ShapeFault fault = detail::fault_of_child(children[i], blob, leaves);
-    if (fault != ShapeFault::none) return {fault, i, detail::field_of(children[i], fault)};
-  }
-  return {};
+  return pin_floats([&]() -> ShapeFaultPlace {
+    if (children.empty()) return {ShapeFault::no_children, 0, ""};
+    std::uint64_t leaves = 0;
+    for (std::uint32_t i = 0; i < children.size(); ++i) {
+      const std::uint32_t name = children[i].primitive.blob;
+      const Blob* blob = name != 0 && name <= blobs.size() ? blobs[name - 1].get() : nullptr;
+      const ShapeFault fault = detail::fault_of_child(children[i], blob, leaves);
+      if (fault != ShapeFault::none) return {fault, i, detail::field_of(children[i], fault)};
+    }
+    return {};
+  });
 }
 template <class S> ShapeFault validate(std::span<const Child<S>> children, std::span<const BlobRef> blobs) {
   return find_fault(children, blobs).fault;
 }
 
 template <class S> Child<S> normalised(const Child<S>& child) {
-  Child<S> result = child;
-  result.primitive = visit_shape(child.primitive, [](const auto& shape) { return shape.normalised().primitive(); });
-  const Quat<Unit<S>> q = child.pose.orientation;
-  if (!detail::is_unit(q.x, q.y, q.z, q.w)) result.pose.orientation = normalise(q);
-  result.traits = child.traits.normalised();
-  return result;
+  return pin_floats([&]() -> Child<S> {
+    Child<S> result = child;
+    result.primitive = visit_shape(child.primitive, [](const auto& shape) { return shape.normalised().primitive(); });
+    const Quat<Unit<S>> q = child.pose.orientation;
+    if (!detail::is_unit(q.x, q.y, q.z, q.w)) result.pose.orientation = normalise(q);
+    result.traits = child.traits.normalised();
+    return result;
+  });
 }
 
 }  // namespace isostep
