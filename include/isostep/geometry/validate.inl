@@ -10,28 +10,30 @@
 #include "isostep/scalar/environment.hpp"
 
 namespace isostep {
-template <class S> ShapeFault validate(const Primitive<S>& p) {
-  return pin_floats([&]() -> ShapeFault {
-    if (static_cast<std::uint32_t>(p.type) >= kShapeTypes) return ShapeFault::unknown_type;
-    if (!is_finite(p.half) || !is_finite(p.radius) || !is_finite(p.normal) || !is_finite(p.offset)) {
-      return ShapeFault::not_finite;
-    }
-    return visit_shape(
-        p, [&](const auto& shape) { return shape.primitive() == p ? shape.fault() : ShapeFault::unused_field_set; });
-  });
-}
-
-template <class S> ShapeFault validate(const Pose<S>& pose) {
-  return pin_floats([&]() -> ShapeFault {
-    const Quat<Unit<S>> q = pose.orientation;
-    if (!is_finite(pose.position) || !is_finite(q.x) || !is_finite(q.y) || !is_finite(q.z) || !is_finite(q.w)) {
-      return ShapeFault::not_finite;
-    }
-    return detail::nearly_unit(q.x, q.y, q.z, q.w) ? ShapeFault::none : ShapeFault::orientation_not_unit;
-  });
-}
-
 namespace detail {
+template <class S> ShapeFault fault_of(const Primitive<S>& p) {
+  if (static_cast<std::uint32_t>(p.type) >= kShapeTypes) return ShapeFault::unknown_type;
+  if (!is_finite(p.half) || !is_finite(p.radius) || !is_finite(p.normal) || !is_finite(p.offset)) {
+    return ShapeFault::not_finite;
+  }
+  return visit_shape(
+      p, [&](const auto& shape) { return shape.primitive() == p ? shape.fault() : ShapeFault::unused_field_set; });
+}
+template <class S> ShapeFault fault_of(const Pose<S>& pose) {
+  const Quat<Unit<S>> q = pose.orientation;
+  if (!is_finite(pose.position) || !is_finite(q.x) || !is_finite(q.y) || !is_finite(q.z) || !is_finite(q.w)) {
+    return ShapeFault::not_finite;
+  }
+  return nearly_unit(q.x, q.y, q.z, q.w) ? ShapeFault::none : ShapeFault::orientation_not_unit;
+}
+template <class S> Child<S> normalised_part(const Child<S>& child) {
+  Child<S> result = child;
+  result.primitive = visit_shape(child.primitive, [](const auto& shape) { return shape.normalised().primitive(); });
+  const Quat<Unit<S>> q = child.pose.orientation;
+  if (!is_unit(q.x, q.y, q.z, q.w)) result.pose.orientation = normalise(q);
+  result.traits = child.traits.normalised();
+  return result;
+}
 /// Of the blob that a valid primitive names, null where it names none.
 template <class S> ShapeFault fault_of_blob(const Primitive<S>& p, const Blob* blob) {
   return visit_shape_type(p.type, [&](auto tag) {
@@ -41,9 +43,7 @@ template <class S> ShapeFault fault_of_blob(const Primitive<S>& p, const Blob* b
     else return Shape::fault_of(*static_cast<const typename Shape::Content*>(content_of<S>(*blob)));
   });
 }
-}  // namespace detail
 
-namespace detail {
 /// Of a part with NaN or infinity.
 template <class S> const char* field_not_finite(const Child<S>& child) {
   const Primitive<S>& p = child.primitive;
@@ -68,7 +68,7 @@ template <class S> const char* field_of_size(const Primitive<S>& p, ShapeFault f
   if (p.blob != 0) return "primitive.blob";
   Primitive<S> other = p;
   other.radius = S(1);
-  const ShapeFault with_another = validate(other);
+  const ShapeFault with_another = fault_of(other);
   return with_another == fault || with_another == ShapeFault::unused_field_set ? "primitive.half" : "primitive.radius";
 }
 template <class S> const char* field_of(const Child<S>& child, ShapeFault fault) {
@@ -94,8 +94,8 @@ template <class S> const char* field_of(const Child<S>& child, ShapeFault fault)
 }
 /// Of one part alone; `leaves` counts those of all.
 template <class S> ShapeFault fault_of_child(const Child<S>& child, const Blob* blob, std::uint64_t& leaves) {
-  ShapeFault fault = validate(child.primitive);
-  if (fault == ShapeFault::none) fault = validate(child.pose);
+  ShapeFault fault = fault_of(child.primitive);
+  if (fault == ShapeFault::none) fault = fault_of(child.pose);
   if (fault == ShapeFault::none) fault = fault_of_blob(child.primitive, blob);
   if (fault != ShapeFault::none) return fault;
   leaves += leaves_of<S>({child.primitive, blob == nullptr ? nullptr : content_of<S>(*blob)});
@@ -105,7 +105,7 @@ template <class S> ShapeFault fault_of_child(const Child<S>& child, const Blob* 
   // The position alone first: only then is the box around the child free of overflow.
   if (!contains(room, Aabb<S>{child.pose.position, child.pose.position})) return ShapeFault::outside_extent;
   if (!is_bounded(child.primitive.type)) return ShapeFault::none;
-  const Child<S> unit = normalised(child);
+  const Child<S> unit = normalised_part(child);
   const ShapeView<S> view = {unit.primitive, blob == nullptr ? nullptr : content_of<S>(*blob)};
   return contains(room, bounds(view, Transform<S>::of(unit.pose))) ? ShapeFault::none : ShapeFault::outside_extent;
 }
@@ -128,15 +128,14 @@ template <class S> ShapeFault validate(std::span<const Child<S>> children, std::
   return find_fault(children, blobs).fault;
 }
 
+template <class S> ShapeFault validate(const Primitive<S>& primitive) {
+  return pin_floats([&] { return detail::fault_of(primitive); });
+}
+template <class S> ShapeFault validate(const Pose<S>& pose) {
+  return pin_floats([&] { return detail::fault_of(pose); });
+}
 template <class S> Child<S> normalised(const Child<S>& child) {
-  return pin_floats([&]() -> Child<S> {
-    Child<S> result = child;
-    result.primitive = visit_shape(child.primitive, [](const auto& shape) { return shape.normalised().primitive(); });
-    const Quat<Unit<S>> q = child.pose.orientation;
-    if (!detail::is_unit(q.x, q.y, q.z, q.w)) result.pose.orientation = normalise(q);
-    result.traits = child.traits.normalised();
-    return result;
-  });
+  return pin_floats([&] { return detail::normalised_part(child); });
 }
 
 }  // namespace isostep
