@@ -7,22 +7,27 @@
 
 namespace isostep::detail {
 
+/// The frames of a joint in the world, as its bodies lie now.
+template <class S> struct JointPoses { Pose<S> a, b; };
+template <class S> ISO_INLINE JointPoses<S> poses_of(const BodyMap<S>& map, const JointProperties<S>& joint) {
+  return {compose(map.centre_pose_at(joint.body_a), joint.frame_a),
+          compose(map.centre_pose_at(joint.body_b), joint.frame_b)};
+}
+
 template <class S> S joint_error(const BodyMap<S>& map, JointId joint) {
   const JointProperties<S>* properties = map.joints.properties_of(joint);
   if (properties == nullptr) return S(0);
-  const Pose<S> a = compose(map.centre_pose_at(properties->body_a), properties->frame_a);
-  const Pose<S> b = compose(map.centre_pose_at(properties->body_b), properties->frame_b);
+  const JointPoses<S> poses = poses_of(map, *properties);
   return visit_joint_type(properties->type, [&](auto kind) ISO_INLINE_LAMBDA {
-    return decltype(kind)::template Of<S>::error(*properties, a, b);
+    return decltype(kind)::template Of<S>::error(*properties, poses.a, poses.b);
   });
 }
 
-/// As they lie now; arms are not looked for.
+/// Leaves the arms unset.
 template <class S> ISO_INLINE JointFrames<S> frames_of(const BodyMap<S>& map, const JointProperties<S>& joint) {
-  const Pose<S> a = compose(map.centre_pose_at(joint.body_a), joint.frame_a);
-  const Pose<S> b = compose(map.centre_pose_at(joint.body_b), joint.frame_b);
+  const JointPoses<S> poses = poses_of(map, joint);
   const Vec3<S> none = Vec3<S>::zero();
-  return {none, none, b.position - a.position, a.orientation, b.orientation};
+  return {none, none, poses.b.position - poses.a.position, poses.a.orientation, poses.b.orientation};
 }
 template <class S> S joint_position(const BodyMap<S>& map, JointId joint) {
   const JointProperties<S>* properties = map.joints.properties_of(joint);

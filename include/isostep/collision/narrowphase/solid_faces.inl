@@ -197,7 +197,7 @@ template <class S> class SolidTouch {
   ISO_INLINE bool on_face(const SolidFace<S>& face, bool of_b, S separation) {
     RestPlane<S> plane;
     plane_of(face, of_b ? b_in_a_ : a_in_b_, solid_feature::kFace | (of_b ? solid_feature::kOfB : 0), plane);
-    const S tie = tolerance_ * S(0.125);
+    const S tie = depth_tie(tolerance_, S(0));
     if (of_b) SolidOverPlane<S>(a_, ta_, margin_, tie, out_).touch(plane);
     else SolidOverPlane<S>(b_, tb_, margin_, tie, out_).touch(plane);
     if (!of_b) out_.normal = -out_.normal;

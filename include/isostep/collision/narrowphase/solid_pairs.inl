@@ -19,7 +19,7 @@ void collide_cores(const SolidView<S>& a, const Transform<S>& ta, const SolidVie
   const S smaller = min(a.inner, b.inner);
   SolidGap<S> gap(a, b, ta, tb);
   const Vec3<S> apart = coarser_of<S>(gap.b_in_a().position);
-  const S tolerance = axis_tolerance(smaller, max_abs(apart) + a.inner + b.inner);
+  const S tolerance = axis_tolerance(a.inner, b.inner, apart);
   const F reach = finer<F>(margin);
   gap.look(finer_of<U>(a.closest(to_world(relative(ta, tb), b.middle)).normal));
   if (gap.best().separation > reach) return;
@@ -79,7 +79,7 @@ void collide_half_space_solid(ShapeView<S> a, const Transform<S>& ta, ShapeView<
   plane.offset = -below.height;
   plane.own = plane.cut = 0;
   const S tolerance = detail::axis_tolerance(solid.inner, abs(below.height));
-  detail::SolidOverPlane<S>(solid, tb, margin + solid.radius, tolerance * S(0.125), out).touch(plane);
+  detail::SolidOverPlane<S>(solid, tb, margin + solid.radius, detail::depth_tie(tolerance, S(0)), out).touch(plane);
   if (solid.radius > S(0)) detail::grow_cores(out, solid.radius, S(0), margin);
   out.normal = -out.normal;
 }

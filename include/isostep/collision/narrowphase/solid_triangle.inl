@@ -38,9 +38,9 @@ template <class S> class SolidOverTriangle {
       if (!touch_plane()) touch_lowest();
       return;
     }
-    const Transform<S> here = {Vec3<S>::zero(), Mat3<U>::identity()};
+    const Transform<S> frame = here();
     const SolidView<S> other(kTriangleCalls<S>, &triangle_, S(0), solid_.inner, triangle_.points[0]);
-    SolidGap<S> gap(solid_, other, here, here);
+    SolidGap<S> gap(solid_, other, frame, frame);
     gap.look(finer_of<Unit<F>>(-triangle_.normal));
     gap.climb(finer<F>(margin_), finer<F>(max(solid_.inner * S(1.0 / 16), tolerance_)));
     const S separation = coarser<S>(gap.best().separation);
@@ -50,13 +50,14 @@ template <class S> class SolidOverTriangle {
     if (by_plane && (touch_plane() || touch_lowest())) return;
     // Where the axis is the plane's, what is not over it touches nothing: the corners of a rim are inside of it.
     if (owned && separation > height() + tie())
-      SolidTouch<S>(solid_, here, other, here, margin_, tolerance_, out_).touch(gap, allows());
+      SolidTouch<S>(solid_, frame, other, frame, margin_, tolerance_, out_).touch(gap, allows());
   }
 
  private:
   static constexpr double kAlongEdge = 0.02;  // sine within which a direction is across an edge
 
-  ISO_INLINE S tie() const { return tolerance_ * S(0.125); }  // [m] that tells nothing
+  ISO_INLINE S tie() const { return depth_tie(tolerance_, S(0)); }  // [m]
+  static ISO_INLINE Transform<S> here() { return {Vec3<S>::zero(), Mat3<U>::identity()}; }
   ISO_INLINE Vec3<S> support(Vec3<U> n) const { return coarser_of<S>(solid_.support(finer_of<Unit<F>>(n))); }
   ISO_INLINE bool is_over() const {
     for (int k = 0; k < 3; ++k) {
@@ -106,10 +107,7 @@ template <class S> class SolidOverTriangle {
     }
     return plane;
   }
-  ISO_INLINE bool touch_plane() const {
-    const Transform<S> here = {Vec3<S>::zero(), Mat3<U>::identity()};
-    return SolidOverPlane<S>(solid_, here, margin_, tie(), out_).touch(plane());
-  }
+  ISO_INLINE bool touch_plane() const { return SolidOverPlane<S>(solid_, here(), margin_, tie(), out_).touch(plane()); }
   /// The lowest point alone, where it is a little beyond an edge that is not flat: over a ridge it is over neither
   /// side.
   ISO_INLINE bool touch_lowest() const {
@@ -117,8 +115,7 @@ template <class S> class SolidOverTriangle {
       const S beyond = -triangle_.inside_of(k, lowest_);
       if (beyond > tolerance_ * S(4) || (beyond > S(0) && triangle_.edges[k].flat)) return false;
     }
-    const Transform<S> here = {Vec3<S>::zero(), Mat3<U>::identity()};
-    SolidOverPlane<S>(solid_, here, margin_, S(0), out_).touch_lowest(plane(), lowest_, height());
+    SolidOverPlane<S>(solid_, here(), margin_, S(0), out_).touch_lowest(plane(), lowest_, height());
     return out_.count > 0;
   }
 
