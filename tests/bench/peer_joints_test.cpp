@@ -7,7 +7,7 @@
 #include "scenes/trials/mechanism_parts.hpp"
 
 namespace isostep::bench {
-namespace {
+namespace peer_joints_test {
 
 using scenes::Scene;
 using scenes::SceneJoint;
@@ -105,5 +105,5 @@ TEST(PeerJoints, gears_turn_against_each_other_by_their_teeth_or_are_refused) {
   }
 }
 
-}  // namespace
+}  // namespace peer_joints_test
 }  // namespace isostep::bench

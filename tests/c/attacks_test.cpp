@@ -7,7 +7,7 @@
 #include "game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace attacks_test {
 
 /// The call has that status, says why, and leaves the world as it was.
 #define EXPECT_REFUSED(game, call, expected)                        \
@@ -286,5 +286,5 @@ TEST(CAttacks, CallbacksDoNotCallBack) {
   EXPECT_EQ(runner.refused, 3 * runner.calls);
 }
 
-}  // namespace
+}  // namespace attacks_test
 }  // namespace isostep::test

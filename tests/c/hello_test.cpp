@@ -9,7 +9,7 @@
 #include "isostep/world/world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace hello_test {
 
 constexpr int kFrames = 120;
 
@@ -39,5 +39,5 @@ TEST(HelloInC, HasTheHashesOfCppInDouble) { expect_same(hello_frames_f64, frames
 TEST(HelloInC, HasTheHashesOfCppInQ16) { expect_same(hello_frames_q16, frames_in_cpp<Q16_16>()); }
 TEST(HelloInC, HasTheHashesOfCppInQ32) { expect_same(hello_frames_q32, frames_in_cpp<Q32_32>()); }
 
-}  // namespace
+}  // namespace hello_test
 }  // namespace isostep::test

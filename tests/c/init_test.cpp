@@ -9,7 +9,7 @@
 #include "random_facts.hpp"
 
 namespace isostep::test {
-namespace {
+namespace init_test {
 
 constexpr std::uint8_t kCanary = 0xa5;
 constexpr std::size_t kRoom = 64;  // [bytes] behind a struct
@@ -86,5 +86,5 @@ TEST(CInit, APresetWritesWhatTheCallersStructHasAndNoMore) {
   EXPECT_EQ(iso_session_config_preset(&wild, ISO_FIGHTING, 2), ISO_WRONG_SIZE);
 }
 
-}  // namespace
+}  // namespace init_test
 }  // namespace isostep::test

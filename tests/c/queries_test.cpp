@@ -7,7 +7,7 @@
 #include "isostep/world/world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace queries_test {
 
 using namespace isostep::c;
 using S = Q32_32;
@@ -304,5 +304,5 @@ TEST(CLibrary, SaysWhatItIs) {
   EXPECT_GT(result.frames, 100u);
 }
 
-}  // namespace
+}  // namespace queries_test
 }  // namespace isostep::test

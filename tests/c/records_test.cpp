@@ -22,7 +22,7 @@ struct Grown {
 template <> inline constexpr int isostep::c::kMembersReleased<isostep::test::Grown> = 2;
 
 namespace isostep::test {
-namespace {
+namespace records_test {
 
 using namespace isostep::c;
 
@@ -381,5 +381,5 @@ ISO_TEST(q16, Q16_16, std::int32_t)
 ISO_TEST(q32, Q32_32, std::int64_t)
 #undef ISO_TEST
 
-}  // namespace
+}  // namespace records_test
 }  // namespace isostep::test

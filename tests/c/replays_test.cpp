@@ -3,7 +3,7 @@
 #include "game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace replays_test {
 
 TEST(CReplays, PlayFrameByFrame) {
   Q32Game game;
@@ -163,5 +163,5 @@ TEST(CReplays, TracesTellEveryStage) {
   EXPECT_EQ(count, 0u);
 }
 
-}  // namespace
+}  // namespace replays_test
 }  // namespace isostep::test

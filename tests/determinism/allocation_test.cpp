@@ -8,7 +8,7 @@
 #include "isostep/store/state.hpp"
 
 namespace isostep::test {
-namespace {
+namespace allocation_test {
 
 template <class S> class Allocation : public testing::Test {
  protected:
@@ -159,5 +159,5 @@ TYPED_TEST(Allocation, AWarmSessionIsKeptAndRecordedWithoutAny) {
   EXPECT_EQ(recorder.frames(), 310);
 }
 
-}  // namespace
+}  // namespace allocation_test
 }  // namespace isostep::test

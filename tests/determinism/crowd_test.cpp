@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace crowd_test {
 
 /// Heaps of balls, boxes and compounds that overlap, on a floor, beside sleepers and a moving platform; the budget is
 /// met in most frames and, as heaps come apart and others are dropped, not in all.
@@ -112,5 +112,5 @@ TYPED_TEST(CrowdBits, are_the_same_after_a_rollback_and_from_the_portable_form) 
   }
 }
 
-}  // namespace
+}  // namespace crowd_test
 }  // namespace isostep::test

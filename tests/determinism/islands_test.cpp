@@ -16,7 +16,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace islands_test {
 
 constexpr int kIslands = 12;
 
@@ -186,5 +186,5 @@ TYPED_TEST(Islands, move_as_each_does_alone_however_worst_first_ends_overlaps) {
   }
 }
 
-}  // namespace
+}  // namespace islands_test
 }  // namespace isostep::test

@@ -9,7 +9,7 @@
 #include "determinism/mess.hpp"
 
 namespace isostep::test {
-namespace {
+namespace lanes_test {
 
 constexpr std::uint64_t kFrames = 330;
 
@@ -293,5 +293,5 @@ TYPED_TEST(SameHashes, and_the_same_answers_to_questions_in_whatever_environment
 }
 #endif
 
-}  // namespace
+}  // namespace lanes_test
 }  // namespace isostep::test

@@ -5,7 +5,7 @@
 #include "isostep/particles/particle_world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_allocation_test {
 
 /// 60 balls in a heap, a net of springs, a chain; every way to step.
 template <class S> class ParticleAllocation : public testing::Test {
@@ -96,5 +96,5 @@ TYPED_TEST(ParticleAllocation, TheImplicitIntegratorNeedsNoneForASmallNetwork) {
   EXPECT_EQ(count.so_far(), 0u);
 }
 
-}  // namespace
+}  // namespace particle_allocation_test
 }  // namespace isostep::test

@@ -10,7 +10,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_islands_test {
 
 constexpr int kFrames = 90, kClusters = 9;
 using Motions = std::vector<std::vector<std::uint64_t>>;  // by cluster, by frame
@@ -104,5 +104,5 @@ TYPED_TEST(ParticleIslands, move_the_same_in_whatever_order_they_were_made_and_b
   }
 }
 
-}  // namespace
+}  // namespace particle_islands_test
 }  // namespace isostep::test

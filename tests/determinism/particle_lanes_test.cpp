@@ -8,7 +8,7 @@
 #include "isostep/state/hash.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_lanes_test {
 
 constexpr std::uint64_t kFrames = 100;
 
@@ -273,5 +273,5 @@ TYPED_TEST(SameParticleHashes, and_the_same_portable_form_in_whatever_environmen
 }
 #endif
 
-}  // namespace
+}  // namespace particle_lanes_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_rollback_test {
 
 template <class S> class ParticleRollback : public ::testing::Test {
  protected:
@@ -216,5 +216,5 @@ TYPED_TEST(ParticleRollback, a_trace_names_every_stage_of_a_step_and_is_the_same
   for (std::uint32_t i = 0; i < kParticleStages; ++i) EXPECT_EQ(static_cast<std::uint32_t>(stages[i]), i);
 }
 
-}  // namespace
+}  // namespace particle_rollback_test
 }  // namespace isostep::test

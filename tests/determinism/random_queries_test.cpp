@@ -7,7 +7,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace random_queries_test {
 
 template <class S> class RandomWorldAnswers : public ::testing::Test {
  protected:
@@ -102,5 +102,5 @@ TYPED_TEST(RandomWorldAnswers, are_those_of_a_world_that_is_loaded_read_or_over_
   this->expect_findings(found, asked);
 }
 
-}  // namespace
+}  // namespace random_queries_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace random_worlds_test {
 
 template <class Case> class RandomWorldFutures : public ::testing::Test {
  protected:
@@ -75,5 +75,5 @@ TYPED_TEST(RandomWorldFutures, is_one_over_all_lanes_and_threads) {
   }
 }
 
-}  // namespace
+}  // namespace random_worlds_test
 }  // namespace isostep::test

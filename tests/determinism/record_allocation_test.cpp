@@ -6,7 +6,7 @@
 #include "isostep/store/state.hpp"
 
 namespace isostep::test {
-namespace {
+namespace record_allocation_test {
 
 /// Three cars, of which one stands on a lorry, and six characters who walk into crates and back, all told what to do in
 /// every frame.
@@ -167,5 +167,5 @@ TYPED_TEST(RecordAllocation, GhostsThatComeAndGoNeedNone) {
   EXPECT_GT(ghosts, 0u);
 }
 
-}  // namespace
+}  // namespace record_allocation_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace rollback_test {
 
 template <class S> class Rollback : public ::testing::Test {
  protected:
@@ -195,5 +195,5 @@ TYPED_TEST(Rollback, loading_empties_events_and_keeps_lanes_and_command_log) {
   EXPECT_GT(log.size(), before);
 }
 
-}  // namespace
+}  // namespace rollback_test
 }  // namespace isostep::test

@@ -11,7 +11,7 @@
 #if defined(ISOSTEP_HOSTILE_ENVIRONMENTS)
 
 namespace isostep::test {
-namespace {
+namespace rounding_modes_test {
 
 /// The answers by the names of the calls. A struct with padding is taken apart into numbers.
 struct Answers {
@@ -316,6 +316,6 @@ TYPED_TEST(RoundingModes, no_call_that_the_library_compiles_follows_its_callers)
   }
 }
 
-}  // namespace
+}  // namespace rounding_modes_test
 }  // namespace isostep::test
 #endif

@@ -7,7 +7,7 @@
 #include "unit/world/named_by_records.hpp"
 
 namespace isostep::test {
-namespace {
+namespace saved_records_allocation_test {
 
 /// The things that records name: two crates that stand on the ground, a capsule and a sensor that are carried, three
 /// joints.
@@ -76,5 +76,5 @@ TYPED_TEST(SavedRecords, OneOfEachKindIsSavedInEveryFrameWithoutMemory) {
   EXPECT_EQ(count.so_far(), 0u);
 }
 
-}  // namespace
+}  // namespace saved_records_allocation_test
 }  // namespace isostep::test

@@ -19,7 +19,7 @@
 #include "isostep/state/replay_format.hpp"
 
 namespace isostep {
-namespace {
+namespace selfcheck_test {
 
 using Buffer = std::vector<std::uint8_t>;
 
@@ -272,5 +272,5 @@ TEST(Selfcheck, IsSoundInAHostileEnvironmentAndNamesIt) {
 }
 #endif
 
-}  // namespace
+}  // namespace selfcheck_test
 }  // namespace isostep

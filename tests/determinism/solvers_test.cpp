@@ -13,7 +13,7 @@
 #include "scenes/measure.hpp"
 
 namespace isostep::test {
-namespace {
+namespace solvers_test {
 
 constexpr std::uint64_t kFrames = 60;
 using Hashes = std::vector<std::uint64_t>;
@@ -174,5 +174,5 @@ TEST(SolverNames, lead_to_different_futures) {
   EXPECT_EQ(ends.size(), std::size(kBuiltSolvers));
 }
 
-}  // namespace
+}  // namespace solvers_test
 }  // namespace isostep::test

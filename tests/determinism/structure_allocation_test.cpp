@@ -8,7 +8,7 @@
 #include "isostep/store/chosen_broad_phase.hpp"
 
 namespace isostep::test {
-namespace {
+namespace structure_allocation_test {
 
 /// Four hundred boxes that move, go and come, with all that is asked of a structure after each frame.
 template <class S, class Structure> class CoarseFrames {
@@ -112,5 +112,5 @@ TEST(ArticulationAllocation, ABuiltTreeAsksForNoMemory) {
   run_an_articulation<Q32_32>();
 }
 
-}  // namespace
+}  // namespace structure_allocation_test
 }  // namespace isostep::test

@@ -9,7 +9,7 @@
 #include "scenes/named.hpp"
 
 namespace isostep::test {
-namespace {
+namespace threads_test {
 
 /// The hashes of a scene that is worth sharing in every scalar and at every width: a pyramid that settles, and ragdolls
 /// that fall into it.
@@ -116,5 +116,5 @@ TYPED_TEST(Threads, are_not_asked_for_little) {
   EXPECT_EQ(counted.calls, 0);
 }
 
-}  // namespace
+}  // namespace threads_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "determinism/mess.hpp"
 
 namespace isostep::test {
-namespace {
+namespace translation_test {
 
 template <class S> class FarFromTheOrigin : public ::testing::Test {};
 TYPED_TEST_SUITE(FarFromTheOrigin, FixedScalars);
@@ -43,5 +43,5 @@ TYPED_TEST(FarFromTheOrigin, a_scene_does_to_the_bit_what_it_does_at_the_origin)
   EXPECT_GT(activity.begins, 40u);
 }
 
-}  // namespace
+}  // namespace translation_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "unit/effects/articulations.hpp"
 
 namespace isostep::test {
-namespace {
+namespace articulation_joints_test {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -360,5 +360,5 @@ TYPED_TEST(ArticulationJoints, a_ball_is_driven_to_its_pose) {
   EXPECT_NEAR(std::fabs(q.x * p.x + q.y * p.y + q.z * p.z + q.w * p.w), 1, 1e-7);
 }
 
-}  // namespace
+}  // namespace articulation_joints_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "unit/effects/articulations.hpp"
 
 namespace isostep::test {
-namespace {
+namespace articulation_test {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -184,5 +184,5 @@ TYPED_TEST(ArticulationLaws, a_free_tree_keeps_its_momentum_and_flies_along_a_pa
   EXPECT_LT(path, tolerance * 100);
 }
 
-}  // namespace
+}  // namespace articulation_test
 }  // namespace isostep::test

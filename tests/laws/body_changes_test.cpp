@@ -4,7 +4,7 @@
 #include "laws/body_changes.hpp"
 
 namespace isostep::test {
-namespace {
+namespace body_changes_test {
 
 TYPED_TEST_SUITE(BodyChanges, AllScalars);
 
@@ -275,5 +275,5 @@ TYPED_TEST(BodyChanges, no_lock_holds_a_body_that_is_told_where_to_be) {
   EXPECT_EQ(way[0], way[1]);
 }
 
-}  // namespace
+}  // namespace body_changes_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "unit/collision/narrowphase/cases.hpp"
 
 namespace isostep::test {
-namespace {
+namespace book_collision_oracles_test {
 
 template <class S> class BookCollisionOracles : public ::testing::Test {};
 TYPED_TEST_SUITE(BookCollisionOracles, AllScalars);
@@ -107,5 +107,5 @@ TYPED_TEST(BookCollisionOracles, swapped_shapes_have_mirrored_contacts) {
   EXPECT_LT(worst, pick<S>(1e-5, 1e-12, 5e-4, 1e-8));
 }
 
-}  // namespace
+}  // namespace book_collision_oracles_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "laws/particle_laws.hpp"
 
 namespace isostep::test {
-namespace {
+namespace book_contact_oracles_test {
 
 template <class S> class BookContactOracles : public ::testing::Test {
  protected:
@@ -296,5 +296,5 @@ TYPED_TEST(BookContactOracles, a_pile_gains_no_energy) {
   EXPECT_LT(before - start, pick<S>(1e-4, 1e-9, 1e-2, 1e-6)) << "of all";
 }
 
-}  // namespace
+}  // namespace book_contact_oracles_test
 }  // namespace isostep::test

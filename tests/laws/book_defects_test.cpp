@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace book_defects_test {
 
 template <class S> class BookDefects : public ::testing::Test {
  protected:
@@ -337,5 +337,5 @@ TYPED_TEST(BookDefects, surfaces_meet_the_air_less_its_wind_and_its_square_if_to
   }
 }
 
-}  // namespace
+}  // namespace book_defects_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "laws/particle_laws.hpp"
 
 namespace isostep::test {
-namespace {
+namespace book_oracles_test {
 
 template <class S> class BookOracles : public ::testing::Test {
  protected:
@@ -169,5 +169,5 @@ TYPED_TEST(BookOracles, a_spinning_quaternion_keeps_its_norm_and_angle) {
   EXPECT_NEAR(std::remainder(turned - 640 * 2 * std::atan(10.0 / 128), 2 * kPi), 0, pick<S>(1e-4, 1e-12, 1e-6, 1e-9));
 }
 
-}  // namespace
+}  // namespace book_oracles_test
 }  // namespace isostep::test

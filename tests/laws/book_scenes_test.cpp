@@ -8,7 +8,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace book_scenes_test {
 
 template <class S> class BookScenes : public ::testing::Test {
  protected:
@@ -310,5 +310,5 @@ TYPED_TEST(BookScenes, every_coarse_structure_gives_the_same_bits) {  // O29
   (void)sizeof(S);
 }
 
-}  // namespace
+}  // namespace book_scenes_test
 }  // namespace isostep::test

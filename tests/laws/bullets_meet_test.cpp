@@ -4,7 +4,7 @@
 #include "random/dice.hpp"
 
 namespace isostep::test {
-namespace {
+namespace bullets_meet_test {
 
 template <class S> class BulletsThatMeet : public ::testing::Test {
  protected:
@@ -116,5 +116,5 @@ TYPED_TEST(BulletsThatMeet, a_plate_in_front_of_a_wall_are_not_pressed_through_i
   }
 }
 
-}  // namespace
+}  // namespace bullets_meet_test
 }  // namespace isostep::test

@@ -11,7 +11,7 @@
 #include "scenes/named.hpp"
 
 namespace isostep::test {
-namespace {
+namespace bullets_test {
 
 // ---- the scenes of bullets
 
@@ -196,5 +196,5 @@ TYPED_TEST(BulletRooms, give_balls_no_energy) {
   EXPECT_LT(most, start * 1.001);
 }
 
-}  // namespace
+}  // namespace bullets_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace character_levels_test {
 
 constexpr double kRadius = 0.3, kHalf = 0.6, kSkin = 1.0 / 64;  // [m] of a character
 constexpr double kMiddle = kRadius + kHalf;                     // [m] of a character above its foot
@@ -231,5 +231,5 @@ TYPED_TEST(CharacterLevels, mirrored_starts_have_mirrored_ends) {
   EXPECT_GT(nearest, 2 * kRadius - kSkin);
 }
 
-}  // namespace
+}  // namespace character_levels_test
 }  // namespace isostep::test

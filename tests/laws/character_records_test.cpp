@@ -6,7 +6,7 @@
 #include "laws/characters.hpp"
 
 namespace isostep::test {
-namespace {
+namespace character_records_test {
 
 template <class S> class CharacterRecords : public Characters<S> {};
 TYPED_TEST_SUITE(CharacterRecords, AllScalars);
@@ -162,5 +162,5 @@ TYPED_TEST(CharacterRecords, is_stopped_by_what_its_body_collides_with_alone) {
   }
 }
 
-}  // namespace
+}  // namespace character_records_test
 }  // namespace isostep::test

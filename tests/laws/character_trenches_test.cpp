@@ -4,7 +4,7 @@
 #include "laws/characters.hpp"
 
 namespace isostep::test {
-namespace {
+namespace character_trenches_test {
 
 template <class S> class CharacterTrenches : public Characters<S> {
  protected:
@@ -117,5 +117,5 @@ TYPED_TEST(CharacterTrenches, one_steep_slope_alone_or_beside_a_wall_above_holds
   EXPECT_LT(this->height(id), 2.5);
 }
 
-}  // namespace
+}  // namespace character_trenches_test
 }  // namespace isostep::test

@@ -9,7 +9,7 @@
 #include "unit/world/edited_state.hpp"
 
 namespace isostep::test {
-namespace {
+namespace characters_test {
 
 TYPED_TEST_SUITE(Characters, AllScalars);
 
@@ -387,5 +387,5 @@ TYPED_TEST(Characters, that_was_disabled_does_not_follow_its_lift_aside) {
   EXPECT_NEAR(this->foot(id).x, 0, 1e-3);
 }
 
-}  // namespace
+}  // namespace characters_test
 }  // namespace isostep::test

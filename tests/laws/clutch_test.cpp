@@ -4,7 +4,7 @@
 #include "unit/world/edited_state.hpp"
 
 namespace isostep::test {
-namespace {
+namespace clutch_test {
 
 /// 1200 kg on four wheels of 1 kg m^2, heading +z, geared 4 to an engine of 0.5 kg m^2.
 template <class S> class Clutches : public ::testing::Test {
@@ -165,5 +165,5 @@ TYPED_TEST(Clutches, stops_the_engine_of_a_car_with_its_brakes_on) {
   EXPECT_TRUE(settle(this->w));
 }
 
-}  // namespace
+}  // namespace clutch_test
 }  // namespace isostep::test

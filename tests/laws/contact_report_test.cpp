@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace contact_report_test {
 
 template <class S> class ContactReports : public ::testing::Test {
  protected:
@@ -97,5 +97,5 @@ TYPED_TEST(ContactReports, a_record_changes_nothing_that_moves_and_is_one_a_body
   EXPECT_TRUE(this->of(body).empty());
 }
 
-}  // namespace
+}  // namespace contact_report_test
 }  // namespace isostep::test

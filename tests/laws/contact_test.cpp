@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace contact_test {
 
 template <class S> class ContactLaws : public ::testing::Test {};
 TYPED_TEST_SUITE(ContactLaws, AllScalars);
@@ -303,5 +303,5 @@ TYPED_TEST(ContactLaws, the_energy_of_a_settled_pile_does_not_rise) {
   EXPECT_LE(energy(), start + pick<S>(4e-4, 2e-4, 1e-2, 7e-4)) << "[J/kg] of height 70 um in Q32.32";
 }
 
-}  // namespace
+}  // namespace contact_test
 }  // namespace isostep::test

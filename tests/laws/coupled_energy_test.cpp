@@ -6,7 +6,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace coupled_energy_test {
 
 template <class S> class CoupledEnergy : public ::testing::Test {};
 TYPED_TEST_SUITE(CoupledEnergy, AllScalars);
@@ -16,5 +16,5 @@ TYPED_TEST(CoupledEnergy, is_never_above_what_was_put_in) {
                                                 [](const auto& world, bool) { return world.touches() > 0; });
 }
 
-}  // namespace
+}  // namespace coupled_energy_test
 }  // namespace isostep::test

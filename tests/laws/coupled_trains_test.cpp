@@ -11,7 +11,7 @@
 #include "random/dice.hpp"
 
 namespace isostep::test {
-namespace {
+namespace coupled_trains_test {
 
 constexpr double kTurn = 2 * kPi;
 constexpr int kTrains = 6;
@@ -278,5 +278,5 @@ TYPED_TEST(CoupledTrains, bear_nothing_where_a_joint_holds_nothing) {
   EXPECT_TRUE(b.w.state(b.couplings[0])->load == S(0));
 }
 
-}  // namespace
+}  // namespace coupled_trains_test
 }  // namespace isostep::test

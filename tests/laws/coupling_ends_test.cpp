@@ -14,7 +14,7 @@
 #include "scenes/measure.hpp"
 
 namespace isostep::test {
-namespace {
+namespace coupling_ends_test {
 
 template <class S> class CouplingEnds : public ::testing::Test {
  protected:
@@ -131,5 +131,5 @@ TYPED_TEST(CouplingEnds, of_a_rope_are_its_wheels) {
   }
 }
 
-}  // namespace
+}  // namespace coupling_ends_test
 }  // namespace isostep::test

@@ -5,7 +5,7 @@
 #include "laws/single_joints.hpp"
 
 namespace isostep::test {
-namespace {
+namespace couplings_test {
 
 constexpr double kTurn = 2 * kPi;
 
@@ -253,5 +253,5 @@ TYPED_TEST(Couplings, refuse_what_has_no_position_and_teeth_that_are_not_whole) 
   EXPECT_EQ(this->w.state().records->couplings.slot_map().count_taken(), 2u);
 }
 
-}  // namespace
+}  // namespace couplings_test
 }  // namespace isostep::test

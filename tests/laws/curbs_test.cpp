@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace curbs_test {
 
 /// The meeting of a car and a curb.
 struct Meeting {
@@ -91,5 +91,5 @@ TYPED_TEST(Curbs, throw_no_car_where_they_come_towards_it) {
   for (const double phase : {0.0, 0.3, 0.6}) this->expect_no_throw({0.1, 20, phase, 0.35, true});
 }
 
-}  // namespace
+}  // namespace curbs_test
 }  // namespace isostep::test

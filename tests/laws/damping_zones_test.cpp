@@ -6,7 +6,7 @@
 #include "laws/exact_rollback.hpp"
 
 namespace isostep::test {
-namespace {
+namespace damping_zones_test {
 
 template <class S>
 DampingZone<S> zone(double linear, double angular, std::int32_t priority = 0, bool replaces = false) {
@@ -182,5 +182,5 @@ TYPED_TEST(DampingZones, it_is_state) {
   });
 }
 
-}  // namespace
+}  // namespace damping_zones_test
 }  // namespace isostep::test

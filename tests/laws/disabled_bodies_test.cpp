@@ -4,7 +4,7 @@
 #include "laws/body_changes.hpp"
 
 namespace isostep::test {
-namespace {
+namespace disabled_bodies_test {
 
 template <class S> class DisabledBodies : public BodyChanges<S> {};
 TYPED_TEST_SUITE(DisabledBodies, AllScalars);
@@ -139,5 +139,5 @@ TYPED_TEST(DisabledBodies, couplings_and_springs_of_disabled_bodies_hold_nothing
   EXPECT_STREQ(this->w.fault().field, "type");
 }
 
-}  // namespace
+}  // namespace disabled_bodies_test
 }  // namespace isostep::test

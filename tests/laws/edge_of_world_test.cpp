@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace edge_of_world_test {
 
 template <class S> class EdgeOfWorld : public ::testing::Test {};
 TYPED_TEST_SUITE(EdgeOfWorld, AllScalars);
@@ -56,5 +56,5 @@ TYPED_TEST(EdgeOfWorld, holds_what_walls_stop_there) {
   EXPECT_GT(at_edge, 100);
 }
 
-}  // namespace
+}  // namespace edge_of_world_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace flat_ground_test {
 
 enum class Ground { box, mesh, field };
 
@@ -123,5 +123,5 @@ TYPED_TEST(FlatGround, of_triangles_stops_what_spins_on_it_when_and_where_a_box_
   }
 }
 
-}  // namespace
+}  // namespace flat_ground_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace flight_test {
 
 template <class S> class FlightLaws : public ::testing::Test {};
 TYPED_TEST_SUITE(FlightLaws, AllScalars);
@@ -239,5 +239,5 @@ TYPED_TEST(FlightLaws, a_cluster_that_collides_in_free_space_keeps_momentum_and_
   expect_near(l1, l0, 0.02 * length(l0), "angular momentum");
 }
 
-}  // namespace
+}  // namespace flight_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace flush_ground_test {
 
 /// The way in which the ground is made of boxes that lie flush.
 enum class Tiling { belts, bodies, parts };
@@ -121,5 +121,5 @@ TYPED_TEST(FlushGround, is_no_ridge) {
   EXPECT_LT(to_double(w.center_of_mass(left).x), -0.5);
 }
 
-}  // namespace
+}  // namespace flush_ground_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace forces_test {
 
 template <class S> class Forces : public ::testing::Test {
  protected:
@@ -120,5 +120,5 @@ TYPED_TEST(Forces, one_after_another_add_up_or_are_reported_cut) {
   EXPECT_EQ(w.step().clamped_force, 1u);
 }
 
-}  // namespace
+}  // namespace forces_test
 }  // namespace isostep::test

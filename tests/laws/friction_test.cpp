@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace friction_test {
 
 template <class S> class FrictionLaws : public ::testing::Test {};
 TYPED_TEST_SUITE(FrictionLaws, AllScalars);
@@ -254,5 +254,5 @@ TYPED_TEST(FrictionLaws, what_meets_at_the_restitution_threshold_or_faster_bounc
   }
 }
 
-}  // namespace
+}  // namespace friction_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace ghost_test {
 
 template <class S> class Ghosts : public ::testing::Test {
  protected:
@@ -112,5 +112,5 @@ TYPED_TEST(Ghosts, ghosts_are_refused_of_one_body_of_none_and_twice) {
   EXPECT_EQ(read.hash(), this->w.hash());
 }
 
-}  // namespace
+}  // namespace ghost_test
 }  // namespace isostep::test

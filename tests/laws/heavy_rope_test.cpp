@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace heavy_rope_test {
 
 template <class S> class HeavyRope : public ::testing::Test {
  protected:
@@ -41,5 +41,5 @@ TYPED_TEST(HeavyRope, gains_nothing_on_its_way_down_and_up) {
   }
 }
 
-}  // namespace
+}  // namespace heavy_rope_test
 }  // namespace isostep::test

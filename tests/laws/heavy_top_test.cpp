@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace heavy_top_test {
 
 template <class S> class HeavyTop : public ::testing::Test {
  protected:
@@ -84,5 +84,5 @@ TYPED_TEST(HeavyTop, does_so_in_the_direct_solver) {
   EXPECT_NEAR(seen.lowest, this->theory(top), 0.03);
 }
 
-}  // namespace
+}  // namespace heavy_top_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "random/joint_angles.hpp"
 
 namespace isostep::test {
-namespace {
+namespace held_twist_test {
 
 constexpr double kTwistRange = 0.5;  // [rad] to either side, where it is not locked
 
@@ -96,5 +96,5 @@ TYPED_TEST(HeldTwists, end_the_swing_and_gain_nothing) {
   }
 }
 
-}  // namespace
+}  // namespace held_twist_test
 }  // namespace isostep::test

@@ -13,7 +13,7 @@
 #include "scenes/measure.hpp"
 
 namespace isostep::test {
-namespace {
+namespace held_vehicles_test {
 
 constexpr int kVehicles = 4;
 constexpr double kRadius = 0.35, kHeight = 0.55;  // [m] of wheels; of the centre of mass, at rest
@@ -279,5 +279,5 @@ TYPED_TEST(HeldVehicles, under_a_load_on_a_joint_stand_at_the_end_of_their_trave
   }
 }
 
-}  // namespace
+}  // namespace held_vehicles_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "laws/exact_rollback.hpp"
 
 namespace isostep::test {
-namespace {
+namespace hit_report_test {
 
 template <class S> class HitReports : public ::testing::Test {
  protected:
@@ -119,5 +119,5 @@ TYPED_TEST(HitReports, tell_the_same_after_a_load) {
   EXPECT_GT(told, 0u);
 }
 
-}  // namespace
+}  // namespace hit_report_test
 }  // namespace isostep::test

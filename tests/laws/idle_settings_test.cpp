@@ -9,7 +9,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace idle_settings_test {
 
 constexpr int kTrees = 60, kFrames = 240;
 constexpr int kTreesOfDirect = 12;  // which takes ten times as long; the last ones
@@ -110,5 +110,5 @@ TYPED_TEST(IdleSettings, have_no_say_in_soft_step) { this->have_no_say(SolverNam
 TYPED_TEST(IdleSettings, have_no_say_in_pgs) { this->have_no_say(SolverName::pgs, kTrees, 6); }
 TYPED_TEST(IdleSettings, have_no_say_in_direct) { this->have_no_say(SolverName::direct, kTreesOfDirect, 3); }
 
-}  // namespace
+}  // namespace idle_settings_test
 }  // namespace isostep::test

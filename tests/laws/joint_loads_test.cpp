@@ -6,7 +6,7 @@
 #include "random/joint_angles.hpp"
 
 namespace isostep::test {
-namespace {
+namespace joint_loads_test {
 
 template <class S> class JointLoads : public ::testing::Test {
  protected:
@@ -185,5 +185,5 @@ TYPED_TEST(JointLoads, refuse_a_second_for_a_joint_and_what_is_no_strength) {
   EXPECT_EQ(w.hash(), before);
 }
 
-}  // namespace
+}  // namespace joint_loads_test
 }  // namespace isostep::test

@@ -5,7 +5,7 @@
 #include "random/energy_book.hpp"
 
 namespace isostep::test {
-namespace {
+namespace joint_nets_test {
 
 template <class S> class JointNets : public ::testing::Test {
  protected:
@@ -58,5 +58,5 @@ TYPED_TEST(JointNets, gain_nothing_while_they_swing) {
   EXPECT_LT(most - start, 0.02);  // [J] of 1.2 J of motion
 }
 
-}  // namespace
+}  // namespace joint_nets_test
 }  // namespace isostep::test

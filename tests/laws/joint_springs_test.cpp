@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace joint_springs_test {
 
 template <class S> class JointSprings : public ::testing::Test {
  protected:
@@ -148,5 +148,5 @@ TYPED_TEST(JointSprings, of_an_angle_pull_the_shorter_way_round) {
   }
 }
 
-}  // namespace
+}  // namespace joint_springs_test
 }  // namespace isostep::test

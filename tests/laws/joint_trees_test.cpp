@@ -15,7 +15,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace joint_trees_test {
 
 struct JointTreeBars {
   double energy;  // [1]
@@ -116,5 +116,5 @@ TYPED_TEST(JointTreeLaws, soft_step_holds_trees) { this->try_all({SolverName::so
 TYPED_TEST(JointTreeLaws, pgs_holds_trees) { this->try_all({SolverName::pgs, false}); }
 TYPED_TEST(JointTreeLaws, direct_holds_trees) { this->try_all({SolverName::direct, false}); }
 
-}  // namespace
+}  // namespace joint_trees_test
 }  // namespace isostep::test

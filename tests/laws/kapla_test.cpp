@@ -8,7 +8,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace kapla_test {
 
 template <class S> class Kapla : public ::testing::Test {
  protected:
@@ -61,5 +61,5 @@ TYPED_TEST(Kapla, stands_on_four_substeps) {
   }
 }
 
-}  // namespace
+}  // namespace kapla_test
 }  // namespace isostep::test

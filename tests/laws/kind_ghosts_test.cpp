@@ -4,7 +4,7 @@
 #include "laws/exact_rollback.hpp"
 
 namespace isostep::test {
-namespace {
+namespace kind_ghosts_test {
 
 template <class S> class KindGhosts : public ::testing::Test {
  protected:
@@ -143,5 +143,5 @@ TYPED_TEST(KindGhosts, what_passes_a_sleeper_does_not_wake_it) {
   EXPECT_GT(to_double(this->w.center_of_mass(other).x), 0.5);
 }
 
-}  // namespace
+}  // namespace kind_ghosts_test
 }  // namespace isostep::test

@@ -9,7 +9,7 @@
 #include "laws/exact_rollback.hpp"
 
 namespace isostep::test {
-namespace {
+namespace kind_response_test {
 
 const std::vector<SolverName> kResponding = built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first});
 
@@ -340,5 +340,5 @@ TYPED_TEST(KindResponses, bad_numbers_second_records_and_direct_are_refused) {
   EXPECT_STREQ(direct.fault().field, "solver");
 }
 
-}  // namespace
+}  // namespace kind_response_test
 }  // namespace isostep::test

@@ -14,7 +14,7 @@
 #include "scenes/ragdolls.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace levels_test {
 
 using V = Vec3<double>;
 using Kind = LevelSpot::Kind;
@@ -263,5 +263,5 @@ TYPED_TEST(RagdollLevels, a_ragdoll_on_every_part_neither_falls_through_nor_expl
   EXPECT_GT(torn, 0);
 }
 
-}  // namespace
+}  // namespace levels_test
 }  // namespace isostep::scenes

@@ -9,7 +9,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace light_parts_test {
 
 template <class S> class LightParts : public ::testing::Test {
  protected:
@@ -63,5 +63,5 @@ TYPED_TEST(LightParts, do_not_carry_heavy_bodies_away) {
   }
 }
 
-}  // namespace
+}  // namespace light_parts_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace limited_chain_test {
 
 template <class S> class LimitedChain : public ::testing::Test {};
 TYPED_TEST_SUITE(LimitedChain, AllScalars);
@@ -33,5 +33,5 @@ TYPED_TEST(LimitedChain, gains_nothing_and_stays_together) {
   }
 }
 
-}  // namespace
+}  // namespace limited_chain_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace locked_turning_test {
 
 template <class S> class LockedTurning : public ::testing::Test {
  protected:
@@ -91,5 +91,5 @@ TYPED_TEST(LockedTurning, a_body_that_is_welded_and_locked_holds_what_hangs_on_i
   }
 }
 
-}  // namespace
+}  // namespace locked_turning_test
 }  // namespace isostep::test

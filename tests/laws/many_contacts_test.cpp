@@ -7,7 +7,7 @@
 #include "random/dice.hpp"
 
 namespace isostep::test {
-namespace {
+namespace many_contacts_test {
 
 template <class S> class ManyContacts : public ::testing::Test {
  protected:
@@ -90,5 +90,5 @@ TYPED_TEST(ManyContacts, four_boxes_of_three_centimetres_stand) {
   }
 }
 
-}  // namespace
+}  // namespace many_contacts_test
 }  // namespace isostep::test

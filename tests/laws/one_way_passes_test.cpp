@@ -10,7 +10,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace one_way_passes_test {
 
 /// Bodies of all kinds below a platform at y = 3, thrown up; they pass each other. `with`: it is there.
 template <class S> std::vector<BodyId> jumpers(World<S>& w, bool with, int count) {
@@ -86,5 +86,5 @@ TYPED_TEST(OneWayPasses, a_thousand_jumps_keep_every_bit_while_they_pass_and_lan
   for (const std::uint8_t ghost : ghosts_of(with)) EXPECT_EQ(ghost, 0u) << "all are apart";
 }
 
-}  // namespace
+}  // namespace one_way_passes_test
 }  // namespace isostep::test

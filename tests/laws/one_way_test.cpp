@@ -8,7 +8,7 @@
 #include "laws/exact_rollback.hpp"
 
 namespace isostep::test {
-namespace {
+namespace one_way_test {
 
 template <class S> class OneWays : public ::testing::Test {
  protected:
@@ -324,5 +324,5 @@ TYPED_TEST(OneWays, what_is_fast_passes_from_the_side_and_is_stopped_from_above)
   }
 }
 
-}  // namespace
+}  // namespace one_way_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "random/joint_angles.hpp"
 
 namespace isostep::test {
-namespace {
+namespace opposite_axes_test {
 
 template <class S> class OppositeAxes : public ::testing::Test {};
 TYPED_TEST_SUITE(OppositeAxes, AllScalars);
@@ -49,5 +49,5 @@ TYPED_TEST(OppositeAxes, come_to_coincide) {
   }
 }
 
-}  // namespace
+}  // namespace opposite_axes_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace overlap_test {
 
 template <class S> class Overlap : public ::testing::Test {
  protected:
@@ -105,5 +105,5 @@ TYPED_TEST(Overlap, what_is_pinched_does_not_spin_away) {
   }
 }
 
-}  // namespace
+}  // namespace overlap_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "laws/exact_rollback.hpp"
 
 namespace isostep::test {
-namespace {
+namespace part_belts_test {
 
 const std::vector<SolverName> kAll =
     built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first, SolverName::direct});
@@ -214,5 +214,5 @@ TYPED_TEST(PartBelts, are_rolled_back_and_equal_on_all_lanes) {
   }
 }
 
-}  // namespace
+}  // namespace part_belts_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "random/dice.hpp"
 
 namespace isostep::test {
-namespace {
+namespace part_reach_test {
 
 template <class S> class PartReachLaws : public PartWorlds<S> {
  protected:
@@ -295,5 +295,5 @@ TYPED_TEST(PartReachLaws, shards_are_what_the_part_was) {
   }
 }
 
-}  // namespace
+}  // namespace part_reach_test
 }  // namespace isostep::test

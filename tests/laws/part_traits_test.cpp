@@ -5,7 +5,7 @@
 #include "random/dice.hpp"
 
 namespace isostep::test {
-namespace {
+namespace part_traits_test {
 
 template <class S> class PartTraitsLaws : public PartWorlds<S> {};
 TYPED_TEST_SUITE(PartTraitsLaws, AllScalars);
@@ -351,5 +351,5 @@ TYPED_TEST(PartTraitsLaws, worlds_that_are_saved_and_written_go_on_alike) {
   EXPECT_EQ(read.hash(), this->w.hash());
 }
 
-}  // namespace
+}  // namespace part_traits_test
 }  // namespace isostep::test

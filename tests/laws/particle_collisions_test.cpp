@@ -7,7 +7,7 @@
 #include "laws/particle_laws.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_collisions_test {
 
 template <class S> class ParticleCollisionLaws : public ::testing::Test {};
 TYPED_TEST_SUITE(ParticleCollisionLaws, AllScalars);
@@ -353,5 +353,5 @@ TYPED_TEST(ParticleCollisionLaws, divided_time_lets_no_bullet_pass_through_a_par
   EXPECT_NEAR(to_double(w.velocity(target).x), 60, bound);
 }
 
-}  // namespace
+}  // namespace particle_collisions_test
 }  // namespace isostep::test

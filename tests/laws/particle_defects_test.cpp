@@ -6,7 +6,7 @@
 #include "laws/particle_laws.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_defects_test {
 
 template <class S> class ParticleDefects : public ::testing::Test {};
 TYPED_TEST_SUITE(ParticleDefects, AllScalars);
@@ -363,5 +363,5 @@ TYPED_TEST(ParticleDefects, no_number_of_contacts_is_too_large_for_the_floor) {
   }
 }
 
-}  // namespace
+}  // namespace particle_defects_test
 }  // namespace isostep::test

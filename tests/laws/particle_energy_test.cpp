@@ -7,7 +7,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_energy_test {
 
 template <class S> class ParticleEnergyLaws : public ::testing::Test {};
 TYPED_TEST_SUITE(ParticleEnergyLaws, AllScalars);
@@ -155,5 +155,5 @@ TYPED_TEST(ParticleEnergyLaws, a_falling_chain_of_rods_gains_nothing) {
   }
 }
 
-}  // namespace
+}  // namespace particle_energy_test
 }  // namespace isostep::test

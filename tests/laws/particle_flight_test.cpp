@@ -5,7 +5,7 @@
 #include "laws/particle_laws.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_flight_test {
 
 template <class S> class ParticleFlightLaws : public ::testing::Test {};
 TYPED_TEST_SUITE(ParticleFlightLaws, AllScalars);
@@ -202,5 +202,5 @@ TYPED_TEST(ParticleFlightLaws, drag_slows_a_coasting_particle_along_its_path) {
   }
 }
 
-}  // namespace
+}  // namespace particle_flight_test
 }  // namespace isostep::test

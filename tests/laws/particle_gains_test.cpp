@@ -8,7 +8,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_gains_test {
 
 template <class S> class ParticleGains : public ::testing::Test {};
 TYPED_TEST_SUITE(ParticleGains, AllScalars);
@@ -237,5 +237,5 @@ TYPED_TEST(ParticleGains, pairs_beyond_the_settings_are_passed_over_and_told) {
   EXPECT_EQ(ParticleWorld<S>(settings).fault(), Fault::out_of_range);
 }
 
-}  // namespace
+}  // namespace particle_gains_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "laws/particle_laws.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_links_test {
 
 template <class S> class ParticleLinkLaws : public ::testing::Test {};
 TYPED_TEST_SUITE(ParticleLinkLaws, AllScalars);
@@ -226,5 +226,5 @@ TYPED_TEST(ParticleLinkLaws, the_stretch_of_a_hanging_link_falls_with_the_square
   }
 }
 
-}  // namespace
+}  // namespace particle_links_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_random_energy_test {
 
 template <class S> class RandomParticleEnergy : public ::testing::Test {};
 TYPED_TEST_SUITE(RandomParticleEnergy, AllScalars);
@@ -16,5 +16,5 @@ TYPED_TEST(RandomParticleEnergy, is_never_above_what_was_put_in) {
                                                  [](const auto&, bool changed) { return changed; });
 }
 
-}  // namespace
+}  // namespace particle_random_energy_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "laws/particle_laws.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_springs_test {
 
 template <class S> class ParticleSpringLaws : public ::testing::Test {};
 TYPED_TEST_SUITE(ParticleSpringLaws, AllScalars);
@@ -330,5 +330,5 @@ TYPED_TEST(ParticleSpringLaws, a_float_feels_the_whole_of_its_buoyancy_below_and
   EXPECT_NEAR(to_double(high.world.velocity(high.id).y), -2.5, bound);
 }
 
-}  // namespace
+}  // namespace particle_springs_test
 }  // namespace isostep::test

@@ -12,7 +12,7 @@
 #include "scenes/measure.hpp"
 
 namespace isostep::test {
-namespace {
+namespace passive_couplings_test {
 
 template <class S> class PassiveCouplings : public ::testing::Test {
  protected:
@@ -132,5 +132,5 @@ TYPED_TEST(PassiveCouplings, of_bodies_far_from_their_axes_gain_nothing) {
   }
 }
 
-}  // namespace
+}  // namespace passive_couplings_test
 }  // namespace isostep::test

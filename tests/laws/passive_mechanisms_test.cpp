@@ -10,7 +10,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace passive_mechanisms_test {
 
 /// Planks of 0.1 kg with a weight in their middle, hung between two fixed points at one height.
 struct Bridge {
@@ -87,5 +87,5 @@ TYPED_TEST(PassiveMechanisms, bridges_gain_nothing) {
   }
 }
 
-}  // namespace
+}  // namespace passive_mechanisms_test
 }  // namespace isostep::test

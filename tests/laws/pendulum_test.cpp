@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace pendulum_test {
 
 template <class S> class PendulumLaws : public ::testing::Test {
  protected:
@@ -89,5 +89,5 @@ TYPED_TEST(PendulumLaws, a_bob_sent_round_draws_a_cone_in_its_time) {
   EXPECT_NEAR(to_double(w.center_of_mass(bob).y), 5 - arm * std::cos(angle), 0.03);
 }
 
-}  // namespace
+}  // namespace pendulum_test
 }  // namespace isostep::test

@@ -12,7 +12,7 @@
 #include "random/dice.hpp"
 
 namespace isostep::test {
-namespace {
+namespace plane_falls_test {
 
 template <class S> class PlaneFalls : public ::testing::Test {
  protected:
@@ -59,5 +59,5 @@ TYPED_TEST(PlaneFalls, of_crates_and_hulls_onto_slopes_stay_in_their_plane) {
   }
 }
 
-}  // namespace
+}  // namespace plane_falls_test
 }  // namespace isostep::test

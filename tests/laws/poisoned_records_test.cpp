@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace poisoned_records_test {
 
 /// Counts the numbers that are not finite of a record, its input or state, or an event.
 struct NotFinite {
@@ -129,5 +129,5 @@ TYPED_TEST(PoisonedRecords, have_numbers_whatever_a_step_meets) {
   EXPECT_GT(stopped, 10u);
 }
 
-}  // namespace
+}  // namespace poisoned_records_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace pressed_joints_test {
 
 template <class S> class PressedJoints : public ::testing::Test {
  protected:
@@ -115,5 +115,5 @@ TYPED_TEST(PressedJoints, what_is_solved_anew_goes_as_its_joint_does) {
   }
 }
 
-}  // namespace
+}  // namespace pressed_joints_test
 }  // namespace isostep::test

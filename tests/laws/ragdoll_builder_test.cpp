@@ -8,7 +8,7 @@
 #include "random/joint_angles.hpp"
 
 namespace isostep::test {
-namespace {
+namespace ragdoll_builder_test {
 
 struct Part {
   int parent;
@@ -200,5 +200,5 @@ TYPED_TEST(Ragdolls, say_by_name_what_makes_no_figure_and_leave_the_world_as_it_
   EXPECT_EQ(add_ragdoll<S>(w, bones).bodies.size(), bones.size());
 }
 
-}  // namespace
+}  // namespace ragdoll_builder_test
 }  // namespace isostep::test

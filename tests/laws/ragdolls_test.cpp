@@ -8,7 +8,7 @@
 #include "scenes/trials/trial_run.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace ragdolls_test {
 
 template <class S> class RagdollLaws : public ::testing::Test {
  protected:
@@ -32,5 +32,5 @@ TYPED_TEST(RagdollLaws, fifty_fall_into_a_pit_within_their_limits) { this->survi
 
 TYPED_TEST(RagdollLaws, none_gains_energy_from_whatever_side_it_falls) { this->survives("ragdoll_from_every_tilt"); }
 
-}  // namespace
+}  // namespace ragdolls_test
 }  // namespace isostep::scenes

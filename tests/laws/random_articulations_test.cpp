@@ -8,7 +8,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace random_articulations_test {
 
 static_assert(Rollbackable<Articulation<float>> && Rollbackable<Articulation<double>>);
 static_assert(Rollbackable<Articulation<Q32_32>> && PortableState<Articulation<Q32_32>>);
@@ -168,5 +168,5 @@ TYPED_TEST(RandomArticulations, limits_hold_what_is_driven_hard) {
   }
 }
 
-}  // namespace
+}  // namespace random_articulations_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "random/world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace random_queries_test {
 
 template <class S> class RandomQueryLaws : public ::testing::Test {
  protected:
@@ -127,5 +127,5 @@ TYPED_TEST(RandomQueryLaws, a_batch_answers_as_one_by_one) {
   EXPECT_GT(hits, 2400u);
 }
 
-}  // namespace
+}  // namespace random_queries_test
 }  // namespace isostep::test

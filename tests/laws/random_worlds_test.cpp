@@ -11,7 +11,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace random_worlds_test {
 
 /// [1] The bar of energy, of all that was ever given. Contacts and limits hold some for a while, and steps are as long
 /// as they are: a sound engine stays below a twentieth.
@@ -141,5 +141,5 @@ TEST(RandomWorlds, have_every_kind_of_record) {
       *World<double>().state().records);
 }
 
-}  // namespace
+}  // namespace random_worlds_test
 }  // namespace isostep::test

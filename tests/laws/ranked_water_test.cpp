@@ -4,7 +4,7 @@
 #include "laws/exact_rollback.hpp"
 
 namespace isostep::test {
-namespace {
+namespace ranked_water_test {
 
 /// Water of `density` [kg/m^3]: some hundred, which Q16.16 can count too.
 template <class S> Water<S> water(double height, double density, std::int32_t priority, D3 at, D3 half) {
@@ -163,5 +163,5 @@ TYPED_TEST(RankedWaters, it_is_state) {
   });
 }
 
-}  // namespace
+}  // namespace ranked_water_test
 }  // namespace isostep::test

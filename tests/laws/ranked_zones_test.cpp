@@ -4,7 +4,7 @@
 #include "laws/exact_rollback.hpp"
 
 namespace isostep::test {
-namespace {
+namespace ranked_zones_test {
 
 template <class S> ForceZone<S> zone(D3 acceleration, std::int32_t priority, std::uint32_t replaces, double half = 0) {
   ForceZone<S> z;
@@ -119,5 +119,5 @@ TYPED_TEST(RankedZones, priorities_are_state) {
   });
 }
 
-}  // namespace
+}  // namespace ranked_zones_test
 }  // namespace isostep::test

@@ -9,7 +9,7 @@
 #include "random/dice.hpp"
 
 namespace isostep::test {
-namespace {
+namespace restitution_test {
 
 constexpr double kFixedBar = 0.02;  // [1] of Q16.16: its steps of 15 um/s and um add up over many bounces
 
@@ -227,5 +227,5 @@ TYPED_TEST(Restitution, of_a_crowd_of_elastic_balls_keeps_its_energy) {
   EXPECT_LT(most, 1.01 * start);
 }
 
-}  // namespace
+}  // namespace restitution_test
 }  // namespace isostep::test

@@ -15,7 +15,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace rolling_edges_test {
 
 enum class Ground { plane, box, mesh, field, kinematic, slab };
 enum class Solid { cylinder, cone, prism, wheelset };
@@ -247,5 +247,5 @@ TYPED_TEST(RollingEdges, a_capsule_that_spins_and_yaws_gains_nothing) {
   }
 }
 
-}  // namespace
+}  // namespace rolling_edges_test
 }  // namespace isostep::test

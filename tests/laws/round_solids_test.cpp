@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace round_solids_test {
 
 enum class Floor { plane, mesh, field };
 constexpr Floor kFloors[] = {Floor::plane, Floor::mesh, Floor::field};
@@ -231,5 +231,5 @@ TYPED_TEST(RoundSolids, a_cone_beside_the_corner_of_a_pillar_is_left_alone) {
   EXPECT_TRUE(meets(way - 0.07 / std::sqrt(2.0)));
 }
 
-}  // namespace
+}  // namespace round_solids_test
 }  // namespace isostep::test

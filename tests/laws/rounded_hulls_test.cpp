@@ -8,7 +8,7 @@
 #include "random/hull.hpp"
 
 namespace isostep::test {
-namespace {
+namespace rounded_hulls_test {
 
 constexpr int kCells = 16;
 constexpr double kPitch = 0.5;
@@ -177,5 +177,5 @@ TYPED_TEST(RoundedHulls, lie_on_a_mesh_and_not_in_it) {
   }
 }
 
-}  // namespace
+}  // namespace rounded_hulls_test
 }  // namespace isostep::test

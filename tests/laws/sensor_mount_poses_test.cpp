@@ -6,7 +6,7 @@
 #include "laws/mounted_world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace sensor_mount_poses_test {
 
 template <class S> class SensorMountPoses : public MountedWorld<S> {
  protected:
@@ -248,5 +248,5 @@ TYPED_TEST(SensorMountPoses, of_a_state_that_breaks_a_rule_are_not_read) {
   EXPECT_NE(rule_of({this->sensor, {}, Pose<S>::identity()}), "");
 }
 
-}  // namespace
+}  // namespace sensor_mount_poses_test
 }  // namespace isostep::test

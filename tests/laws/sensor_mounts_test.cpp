@@ -4,7 +4,7 @@
 #include "laws/mounted_world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace sensor_mounts_test {
 
 template <class S> class SensorMounts : public MountedWorld<S> {
  protected:
@@ -187,5 +187,5 @@ TYPED_TEST(SensorMounts, are_taken_off_by_removing_the_record) {
   EXPECT_TRUE(this->w.set_pose(this->sensor, this->w.pose(body)));
 }
 
-}  // namespace
+}  // namespace sensor_mounts_test
 }  // namespace isostep::test

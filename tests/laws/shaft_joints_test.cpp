@@ -6,7 +6,7 @@
 #include "random/joint_angles.hpp"
 
 namespace isostep::test {
-namespace {
+namespace shaft_joints_test {
 
 template <class S> class ShaftJoints : public ::testing::Test {
  protected:
@@ -107,5 +107,5 @@ TYPED_TEST(ShaftJoints, a_crank_moves_its_piston_as_geometry_says) {
   EXPECT_LT(worst, pick<S>(5e-4, 5e-4, 1e-2, 5e-4));
 }
 
-}  // namespace
+}  // namespace shaft_joints_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "laws/body_changes.hpp"
 
 namespace isostep::test {
-namespace {
+namespace shape_changes_test {
 
 template <class S> class ShapeChanges : public BodyChanges<S> {};
 TYPED_TEST_SUITE(ShapeChanges, AllScalars);
@@ -152,5 +152,5 @@ TYPED_TEST(ShapeChanges, setters_of_joints_do_what_the_whole_record_does) {
   EXPECT_STREQ(this->w.fault().field, "max_force");
 }
 
-}  // namespace
+}  // namespace shape_changes_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "random/asked.hpp"
 
 namespace isostep::test {
-namespace {
+namespace single_joints_test {
 
 constexpr int kTogether = 25;  // in one world
 
@@ -82,5 +82,5 @@ TYPED_TEST(SingleJointLaws, limits_take_and_never_give) {
   EXPECT_LT(f.jumped, f.tried / 6);
 }
 
-}  // namespace
+}  // namespace single_joints_test
 }  // namespace isostep::test

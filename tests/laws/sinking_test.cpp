@@ -6,7 +6,7 @@
 #include "random/dice.hpp"
 
 namespace isostep::test {
-namespace {
+namespace sinking_test {
 
 template <class S> class FallsOnThickGround : public ::testing::Test {
  protected:
@@ -83,5 +83,5 @@ TYPED_TEST(FallsOnThickGround, leave_crates_and_tiles_at_its_surface) {
   EXPECT_LE(deep, 6) << "of 60";
 }
 
-}  // namespace
+}  // namespace sinking_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "random/asked.hpp"
 
 namespace isostep::test {
-namespace {
+namespace six_axis_mixes_test {
 
 enum class Way { free, limited, locked };
 
@@ -161,5 +161,5 @@ TYPED_TEST(SixAxisMixes, wide_limits_hold_where_the_axes_are_nearly_opposite) {
   }
 }
 
-}  // namespace
+}  // namespace six_axis_mixes_test
 }  // namespace isostep::test

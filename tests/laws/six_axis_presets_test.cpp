@@ -6,7 +6,7 @@
 #include "laws/six_axis.hpp"
 
 namespace isostep::test {
-namespace {
+namespace six_axis_presets_test {
 
 template <class S> class SixAxisPresets : public SixAxis<S> {};
 TYPED_TEST_SUITE(SixAxisPresets, AllScalars);
@@ -94,5 +94,5 @@ TYPED_TEST(SixAxisPresets, a_wheel_rolls_forwards_at_a_positive_speed) {
   EXPECT_GT(to_double(w.velocity(ball).x), 0.5);
 }
 
-}  // namespace
+}  // namespace six_axis_presets_test
 }  // namespace isostep::test

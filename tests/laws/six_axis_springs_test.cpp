@@ -6,7 +6,7 @@
 #include "laws/six_axis.hpp"
 
 namespace isostep::test {
-namespace {
+namespace six_axis_springs_test {
 
 template <class S> class SixAxisSprings : public SixAxis<S> {};
 TYPED_TEST_SUITE(SixAxisSprings, AllScalars);
@@ -104,5 +104,5 @@ TYPED_TEST(SixAxisSprings, a_spring_of_a_swing_pulls_back_the_way_it_came) {
   }
 }
 
-}  // namespace
+}  // namespace six_axis_springs_test
 }  // namespace isostep::test

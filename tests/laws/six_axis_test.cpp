@@ -8,7 +8,7 @@
 #include "built.hpp"
 
 namespace isostep::test {
-namespace {
+namespace six_axis_test {
 
 TYPED_TEST_SUITE(SixAxis, AllScalars);
 
@@ -334,5 +334,5 @@ TYPED_TEST(SixAxis, refuses_what_no_axis_can_do) {
   EXPECT_TRUE(w.state().records->axis_drives.slot_map().template ids<AxisDriveId>().empty());
 }
 
-}  // namespace
+}  // namespace six_axis_test
 }  // namespace isostep::test

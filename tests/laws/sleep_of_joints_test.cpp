@@ -10,7 +10,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace sleep_of_joints_test {
 
 template <class S> class SleepOfJoints : public ::testing::Test {
  protected:
@@ -79,5 +79,5 @@ TYPED_TEST(SleepOfJoints, that_sliders_and_hinges_bring_into_new_limits) {
       "a hinge", [](World<S>& w, JointId j) { return std::max(0.0, 2 - to_double(w.joint_position(j))); });
 }
 
-}  // namespace
+}  // namespace sleep_of_joints_test
 }  // namespace isostep::test

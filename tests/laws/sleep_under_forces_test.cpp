@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace sleep_under_forces_test {
 
 template <class S> class SleepUnderForces : public ::testing::Test {
  protected:
@@ -101,5 +101,5 @@ TYPED_TEST(SleepUnderForces, what_hangs_on_a_spring_or_hovers_in_balance_rests) 
   EXPECT_LT(this->steps_awake(still, id, 60), 60);
 }
 
-}  // namespace
+}  // namespace sleep_under_forces_test
 }  // namespace isostep::test

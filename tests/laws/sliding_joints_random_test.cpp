@@ -9,7 +9,7 @@
 #include "random/parts.hpp"
 
 namespace isostep::test {
-namespace {
+namespace sliding_joints_random_test {
 
 constexpr JointType kKinds[] = {JointType::slider,    JointType::cylindrical,       JointType::planar,
                                 JointType::universal, JointType::constant_velocity, JointType::angular};
@@ -179,5 +179,5 @@ TYPED_TEST(SlidingJointsAtRandom, soft_step_holds_them) { this->try_solver(Solve
 TYPED_TEST(SlidingJointsAtRandom, pgs_holds_them) { this->try_solver(SolverName::pgs); }
 TYPED_TEST(SlidingJointsAtRandom, direct_holds_them) { this->try_solver(SolverName::direct); }
 
-}  // namespace
+}  // namespace sliding_joints_random_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "random/joint_angles.hpp"
 
 namespace isostep::test {
-namespace {
+namespace sliding_joints_test {
 
 const D3 kX = {1, 0, 0};
 
@@ -160,5 +160,5 @@ TYPED_TEST(SlidingJoints, two_bodies_on_a_slider_keep_their_momenta) {
   EXPECT_LT(to_double(this->w.joint_error(joint)), pick<S>(5e-3, 5e-3, 2e-2, 5e-3));
 }
 
-}  // namespace
+}  // namespace sliding_joints_test
 }  // namespace isostep::test

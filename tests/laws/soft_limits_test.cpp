@@ -9,7 +9,7 @@
 #include "random/dice.hpp"
 
 namespace isostep::test {
-namespace {
+namespace soft_limits_test {
 
 const std::vector<SolverName> kAll =
     built({SolverName::soft_step, SolverName::pgs, SolverName::direct, SolverName::worst_first});
@@ -288,5 +288,5 @@ TYPED_TEST(SoftLimits, that_are_none_are_refused) {
   refused(2, 1, -1, "spring_mass");
 }
 
-}  // namespace
+}  // namespace soft_limits_test
 }  // namespace isostep::test

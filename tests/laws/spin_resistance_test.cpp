@@ -5,7 +5,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace spin_resistance_test {
 
 template <class S> class SpinResistance : public ::testing::Test {
  protected:
@@ -105,5 +105,5 @@ TYPED_TEST(SpinResistance, acts_on_small_patches_below_large_bodies) {
   EXPECT_NEAR(before - to_double(w.angular_velocity(id).y), slowing, 0.1 * slowing);
 }
 
-}  // namespace
+}  // namespace spin_resistance_test
 }  // namespace isostep::test

@@ -11,7 +11,7 @@
 #include "scenes/measure.hpp"
 
 namespace isostep::test {
-namespace {
+namespace spinning_joints_test {
 
 template <class S> class SpinningJoints : public ::testing::Test {
  protected:
@@ -72,5 +72,5 @@ TYPED_TEST(SpinningJoints, of_two_free_bodies_gain_little) {
   }
 }
 
-}  // namespace
+}  // namespace spinning_joints_test
 }  // namespace isostep::test

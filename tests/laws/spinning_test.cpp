@@ -10,7 +10,7 @@
 #include "random/energy_book.hpp"
 
 namespace isostep::test {
-namespace {
+namespace spinning_test {
 
 /// A drop from a metre above the ground at 10 m/s, spinning about any axis.
 struct Drop {
@@ -151,5 +151,5 @@ TYPED_TEST(Spinning, what_damping_stops_gains_nothing) {
   }
 }
 
-}  // namespace
+}  // namespace spinning_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "laws/exact_rollback.hpp"
 
 namespace isostep::test {
-namespace {
+namespace surface_velocity_test {
 
 const std::vector<SolverName> kAll =
     built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first, SolverName::direct});
@@ -254,5 +254,5 @@ TYPED_TEST(SurfaceVelocities, are_rolled_back_and_equal_on_all_lanes) {
   }
 }
 
-}  // namespace
+}  // namespace surface_velocity_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "random/energy_book.hpp"
 
 namespace isostep::test {
-namespace {
+namespace taut_rods_test {
 
 /// Links and a ball at the end, each on a rod or rope, in a line that leans by `angle` from the vertical.
 struct Line {
@@ -104,5 +104,5 @@ TYPED_TEST(TautRods, leave_a_light_link_at_rest) {
   }
 }
 
-}  // namespace
+}  // namespace taut_rods_test
 }  // namespace isostep::test

@@ -11,7 +11,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace thin_rest_test {
 
 enum class Ground { half_space, box, mesh, field };
 constexpr Ground kGrounds[] = {Ground::half_space, Ground::box, Ground::mesh, Ground::field};
@@ -110,5 +110,5 @@ TYPED_TEST(ThinRest, of_flat_solids_of_2_to_24_mm_on_every_ground_comes_within_f
   }
 }
 
-}  // namespace
+}  // namespace thin_rest_test
 }  // namespace isostep::test

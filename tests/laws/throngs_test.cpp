@@ -8,7 +8,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace throngs_test {
 
 template <class S> class Throngs : public ::testing::Test {
  protected:
@@ -59,5 +59,5 @@ TYPED_TEST(Throngs, of_every_kind_come_apart_below_twenty_metres_a_second) {
   EXPECT_LT(this->leave(4, 0.25, 0.01, 10), 20);
 }
 
-}  // namespace
+}  // namespace throngs_test
 }  // namespace isostep::test

@@ -12,7 +12,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace thrown_at_ground_test {
 
 /// Twenty-four squares a side, each with slopes of its own; `field` or a mesh of the same triangles.
 struct RoughGround {
@@ -128,5 +128,5 @@ TYPED_TEST(ThrownAtGround, nothing_hangs_still_with_speed) {
   EXPECT_GE(all.thrown, 12 * static_cast<int>(seeds));
 }
 
-}  // namespace
+}  // namespace thrown_at_ground_test
 }  // namespace isostep::test

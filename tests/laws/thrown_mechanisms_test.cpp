@@ -7,7 +7,7 @@
 #include "random/asked.hpp"
 
 namespace isostep::test {
-namespace {
+namespace thrown_mechanisms_test {
 
 template <class S> class ThrownMechanisms : public ::testing::Test {
  protected:
@@ -64,5 +64,5 @@ TYPED_TEST(ThrownMechanisms, that_meet_conserve_momentum) {
   EXPECT_GT(met, 10);
 }
 
-}  // namespace
+}  // namespace thrown_mechanisms_test
 }  // namespace isostep::test

@@ -5,7 +5,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace tracks_test {
 
 /// 1200 kg on a track of three wheels each side, heading +z; the left wheels are 0 to 2 from the front, then the right.
 template <class S> class Tracks : public ::testing::Test {
@@ -183,5 +183,5 @@ TYPED_TEST(Tracks, turns_without_throttle_by_a_locked_differential) {
   }
 }
 
-}  // namespace
+}  // namespace tracks_test
 }  // namespace isostep::test

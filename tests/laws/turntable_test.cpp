@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace turntable_test {
 
 template <class S> class Turntable : public ::testing::Test {
  protected:
@@ -99,5 +99,5 @@ TYPED_TEST(Turntable, a_rider_creeps_on_a_slope_that_turns_about_the_vertical) {
   EXPECT_LT(this->drift(settings<S>(), {20, {0, 0, 0}, {0, 1.5, 0}, {0, 0, 1}, 0.3}), 0.02);
 }
 
-}  // namespace
+}  // namespace turntable_test
 }  // namespace isostep::test

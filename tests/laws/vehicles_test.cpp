@@ -3,7 +3,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace vehicles_test {
 
 /// The car of S17, heading +z.
 template <class S> class Vehicles : public ::testing::Test {
@@ -348,5 +348,5 @@ TYPED_TEST(Vehicles, drives_alike_whether_a_game_sets_its_settings_too) {
   EXPECT_GT(to_double(this->w.state(car.wheels[0])->spin), 2);
 }
 
-}  // namespace
+}  // namespace vehicles_test
 }  // namespace isostep::test

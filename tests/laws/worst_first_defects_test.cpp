@@ -8,7 +8,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace worst_first_defects_test {
 
 template <class S> class WorstFirstDefects : public ::testing::Test {
  protected:
@@ -182,5 +182,5 @@ TYPED_TEST(WorstFirstDefects, speeds_and_overlaps_are_resolved_by_one_step) {
   });
 }
 
-}  // namespace
+}  // namespace worst_first_defects_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace worst_first_projection_test {
 
 constexpr double kRest = 0x1p-11;         // [m] overlap that stays
 constexpr double kTolerance = 0x1p-14;    // [m] errors that are left alone
@@ -187,5 +187,5 @@ TYPED_TEST(Projections, that_are_not_in_the_list_are_a_fault_and_nonlinear) {
   EXPECT_STREQ(broken_rule(state), "settings out of range");
 }
 
-}  // namespace
+}  // namespace worst_first_projection_test
 }  // namespace isostep::test

@@ -9,7 +9,7 @@
 #include "lint/gate/disassembly.hpp"
 
 namespace isostep_lint {
-namespace {
+namespace gate_test {
 
 std::vector<std::string> words(const std::string& text) {
   std::vector<std::string> result;
@@ -166,5 +166,5 @@ TEST(Disassembly, AnUnknownInstructionSetIsAnError) {
   EXPECT_FALSE(disassembly.read("a.o:     file format elf64-loongarch", [](const Instruction&) {}));
 }
 
-}  // namespace
+}  // namespace gate_test
 }  // namespace isostep_lint

@@ -269,6 +269,8 @@ void check_form(const fs::path& root) {
       if (line.find('\t') != std::string::npos || line.find('\r') != std::string::npos)
         report(file, i, "tab or carriage return");
       if (ends_with(line, " ")) report(file, i, "blank at the end");
+      if (line == "namespace {" && ends_with(file.path, "_test.cpp"))
+        report(file, i, "one unit holds several tests: their names stand in a namespace of the file's name");
       if (fs::path(file.path).filename() != self && std::regex_search(line, unfinished))
         report(file, i, "unfinished work");
     }

@@ -5,7 +5,7 @@
 #include "lists/probe.hpp"
 
 namespace isostep {
-namespace {
+namespace commands_test {
 
 constexpr char kProgram[] = "tests/lists/command_probe.cpp";
 
@@ -57,5 +57,5 @@ TEST_F(CommandList, with_both_it_works) {
   EXPECT_EQ(output_of(kProgram), "taken 1 again 0 probe.tick bytes 2 number 2 played 1 tick 3\n");
 }
 
-}  // namespace
+}  // namespace commands_test
 }  // namespace isostep

@@ -4,7 +4,7 @@
 #include "lists/probe.hpp"
 
 namespace isostep {
-namespace {
+namespace geometry_store_test {
 
 class BlobShape : public ListProbe {
  protected:
@@ -34,5 +34,5 @@ TEST_F(BlobShape, is_kept_carried_brought_and_refused) {
   EXPECT_EQ(output_of("tests/lists/blob_probe.cpp"), "all as it should be\n");
 }
 
-}  // namespace
+}  // namespace geometry_store_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include "lists/probe.hpp"
 
 namespace isostep {
-namespace {
+namespace joints_test {
 
 class JointList : public ListProbe {
  protected:
@@ -48,5 +48,5 @@ TEST_F(JointList, with_its_file_it_works) {
             "probe speed 0.00 -7.50 4.33 pull 0.018 off 0.000 taken 1 motor: of a probe kCollideConnected\n");
 }
 
-}  // namespace
+}  // namespace joints_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include "lists/probe.hpp"
 
 namespace isostep {
-namespace {
+namespace records_test {
 
 constexpr char kProgram[] = "tests/lists/record_probe.cpp";
 constexpr char kFile[] = "include/isostep/dynamics/records/balloon.hpp";
@@ -105,5 +105,5 @@ TEST_F(RecordList, with_its_file_it_works_everywhere) {
       "falls 1 scene {\"type\": \"balloon\", \"body\": 0, \"volume\": 3} C balloon\n");
 }
 
-}  // namespace
+}  // namespace records_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include "lists/probe.hpp"
 
 namespace isostep {
-namespace {
+namespace shapes_test {
 
 class ShapeList : public ListProbe {
  protected:
@@ -93,5 +93,5 @@ TEST_F(ShapeList, in_all_its_places_it_works) {
             "mesh 4 -0.03125\nheight_field 4 -0.03125\ncylinder 4 -0.03125\ncone 1 -0.03125\nprobe 4 -0.03125\n");
 }
 
-}  // namespace
+}  // namespace shapes_test
 }  // namespace isostep

@@ -4,7 +4,7 @@
 #include "lists/probe.hpp"
 
 namespace isostep {
-namespace {
+namespace solvers_test {
 
 class SolverList : public ListProbe {
  protected:
@@ -28,5 +28,5 @@ TEST_F(SolverList, with_its_member_the_world_and_scene_files_take_it) {
   EXPECT_EQ(errors_of("scenes/scene_file.cpp"), "");
 }
 
-}  // namespace
+}  // namespace solvers_test
 }  // namespace isostep

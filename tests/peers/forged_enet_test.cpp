@@ -9,7 +9,7 @@
 #include "unit/transport/middle.hpp"
 
 namespace isostep::test {
-namespace {
+namespace forged_enet_test {
 
 using transport::EnetTransport;
 using transport::Middle;
@@ -83,5 +83,5 @@ TEST(ForgedOverEnet, AHundredThousandAlteredDatagramsLeaveAMatchRunning) {
   EXPECT_GT(refused, said / 10 * 9) << "the system drops some where its buffers are full";
 }
 
-}  // namespace
+}  // namespace forged_enet_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "enet_machine.hpp"
 
 namespace isostep::test {
-namespace {
+namespace migration_enet_test {
 
 using Kind = SessionEvent::Kind;
 
@@ -51,5 +51,5 @@ TEST(MigrationOverEnet, TheMatchGoesOnWhenItsHostTakesNoTurnsAnyMore) {
   EXPECT_EQ(machines[0]->count(Kind::desync), 0);
 }
 
-}  // namespace
+}  // namespace migration_enet_test
 }  // namespace isostep::test

@@ -11,7 +11,7 @@
 #include "sample.hpp"
 
 namespace isostep::test {
-namespace {
+namespace random_enet_test {
 
 class RandomEnetMatch {
  public:
@@ -162,5 +162,5 @@ TEST(RandomOverEnet, OneHistory) {
   }
 }
 
-}  // namespace
+}  // namespace random_enet_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "transport/udp_relay.hpp"
 
 namespace isostep::test {
-namespace {
+namespace snapshot_enet_test {
 
 using transport::EnetTransport;
 using transport::UdpRelay;
@@ -112,5 +112,5 @@ TEST(SnapshotOverEnet, GoesOnAfterACut) {
   EXPECT_FALSE(match.host.is_desynced || match.client.is_desynced);
 }
 
-}  // namespace
+}  // namespace snapshot_enet_test
 }  // namespace isostep::test

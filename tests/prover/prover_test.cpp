@@ -17,7 +17,7 @@
 #include "tool/common/files.hpp"
 
 namespace isostep::tool {
-namespace {
+namespace prover_test {
 
 namespace fs = std::filesystem;
 using Buffer = std::vector<std::uint8_t>;
@@ -316,5 +316,5 @@ TEST_F(Prover, DoesNotContinueFromAnyOtherState) {
   }
 }
 
-}  // namespace
+}  // namespace prover_test
 }  // namespace isostep::tool

@@ -11,7 +11,7 @@ using TrappingQ32 = Fixed<std::int64_t, 32, Overflow::trap>;
 template class Articulation<TrappingQ32>;
 
 namespace test {
-namespace {
+namespace articulation_range_test {
 
 using S = TrappingQ32;
 
@@ -66,6 +66,6 @@ TEST(ArticulationRange, NothingOverflowsAtAnySizeMassOrForce) {
   }
 }
 
-}  // namespace
+}  // namespace articulation_range_test
 }  // namespace test
 }  // namespace isostep

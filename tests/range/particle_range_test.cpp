@@ -4,7 +4,7 @@
 #include "determinism/particle_mess.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_range_test {
 
 using TrappingQ16 = Fixed<std::int32_t, 16, Overflow::trap>;
 using TrappingQ32 = Fixed<std::int64_t, 32, Overflow::trap>;
@@ -166,5 +166,5 @@ TYPED_TEST(ParticleRange, ParticlesAtTheSpeedLimitCollideAndDeepOverlapsAreParte
   EXPECT_GT(begun, 1000u);
 }
 
-}  // namespace
+}  // namespace particle_range_test
 }  // namespace isostep::test

@@ -12,7 +12,7 @@
 #include "sample.hpp"
 
 namespace isostep {
-namespace {
+namespace range_contract_test {
 
 using test::sampled;
 
@@ -280,5 +280,5 @@ TYPED_TEST(RangeContract, TheEdgeOfTheWorldHolds) {
   EXPECT_LE(this->world.center_of_mass(body).x, edge);
 }
 
-}  // namespace
+}  // namespace range_contract_test
 }  // namespace isostep

@@ -3,7 +3,7 @@
 #include "determinism/particle_mess.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_bytes_test {
 
 /// One of everything that a form can hold, and few of it.
 template <class S> std::vector<std::uint8_t> small_form() {
@@ -149,5 +149,5 @@ TYPED_TEST(ParticleBytes, a_velocity_of_the_lowest_number_is_out_of_range) {
   }
 }
 
-}  // namespace
+}  // namespace particle_bytes_test
 }  // namespace isostep::test

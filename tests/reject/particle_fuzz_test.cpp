@@ -6,7 +6,7 @@
 #include "unit/particles/random_commands.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_fuzz_test {
 
 constexpr std::size_t kKinds = std::variant_size_v<ParticleCommand<float>>;
 constexpr std::size_t kFaults = static_cast<std::size_t>(Fault::not_dynamic) + 1;
@@ -109,5 +109,5 @@ TYPED_TEST(ParticleFuzz, states_obey_their_rules_and_come_back_whatever_is_comma
   EXPECT_GT(tally.touched, 500u);
 }
 
-}  // namespace
+}  // namespace particle_fuzz_test
 }  // namespace isostep::test

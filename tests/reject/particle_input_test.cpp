@@ -4,7 +4,7 @@
 #include "unit/particles/particle_worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_input_test {
 
 template <class S> class ParticleInput : public ::testing::Test {};
 TYPED_TEST_SUITE(ParticleInput, AllScalars);
@@ -266,5 +266,5 @@ TEST(ParticleCrowd, the_worst_first_resolver_gives_up_in_time_and_says_so) {
   EXPECT_GT(crowd<float>(460, ParticleSolver::worst_first, &hash).unresolved, 0u);
 }
 
-}  // namespace
+}  // namespace particle_input_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "isostep/state/verify.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_replay_test {
 
 template <class S> class ParticleReplay : public ::testing::Test {
  protected:
@@ -143,5 +143,5 @@ TYPED_TEST(ParticleReplay, command_logs_that_no_world_wrote_are_refused) {
   EXPECT_FALSE(empty.step_recorded(log).ok()) << "a command that the world refuses";
 }
 
-}  // namespace
+}  // namespace particle_replay_test
 }  // namespace isostep::test

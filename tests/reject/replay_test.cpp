@@ -5,7 +5,7 @@
 #include "../unit/state/recording.hpp"
 
 namespace isostep {
-namespace {
+namespace replay_test {
 
 using toy::Buffer;
 using toy::Part;
@@ -342,5 +342,5 @@ TEST(RejectReplay, ATransferAsTextIsSeenAtOnce) {
   EXPECT_EQ(toy::verify_toy(png).outcome, VerifyOutcome::corrupt);
 }
 
-}  // namespace
+}  // namespace replay_test
 }  // namespace isostep

@@ -10,7 +10,7 @@
 #include "scenes/build.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace scene_file_test {
 
 /// The error of reading, then building in S; empty for a scene that is accepted.
 template <class S = float> std::string refusal(const std::string& json) {
@@ -182,5 +182,5 @@ TEST(SceneFile, WithASizeOrMassThatNoBodyHasIsRefused) {
             "/bodies/1/shapes/0: a half_space is for static bodies");
 }
 
-}  // namespace
+}  // namespace scene_file_test
 }  // namespace isostep::scenes

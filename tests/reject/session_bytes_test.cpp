@@ -6,7 +6,7 @@
 #include "isostep/core/random.hpp"
 
 namespace isostep::hostile {
-namespace {
+namespace session_bytes_test {
 
 /// The words of a client within a match, from its first on.
 std::vector<std::pair<Channel, Buffer>> captured(const SessionConfig& config) {
@@ -218,5 +218,5 @@ TEST(HostileFlood, NothingThatAPeerSaysMakesTheHostAllocate) {
   EXPECT_GT(sent, 100u);
 }
 
-}  // namespace
+}  // namespace session_bytes_test
 }  // namespace isostep::hostile

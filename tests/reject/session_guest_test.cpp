@@ -6,7 +6,7 @@
 #include "isostep/core/random.hpp"
 
 namespace isostep::hostile {
-namespace {
+namespace session_guest_test {
 
 TEST(HostileGuest, WordsBeforeTheFirstAreRefused) {
   Scene scene;
@@ -200,5 +200,5 @@ TEST(HostileGuest, ComingAndGoingAtAnyMomentDisturbsNobody) {
   scene.expect_progress(60);
 }
 
-}  // namespace
+}  // namespace session_guest_test
 }  // namespace isostep::hostile

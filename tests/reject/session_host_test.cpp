@@ -6,7 +6,7 @@
 #include "isostep/core/random.hpp"
 
 namespace isostep::hostile {
-namespace {
+namespace session_host_test {
 
 /// A client whose host is the test.
 struct Victim {
@@ -354,5 +354,5 @@ TEST(HostileHost, AnythingAtAllInAnyOrderBreaksNothing) {
   }
 }
 
-}  // namespace
+}  // namespace session_host_test
 }  // namespace isostep::hostile

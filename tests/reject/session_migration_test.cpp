@@ -4,7 +4,7 @@
 #include "isostep/session/agreement/roster.hpp"
 
 namespace isostep::hostile {
-namespace {
+namespace session_migration_test {
 
 SessionConfig migrating() {
   SessionConfig config = three_players();
@@ -284,5 +284,5 @@ TEST(HostileMember, WhatACandidateWasToHearIsNotToldToTheNext) {
   }
 }
 
-}  // namespace
+}  // namespace session_migration_test
 }  // namespace isostep::hostile

@@ -7,7 +7,7 @@
 #include "isostep/session/agreement/verdict.hpp"
 
 namespace isostep::hostile {
-namespace {
+namespace session_verdict_test {
 
 TEST(HostileVerdict, MessagesAreReadWholeOrNotAtAll) {
   Statements statements;
@@ -313,5 +313,5 @@ TEST(HostileVerdict, AHostAsksOnlyForStatesThatMayCome) {
   }
 }
 
-}  // namespace
+}  // namespace session_verdict_test
 }  // namespace isostep::hostile

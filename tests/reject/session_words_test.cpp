@@ -6,7 +6,7 @@
 #include "isostep/core/random.hpp"
 
 namespace isostep::hostile {
-namespace {
+namespace session_words_test {
 
 TEST(HostileWords, InputsThatNobodyMayGiveAreNotPlayed) {
   SeatedRogue scene;
@@ -258,5 +258,5 @@ TEST(HostileTime, EverybodySilentAtOnceCostsOnePatience) {
   EXPECT_TRUE(match.run(config.patience + 1500 * kMs, [&] { return match.host().end() >= from + 60; }));
 }
 
-}  // namespace
+}  // namespace session_words_test
 }  // namespace isostep::hostile

@@ -6,7 +6,7 @@
 #include "../unit/state/recording.hpp"
 
 namespace isostep {
-namespace {
+namespace torn_replay_test {
 
 using toy::Buffer;
 
@@ -123,5 +123,5 @@ TEST(TornReplay, OfASparseFileWithoutAnyDataNothingIsThere) {
   }
 }
 
-}  // namespace
+}  // namespace torn_replay_test
 }  // namespace isostep

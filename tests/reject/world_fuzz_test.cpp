@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace world_fuzz_test {
 
 /// Draws numbers that are mostly at, just inside or just outside a limit.
 template <class S> class Edges {
@@ -147,5 +147,5 @@ TYPED_TEST(WorldFuzz, a_world_reads_what_it_writes_whatever_was_commanded) {
   EXPECT_GT(refused, 500);
 }
 
-}  // namespace
+}  // namespace world_fuzz_test
 }  // namespace isostep::test

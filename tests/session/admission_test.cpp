@@ -3,7 +3,7 @@
 #include "session/admission_scene.hpp"
 
 namespace isostep::test {
-namespace {
+namespace admission_test {
 
 // --- the game decides ---
 
@@ -271,5 +271,5 @@ TEST(Kick, NeedsAPlayerAndAReasonThatCanBeRead) {
   EXPECT_TRUE(scene.host().kick(1, ""));
 }
 
-}  // namespace
+}  // namespace admission_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "session/random_match.hpp"
 
 namespace isostep::test {
-namespace {
+namespace agreement_test {
 
 std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
   const char* const text = std::getenv(name);
@@ -65,5 +65,5 @@ TEST(Agreement, OfMatchesDrawnFromSeedsNoneHasTwoHistoriesAndAllGoOn) {
   EXPECT_GT(migrations, matches);
 }
 
-}  // namespace
+}  // namespace agreement_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "session/toy_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace caller_test {
 
 SessionConfig config_of(int players) {
   SessionConfig config;
@@ -236,5 +236,5 @@ TEST(Caller, ARestartedProcessProvesByItsTokenWhoItWas) {
   EXPECT_EQ(second.session.local_player(), 1);
 }
 
-}  // namespace
+}  // namespace caller_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "session/toy_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace chaos_test {
 
 constexpr int kSeeds = 40;
 
@@ -138,5 +138,5 @@ TEST(Chaos, EndsWithOneHistoryAndEverybodyBack) {
   EXPECT_GT(rollbacks, 1000u);
 }
 
-}  // namespace
+}  // namespace chaos_test
 }  // namespace isostep::test

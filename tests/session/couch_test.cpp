@@ -5,7 +5,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace couch_test {
 
 using Kind = SessionEvent::Kind;
 constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
@@ -262,5 +262,5 @@ TEST_P(Couch, PlaysUnderADeadline) {
   expect_one_history(match);
 }
 
-}  // namespace
+}  // namespace couch_test
 }  // namespace isostep::test

@@ -3,7 +3,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace crowd_test {
 
 using Kind = SessionEvent::Kind;
 constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
@@ -70,5 +70,5 @@ TEST(Crowd32, OnAMachineEachPlays) {
   expect_one_history(match);
 }
 
-}  // namespace
+}  // namespace crowd_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace deadline_test {
 
 constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
 constexpr Time kMs = 1000;  // [us]
@@ -281,5 +281,5 @@ TEST(DeadlineOfSpectators, NoInputIsShownBeforeAllAreThere) {
   }
 }
 
-}  // namespace
+}  // namespace deadline_test
 }  // namespace isostep::test

@@ -14,7 +14,7 @@
 #include "session/toy_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace desync_test {
 
 using Kind = SessionEvent::Kind;
 constexpr Frame kFault = 300;
@@ -197,5 +197,5 @@ TEST(Desync, OfAHostThatTellsTwoPeersTwoThingsIsFound) {
   }
 }
 
-}  // namespace
+}  // namespace desync_test
 }  // namespace isostep::test

@@ -5,7 +5,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace fairness_test {
 
 constexpr Time kMs = 1000;  // [us]
 constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
@@ -163,5 +163,5 @@ TEST(Lie, OfAClockThatIsTooFastMoveTheOthersByLittle) {
   }
 }
 
-}  // namespace
+}  // namespace fairness_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace forged_test {
 
 constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
 constexpr auto kNoInput = [](int, Frame, std::vector<std::uint8_t>&) {};
@@ -151,5 +151,5 @@ TEST_P(Forged, AHashOfAFrameThatNeverComesKeepsNoDesyncFromBeingSeen) {
   EXPECT_TRUE(match.machine(1).heard(SessionEvent::Kind::desync));
 }
 
-}  // namespace
+}  // namespace forged_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "session/toy_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace handshake_test {
 
 /// The words that both sides heard after some seconds on a line without delay.
 struct Meeting {
@@ -187,5 +187,5 @@ TEST(Handshake, IsOverBeforeItBeginsWhenTheConfigurationCannotBe) {
   EXPECT_EQ(drive(session, toy, 0), 0);
 }
 
-}  // namespace
+}  // namespace handshake_test
 }  // namespace isostep::test

@@ -9,7 +9,7 @@
 #include "session/toy_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace joining_test {
 
 constexpr Frame kShortHistory = 128;  // [frames] two seconds: who joins after them needs a snapshot
 
@@ -262,5 +262,5 @@ void expect_a_second_machine_is_asked(bool asked_early) {
 TEST(LateJoin, AsksASecondMachineBeforeItPlays) { expect_a_second_machine_is_asked(true); }
 TEST(LateJoin, TakesTheHostsWordWhenNobodyElseSpeaks) { expect_a_second_machine_is_asked(false); }
 
-}  // namespace
+}  // namespace joining_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "session/recorded_play.hpp"
 
 namespace isostep::test {
-namespace {
+namespace large_orders_test {
 
 struct Unit {
   std::uint8_t command = 0;
@@ -204,5 +204,5 @@ TEST_P(OrdersInTrouble, ArriveWholeOnceAndInTurn) {
   EXPECT_EQ(played.hashes, orders.match.host().hashes);
 }
 
-}  // namespace
+}  // namespace large_orders_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "session/toy_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace leaving_test {
 
 using Kind = SessionEvent::Kind;
 
@@ -270,5 +270,5 @@ TEST_P(Leaving, ALostHostIsToldAfterTheSilenceAndAllReturnWhenItWasOnlyAway) {
   expect_one_history(match);
 }
 
-}  // namespace
+}  // namespace leaving_test
 }  // namespace isostep::test

@@ -3,10 +3,10 @@
 #include "session/matrix.hpp"
 
 namespace isostep::test {
-namespace {
+namespace matrix_double_test {
 
 TEST(Matrix, EveryPeerConfirmsTheStraightRunInDouble) { run_matrix<double>(1); }
 TEST(Matrix, EveryPeerConfirmsTheStraightRunInQ32) { run_matrix<Q32_32>(3); }
 
-}  // namespace
+}  // namespace matrix_double_test
 }  // namespace isostep::test

@@ -3,7 +3,7 @@
 #include "session/matrix.hpp"
 
 namespace isostep::test {
-namespace {
+namespace matrix_float_test {
 
 TEST(Matrix, RowsMissAPairWhenOneOfThemIsTakenAway) {
   const std::vector<std::size_t> sizes = {3, 2};  // all pairs of two factors are the whole product
@@ -16,5 +16,5 @@ TEST(Matrix, RowsMissAPairWhenOneOfThemIsTakenAway) {
 TEST(Matrix, EveryPeerConfirmsTheStraightRunInFloat) { run_matrix<float>(0); }
 TEST(Matrix, EveryPeerConfirmsTheStraightRunInQ16) { run_matrix<Q16_16>(2); }
 
-}  // namespace
+}  // namespace matrix_float_test
 }  // namespace isostep::test

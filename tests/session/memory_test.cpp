@@ -8,14 +8,12 @@
 #include "session/match_checks.hpp"
 #include "session/toy_game.hpp"
 
-namespace {
-
-bool counting = false;
-std::size_t allocations = 0;
-std::size_t live = 0;  // [bytes]
+static bool counting = false;
+static std::size_t allocations = 0;
+static std::size_t live = 0;  // [bytes]
 
 /// Its size stands right before the memory.
-void* counted(std::size_t size, std::size_t alignment) {
+static void* counted(std::size_t size, std::size_t alignment) {
   if (counting) ++allocations;
   live += size;
   const std::size_t whole = alignment + (size + alignment - 1) / alignment * alignment;
@@ -24,15 +22,13 @@ void* counted(std::size_t size, std::size_t alignment) {
   *reinterpret_cast<std::size_t*>(base + alignment - sizeof size) = size;
   return base + alignment;
 }
-void give_back(void* memory, std::size_t alignment) {
+static void give_back(void* memory, std::size_t alignment) {
   if (memory == nullptr) return;
   auto* at = static_cast<unsigned char*>(memory);
   live -= *reinterpret_cast<std::size_t*>(at - sizeof(std::size_t));
   std::free(at - alignment);
 }
 constexpr std::size_t kAlignment = alignof(std::max_align_t);
-
-}  // namespace
 
 // These are not inlined: gcc would take one half of a pair for a mismatch with the other.
 #define NOT_INLINED __attribute__((noinline))
@@ -50,7 +46,7 @@ NOT_INLINED void operator delete(void* memory, std::size_t, std::align_val_t ali
 }
 
 namespace isostep::test {
-namespace {
+namespace memory_test {
 
 /// A line that loses one datagram of ten and takes 50 ms for the others, in memory that it has from the start.
 class Line {
@@ -289,5 +285,5 @@ TEST(Soak, OfAnHourInWhichHostsFollowEachOtherNeedsNoMoreMemoryAndStaysOneHistor
   EXPECT_LT(most, after_ten_minutes + 64 * 1024);
 }
 
-}  // namespace
+}  // namespace memory_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace metrics_test {
 
 constexpr Time kMs = 1000;  // [us]
 constexpr std::size_t kMachines = 4;
@@ -102,5 +102,5 @@ TEST_P(Metrics, SayForHowLongTheOthersWaited) {
   EXPECT_LE(match.machine(1).session.stats().players[seat].waited, 100u * kMs) << "a minute later it is forgotten";
 }
 
-}  // namespace
+}  // namespace metrics_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "session/toy_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace migration_chaos_test {
 
 constexpr int kSeeds = 20;
 
@@ -175,5 +175,5 @@ TEST(MigrationChaos, EndsWithOneHostOneHistoryAndEverybodyBack) {
   EXPECT_GT(repairs, 5);
 }
 
-}  // namespace
+}  // namespace migration_chaos_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace migration_test {
 
 using Kind = SessionEvent::Kind;
 constexpr Time kMs = 1000;  // [us]
@@ -183,5 +183,5 @@ TEST(LateGreeting, OfWhoIsElectedEnds) {
   }
 }
 
-}  // namespace
+}  // namespace migration_test
 }  // namespace isostep::test

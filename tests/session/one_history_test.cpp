@@ -6,7 +6,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace one_history_test {
 
 using Kind = SessionEvent::Kind;
 constexpr Time kMs = 1000;  // [us]
@@ -320,5 +320,5 @@ TEST(Settings, WhoHasAnotherMigrationIsRefusedByThatName) {
   }
 }
 
-}  // namespace
+}  // namespace one_history_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "session/toy_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace orders_test {
 
 struct Order {
   std::uint32_t serial = 0;
@@ -92,5 +92,5 @@ TEST_P(OrdersOverALine, AreCarriedOutOnceAndInTurn) {
   }
 }
 
-}  // namespace
+}  // namespace orders_test
 }  // namespace isostep::test

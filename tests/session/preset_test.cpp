@@ -6,7 +6,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace preset_test {
 
 constexpr const char* kGood = "latency=10,jitter=2";
 constexpr const char* kUsual = "latency=30,jitter=5,loss=0.5";
@@ -142,5 +142,5 @@ TEST(Preset, IsAConfigurationThatASessionTakes) {
   }
 }
 
-}  // namespace
+}  // namespace preset_test
 }  // namespace isostep::test

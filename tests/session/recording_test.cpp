@@ -8,7 +8,7 @@
 #include "session/toy_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace recording_test {
 
 /// A match of which the first inputs are gone when somebody comes: it is sent a snapshot.
 struct JoinedMatch {
@@ -173,5 +173,5 @@ TEST(FlushedRecording, ACrashCostsASecondOrWhatTheSettingSaysOrNothingThatWasFlu
   }
 }
 
-}  // namespace
+}  // namespace recording_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace relay_test {
 
 using Kind = SessionEvent::Kind;
 constexpr Time kMs = 1000;  // [us]
@@ -269,5 +269,5 @@ TEST(RelayLimits, NoiseOfALeafIsWithoutEffect) {
   expect_watched_all(relay, tree.match->host(), 40);
 }
 
-}  // namespace
+}  // namespace relay_test
 }  // namespace isostep::test

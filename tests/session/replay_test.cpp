@@ -8,7 +8,7 @@
 #include "session/recorded_play.hpp"
 
 namespace isostep::test {
-namespace {
+namespace replay_test {
 
 constexpr Frame kFrames = 600;
 
@@ -105,5 +105,5 @@ TEST(MatchReplayRefuses, AnotherGameByTheFieldThatDiffers) {
   EXPECT_EQ(played.events[0].field.key.view(), "players");
 }
 
-}  // namespace
+}  // namespace replay_test
 }  // namespace isostep::test

@@ -5,7 +5,7 @@
 #include "session/admission_scene.hpp"
 
 namespace isostep::test {
-namespace {
+namespace reservation_test {
 
 constexpr Time kBackWithin = 2 * kSecond;
 
@@ -253,5 +253,5 @@ TEST(Reservation, DoesNotRunOutWhileTheHostStandsStill) {
   EXPECT_TRUE(scene.plays(owner, kBackWithin));
 }
 
-}  // namespace
+}  // namespace reservation_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace resync_test {
 
 using Kind = SessionEvent::Kind;
 constexpr Frame kFault = 400;
@@ -388,5 +388,5 @@ TEST_P(LiarAndJoiner, APlayerIsInWithinTenSeconds) {
   }
 }
 
-}  // namespace
+}  // namespace resync_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "session/recorded_play.hpp"
 
 namespace isostep::test {
-namespace {
+namespace saved_match_test {
 
 using Kind = SessionEvent::Kind;
 constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
@@ -237,5 +237,5 @@ TEST_P(SavedMatches, AreRecordedFromWhereTheyGoOn) {
   for (std::size_t f = 0; f < played.hashes.size(); ++f) ASSERT_EQ(played.hashes[f], after->host().hashes[f]);
 }
 
-}  // namespace
+}  // namespace saved_match_test
 }  // namespace isostep::test

@@ -8,12 +8,8 @@
 
 #include "sealed/sealed_transport.hpp"
 
-namespace {
-
-bool counting = false;
-std::size_t allocations = 0;
-
-}  // namespace
+static bool counting = false;
+static std::size_t allocations = 0;
 
 // These are not inlined: gcc would take one half of a pair for a mismatch with the other.
 #define NOT_INLINED __attribute__((noinline))
@@ -27,7 +23,7 @@ NOT_INLINED void operator delete(void* memory) noexcept { std::free(memory); }
 NOT_INLINED void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace isostep::sealed {
-namespace {
+namespace sealed_memory_test {
 
 using transport::Arrival;
 using transport::ArrivalKind;
@@ -100,5 +96,5 @@ TEST(SealedMemory, IsNotNeededForWhatIsSealedOpenedAndRefused) {
   EXPECT_EQ(host.statistics().forged + client.statistics().forged, 200u);
 }
 
-}  // namespace
+}  // namespace sealed_memory_test
 }  // namespace isostep::sealed

@@ -13,7 +13,7 @@
 #include "transport/simulated_network.hpp"
 
 namespace isostep::test {
-namespace {
+namespace sealed_test {
 
 using transport::EndpointId;
 using transport::SimulatedNetwork;
@@ -156,5 +156,5 @@ TEST_P(SealedMatch, DoesNotNoticeAThousandForgeriesASecond) {
   }
 }
 
-}  // namespace
+}  // namespace sealed_test
 }  // namespace isostep::test

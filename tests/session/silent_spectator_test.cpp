@@ -9,7 +9,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace silent_spectator_test {
 
 constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
 
@@ -250,5 +250,5 @@ TEST(SlowSpectators, ArePutUpWith) {
   expect_one_history(match);
 }
 
-}  // namespace
+}  // namespace silent_spectator_test
 }  // namespace isostep::test

@@ -3,7 +3,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace slow_test {
 
 using Kind = SessionEvent::Kind;
 constexpr Time kMs = 1000;  // [us]
@@ -154,5 +154,5 @@ TEST_P(TooSlow, NobodyIsSoForABadLine) {
   }
 }
 
-}  // namespace
+}  // namespace slow_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace snapshot_test {
 
 constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
 
@@ -191,5 +191,5 @@ TEST(Snapshot, ThatCannotArriveInTimeMakesRoomForOthers) {
   EXPECT_TRUE(match.run_until_playing(other, 10 * kSecond));
 }
 
-}  // namespace
+}  // namespace snapshot_test
 }  // namespace isostep::test

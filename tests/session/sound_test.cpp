@@ -9,7 +9,7 @@
 #include "session/match_checks.hpp"
 
 namespace isostep::test {
-namespace {
+namespace sound_test {
 
 using Game = scenes::Match<Q16_16>;
 using scenes::MatchEvent;
@@ -111,5 +111,5 @@ TEST_P(Sounds, PlayOncePerHappeningAndPeer) {
   }
 }
 
-}  // namespace
+}  // namespace sound_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "session/match_checks.hpp"
 
 namespace isostep::test {
-namespace {
+namespace spectator_test {
 
 using Game = scenes::Match<Q16_16>;
 constexpr int kPlayers = 2;
@@ -112,5 +112,5 @@ TEST(Spectators, LeaveThePlayersAsTheyWouldBeAlone) {
   EXPECT_GT(alone.match->host().session.stats().steps, 1200u) << "there were rollbacks to disturb";
 }
 
-}  // namespace
+}  // namespace spectator_test
 }  // namespace isostep::test

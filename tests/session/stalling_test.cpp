@@ -4,7 +4,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace stalling_test {
 
 using Kind = SessionEvent::Kind;
 constexpr Time kMs = 1000;  // [us]
@@ -126,5 +126,5 @@ TEST(Stall, OfTheHostIsToldByTheClients) {
   }
 }
 
-}  // namespace
+}  // namespace stalling_test
 }  // namespace isostep::test

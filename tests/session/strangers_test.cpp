@@ -3,7 +3,7 @@
 #include "session/admission_scene.hpp"
 
 namespace isostep::test {
-namespace {
+namespace strangers_test {
 
 constexpr Time kBackWithin = 2 * kSecond;
 
@@ -181,5 +181,5 @@ TEST_P(Strangers, BeyondThePlacesOfASessionAreCountedAndNotServed) {
   EXPECT_EQ(host.stats().refused, 2u);
 }
 
-}  // namespace
+}  // namespace strangers_test
 }  // namespace isostep::test

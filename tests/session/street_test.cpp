@@ -13,7 +13,7 @@
 #include "session/match_checks.hpp"
 
 namespace isostep::test {
-namespace {
+namespace street_test {
 
 struct Fallen {
   std::uint32_t jumps = 0;
@@ -73,5 +73,5 @@ TYPED_TEST(Street, of_four_cars_and_four_walkers_is_one_history_over_bad_lines) 
   EXPECT_GT(furthest, 3.0);
 }
 
-}  // namespace
+}  // namespace street_test
 }  // namespace isostep::test

@@ -12,7 +12,7 @@
 #include "session/toy_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace sync_test_test {
 
 constexpr Time kPeriod = kSecond / 60 + 1;
 
@@ -267,5 +267,5 @@ TEST(SyncTestOfAWorld, FindsNothingInAWholeGame) {
   EXPECT_TRUE(flaws_of<Toy>(8, 600, SessionEvent::Kind::unhashed).empty());
 }
 
-}  // namespace
+}  // namespace sync_test_test
 }  // namespace isostep::test

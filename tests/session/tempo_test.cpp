@@ -3,7 +3,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace tempo_test {
 
 using Kind = SessionEvent::Kind;
 constexpr const char* kGoodLine = "latency=30,jitter=5,loss=0.5";
@@ -192,5 +192,5 @@ TEST_P(Asked, AMigrationKeepsThePause) {
   }
 }
 
-}  // namespace
+}  // namespace tempo_test
 }  // namespace isostep::test

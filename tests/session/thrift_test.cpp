@@ -3,7 +3,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace thrift_test {
 
 constexpr Time kMs = 1000;  // [us]
 
@@ -75,5 +75,5 @@ TEST(Thrift, DelaysAreShortAgainWhenTheMachineIsFast) {
   expect_one_history(match);
 }
 
-}  // namespace
+}  // namespace thrift_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "session/toy_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace timing_test {
 
 struct Match : VirtualMatch<Toy> {
   Match(const SessionConfig& config, std::string_view line)
@@ -124,5 +124,5 @@ TEST(Pacing, IsWrongByHalfTheDifferenceOfBothDirectionsAndNoMore) {
   expect_one_history(match);
 }
 
-}  // namespace
+}  // namespace timing_test
 }  // namespace isostep::test

@@ -3,7 +3,7 @@
 #include "session/pace_watch.hpp"
 
 namespace isostep::test {
-namespace {
+namespace votes_test {
 
 using Kind = SessionEvent::Kind;
 using Wish = Proposal::Kind;
@@ -210,5 +210,5 @@ TEST(Votes, DamagedWordsAreRefused) {
   EXPECT_FALSE(read_ballot(bytes).ok());
 }
 
-}  // namespace
+}  // namespace votes_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "tally_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace go_on_test {
 
 constexpr std::uint64_t kSecond = 1000000;
 
@@ -116,5 +116,5 @@ TEST(GoOn, WithoutMigrationItIsRefused) {
   EXPECT_EQ(iso_session_go_on(session, 0), ISO_NOT_ALIVE);
 }
 
-}  // namespace
+}  // namespace go_on_test
 }  // namespace isostep::test

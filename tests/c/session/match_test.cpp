@@ -13,7 +13,7 @@
 #include "transport/simulated_network.hpp"
 
 namespace isostep::test {
-namespace {
+namespace match_test {
 
 using S = Q32_32;
 using transport::SimulatedNetwork;
@@ -318,5 +318,5 @@ TEST(CSession, AMatchThatWasPutAwayGoesOnInAnotherProcess) {
   EXPECT_EQ(puck_machine_destroy(&refused), ISO_OK);
 }
 
-}  // namespace
+}  // namespace match_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "alone.hpp"
 
 namespace isostep::test {
-namespace {
+namespace misuse_test {
 
 TEST_F(Alone, ConfigurationsThatCannotBeAreRefusedByTheNameOfTheField) {
   const iso_game game = tally.describe(false);
@@ -262,5 +262,5 @@ TEST_F(Alone, WhatWasDestroyedIsRefused) {
   EXPECT_EQ(iso_network_dispatch(network, 0, session, 0), ISO_NOT_ALIVE);
 }
 
-}  // namespace
+}  // namespace misuse_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "tally_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace state_test {
 
 constexpr std::uint64_t kSecond = 1000000;  // [us]
 
@@ -211,5 +211,5 @@ TEST(CState, AMatchIsPlayedAgainFromItsRecordingAndAnAlteredOneIsNot) {
   EXPECT_FALSE(play_again(cut, file, phase).empty());
 }
 
-}  // namespace
+}  // namespace state_test
 }  // namespace isostep::test

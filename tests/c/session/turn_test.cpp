@@ -5,7 +5,7 @@
 #include "alone.hpp"
 
 namespace isostep::test {
-namespace {
+namespace turn_test {
 
 /// The next request; a turn that is over begins anew.
 iso_request next_of(iso_session* session) {
@@ -125,5 +125,5 @@ TEST_F(Alone, ARecordingIsTakenInPiecesAsItGrowsAndAtAnyTime) {
   EXPECT_EQ(file, whole) << "the pieces are the file";
 }
 
-}  // namespace
+}  // namespace turn_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "tally_game.hpp"
 
 namespace isostep::test {
-namespace {
+namespace udp_test {
 
 TEST(CUdp, TwoPlayTheSameMatch) {
   iso_udp *host_port = nullptr, *client_port = nullptr;
@@ -136,5 +136,5 @@ TEST(CUdp, WhatCannotBeOpenedSaysWhy) {
   EXPECT_EQ(iso_udp_deliver(nullptr, nullptr, 0), ISO_NULL);
 }
 
-}  // namespace
+}  // namespace udp_test
 }  // namespace isostep::test

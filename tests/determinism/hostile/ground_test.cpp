@@ -20,7 +20,7 @@
 #include "scenes/named.hpp"
 
 namespace isostep::test {
-namespace {
+namespace ground_test {
 
 using Hashes = std::vector<std::uint64_t>;
 
@@ -212,5 +212,5 @@ TYPED_TEST(HostileGround, where_a_comma_is_the_decimal_point_changes_no_bit) {
   EXPECT_STREQ(half, "0,5");
 }
 
-}  // namespace
+}  // namespace ground_test
 }  // namespace isostep::test

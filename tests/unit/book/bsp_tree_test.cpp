@@ -8,7 +8,7 @@ namespace isostep::test {
 
 INSTANTIATE_TYPED_TEST_SUITE_P(BspTree, CoarseStructure, EveryScalar<BspTree>);
 
-namespace {
+namespace bsp_tree_test {
 
 template <class S> class BspTrees : public testing::Test {};
 TYPED_TEST_SUITE(BspTrees, BroadphaseScalars);
@@ -46,5 +46,5 @@ TYPED_TEST(BspTrees, BoxesThatCrossPlanesAreFoundOnTheirWay) {
   }
 }
 
-}  // namespace
+}  // namespace bsp_tree_test
 }  // namespace isostep::test

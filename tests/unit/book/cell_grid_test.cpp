@@ -9,7 +9,7 @@ namespace isostep::test {
 INSTANTIATE_TYPED_TEST_SUITE_P(Grid, CoarseStructure, EveryScalar<Grid>);
 INSTANTIATE_TYPED_TEST_SUITE_P(MultiGrid, CoarseStructure, EveryScalar<MultiGrid>);
 
-namespace {
+namespace cell_grid_test {
 
 template <class S> class CellGrids : public testing::Test {};
 TYPED_TEST_SUITE(CellGrids, BroadphaseScalars);
@@ -100,5 +100,5 @@ TYPED_TEST(CellGrids, NumbersOfCellsFollowCoordinatesToTheEdgeOfTheWorldAndStayT
   }
 }
 
-}  // namespace
+}  // namespace cell_grid_test
 }  // namespace isostep::test

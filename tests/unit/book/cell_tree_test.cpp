@@ -9,7 +9,7 @@ namespace isostep::test {
 INSTANTIATE_TYPED_TEST_SUITE_P(QuadTree, CoarseStructure, EveryScalar<QuadTree>);
 INSTANTIATE_TYPED_TEST_SUITE_P(OctTree, CoarseStructure, EveryScalar<OctTree>);
 
-namespace {
+namespace cell_tree_test {
 
 template <class S> class CellTrees : public testing::Test {};
 TYPED_TEST_SUITE(CellTrees, BroadphaseScalars);
@@ -58,5 +58,5 @@ TYPED_TEST(CellTrees, ABoxOnTheBorderOfALargeCellIsInASmallOne) {
   EXPECT_EQ(pairs.keys.size(), 1023u);
 }
 
-}  // namespace
+}  // namespace cell_tree_test
 }  // namespace isostep::test

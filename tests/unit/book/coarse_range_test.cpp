@@ -14,7 +14,7 @@
 #include "unit/collision/broadphase_model.hpp"
 
 namespace isostep::test {
-namespace {
+namespace coarse_range_test {
 
 /// Corners and ends at random multiples of a sixteenth of the farthest coordinate, and boxes of a metre among them.
 template <class S> Aabb<S> drawn_to_the_edge(Pcg32& random) {
@@ -75,5 +75,5 @@ TEST(BroadPhaseRange, NoStructureLeavesTheFormatUpToTheEdgeOfTheWorld) {
 #undef ISO_HOLD
 }
 
-}  // namespace
+}  // namespace coarse_range_test
 }  // namespace isostep::test

@@ -10,7 +10,7 @@
 #include "isostep/core/tournament_tree.hpp"
 
 namespace isostep {
-namespace {
+namespace first_of_many_test {
 
 template <class Queue> class FirstOfMany : public ::testing::Test {};
 using Queues = ::testing::Types<SortedOrder, LinearSearch>;
@@ -54,5 +54,5 @@ TYPED_TEST(FirstOfMany, is_the_first_of_the_tree_after_every_change_unless_nobod
   }
 }
 
-}  // namespace
+}  // namespace first_of_many_test
 }  // namespace isostep

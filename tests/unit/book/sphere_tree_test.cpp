@@ -8,7 +8,7 @@ namespace isostep::test {
 
 INSTANTIATE_TYPED_TEST_SUITE_P(SphereTree, CoarseStructure, EveryScalar<SphereTree>);
 
-namespace {
+namespace sphere_tree_test {
 
 template <class S> class Spheres : public testing::Test {};
 TYPED_TEST_SUITE(Spheres, BroadphaseScalars);
@@ -111,5 +111,5 @@ TYPED_TEST(Spheres, BoxesInOnePlaceMakeNoListOfTheTree) {
   EXPECT_LE(tree.height(), 10u);
 }
 
-}  // namespace
+}  // namespace sphere_tree_test
 }  // namespace isostep::test

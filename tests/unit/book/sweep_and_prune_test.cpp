@@ -8,7 +8,7 @@ namespace isostep::test {
 
 INSTANTIATE_TYPED_TEST_SUITE_P(SweepAndPrune, CoarseStructure, EveryScalar<SweepAndPrune>);
 
-namespace {
+namespace sweep_and_prune_test {
 
 template <class S> class SweepAndPrunes : public testing::Test {};
 TYPED_TEST_SUITE(SweepAndPrunes, BroadphaseScalars);
@@ -62,5 +62,5 @@ TYPED_TEST(SweepAndPrunes, BoxesMoveWithinTheListAndThoseThatLeapWaitBehindIt) {
   move(7, 1);
 }
 
-}  // namespace
+}  // namespace sweep_and_prune_test
 }  // namespace isostep::test

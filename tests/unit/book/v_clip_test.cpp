@@ -9,7 +9,7 @@
 #include "unit/collision/narrowphase/placed_solids.hpp"
 
 namespace isostep::test {
-namespace {
+namespace v_clip_test {
 
 using oracle::D3;
 
@@ -23,7 +23,7 @@ TYPED_TEST(VClipTest, distance_is_that_of_the_nearest_points) {
   int apart = 0, overlap = 0, unfinished = 0, wrong = 0, missed = 0, rounds = 0;
   const int pairs = sampled(10000, 2500);
   for (int n = 0; n < pairs; ++n) {
-    const Solid<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 40 % 40)];
+    const Convex<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 40 % 40)];
     const D3 at = n % 3 == 0 ? D3{40, -30, 20} : D3{0, 0, 0};
     const double reach = this->random_.in(0.1, 1.5) * (a.radius() + b.radius());
     const Transform<S> ta = this->transform(at), tb = this->transform(at + this->random_.direction() * reach);
@@ -59,7 +59,7 @@ TYPED_TEST(VClipTest, any_features_lead_to_the_same_distance_and_those_of_before
   const auto solids = solids_of_many_sizes<S>(49);
   int apart = 0, rounds = 0, unfinished = 0;
   for (int n = 0; n < 400; ++n) {
-    const Solid<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 10 % 40)];
+    const Convex<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 10 % 40)];
     const Polyhedron<S> pa = a.solid.polyhedron(), pb = b.solid.polyhedron();
     const D3 from = this->random_.direction() * (1.2 * (a.radius() + b.radius()));
     const Transform<S> ta = this->transform({0, 0, 0});
@@ -88,5 +88,5 @@ TYPED_TEST(VClipTest, any_features_lead_to_the_same_distance_and_those_of_before
   EXPECT_LT(rounds, apart + apart / 10);
 }
 
-}  // namespace
+}  // namespace v_clip_test
 }  // namespace isostep::test

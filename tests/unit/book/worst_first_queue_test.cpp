@@ -10,7 +10,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace worst_first_queue_test {
 
 /// The hash of a world's bodies and contacts after a step's solver.
 template <class S, class Queue> std::uint64_t hash_of_step(const World<S>& world) {
@@ -68,5 +68,5 @@ TYPED_TEST(WorstFirstQueues, change_no_bit_of_a_heap_in_any_projection) {
   }
 }
 
-}  // namespace
+}  // namespace worst_first_queue_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace worst_first_test {
 
 template <class S> class WorstFirstBodies : public ::testing::Test {
  protected:
@@ -382,5 +382,5 @@ TYPED_TEST(WorstFirstBodies, a_motor_turns_as_told_until_its_limit_stops_it) {
   EXPECT_NEAR(2 * std::asin(to_double(w.pose(id).orientation.z)), 1, 2e-3);
 }
 
-}  // namespace
+}  // namespace worst_first_test
 }  // namespace isostep::test

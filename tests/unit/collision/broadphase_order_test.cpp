@@ -8,7 +8,7 @@
 #include "unit/collision/broadphase_model.hpp"
 
 namespace isostep::test {
-namespace {
+namespace broadphase_order_test {
 
 template <class S> class BroadphaseOrder : public testing::Test {};
 TYPED_TEST_SUITE(BroadphaseOrder, BroadphaseScalars);
@@ -104,5 +104,5 @@ TYPED_TEST(BroadphaseOrder, boxes_that_come_between_searches_cost_what_they_are)
   }
 }
 
-}  // namespace
+}  // namespace broadphase_order_test
 }  // namespace isostep::test

@@ -3,7 +3,7 @@
 #include "unit/collision/broadphase_model.hpp"
 
 namespace isostep::test {
-namespace {
+namespace broadphase_pairs_test {
 
 template <class S> class BroadphasePairs : public testing::Test {};
 TYPED_TEST_SUITE(BroadphasePairs, BroadphaseScalars);
@@ -168,5 +168,5 @@ TYPED_TEST(BroadphasePairs, AnEmptiedTreeLeavesNoPairs) {
   EXPECT_TRUE(pairs.keys().empty());
 }
 
-}  // namespace
+}  // namespace broadphase_pairs_test
 }  // namespace isostep::test

@@ -3,7 +3,7 @@
 #include "unit/collision/broadphase_model.hpp"
 
 namespace isostep::test {
-namespace {
+namespace broadphase_tree_test {
 
 template <class S> class BroadphaseTree : public testing::Test {};
 TYPED_TEST_SUITE(BroadphaseTree, BroadphaseScalars);
@@ -152,5 +152,5 @@ TYPED_TEST(BroadphaseTree, SweepsVisitEveryTouchedBoxAndFindTheNearest) {
   EXPECT_LT(visited_for_nearest, visited);     // and a hit hides what lies behind it
 }
 
-}  // namespace
+}  // namespace broadphase_tree_test
 }  // namespace isostep::test

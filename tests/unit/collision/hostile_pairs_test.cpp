@@ -13,7 +13,7 @@
 #include "unit/geometry/oracle.hpp"
 
 namespace isostep::test {
-namespace {
+namespace hostile_pairs_test {
 
 using Scalars = testing::Types<float, double, TrapQ16, TrapQ32>;
 
@@ -253,5 +253,5 @@ TYPED_TEST(HostilePairs, give_manifolds_without_a_trap) {
   }
 }
 
-}  // namespace
+}  // namespace hostile_pairs_test
 }  // namespace isostep::test

@@ -12,7 +12,7 @@
 #include "unit/collision/narrowphase/placed_solids.hpp"
 
 namespace isostep::test {
-namespace {
+namespace hull_kernels_test {
 
 template <class S> class HullKernels : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -36,7 +36,7 @@ TYPED_TEST(HullKernels, hulls_whose_corners_edges_and_faces_fill_blocks_of_lanes
   using S = TypeParam;
   auto solids = solids_of_many_sizes<S>(31);
   for (int sides = 3; sides <= 42; ++sides)
-    solids.push_back(std::make_unique<Solid<S>>(drum(sides, sides % 2 != 0), 16));
+    solids.push_back(std::make_unique<Convex<S>>(drum(sides, sides % 2 != 0), 16));
   oracle::Random random(7);
   const auto place = [&](oracle::D3 at) {
     const auto orientation = random.template orientation<S>();
@@ -45,8 +45,8 @@ TYPED_TEST(HullKernels, hulls_whose_corners_edges_and_faces_fill_blocks_of_lanes
   int touching = 0, edges = 0, largest = 0;
   const int pairs = sampled(6000, 1500);
   for (int n = 0; n < pairs; ++n) {
-    const Solid<S>& a = *solids[static_cast<std::size_t>(n % 80)];
-    const Solid<S>& b = *solids[static_cast<std::size_t>(n * 7 / 80 % 80)];
+    const Convex<S>& a = *solids[static_cast<std::size_t>(n % 80)];
+    const Convex<S>& b = *solids[static_cast<std::size_t>(n * 7 / 80 % 80)];
     const double reach = random.in(0.2, 1.0) * (a.radius() + b.radius());
     const Transform<S> ta = place({0, 0, 0});
     const Transform<S> tb = place(random.direction() * reach);
@@ -66,5 +66,5 @@ TYPED_TEST(HullKernels, hulls_whose_corners_edges_and_faces_fill_blocks_of_lanes
   EXPECT_EQ(largest, 126);
 }
 
-}  // namespace
+}  // namespace hull_kernels_test
 }  // namespace isostep::test

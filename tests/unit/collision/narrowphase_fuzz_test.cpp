@@ -8,7 +8,7 @@
 #include "unit/collision/narrowphase/trapping.hpp"
 
 namespace isostep::test {
-namespace {
+namespace narrowphase_fuzz_test {
 
 constexpr int kPairs = 100000;
 
@@ -139,5 +139,5 @@ TYPED_TEST(NarrowPhaseFuzz, PointsOfDegenerateShapesLieWithinReachOfBoth) {
   }
 }
 
-}  // namespace
+}  // namespace narrowphase_fuzz_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "narrowphase/cases.hpp"
 
 namespace isostep::test {
-namespace {
+namespace narrowphase_laws_test {
 
 constexpr double kMargin = 0.02;
 constexpr int kPairs = 20000;
@@ -174,5 +174,5 @@ TYPED_TEST(NarrowPhaseLaws, TinyMotionKeepsTheFeatures) {
   EXPECT_GT(kept, total * 0.995);  // the rest crosses from one feature to the next
 }
 
-}  // namespace
+}  // namespace narrowphase_laws_test
 }  // namespace isostep::test

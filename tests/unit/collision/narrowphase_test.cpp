@@ -9,7 +9,7 @@
 #include "narrowphase/cases.hpp"
 
 namespace isostep::test {
-namespace {
+namespace narrowphase_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -448,5 +448,5 @@ TYPED_TEST(NarrowPhase, BoxRestingExactlyEdgeToEdgeTouchesWithoutDoubledPoints) 
   for (int i = 0; i < m.count; ++i) EXPECT_EQ(to_double(m.points[i].separation), 0.0);
 }
 
-}  // namespace
+}  // namespace narrowphase_test
 }  // namespace isostep::test

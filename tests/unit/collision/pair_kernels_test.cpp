@@ -11,7 +11,7 @@
 #include "unit/collision/kernel_cases.hpp"
 
 namespace isostep::test {
-namespace {
+namespace pair_kernels_test {
 
 template <class S> class PairKernelsTest : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -201,5 +201,5 @@ TYPED_TEST(PairKernelsTest, runs_of_every_length_and_nothing_beyond_them) {
   }
 }
 
-}  // namespace
+}  // namespace pair_kernels_test
 }  // namespace isostep::test

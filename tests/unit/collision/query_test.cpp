@@ -8,7 +8,7 @@
 #include "isostep/collision/query/ray_cast.hpp"
 
 namespace isostep {
-namespace {
+namespace query_test {
 
 using oracle::D3;
 
@@ -308,5 +308,5 @@ TYPED_TEST(QueryTest, TouchingIsOverlap) {
   }
 }
 
-}  // namespace
+}  // namespace query_test
 }  // namespace isostep

@@ -7,7 +7,7 @@
 #include <cstring>
 
 namespace isostep {
-namespace {
+namespace aligned_bytes_test {
 
 TEST(AlignedBytes, BeginAtACacheLineAndHoldWhatWasAskedFor) {
   AlignedBytes bytes;
@@ -19,5 +19,5 @@ TEST(AlignedBytes, BeginAtACacheLineAndHoldWhatWasAskedFor) {
   }
 }
 
-}  // namespace
+}  // namespace aligned_bytes_test
 }  // namespace isostep

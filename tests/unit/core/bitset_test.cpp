@@ -10,7 +10,7 @@
 #include "isostep/core/random.hpp"
 
 namespace isostep {
-namespace {
+namespace bitset_test {
 
 std::vector<std::uint32_t> members(const Bitset& bits) {
   std::vector<std::uint32_t> list;
@@ -63,5 +63,5 @@ TEST(Bitset, NumbersNeverSetAreNotMembersAndMayBeReset) {
   EXPECT_FALSE(bits.any());
 }
 
-}  // namespace
+}  // namespace bitset_test
 }  // namespace isostep

@@ -9,7 +9,7 @@
 #include "random/splitmix64.hpp"
 
 namespace isostep {
-namespace {
+namespace bytes_test {
 
 constexpr std::uint64_t kMost = ~std::uint64_t{0};
 
@@ -65,5 +65,5 @@ TEST(Leb128, what_is_longer_than_it_needs_is_overlong_and_what_64_bits_do_not_ho
   EXPECT_EQ(flaw_of(bytes, kMost), Leb128Flaw::too_large);
 }
 
-}  // namespace
+}  // namespace bytes_test
 }  // namespace isostep

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace isostep {
-namespace {
+namespace lower_bound_test {
 
 TEST(LowerBound, EveryCountAndEveryPlaceOfTheFirst) {
   for (std::size_t count = 0; count < 70; ++count) {
@@ -42,5 +42,5 @@ TEST(LowerBound, AsksForIndicesBelowTheCountAloneAndFewOfThem) {
   }
 }
 
-}  // namespace
+}  // namespace lower_bound_test
 }  // namespace isostep

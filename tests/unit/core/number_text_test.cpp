@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace isostep {
-namespace {
+namespace number_text_test {
 
 TEST(NumberText, ReadsDigits) {
   const struct {
@@ -25,5 +25,5 @@ TEST(NumberText, RefusesAnythingElse) {
     EXPECT_FALSE(read_number(text, number)) << text;
 }
 
-}  // namespace
+}  // namespace number_text_test
 }  // namespace isostep

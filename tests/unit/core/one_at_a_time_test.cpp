@@ -10,7 +10,7 @@
 #include <thread>
 
 namespace isostep {
-namespace {
+namespace one_at_a_time_test {
 
 bool enters(OneAtATime& room) { return OneAtATime::Entry(room).alone(); }
 
@@ -35,5 +35,5 @@ TEST(OneAtATimeDeathTest, EndsTheProgramWhereTwoThreadsMeet) {
   EXPECT_DEATH(std::thread([&] { enters(room); }).join(), "");
 }
 
-}  // namespace
+}  // namespace one_at_a_time_test
 }  // namespace isostep

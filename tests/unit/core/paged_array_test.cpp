@@ -11,7 +11,7 @@
 #include "isostep/core/random.hpp"
 
 namespace isostep {
-namespace {
+namespace paged_array_test {
 
 using Small = PagedArray<int, 4>;
 using Pointers = PagedArray<std::shared_ptr<int>, 4>;
@@ -159,5 +159,5 @@ TEST(PagedArray, WhatIsRememberedOfAPageIsForgottenByAChangeOfThatPageAlone) {
   EXPECT_EQ(copy.remembered(0).get([] { return std::uint64_t{9}; }), 1u);
 }
 
-}  // namespace
+}  // namespace paged_array_test
 }  // namespace isostep

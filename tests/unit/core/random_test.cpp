@@ -10,7 +10,7 @@
 #include "isostep/core/fields.hpp"
 
 namespace isostep {
-namespace {
+namespace random_test {
 
 static_assert(kHasNoPadding<Lcg> && kHasNoPadding<Pcg32>);
 
@@ -96,5 +96,5 @@ TYPED_TEST(Random, UniformIsTheScenesFormulaWithinARoundingAndStaysInItsRange) {
   EXPECT_EQ(random, twin);
 }
 
-}  // namespace
+}  // namespace random_test
 }  // namespace isostep

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace isostep {
-namespace {
+namespace shared_test {
 
 using Numbers = Shared<std::vector<int>>;
 
@@ -50,5 +50,5 @@ TEST(Shared, AChangeForgetsWhatWasRememberedOfTheValueAndNotOfTheCopy) {
   EXPECT_EQ(first(copy, 0), 1u);
 }
 
-}  // namespace
+}  // namespace shared_test
 }  // namespace isostep

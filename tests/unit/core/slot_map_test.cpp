@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace isostep::test {
-namespace {
+namespace slot_map_test {
 
 using TestId = Id<struct TestTag>;
 
@@ -53,5 +53,5 @@ TEST(SlotMap, a_file_may_not_retire_a_slot_that_has_tenants_left_nor_list_it_as_
   EXPECT_FALSE(slots.restore({{kLast, SlotEntry::kRetired}, {1, 0}}, 1));
 }
 
-}  // namespace
+}  // namespace slot_map_test
 }  // namespace isostep::test

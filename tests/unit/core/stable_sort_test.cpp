@@ -10,7 +10,7 @@
 #include "isostep/core/random.hpp"
 
 namespace isostep {
-namespace {
+namespace stable_sort_test {
 
 struct Record {
   std::uint64_t key;
@@ -84,5 +84,5 @@ TEST(InsertionSort, KeepsTheOrderOfEqualKeys) {
   }
 }
 
-}  // namespace
+}  // namespace stable_sort_test
 }  // namespace isostep

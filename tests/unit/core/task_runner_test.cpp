@@ -10,7 +10,7 @@
 #include "examples/thread_pool.hpp"
 
 namespace isostep {
-namespace {
+namespace task_runner_test {
 
 /// Counts the pieces done of each stage, and those that began before the stage before them had ended.
 struct Log {
@@ -115,5 +115,5 @@ TEST(RunStages, of_no_stages_or_none_with_pieces_ends_at_once) {
   log.expect_complete();
 }
 
-}  // namespace
+}  // namespace task_runner_test
 }  // namespace isostep

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace isostep {
-namespace {
+namespace tournament_tree_test {
 
 /// Low numbers, so that many are equal; the lowest index among equals.
 struct Field {
@@ -55,5 +55,5 @@ TEST(TournamentTree, the_answer_does_not_depend_on_the_order_of_changes) {
   EXPECT_EQ(backward.first(), 1u);
 }
 
-}  // namespace
+}  // namespace tournament_tree_test
 }  // namespace isostep

@@ -11,7 +11,7 @@
 #include "isostep/scalar/fixed.hpp"
 
 namespace isostep {
-namespace {
+namespace fault_injection_test {
 
 /// A field of every way in which fields are reached: bare, in an Exact, as a sum of products narrow and wide.
 struct Numbers {
@@ -86,5 +86,5 @@ TEST(FaultInjection, WritesNothingThatIsNotThere) {
   EXPECT_FALSE(FaultInjection("own.count", 32).inject(engine.view(), &Engine::edit));
 }
 
-}  // namespace
+}  // namespace fault_injection_test
 }  // namespace isostep

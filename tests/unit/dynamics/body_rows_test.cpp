@@ -13,7 +13,7 @@
 #include "unit/dynamics/scalar_name.hpp"
 
 namespace isostep {
-namespace {
+namespace body_rows_test {
 
 constexpr std::int32_t kHz = 60, kRate = 240;
 constexpr double kRapid = kHz / 16.0, kSubstep = 1.0 / kRate;
@@ -261,5 +261,5 @@ TYPED_TEST(BodyRowsOf, WhatTurnsFreelyKeepsItsMomentum) {
   EXPECT_GT(free, 50u);
 }
 
-}  // namespace
+}  // namespace body_rows_test
 }  // namespace isostep

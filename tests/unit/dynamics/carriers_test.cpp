@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace isostep {
-namespace {
+namespace carriers_test {
 
 /// Three bodies, of rows 1, 2 and 3; the second one is a turntable.
 template <class S> class CarriersOf : public ::testing::Test {
@@ -64,5 +64,5 @@ TYPED_TEST(CarriersOf, what_is_not_kinematic_does_not_turn_or_may_not_turn_carri
   EXPECT_TRUE(this->update().empty());
 }
 
-}  // namespace
+}  // namespace carriers_test
 }  // namespace isostep

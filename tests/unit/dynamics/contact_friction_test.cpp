@@ -7,7 +7,7 @@
 #include "random/dice.hpp"
 
 namespace isostep::test {
-namespace {
+namespace contact_friction_test {
 
 template <class S> class ContactFriction : public ::testing::Test {};
 TYPED_TEST_SUITE(ContactFriction, AllScalars);
@@ -177,5 +177,5 @@ TYPED_TEST(ContactFriction, presets_are_the_books_table) {
   expect(presets::velcro_on_velcro<S>(), 6, 4);
 }
 
-}  // namespace
+}  // namespace contact_friction_test
 }  // namespace isostep::test

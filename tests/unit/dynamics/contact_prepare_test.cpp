@@ -12,7 +12,7 @@
 #include "random/splitmix64.hpp"
 
 namespace isostep {
-namespace {
+namespace contact_prepare_test {
 
 struct Random {  // splitmix64
   std::uint64_t state;
@@ -315,5 +315,5 @@ TYPED_TEST(ContactPrepare, AnOverlapCountsAsDeeperByItsLiftWithinTheBoundAndAGap
   }
 }
 
-}  // namespace
+}  // namespace contact_prepare_test
 }  // namespace isostep

@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace isostep {
-namespace {
+namespace direct_system_test {
 
 constexpr std::uint64_t kWork = 2'000'000;
 constexpr double kScale = 0x1p-24;  // of right-hand sides and answers: room for answers of a million in fixed point
@@ -208,5 +208,5 @@ TYPED_TEST(DirectSystemOf, FrictionIsBoundedByTheLoad) {
   }
 }
 
-}  // namespace
+}  // namespace direct_system_test
 }  // namespace isostep

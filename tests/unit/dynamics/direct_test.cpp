@@ -10,7 +10,7 @@
 #include "unit/dynamics/scalar_name.hpp"
 
 namespace isostep {
-namespace {
+namespace direct_test {
 
 template <class S> class Direct : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -141,5 +141,5 @@ TYPED_TEST(Direct, AMotorGivesItsTorqueAndALimitHolds) {
   EXPECT_NEAR(to_double(world.states[door].angular_velocity.z), 0, 1e-2);
 }
 
-}  // namespace
+}  // namespace direct_test
 }  // namespace isostep

@@ -10,7 +10,7 @@
 #include "isostep/math/quat.hpp"
 
 namespace isostep {
-namespace {
+namespace gyroscopic_test {
 
 template <class S> class FreeTurning : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -96,5 +96,5 @@ TYPED_TEST(FreeTurning, IsStableAtTheGreatestAngularSpeed) {
   }
 }
 
-}  // namespace
+}  // namespace gyroscopic_test
 }  // namespace isostep

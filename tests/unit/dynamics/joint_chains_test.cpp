@@ -13,7 +13,7 @@
 #include "unit/dynamics/scalar_name.hpp"
 
 namespace isostep {
-namespace {
+namespace joint_chains_test {
 
 template <class S> class JointChains : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -220,5 +220,5 @@ TYPED_TEST(JointChains, BodyWithMoreJointsThanATreeTakesKeepsThemAll) {
   }
 }
 
-}  // namespace
+}  // namespace joint_chains_test
 }  // namespace isostep

@@ -9,7 +9,7 @@
 #include "unit/dynamics/joint_world.hpp"
 
 namespace isostep {
-namespace {
+namespace joint_trees_test {
 
 /// Whole thousandths in [-size, size].
 class Draw {
@@ -293,5 +293,5 @@ TYPED_TEST(JointTreesTest, LimitsStopWhatIsTurnedTowardsThemWithinASubstep) {
   }
 }
 
-}  // namespace
+}  // namespace joint_trees_test
 }  // namespace isostep

@@ -16,7 +16,7 @@
 #include "unit/dynamics/scalar_name.hpp"
 
 namespace isostep {
-namespace {
+namespace joints_test {
 
 template <class S> class Joints : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -372,5 +372,5 @@ TYPED_TEST(Joints, JointsBetweenThingsThatDoNotMoveAreIdle) {
   EXPECT_EQ(to_double(world.impulses[0].point.y), 0);
 }
 
-}  // namespace
+}  // namespace joints_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace isostep {
-namespace {
+namespace pass_plan_test {
 
 struct Part {
   std::uint32_t group, blocks, rows;
@@ -100,5 +100,5 @@ TEST(PieceCount, is_one_a_thread_or_four_and_makes_no_piece_too_small) {
   EXPECT_EQ(piece_count(0, 64, 4), 1u);
 }
 
-}  // namespace
+}  // namespace pass_plan_test
 }  // namespace isostep

@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace pgs_test {
 
 template <class S> World<S> world_of(SolverName solver, std::int32_t substeps) {
   Settings<S> s = settings<S>(-10, 60, substeps);
@@ -99,5 +99,5 @@ TYPED_TEST(Pgs, a_chain_with_a_weight_comes_further_apart_than_in_trees) {
   EXPECT_LT(pgs, 1) << "it does hang together";
 }
 
-}  // namespace
+}  // namespace pgs_test
 }  // namespace isostep::test

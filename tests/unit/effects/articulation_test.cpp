@@ -9,7 +9,7 @@
 #include "random/articulation.hpp"
 
 namespace isostep::test {
-namespace {
+namespace articulation_test {
 
 /// A game's own state.
 struct Nothing {
@@ -267,5 +267,5 @@ TYPED_TEST(ArticulationOf, moved_from_it_is_as_good_as_new) {
   EXPECT_EQ(a.hash(), b.hash());
 }
 
-}  // namespace
+}  // namespace articulation_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "unit/effects/totals.hpp"
 
 namespace isostep::test {
-namespace {
+namespace breaking_test {
 
 template <class S> class Breakables : public ::testing::Test {
  protected:
@@ -242,5 +242,5 @@ TYPED_TEST(Breakables, what_is_disabled_breaks_once_it_is_not) {
   EXPECT_EQ(this->dynamic_bodies().size(), 8u);
 }
 
-}  // namespace
+}  // namespace breaking_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "unit/effects/coupled.hpp"
 
 namespace isostep::test {
-namespace {
+namespace coupled_frames_test {
 
 template <class S> class CoupledFrames : public ::testing::Test {};
 TYPED_TEST_SUITE(CoupledFrames, AllScalars);
@@ -141,5 +141,5 @@ TYPED_TEST(CoupledFrames, each_worlds_recording_replays_without_the_other) {
   EXPECT_EQ(particles.hash(), game.particles.hash());
 }
 
-}  // namespace
+}  // namespace coupled_frames_test
 }  // namespace isostep::test

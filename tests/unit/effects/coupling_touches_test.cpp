@@ -3,7 +3,7 @@
 #include "unit/effects/coupled.hpp"
 
 namespace isostep::test {
-namespace {
+namespace coupling_touches_test {
 
 template <class S> class CouplingTouches : public ::testing::Test {};
 TYPED_TEST_SUITE(CouplingTouches, AllScalars);
@@ -59,5 +59,5 @@ TYPED_TEST(CouplingTouches, a_bounce_does_not_count_the_way_out_of_an_overlap) {
   }
 }
 
-}  // namespace
+}  // namespace coupling_touches_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "unit/effects/fractured.hpp"
 
 namespace isostep::test {
-namespace {
+namespace fracture_random_test {
 
 GridPoint point_within(Pcg32& random, std::int32_t most, int flat = 0) {
   GridPoint p = {0, 0, 0};
@@ -89,5 +89,5 @@ TEST(FractureOfRandomSolids, stays_inside_and_adds_up) {
   EXPECT_EQ(digest, 10983483179193545914u);
 }
 
-}  // namespace
+}  // namespace fracture_random_test
 }  // namespace isostep::test

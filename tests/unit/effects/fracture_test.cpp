@@ -8,7 +8,7 @@
 #include "unit/effects/fractured.hpp"
 
 namespace isostep::test {
-namespace {
+namespace fracture_test {
 
 /// [steps] The shift of the corners from the exact ones, along a direction: sqrt(3) 5/8.
 constexpr double kReach = 1.1;
@@ -256,5 +256,5 @@ TEST(Fracture, bad_arguments_are_named) {
   EXPECT_EQ(many.error().message.view(), "the pattern may make 130 pieces; expected at most 64");
 }
 
-}  // namespace
+}  // namespace fracture_test
 }  // namespace isostep::test

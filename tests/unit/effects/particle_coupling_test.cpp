@@ -5,7 +5,7 @@
 #include "unit/effects/coupled.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_coupling_test {
 
 template <class S> class CouplingOf : public ::testing::Test {};
 TYPED_TEST_SUITE(CouplingOf, AllScalars);
@@ -323,5 +323,5 @@ TYPED_TEST(CouplingOf, a_crate_sleeps_under_grains_where_small_pushes_are_unfelt
   }
 }
 
-}  // namespace
+}  // namespace particle_coupling_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "unit/effects/totals.hpp"
 
 namespace isostep::test {
-namespace {
+namespace shatter_test {
 
 enum class Solid { box, off_grid_box, rock };
 
@@ -211,5 +211,5 @@ TEST(ShatterOfQ16, masses_and_sizes_below_the_scalar_are_refused) {
   EXPECT_EQ(small.error().place.view(), "pieces");
 }
 
-}  // namespace
+}  // namespace shatter_test
 }  // namespace isostep::test

@@ -10,7 +10,7 @@
 #include "isostep/geometry/baked/hull_blob.hpp"
 
 namespace isostep {
-namespace {
+namespace blob_file_test {
 
 BlobRef tetrahedron() {
   const std::vector<Vec3<double>> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -66,5 +66,5 @@ TEST(BlobFile, OfRandomBytesIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace blob_file_test
 }  // namespace isostep

@@ -9,7 +9,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace bounds_test {
 
 using oracle::D3;
 
@@ -158,5 +158,5 @@ TEST(Limits, LeaveRoomForEveryIntermediateNamed) {
   expect_argued_limits<Fixed<std::int32_t, 20>>();
 }
 
-}  // namespace
+}  // namespace bounds_test
 }  // namespace isostep

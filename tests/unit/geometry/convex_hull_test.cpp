@@ -13,7 +13,7 @@
 #include "unit/geometry/hull_recipes.hpp"
 
 namespace isostep::test {
-namespace {
+namespace convex_hull_test {
 
 constexpr std::int32_t kFar = GridPoint::kLimit - 1;
 
@@ -297,5 +297,5 @@ TEST(ConvexHull, simplified_keeps_the_furthest_points) {
   EXPECT_FALSE(simplified(std::vector<GridPoint>(9, {1, 2, 3}), 8).ok());
 }
 
-}  // namespace
+}  // namespace convex_hull_test
 }  // namespace isostep::test

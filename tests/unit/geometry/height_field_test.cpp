@@ -8,7 +8,7 @@
 #include "unit/geometry/baked_surface.hpp"
 
 namespace isostep::test {
-namespace {
+namespace height_field_test {
 
 static_assert(TriangleGeometry<BakedHeightField>);
 
@@ -354,5 +354,5 @@ TEST(HeightField, a_triangle_takes_at_most_two_bytes_and_a_half) {
                    [&] { EXPECT_TRUE(height_field(surface.grid, surface.heights, {}).ok()); });
 }
 
-}  // namespace
+}  // namespace height_field_test
 }  // namespace isostep::test

@@ -11,7 +11,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace hull_blob_test {
 
 using ::testing::HasSubstr;
 
@@ -138,5 +138,5 @@ TEST(HullBlob, threads_that_ask_at_once_get_one_content_each_time) {
   }
 }
 
-}  // namespace
+}  // namespace hull_blob_test
 }  // namespace isostep::test

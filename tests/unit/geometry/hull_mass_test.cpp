@@ -9,7 +9,7 @@
 #include "unit/geometry/hull_recipes.hpp"
 
 namespace isostep::test {
-namespace {
+namespace hull_mass_test {
 
 constexpr double kDigit = 1.0 / (1 << HullMass::kFractionBits);
 
@@ -137,5 +137,5 @@ TEST(HullMass, of_rocks_prisms_frusta_and_pyramids_is_what_slices_add_up_to) {
   }
 }
 
-}  // namespace
+}  // namespace hull_mass_test
 }  // namespace isostep::test

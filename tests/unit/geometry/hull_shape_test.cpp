@@ -15,7 +15,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace hull_shape_test {
 
 template <class U> Quat<double> real_quat(Quat<U> q) {
   return {to_double(q.x), to_double(q.y), to_double(q.z), to_double(q.w)};
@@ -172,5 +172,5 @@ TYPED_TEST(HullShape, too_small_too_large_or_of_another_type_is_a_fault) {
   EXPECT_EQ(validate(this->children(), other), ShapeFault::blob_missing);
 }
 
-}  // namespace
+}  // namespace hull_shape_test
 }  // namespace isostep::test

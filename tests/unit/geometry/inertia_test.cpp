@@ -9,7 +9,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace inertia_test {
 
 using oracle::D3;
 using oracle::PointMass;
@@ -283,5 +283,5 @@ TYPED_TEST(InertiaOf, WhatHasNoInertiaAboutAnAxisHasNoKappaThere) {
   EXPECT_EQ(MassTensor<S>::point(S(1), Vec3<S>::zero()).properties().kappa, Vec3<S>::zero());
 }
 
-}  // namespace
+}  // namespace inertia_test
 }  // namespace isostep

@@ -16,7 +16,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace instance_test {
 
 const Instance kMirrors[] = {{true, false, false, 0},
                              {false, true, false, 0},
@@ -182,5 +182,5 @@ TEST(Instances, what_leaves_the_grid_is_refused) {
   EXPECT_EQ(scaled(field, 0), "type");
 }
 
-}  // namespace
+}  // namespace instance_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace mass_properties_test {
 
 using oracle::D3;
 
@@ -304,5 +304,5 @@ TYPED_TEST(MassPropertiesTest, AUsersInertiaBecomesKappa) {
   EXPECT_EQ(heavier.kappa, got.kappa);
 }
 
-}  // namespace
+}  // namespace mass_properties_test
 }  // namespace isostep

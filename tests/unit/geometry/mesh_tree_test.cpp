@@ -10,7 +10,7 @@
 #include "unit/geometry/triangle_soup.hpp"
 
 namespace isostep::test {
-namespace {
+namespace mesh_tree_test {
 
 TEST(MeshTree, queries_find_what_all_triangles_say) {
   Random random(2);
@@ -190,5 +190,5 @@ TEST(MeshTree, a_triangle_takes_at_most_40_bytes) {
                    [&] { EXPECT_TRUE(triangle_mesh(surface.points, surface.triangles, {}, 10).ok()); });
 }
 
-}  // namespace
+}  // namespace mesh_tree_test
 }  // namespace isostep::test

@@ -9,7 +9,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace range_test {
 
 template <class S> class RangeTest : public testing::Test {};
 using Formats = testing::Types<Fixed<std::int32_t, 16, Overflow::trap>, Fixed<std::int64_t, 32, Overflow::trap>,
@@ -74,5 +74,5 @@ TYPED_TEST(RangeTest, RaysAndPointsAcrossTheWholeWorldStayInRange) {
   EXPECT_GT(hits, 300);
 }
 
-}  // namespace
+}  // namespace range_test
 }  // namespace isostep

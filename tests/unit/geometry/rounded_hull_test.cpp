@@ -20,7 +20,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace rounded_hull_test {
 
 template <class S> class RoundedHull : public ::testing::Test {
  protected:
@@ -224,5 +224,5 @@ TEST(RoundedHullMass, errs_by_what_its_file_says) {
   EXPECT_NEAR(error(rock), -0.084, 0.01);
 }
 
-}  // namespace
+}  // namespace rounded_hull_test
 }  // namespace isostep::test

@@ -17,7 +17,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace submersion_test {
 
 using oracle::D3;
 
@@ -209,5 +209,5 @@ TYPED_TEST(SubmersionTest, a_plane_that_misses_leaves_all_or_nothing) {
   EXPECT_EQ(submersion<S>(floor, {Unit<S>(0), Unit<S>(1), Unit<S>(0)}, S(1)).share, Unit<S>(0));
 }
 
-}  // namespace
+}  // namespace submersion_test
 }  // namespace isostep::test

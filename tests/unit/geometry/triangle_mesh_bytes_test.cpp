@@ -6,7 +6,7 @@
 #include "unit/geometry/triangle_soup.hpp"
 
 namespace isostep::test {
-namespace {
+namespace triangle_mesh_bytes_test {
 
 void expect_same_triangles(const TriangleMesh& a, const TriangleMesh& b) {
   ASSERT_EQ(a.triangle_count(), b.triangle_count());
@@ -84,5 +84,5 @@ TEST(TriangleMesh, bytes_have_one_form) {
             "points: points are not each used, once, in the order of the triangles");
 }
 
-}  // namespace
+}  // namespace triangle_mesh_bytes_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "unit/geometry/triangle_soup.hpp"
 
 namespace isostep::test {
-namespace {
+namespace triangle_mesh_test {
 
 static_assert(TriangleGeometry<TriangleMesh>);
 
@@ -156,5 +156,5 @@ TEST(TriangleMesh, names_exponents_materials_and_counts_that_it_refuses) {
   EXPECT_EQ(fault_of(one, crowd), "points: 12582913 points, at most 12582912 are possible");
 }
 
-}  // namespace
+}  // namespace triangle_mesh_test
 }  // namespace isostep::test

@@ -13,7 +13,7 @@
 #include "isostep/geometry/limits.hpp"
 
 namespace isostep {
-namespace {
+namespace validate_test {
 
 template <class S> class ValidateTest : public testing::Test {
  protected:
@@ -192,5 +192,5 @@ TEST(Validate, EveryFaultHasItsOwnWords) {
   EXPECT_EQ(words.count("unknown fault"), 0u);
 }
 
-}  // namespace
+}  // namespace validate_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace aabb_test {
 
 using namespace test;
 using Box = Eigen::AlignedBox<Real, 3>;
@@ -94,5 +94,5 @@ TYPED_TEST(AabbTest, TouchingCountsAsOverlapAndAsContained) {
   }
 }
 
-}  // namespace
+}  // namespace aabb_test
 }  // namespace isostep

@@ -8,7 +8,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace curves_test {
 
 using namespace test;
 
@@ -136,5 +136,5 @@ TYPED_TEST(CurvesTest, cubics_pass_their_points_with_their_slopes) {
   }
 }
 
-}  // namespace
+}  // namespace curves_test
 }  // namespace isostep

@@ -10,7 +10,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace draws_test {
 
 using namespace test;
 
@@ -144,5 +144,5 @@ TYPED_TEST(NoiseTest, joins_at_the_borders_of_cells) {
   }
 }
 
-}  // namespace
+}  // namespace draws_test
 }  // namespace isostep

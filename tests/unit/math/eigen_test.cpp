@@ -5,7 +5,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace eigen_test {
 
 using namespace test;
 
@@ -70,5 +70,5 @@ TEST(EigenTypes, LayoutsDoNotDependOnTheInstructionSet) {
   EXPECT_EQ(sizeof(EigenMat3<float>), 9 * sizeof(float));
 }
 
-}  // namespace
+}  // namespace eigen_test
 }  // namespace isostep

@@ -9,7 +9,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace frames_test {
 
 using namespace test;
 
@@ -177,5 +177,5 @@ TYPED_TEST(FramesTest, angles_between_vectors_keep_their_digits) {
   EXPECT_EQ(angle_between(Vec3<S>::zero(), Vec3<S>{S(1), S(0), S(0)}), S(0));
 }
 
-}  // namespace
+}  // namespace frames_test
 }  // namespace isostep

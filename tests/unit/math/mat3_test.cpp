@@ -5,7 +5,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace mat3_test {
 
 using namespace test;
 
@@ -121,5 +121,5 @@ TYPED_TEST(Mat3Test, RotatedTensorsAreSymmetricBitForBit) {
   }
 }
 
-}  // namespace
+}  // namespace mat3_test
 }  // namespace isostep

@@ -15,7 +15,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace math_bits_test {
 
 using namespace test;
 
@@ -124,5 +124,5 @@ TEST(MathBits, AreThoseOfEveryMachine) {
             (Hashes{0x9dc78b2c419afd32u, 0xee9d1cf11b6583adu, 0xc214b1c84d8453f7u, 0x6f9022f4a8d3cfbeu}));
 }
 
-}  // namespace
+}  // namespace math_bits_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace quat_test {
 
 using namespace test;
 
@@ -97,5 +97,5 @@ TYPED_TEST(QuatTest, AThousandSmallTurnsStayNormalAndAddUp) {
   EXPECT_NEAR(double(real(q).norm() - 1), 0, double(bound<U>(12, 12, 1)));
 }
 
-}  // namespace
+}  // namespace quat_test
 }  // namespace isostep

@@ -6,7 +6,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace rotations_test {
 
 using namespace test;
 
@@ -207,5 +207,5 @@ TYPED_TEST(RotationsTest, euler_angles_come_back_locked_or_not) {
   EXPECT_FALSE(euler_angles_of<S>(EulerOrder::xyz, Quat<U>::identity()).is_locked);
 }
 
-}  // namespace
+}  // namespace rotations_test
 }  // namespace isostep

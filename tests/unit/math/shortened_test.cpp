@@ -7,7 +7,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace shortened_test {
 
 using namespace test;
 
@@ -46,5 +46,5 @@ TYPED_TEST(Shortened, the_lowest_number_is_as_long_as_any) {
   }
 }
 
-}  // namespace
+}  // namespace shortened_test
 }  // namespace isostep

@@ -10,7 +10,7 @@
 #include <random>
 
 namespace isostep {
-namespace {
+namespace sparse_cholesky_test {
 
 template <class S> class SparseCholeskyOf : public testing::Test {
  public:
@@ -154,5 +154,5 @@ TYPED_TEST(SparseCholeskyOf, ACopyHasYetToBeAnalysed) {
   EXPECT_FALSE(this->cholesky_.is_analysed());
 }
 
-}  // namespace
+}  // namespace sparse_cholesky_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace transform_test {
 
 using namespace test;
 using Motion = Eigen::Transform<Real, 3, Eigen::AffineCompact>;
@@ -87,5 +87,5 @@ TYPED_TEST(TransformTest, PosesComposeAsTheirTransforms) {
   EXPECT_EQ(compose(still, pose).orientation, pose.orientation);
 }
 
-}  // namespace
+}  // namespace transform_test
 }  // namespace isostep

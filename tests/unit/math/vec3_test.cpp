@@ -5,7 +5,7 @@
 #include "oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace vec3_test {
 
 using namespace test;
 
@@ -234,5 +234,5 @@ TEST(Tangents, NeverOverflowTheUnitFormat) {
   }
 }
 
-}  // namespace
+}  // namespace vec3_test
 }  // namespace isostep

@@ -16,7 +16,7 @@
 #include "isostep/particles/particle_state.hpp"
 
 namespace isostep {
-namespace {
+namespace bodies_test {
 
 template <class S> class Bodies : public ::testing::Test {
  protected:
@@ -384,5 +384,5 @@ TYPED_TEST(Bodies, NumbersThatAreNoneAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace bodies_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include "unit/particles/step_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace commands_test {
 
 template <class S> class CommandsTest : public testing::Test {
  protected:
@@ -82,5 +82,5 @@ TYPED_TEST(CommandsTest, ALinkThatBecomesAnotherForgetsWhatItBore) {
   EXPECT_FALSE(scene.state.links.holds(id));
 }
 
-}  // namespace
+}  // namespace commands_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include "unit/particles/step_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace contacts_test {
 
 template <class S> class ContactsTest : public testing::Test {
  protected:
@@ -124,5 +124,5 @@ TYPED_TEST(ContactsTest, TouchesTellWhatTheyGotAndAreUsedUp) {
   EXPECT_TRUE(scene.state.pushes.empty());
 }
 
-}  // namespace
+}  // namespace contacts_test
 }  // namespace isostep

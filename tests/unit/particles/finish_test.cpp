@@ -7,7 +7,7 @@
 #include "unit/particles/step_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace finish_test {
 
 template <class S> class FinishTest : public testing::Test {
  protected:
@@ -72,5 +72,5 @@ TYPED_TEST(FinishTest, WhatIsNoNumberIsPutBackAndStoppedAndItsImpulsesForgotten)
   }
 }
 
-}  // namespace
+}  // namespace finish_test
 }  // namespace isostep

@@ -7,7 +7,7 @@
 #include "unit/particles/step_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace forces_test {
 
 template <class S> class ForcesTest : public testing::Test {
  protected:
@@ -104,5 +104,5 @@ TYPED_TEST(ForcesTest, WhatIsCutCountsOnceAParticleAndStep) {
   EXPECT_EQ(scene.step.report.clamped_force, 0u) << "in the next step";
 }
 
-}  // namespace
+}  // namespace forces_test
 }  // namespace isostep

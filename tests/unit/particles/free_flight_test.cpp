@@ -5,7 +5,7 @@
 #include "unit/particles/step_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace free_flight_test {
 
 template <class S> class FreeFlightTest : public testing::Test {
  protected:
@@ -67,5 +67,5 @@ TYPED_TEST(FreeFlightTest, PinnedParticlesGoOnAtTheirVelocity) {
   EXPECT_NEAR(to_double(scene.step.now[a.slot].x), 2.0 / 60, 64 * grain<TypeParam>(1));
 }
 
-}  // namespace
+}  // namespace free_flight_test
 }  // namespace isostep

@@ -10,7 +10,7 @@
 #include "isostep/scalar/lattice.hpp"
 
 namespace isostep {
-namespace {
+namespace grid_test {
 
 constexpr std::uint32_t kNoLimit = 0xffffffffu;
 
@@ -279,5 +279,5 @@ TYPED_TEST(Grid, TestsFewDistancesInAUniformCloud) {
   }
 }
 
-}  // namespace
+}  // namespace grid_test
 }  // namespace isostep

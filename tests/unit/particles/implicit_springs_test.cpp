@@ -12,7 +12,7 @@
 #include "unit/particles/spring_network.hpp"
 
 namespace isostep {
-namespace {
+namespace implicit_springs_test {
 
 using test::inner;
 using test::norm;
@@ -377,5 +377,5 @@ TYPED_TEST(ImplicitSpringsOf, EnormousNumbersNeitherWrapNorHang) {
   }
 }
 
-}  // namespace
+}  // namespace implicit_springs_test
 }  // namespace isostep

@@ -7,7 +7,7 @@
 #include "unit/particles/step_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace integration_test {
 
 template <class S> class IntegrationTest : public testing::Test {
  protected:
@@ -109,5 +109,5 @@ TYPED_TEST(IntegrationTest, OnlyMethodsWithALaterVelocityArrive) {
   }
 }
 
-}  // namespace
+}  // namespace integration_test
 }  // namespace isostep

@@ -6,7 +6,7 @@
 #include "isostep/particles/particle_world.hpp"
 
 namespace isostep {
-namespace {
+namespace least_mass_test {
 
 template <class S> class LeastMass : public testing::Test {
  protected:
@@ -63,5 +63,5 @@ TYPED_TEST(LeastMass, ASpringPulls) {
   }
 }
 
-}  // namespace
+}  // namespace least_mass_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include "unit/particles/step_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace pair_search_test {
 
 template <class S> class PairSearchTest : public testing::Test {
  protected:
@@ -60,5 +60,5 @@ TYPED_TEST(PairSearchTest, PairsBeyondTheMostArePassedOverAndReported) {
   EXPECT_EQ(this->scene_.step.report.lost_pairs, 1u);
 }
 
-}  // namespace
+}  // namespace pair_search_test
 }  // namespace isostep

@@ -4,7 +4,7 @@
 #include "unit/particles/particle_worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_commands_test {
 
 /// A world in full swing, with one of everything and one of everything gone.
 template <class S> class ParticleCommands : public ::testing::Test {
@@ -339,5 +339,5 @@ TYPED_TEST(ParticleCommands, observers_of_stages_give_none) {
   EXPECT_EQ(w.tick(), tick + 1);
 }
 
-}  // namespace
+}  // namespace particle_commands_test
 }  // namespace isostep::test

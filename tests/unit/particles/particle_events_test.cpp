@@ -4,7 +4,7 @@
 #include "unit/particles/particle_worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_events_test {
 
 template <class S> class ParticleHappenings : public ::testing::Test {};
 TYPED_TEST_SUITE(ParticleHappenings, AllScalars);
@@ -285,5 +285,5 @@ TYPED_TEST(ParticleHappenings, a_link_set_anew_forgets_what_it_bore) {
   EXPECT_EQ(w.state().link_impulses[id.slot], Velocity<S>(0));
 }
 
-}  // namespace
+}  // namespace particle_events_test
 }  // namespace isostep::test

@@ -5,7 +5,7 @@
 #include "unit/particles/particle_worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace particle_registries_test {
 
 template <class S> class ParticleRegistries : public ::testing::Test {
  protected:
@@ -268,5 +268,5 @@ TYPED_TEST(ParticleRegistries, a_removed_collider_takes_its_contacts) {
   EXPECT_LT(to_double(w.position(ball).y), 0);
 }
 
-}  // namespace
+}  // namespace particle_registries_test
 }  // namespace isostep::test

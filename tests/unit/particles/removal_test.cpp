@@ -5,7 +5,7 @@
 #include "unit/particles/step_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace removal_test {
 
 template <class S> class RemovalTest : public testing::Test {
  protected:
@@ -74,5 +74,5 @@ TYPED_TEST(RemovalTest, WithAColliderGoItsContacts) {
   EXPECT_EQ(scene.state.contacts[0].b, bit | second.slot);
 }
 
-}  // namespace
+}  // namespace removal_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include "unit/particles/step_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace rows_test {
 
 template <class S> class RowsTest : public testing::Test {
  protected:
@@ -83,5 +83,5 @@ TYPED_TEST(RowsTest, ATouchedSurfaceGoesOnByItself) {
   this->expect(this->rows_.touches()[0], kUp, 1 + (2 + 4) * scene.h());
 }
 
-}  // namespace
+}  // namespace rows_test
 }  // namespace isostep

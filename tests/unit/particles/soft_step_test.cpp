@@ -5,7 +5,7 @@
 #include "unit/particles/solver_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace soft_step_test {
 
 template <class S> class SoftStepTest : public testing::Test {
  protected:
@@ -63,5 +63,5 @@ TYPED_TEST(SoftStepTest, ACableAtItsEndHoldsAndASlackOneDoesNot) {
   }
 }
 
-}  // namespace
+}  // namespace soft_step_test
 }  // namespace isostep

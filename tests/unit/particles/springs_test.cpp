@@ -6,7 +6,7 @@
 #include "unit/particles/step_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace springs_test {
 
 template <class S> class SpringsTest : public testing::Test {
  protected:
@@ -60,5 +60,5 @@ TYPED_TEST(SpringsTest, BeyondItsLimitTheRestLengthFollows) {
   EXPECT_EQ(to_double(scene.state.springs.all()[0].rest_length), 1);
 }
 
-}  // namespace
+}  // namespace springs_test
 }  // namespace isostep

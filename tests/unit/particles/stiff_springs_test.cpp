@@ -5,7 +5,7 @@
 #include "unit/particles/step_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace stiff_springs_test {
 
 template <class S> class StiffSpringsTest : public testing::Test {
  protected:
@@ -47,5 +47,5 @@ TYPED_TEST(StiffSpringsTest, AsAForceItPullsByItsStiffness) {
   EXPECT_NEAR(this->scene_.a(this->a_).x, -this->stiffness(), 1e-3 * this->stiffness());
 }
 
-}  // namespace
+}  // namespace stiff_springs_test
 }  // namespace isostep

@@ -10,7 +10,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace touch_test {
 
 template <class S> class TouchOf : public ::testing::Test {
  protected:
@@ -123,5 +123,5 @@ TYPED_TEST(TouchOf, numbers_that_are_none_or_too_large_are_refused) {
   EXPECT_TRUE(this->world_.state().touches.empty());
 }
 
-}  // namespace
+}  // namespace touch_test
 }  // namespace isostep::test

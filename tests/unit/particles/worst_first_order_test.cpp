@@ -7,7 +7,7 @@
 #include "unit/particles/row_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace worst_first_order_test {
 
 template <class S> class WorstFirstOrder : public testing::Test {};
 TYPED_TEST_SUITE(WorstFirstOrder, Scalars);
@@ -272,5 +272,5 @@ TYPED_TEST(WorstFirstOrder, AHundredThousandRowsOnOnePinnedParticleAreNoNeighbou
   EXPECT_EQ(scene.resolver.looks(), 2 * kMany);
 }
 
-}  // namespace
+}  // namespace worst_first_order_test
 }  // namespace isostep

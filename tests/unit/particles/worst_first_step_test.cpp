@@ -5,7 +5,7 @@
 #include "unit/particles/solver_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace worst_first_step_test {
 
 template <class S> class WorstFirstStepTest : public testing::Test {
  protected:
@@ -55,5 +55,5 @@ TYPED_TEST(WorstFirstStepTest, LooksThatAreOverAreReported) {
   EXPECT_NEAR(scene.v(a).x, 0, 64 * grain<TypeParam>(2)) << "every constraint is resolved once more";
 }
 
-}  // namespace
+}  // namespace worst_first_step_test
 }  // namespace isostep

@@ -10,7 +10,7 @@
 #include "unit/particles/row_scene.hpp"
 
 namespace isostep {
-namespace {
+namespace worst_first_test {
 
 template <class S> class WorstFirstTest : public testing::Test {};
 TYPED_TEST_SUITE(WorstFirstTest, Scalars);
@@ -326,5 +326,5 @@ TYPED_TEST(WorstFirstTest, OneParticlesFrictionHoldsAnotherOnASlope) {
   }
 }
 
-}  // namespace
+}  // namespace worst_first_test
 }  // namespace isostep

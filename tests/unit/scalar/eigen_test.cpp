@@ -14,7 +14,7 @@
 #include <sstream>
 
 namespace isostep {
-namespace {
+namespace eigen_test {
 
 template <class S> constexpr bool kExactly = detail::kIsExactType<S>;
 
@@ -227,5 +227,5 @@ TEST(EigenOverFixed, CastsRoundToNearest) {
   EXPECT_EQ(coarse[1], Q32_32(-0.7));
 }
 
-}  // namespace
+}  // namespace eigen_test
 }  // namespace isostep

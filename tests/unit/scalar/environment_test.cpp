@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace isostep {
-namespace {
+namespace environment_test {
 
 using State = detail::FloatState;
 
@@ -230,5 +230,5 @@ TEST(Deviations, HaveDistinctNames) {
   EXPECT_EQ(bit_of(Deviation::zero_sign), 1u << (kDeviationCount - 1));
 }
 
-}  // namespace
+}  // namespace environment_test
 }  // namespace isostep

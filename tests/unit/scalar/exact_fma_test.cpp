@@ -5,7 +5,7 @@
 #include "exact_fma_kernels.hpp"
 
 namespace isostep {
-namespace {
+namespace exact_fma_test {
 
 bool processor_fuses() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -58,5 +58,5 @@ TEST(ExactFma, LoopsAreNotFusedEither) {
   }
 }
 
-}  // namespace
+}  // namespace exact_fma_test
 }  // namespace isostep

@@ -10,7 +10,7 @@
 #include <type_traits>
 
 namespace isostep {
-namespace {
+namespace exact_test {
 
 template <class T> class ExactNumber : public testing::Test {};
 using Floats = testing::Types<float, double>;
@@ -128,5 +128,5 @@ TYPED_TEST(ExactNumber, CircularFunctionsAreThoseOfTheLibrary) {
   EXPECT_EQ(to_bits(atan2(E(0.7), E(-2)).value()), to_bits(isostep::atan2(T(0.7), T(-2))));
 }
 
-}  // namespace
+}  // namespace exact_test
 }  // namespace isostep

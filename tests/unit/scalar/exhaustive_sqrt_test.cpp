@@ -7,7 +7,7 @@
 #include "isostep/scalar/math.hpp"
 
 namespace isostep {
-namespace {
+namespace exhaustive_sqrt_test {
 
 TEST(ExhaustiveSqrt, IsTheNearestForEveryNonNegativeQ16_16) {
   std::uint64_t wrong = 0;
@@ -25,5 +25,5 @@ TEST(ExhaustiveSqrt, IsTheNearestForEveryNonNegativeQ16_16) {
   EXPECT_EQ(wrong, 0u) << "first at raw " << first_wrong;
 }
 
-}  // namespace
+}  // namespace exhaustive_sqrt_test
 }  // namespace isostep

@@ -12,7 +12,7 @@
 #include "unit/scalar/mpfr_oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace exp_log_test {
 
 using Q24_40 = Fixed<std::int64_t, 40>;
 using Q62_2 = Fixed<std::int64_t, 2>;
@@ -365,5 +365,5 @@ TEST(ExpLogTables, SeriesApproximateTheirFunctionsAsStated) {
   }
 }
 
-}  // namespace
+}  // namespace exp_log_test
 }  // namespace isostep

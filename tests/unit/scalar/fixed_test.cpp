@@ -14,7 +14,7 @@
 #include "isostep/scalar/scalar.hpp"
 #include "random/splitmix64.hpp"
 
-namespace {
+namespace fixed_test {
 
 using isostep::Fixed;
 using isostep::Overflow;
@@ -374,4 +374,4 @@ TYPED_TEST(TrappingDeathTest, AnExactSumThatDoesNotFitStopsTheProgram) {
   EXPECT_EQ(isostep::round_to<S>(square - square), S(0));
 }
 
-}  // namespace
+}  // namespace fixed_test

@@ -9,7 +9,7 @@
 #include "unit/scalar/text_oracle.hpp"
 
 namespace isostep::test {
-namespace {
+namespace fixed_text_test {
 
 template <class S> class FixedText : public testing::Test {};
 using FixedScalars = testing::Types<Q16_16, Q32_32, Unit<Q16_16>, Unit<Q32_32>, Step<Q16_16>, Step<Q32_32>,
@@ -158,5 +158,5 @@ TEST(FixedText, StreamsObeyWidth) {
   EXPECT_EQ(out.str(), "    0.25 -1");
 }
 
-}  // namespace
+}  // namespace fixed_text_test
 }  // namespace isostep::test

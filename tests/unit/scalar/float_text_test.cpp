@@ -9,7 +9,7 @@
 #include "unit/scalar/text_oracle.hpp"
 
 namespace isostep::test {
-namespace {
+namespace float_text_test {
 
 template <class S> class FloatText : public testing::Test {};
 using FloatScalars = testing::Types<float, double>;
@@ -133,5 +133,5 @@ TYPED_TEST(FloatText, AgreesWithTheStandardLibrary) {
 }
 #endif
 
-}  // namespace
+}  // namespace float_text_test
 }  // namespace isostep::test

@@ -4,14 +4,14 @@
 
 #include "lanes_checks.hpp"
 
-namespace {
+bool isostep::test::cpu_can_run() { return __builtin_cpu_supports("avx2") != 0; }
+
+namespace lanes_avx2_test {
 
 using isostep::Overflow;
 using isostep::Q16_16;
 using isostep::Q32_32;
 using isostep::isa::Avx2;
-
-bool cpu_can_run() { return __builtin_cpu_supports("avx2") != 0; }
 
 using Avx2Lanes = testing::Types<Lanes<float, 8, Avx2>, Lanes<double, 4, Avx2>, Lanes<Q16_16, 8, Avx2>,
                                  Lanes<Fixed<std::int32_t, 30>, 8, Avx2>, Lanes<Q32_32, 4, Avx2>,
@@ -22,7 +22,7 @@ INSTANTIATE_TYPED_TEST_SUITE_P(Avx2, LanesTest, Avx2Lanes);
 class Avx2Test : public testing::Test {
  protected:
   void SetUp() override {
-    if (!cpu_can_run()) GTEST_SKIP() << "this processor lacks the instruction set";
+    if (!isostep::test::cpu_can_run()) GTEST_SKIP() << "this processor lacks the instruction set";
   }
 };
 
@@ -54,4 +54,4 @@ TEST_F(Avx2Test, TheTrappingPolicyStillTraps) {
   EXPECT_DEATH(Block<L>::of(big * big), "");
 }
 
-}  // namespace
+}  // namespace lanes_avx2_test

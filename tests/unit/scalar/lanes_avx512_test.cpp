@@ -4,17 +4,17 @@
 
 #include "lanes_checks.hpp"
 
-namespace {
+bool isostep::test::cpu_can_run() {
+  return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+         __builtin_cpu_supports("avx512vl") != 0;
+}
+
+namespace lanes_avx512_test {
 
 using isostep::Overflow;
 using isostep::Q16_16;
 using isostep::Q32_32;
 using isostep::isa::Avx512;
-
-bool cpu_can_run() {
-  return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
-         __builtin_cpu_supports("avx512vl") != 0;
-}
 
 using Avx512Lanes = testing::Types<Lanes<float, 16, Avx512>, Lanes<double, 8, Avx512>, Lanes<Q16_16, 16, Avx512>,
                                    Lanes<Fixed<std::int32_t, 30>, 16, Avx512>, Lanes<Q32_32, 8, Avx512>,
@@ -25,7 +25,7 @@ INSTANTIATE_TYPED_TEST_SUITE_P(Avx512, LanesTest, Avx512Lanes);
 class Avx512Test : public testing::Test {
  protected:
   void SetUp() override {
-    if (!cpu_can_run()) GTEST_SKIP() << "this processor lacks the instruction set";
+    if (!isostep::test::cpu_can_run()) GTEST_SKIP() << "this processor lacks the instruction set";
   }
 };
 
@@ -57,4 +57,4 @@ TEST_F(Avx512Test, TheTrappingPolicyStillTraps) {
   EXPECT_DEATH(Block<L>::of(big * big), "");
 }
 
-}  // namespace
+}  // namespace lanes_avx512_test

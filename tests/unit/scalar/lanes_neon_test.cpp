@@ -4,14 +4,14 @@
 
 #include "lanes_checks.hpp"
 
-namespace {
+bool isostep::test::cpu_can_run() { return true; }  // what the compiler may use everywhere is there
+
+namespace lanes_neon_test {
 
 using isostep::Overflow;
 using isostep::Q16_16;
 using isostep::Q32_32;
 using isostep::isa::Neon;
-
-bool cpu_can_run() { return true; }  // what the compiler may use everywhere is there
 
 using NeonLanes = testing::Types<Lanes<float, 4, Neon>, Lanes<double, 2, Neon>, Lanes<Q16_16, 4, Neon>,
                                  Lanes<Fixed<std::int32_t, 30>, 4, Neon>, Lanes<Q32_32, 2, Neon>,
@@ -36,4 +36,4 @@ TEST(NeonLanes, RegistersHoldTheWholeType) {
   EXPECT_EQ(sizeof(product(Lanes<Q16_16, 4, Neon>::zero(), Lanes<Q16_16, 4, Neon>::zero())), 32u);
 }
 
-}  // namespace
+}  // namespace lanes_neon_test

@@ -5,6 +5,11 @@
 #include "isostep/scalar/lanes_bounded.hpp"
 #include "lanes_samples.hpp"
 
+namespace isostep::test {
+/// The test file says how its instruction set is looked for.
+bool cpu_can_run();
+}  // namespace isostep::test
+
 namespace {
 
 /// Sums of up to eight products of formats F and G, rounded to the format Out: exact even where they wrap.
@@ -100,13 +105,11 @@ template <class Rep, int W, class Isa> void check_formats() {
   }
 }
 
-// The suite. A type list is Lanes types; the test file says how its instruction set is looked for.
-bool cpu_can_run();
-
+// The suite. A type list is Lanes types.
 template <class L> class LanesTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (!cpu_can_run()) GTEST_SKIP() << "this processor lacks the instruction set";
+    if (!isostep::test::cpu_can_run()) GTEST_SKIP() << "this processor lacks the instruction set";
   }
 };
 /// Sums up to a hundred times the bound, about it, on it, and of halves that round across it.

@@ -6,15 +6,15 @@
 #include "isostep/scalar/lanes_sse2.hpp"
 #endif
 
-namespace {
+bool isostep::test::cpu_can_run() { return true; }  // what the compiler may use everywhere is there
+
+namespace lanes_test {
 
 using isostep::Overflow;
 using isostep::Q16_16;
 using isostep::Q32_32;
 using isostep::isa::Portable;
 using Q23_40 = Fixed<std::int64_t, 40>;
-
-bool cpu_can_run() { return true; }  // what the compiler may use everywhere is there
 
 using PortableLanes = testing::Types<Lanes<float, 1, Portable>, Lanes<double, 1, Portable>, Lanes<Q16_16, 1, Portable>,
                                      Lanes<Q32_32, 1, Portable>, Lanes<float, 2, Portable>, Lanes<Q16_16, 2, Portable>,
@@ -83,4 +83,4 @@ TEST(Sse2Lanes, RegistersHoldTheWholeType) {
 }
 #endif
 
-}  // namespace
+}  // namespace lanes_test

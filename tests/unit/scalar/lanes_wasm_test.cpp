@@ -4,14 +4,14 @@
 
 #include "lanes_checks.hpp"
 
-namespace {
+bool isostep::test::cpu_can_run() { return true; }  // what the compiler may use everywhere is there
+
+namespace lanes_wasm_test {
 
 using isostep::Overflow;
 using isostep::Q16_16;
 using isostep::Q32_32;
 using isostep::isa::WasmSimd;
-
-bool cpu_can_run() { return true; }  // what the compiler may use everywhere is there
 
 using WasmLanes =
     testing::Types<Lanes<float, 4, WasmSimd>, Lanes<double, 2, WasmSimd>, Lanes<Q16_16, 4, WasmSimd>,
@@ -37,4 +37,4 @@ TEST(WasmLanes, RegistersHoldTheWholeType) {
   EXPECT_EQ(sizeof(product(Lanes<Q16_16, 4, WasmSimd>::zero(), Lanes<Q16_16, 4, WasmSimd>::zero())), 32u);
 }
 
-}  // namespace
+}  // namespace lanes_wasm_test

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace isostep {
-namespace {
+namespace lattice_test {
 
 template <class S> class Lattice : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -48,5 +48,5 @@ TYPED_TEST(Lattice, WhatHasNoPlaceGoesToTheNearest) {
   }
 }
 
-}  // namespace
+}  // namespace lattice_test
 }  // namespace isostep

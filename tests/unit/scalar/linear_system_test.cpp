@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace isostep {
-namespace {
+namespace linear_system_test {
 
 template <class S> class LinearSystemOf : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -75,5 +75,5 @@ TYPED_TEST(LinearSystemOf, AddingRoundsOnceAndStopsAtTheFormatsEnd) {
   }
 }
 
-}  // namespace
+}  // namespace linear_system_test
 }  // namespace isostep

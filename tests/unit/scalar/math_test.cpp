@@ -13,7 +13,7 @@
 #include "unit/scalar/mpfr_oracle.hpp"
 
 namespace isostep {
-namespace {
+namespace math_test {
 
 using Q24_40 = Fixed<std::int64_t, 40>;
 using TrapQ16_16 = Fixed<std::int32_t, 16, Overflow::trap>;
@@ -510,5 +510,5 @@ TEST(RsqrtCore, SeedIsBelowTheCurveAndTheAnswerWithinItsBound) {
   EXPECT_LE(worst.ulp(), 1.0);
 }
 
-}  // namespace
+}  // namespace math_test
 }  // namespace isostep

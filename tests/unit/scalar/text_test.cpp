@@ -6,7 +6,7 @@
 #include "unit/scalar/text_oracle.hpp"
 
 namespace isostep::test {
-namespace {
+namespace text_test {
 
 template <class S> class Text : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32, Unit<Q16_16>, Unit<Q32_32>, Step<Q16_16>, Step<Q32_32>,
@@ -105,5 +105,5 @@ TYPED_TEST(Text, DoesNotSeeTheLocale) {
   std::setlocale(LC_ALL, before.c_str());
 }
 
-}  // namespace
+}  // namespace text_test
 }  // namespace isostep::test

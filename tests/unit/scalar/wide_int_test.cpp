@@ -9,7 +9,7 @@
 
 #include "random/splitmix64.hpp"
 
-namespace {
+namespace wide_int_test {
 
 using isostep::divide;
 using isostep::divide_portable;
@@ -128,4 +128,4 @@ TEST(WideInt, PortableArithmeticWrapsLikeTheCompilers) {
 }
 #endif
 
-}  // namespace
+}  // namespace wide_int_test

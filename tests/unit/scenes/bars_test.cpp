@@ -11,7 +11,7 @@
 #include "scenes/named.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace bars_test {
 
 Reach reach(const char* scene, bool small, const std::map<Measure, double>& values) {
   return reach_of(bars_of(scene, small), [&](Measure measure) -> std::optional<double> {
@@ -99,5 +99,5 @@ TEST(Bars, TheFigureOfLimitedRagdollsIsHowFarAJointWasPastItsLimit) {
 
 TEST(Bars, NoOtherSceneHasAJudgeOfTheSet) { EXPECT_EQ(benchmark_judge(*find_scene("mixed")), nullptr); }
 
-}  // namespace
+}  // namespace bars_test
 }  // namespace isostep::scenes

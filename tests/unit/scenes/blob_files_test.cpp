@@ -16,7 +16,7 @@
 #include "scenes/scene_file.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace blob_files_test {
 
 const std::string kFloor =
     R"("type": "mesh", "vertices": [[-9, 0, -9], [-9, 0, 9], [9, 0, 9], [9, 0, -9]],
@@ -125,5 +125,5 @@ TEST_F(BakedFiles, StandAloneAndForShapesThatHaveBlobs) {
             "/bodies/1/shapes/0/file: expected a string, found a number");
 }
 
-}  // namespace
+}  // namespace blob_files_test
 }  // namespace isostep::scenes

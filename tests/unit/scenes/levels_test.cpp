@@ -10,7 +10,7 @@
 #include "scenes/levels/level.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace levels_test {
 
 double number(const Number& n) { return value_of<double>(n, ""); }
 Vec3<double> vector(const Vector& v) { return {number(v[0]), number(v[1]), number(v[2])}; }
@@ -100,5 +100,5 @@ TEST(Yard, IsTheSameWhoeverBuildsIt) {
   EXPECT_GT(hulls, 100u);
 }
 
-}  // namespace
+}  // namespace levels_test
 }  // namespace isostep::scenes

@@ -11,7 +11,7 @@
 #include "isostep/state/pack.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace match_test {
 
 static_assert(Simulation<Match<float>> && PortableState<Match<float>> && ReplayableSimulation<Match<float>>);
 static_assert(Simulation<Match<Q16_16>> && PortableState<Match<Q32_32>> && ReplayableSimulation<Match<double>>);
@@ -340,5 +340,5 @@ TEST(BotInput, DependsOnSeedPlayerAndFrame) {
   EXPECT_GT(players, 700);
 }
 
-}  // namespace
+}  // namespace match_test
 }  // namespace isostep::scenes

@@ -9,7 +9,7 @@
 #include "scenes/distance.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace measure_test {
 
 const Mat3<double> kUpright = to_matrix(Quat<double>::identity());
 Mat3<double> turned(Vec3<double> axis, double angle) {
@@ -144,5 +144,5 @@ TYPED_TEST(Measure, JointErrorIsTheDistanceOfTheAnchors) {
   EXPECT_NEAR(largest_joint_error(this->world), 5, 1e-4);
 }
 
-}  // namespace
+}  // namespace measure_test
 }  // namespace isostep::scenes

@@ -10,7 +10,7 @@
 #include "scenes/particles/particle_game.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace particle_scenes_test {
 
 struct Point {
   double x, y, z;
@@ -346,5 +346,5 @@ TYPED_TEST(ParticleScenes, EveryIntegratorKeepsItsCloth) {
   }
 }
 
-}  // namespace
+}  // namespace particle_scenes_test
 }  // namespace isostep::scenes

@@ -8,7 +8,7 @@
 #include "scenes/named.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace queries_test {
 
 template <class S> class SceneQueries : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -57,5 +57,5 @@ TYPED_TEST(SceneQueries, hit_as_often_as_other_engines_say) {
   EXPECT_EQ(overlaps, 4045u);
 }
 
-}  // namespace
+}  // namespace queries_test
 }  // namespace isostep::scenes

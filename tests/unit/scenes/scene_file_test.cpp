@@ -11,7 +11,7 @@
 #include "scenes/script.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace scene_file_test {
 
 template <class S> class SceneFiles : public testing::Test {};
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -205,5 +205,5 @@ TEST(NamedScenes, TheMixerReplacesTheOldestBodyEveryFourthFrame) {
   }
 }
 
-}  // namespace
+}  // namespace scene_file_test
 }  // namespace isostep::scenes

@@ -13,7 +13,7 @@
 #include "scenes/scene_file.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace scene_records_test {
 
 constexpr char kBodies[] = R"({"bodies": [
   {"type": "dynamic", "position": [0, 2, 0], "shapes": [{"type": "sphere", "radius": 0.5}]},
@@ -232,5 +232,5 @@ TEST(SceneRecordFaults, name_the_place) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace scene_records_test
 }  // namespace isostep::scenes

@@ -13,7 +13,7 @@
 #include "scenes/script.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace selfcheck_scenes_test {
 
 template <class S> class SelfcheckScenes : public ::testing::Test {};
 using Scalars = ::testing::Types<float, double, Q16_16, Q32_32>;
@@ -202,5 +202,5 @@ TYPED_TEST(SelfcheckScenes, PatchworkPullsEveryLinkAndTouchesEverything) {
   EXPECT_GT(game.world.counts().springs, 20u);
 }
 
-}  // namespace
+}  // namespace selfcheck_scenes_test
 }  // namespace isostep::scenes

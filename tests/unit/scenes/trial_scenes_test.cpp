@@ -15,7 +15,7 @@
 #include "scenes/trials/trial_run.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace trial_scenes_test {
 
 TEST(Trials, HaveNamesOfTheirOwn) {
   std::set<std::string> names;
@@ -90,5 +90,5 @@ TEST(WokenCrowd, SleepsUntilItIsHit) {
   EXPECT_GT(world.counts().awake, 0u);
 }
 
-}  // namespace
+}  // namespace trial_scenes_test
 }  // namespace isostep::scenes

@@ -11,7 +11,7 @@
 #include "scenes/trials/families.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace trials_motion_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTight = 1e-9;
@@ -317,5 +317,5 @@ TEST(MotionTrials, DriftIsJudgedAgainstTheFirstVelocity) {
   EXPECT_NEAR(sizes.show(1), 2, kTight);
 }
 
-}  // namespace
+}  // namespace trials_motion_test
 }  // namespace isostep::scenes

@@ -17,7 +17,7 @@
 #include "scenes/trials/trial_run.hpp"
 
 namespace isostep::scenes {
-namespace {
+namespace trials_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -325,5 +325,5 @@ TEST(Verdicts, FailOfFaultsAndOfNumbersThatAreNone) {
   }
 }
 
-}  // namespace
+}  // namespace trials_test
 }  // namespace isostep::scenes

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace isostep::sealed {
-namespace {
+namespace sealed_link_test {
 
 using Bytevec = std::vector<std::uint8_t>;
 
@@ -206,5 +206,5 @@ TEST(SealedLink, ACountIsUsedOnceAndThenThereAreNoMore) {
   }
 }
 
-}  // namespace
+}  // namespace sealed_link_test
 }  // namespace isostep::sealed

@@ -11,7 +11,7 @@
 #include "transport/simulated_network.hpp"
 
 namespace isostep::sealed {
-namespace {
+namespace sealed_transport_test {
 
 using transport::Arrival;
 using transport::ArrivalKind;
@@ -317,5 +317,5 @@ TEST(SealedTransport, WhoIsLedToItselfDoesNotAnswer) {
   EXPECT_EQ(machine.count(ArrivalKind::connected), 0);
 }
 
-}  // namespace
+}  // namespace sealed_transport_test
 }  // namespace isostep::sealed

@@ -12,7 +12,7 @@
 #include "isostep/session/session.hpp"
 
 namespace isostep {
-namespace {
+namespace config_test {
 
 std::string problem_with(const std::function<void(SessionConfig&)>& change) {
   SessionConfig config;
@@ -131,5 +131,5 @@ TEST(SessionConfig, PatienceWithoutEndIsWithoutEnd) {
   EXPECT_TRUE(match.run_to(100, 5 * kSecond));
 }
 
-}  // namespace
+}  // namespace config_test
 }  // namespace isostep

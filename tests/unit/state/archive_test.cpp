@@ -9,7 +9,7 @@
 #include "toy.hpp"
 
 namespace isostep {
-namespace {
+namespace archive_test {
 
 using Buffer = std::vector<std::uint8_t>;
 
@@ -176,5 +176,5 @@ TEST(ShortText, CutsWhatDoesNotFit) {
   EXPECT_EQ(ShortText<16>().append_hex(0xab).view(), "00000000000000ab");
 }
 
-}  // namespace
+}  // namespace archive_test
 }  // namespace isostep

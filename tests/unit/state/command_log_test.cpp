@@ -11,7 +11,7 @@
 #include "random/splitmix64.hpp"
 #include "toy_world.hpp"
 
-namespace {
+namespace command_log_test {
 
 using namespace isostep;
 using namespace toy;
@@ -254,4 +254,4 @@ TEST(CommandRecorder, ACrashCostsWhatTheSettingSaysAndNothingThatWasFlushed) {
   }
 }
 
-}  // namespace
+}  // namespace command_log_test

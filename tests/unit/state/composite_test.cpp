@@ -9,7 +9,7 @@
 #include "toy.hpp"
 
 namespace isostep {
-namespace {
+namespace composite_test {
 
 struct Score {
   std::uint32_t points;
@@ -120,5 +120,5 @@ TEST(Composite, ARefusedReadChangesNeitherPart) {
   EXPECT_EQ(both.hash(), composite(other, other_score).hash());
 }
 
-}  // namespace
+}  // namespace composite_test
 }  // namespace isostep

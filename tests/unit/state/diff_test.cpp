@@ -10,7 +10,7 @@
 #include "toy.hpp"
 
 namespace isostep {
-namespace {
+namespace diff_test {
 
 template <class S> std::vector<toy::Thing<S>> things() {
   return std::vector<toy::Thing<S>>(20, {{S(1.5), S(2), S(3)}, S(4), 5, toy::Mood::calm, {6, 7}});
@@ -140,5 +140,5 @@ TEST(ValueText, WritesEveryKindOfField) {
   EXPECT_EQ(value_text(Fixed<std::int64_t, 40>(-0.5)), "-0.5");
 }
 
-}  // namespace
+}  // namespace diff_test
 }  // namespace isostep

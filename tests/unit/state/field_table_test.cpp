@@ -9,7 +9,7 @@
 #include "toy.hpp"
 
 namespace isostep {
-namespace {
+namespace field_table_test {
 
 struct Nothing {
   ISO_FIELDS()
@@ -87,5 +87,5 @@ TYPED_TEST(FieldTableOf, FindsNumbersInCanonicalBytes) {
   EXPECT_EQ(numbers[3].format.scalar_id, ScalarTraits<S>::kId);
 }
 
-}  // namespace
+}  // namespace field_table_test
 }  // namespace isostep

@@ -11,7 +11,7 @@
 #include "toy.hpp"
 
 namespace isostep {
-namespace {
+namespace hash_test {
 
 Bytes bytes_of(std::string_view text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
 
@@ -139,5 +139,5 @@ TEST(Bytes, AreLittleEndian) {
   EXPECT_EQ(load_le<std::uint16_t>(bytes + 6), 0x0102u);
 }
 
-}  // namespace
+}  // namespace hash_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include "recording.hpp"
 
 namespace isostep {
-namespace {
+namespace replay_test {
 
 using toy::Buffer;
 
@@ -286,5 +286,5 @@ TEST(Replay, OutcomesAreDescribedInOneLine) {
             "INCOMPATIBLE: hz is \"60\" in the replay, \"120\" here");
 }
 
-}  // namespace
+}  // namespace replay_test
 }  // namespace isostep

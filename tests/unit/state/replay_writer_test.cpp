@@ -5,7 +5,7 @@
 #include "recording.hpp"
 
 namespace isostep {
-namespace {
+namespace replay_writer_test {
 
 using toy::Buffer;
 
@@ -204,5 +204,5 @@ TEST(ReplayWriter, AChunkOfTheCallersOwnChangesNoOutcomeAndIsThereToBeRead) {
   }
 }
 
-}  // namespace
+}  // namespace replay_writer_test
 }  // namespace isostep

@@ -10,7 +10,7 @@
 #include "determinism/hostile_environment.hpp"
 
 namespace isostep {
-namespace {
+namespace world_desk_test {
 
 struct Add {
   std::uint32_t number;
@@ -143,5 +143,5 @@ TEST(WorldDesk, CommandsRunInThePinnedFloatEnvironment) {
 }
 #endif
 
-}  // namespace
+}  // namespace world_desk_test
 }  // namespace isostep

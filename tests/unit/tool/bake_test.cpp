@@ -15,7 +15,7 @@
 #include "unit/tool/command_line.hpp"
 
 namespace isostep::tool {
-namespace {
+namespace bake_test {
 
 class Bake : public CommandLine {
  protected:
@@ -293,5 +293,5 @@ TEST_F(Bake, ARecordingOfASceneWithBakedFilesNeedsThemNoLonger) {
   EXPECT_NE(verified.out.find("2 of 2 verified"), std::string::npos) << verified.out;
 }
 
-}  // namespace
+}  // namespace bake_test
 }  // namespace isostep::tool

@@ -17,7 +17,7 @@
 #include "unit/tool/command_line.hpp"
 
 namespace isostep::tool {
-namespace {
+namespace command_line_recordings_test {
 
 namespace fs = std::filesystem;
 
@@ -259,5 +259,5 @@ TEST_F(CommandLine, SaysThatARecordingIsCutOffBeforeItComparesStages) {
   EXPECT_EQ(answer.status, 0);
 }
 
-}  // namespace
+}  // namespace command_line_recordings_test
 }  // namespace isostep::tool

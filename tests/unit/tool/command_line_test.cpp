@@ -20,7 +20,7 @@
 #endif
 
 namespace isostep::tool {
-namespace {
+namespace command_line_test {
 
 namespace fs = std::filesystem;
 
@@ -327,5 +327,5 @@ TEST_F(CommandLine, RecordsTheSetOfTheSelfCheckAsItIsCommitted) {
       << answer.out;
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace isostep::tool

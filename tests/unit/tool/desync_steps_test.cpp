@@ -3,7 +3,7 @@
 #include "desyncs.hpp"
 
 namespace isostep::test {
-namespace {
+namespace desync_steps_test {
 
 using DesyncOfSteps = Desync;
 
@@ -113,5 +113,5 @@ TEST_F(DesyncOfSteps, OfFilesWhoseFirstFrameIsNoFrameIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace desync_steps_test
 }  // namespace isostep::test

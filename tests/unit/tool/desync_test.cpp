@@ -3,7 +3,7 @@
 #include "desyncs.hpp"
 
 namespace isostep::test {
-namespace {
+namespace desync_test {
 
 TEST_F(Desync, OfABitBeforeTheStepIsNamedByFrameStageBodyFieldAndValues) {
   for_all_scalars([&](auto scalar) {
@@ -187,5 +187,5 @@ TEST_F(Desync, BundleOfTheSoundPeerVerifiesAndTheOtherDivergesThere) {
   expect_part(verify("b"), "DIVERGED at frame 1");
 }
 
-}  // namespace
+}  // namespace desync_test
 }  // namespace isostep::test

@@ -11,7 +11,7 @@
 #include "unit/tool/staged_recordings.hpp"
 
 namespace isostep::test {
-namespace {
+namespace diff_stages_test {
 
 using Arrays = std::vector<std::string>;
 
@@ -354,5 +354,5 @@ TEST(FieldOwners, NobodyOwnsWhatIsInNoArray) {
   }
 }
 
-}  // namespace
+}  // namespace diff_stages_test
 }  // namespace isostep::test

@@ -12,7 +12,7 @@
 #include "tool/lab/tolerance.hpp"
 
 namespace isostep::tool::lab {
-namespace {
+namespace lab_advice_test {
 
 /// The words of the tolerance's reader; empty when it accepts.
 std::string refusal(const std::string& text) {
@@ -185,5 +185,5 @@ TEST_F(LabAdvice, CallsPassesPassesAndNamesTheModel) {
   EXPECT_EQ(setting_text(p), "float, soft_step, 4 sub-steps at 60 Hz, as particles");
 }
 
-}  // namespace
+}  // namespace lab_advice_test
 }  // namespace isostep::tool::lab

@@ -13,7 +13,7 @@
 #include "tool/lab/report/page.hpp"
 
 namespace isostep::tool::lab {
-namespace {
+namespace lab_report_test {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
@@ -289,5 +289,5 @@ TEST(Page, TheSummaryCountsWhatBothScalarsSurvive) {
   EXPECT_TRUE(holds(summary_of(hand_made()), "| ode failed "));
 }
 
-}  // namespace
+}  // namespace lab_report_test
 }  // namespace isostep::tool::lab

@@ -16,7 +16,7 @@
 #include "tool/lab/sweep.hpp"
 
 namespace isostep::tool::lab {
-namespace {
+namespace lab_runs_test {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -260,5 +260,5 @@ TEST_F(LabSweepKept, AnswersInThePointsOrderWhateverTheJobsAndDoesNothingTwice) 
   }
 }
 
-}  // namespace
+}  // namespace lab_runs_test
 }  // namespace isostep::tool::lab

@@ -15,7 +15,7 @@
 #include "tool/lab/springs.hpp"
 
 namespace isostep::tool::lab {
-namespace {
+namespace lab_springs_test {
 
 constexpr int kExplicit = 0, kSemiImplicit = 1, kVerlet = 2, kRk4 = 3, kImplicit = 4;
 
@@ -127,5 +127,5 @@ TEST_F(LabSpringsCommand, RefusesExperimentsThatDoNotExist) {
   }
 }
 
-}  // namespace
+}  // namespace lab_springs_test
 }  // namespace isostep::tool::lab

@@ -14,7 +14,7 @@
 #include "tool/lab/store.hpp"
 
 namespace isostep::tool::lab {
-namespace {
+namespace lab_test {
 
 // ---- the record
 
@@ -156,5 +156,5 @@ TEST_F(LabStore, WithoutADirectoryNothingIsKept) {
   EXPECT_TRUE(store.path().empty());
 }
 
-}  // namespace
+}  // namespace lab_test
 }  // namespace isostep::tool::lab

@@ -8,7 +8,7 @@
 #include "unit/tool/staged_recordings.hpp"
 
 namespace isostep::test {
-namespace {
+namespace other_prover_test {
 
 TEST(FieldLines, ReadBackAsTheyWere) {
   const NamedField fields[] = {{"a", kFieldFormat<bool>, 1},
@@ -102,5 +102,5 @@ TEST_F(Recorded, ATraceThatNoRecordingHasIsRefused) {
 }
 #endif
 
-}  // namespace
+}  // namespace other_prover_test
 }  // namespace isostep::test

@@ -29,7 +29,7 @@ template <> struct WorldTraits<toy::ToyWorld> {
 };
 
 namespace tool {
-namespace {
+namespace other_world_test {
 
 using toy::Buffer;
 using toy::Push;
@@ -118,6 +118,6 @@ TEST_F(OtherWorld, ThatThisBuildLacksIsNamed) {
   EXPECT_EQ(output(1, {"isostep", "diff", toys.c_str(), rigid.c_str()}), "the kinds of world differ\n");
 }
 
-}  // namespace
+}  // namespace other_world_test
 }  // namespace tool
 }  // namespace isostep

@@ -11,7 +11,7 @@
 #include "tool/page/recorder.hpp"
 
 namespace isostep::tool::page {
-namespace {
+namespace page_effects_test {
 
 using Point = Vec3<double>;
 
@@ -213,5 +213,5 @@ TEST(PageEffects, TakeRoomInFramesWhereAPushChanges) {
   EXPECT_TRUE(std::equal(expected.begin(), expected.end(), packed.bytes.begin() + at));
 }
 
-}  // namespace
+}  // namespace page_effects_test
 }  // namespace isostep::tool::page

@@ -14,7 +14,7 @@
 #include "tool/page/recorder.hpp"
 
 namespace isostep::tool::page {
-namespace {
+namespace page_test {
 
 constexpr double kMillimetre = 1e-3;
 
@@ -408,5 +408,5 @@ TEST(Pages, AreWholeAndOfTheirOwn) {
   }
 }
 
-}  // namespace
+}  // namespace page_test
 }  // namespace isostep::tool::page

@@ -11,7 +11,7 @@
 #include "tool/verify/goldens.hpp"
 
 namespace isostep::tool {
-namespace {
+namespace report_test {
 
 TEST(StepTimes, AreByNearestRank) {
   std::vector<double> ms;
@@ -124,5 +124,5 @@ TEST(Goldens, AreLinesOfAFile) {
   EXPECT_TRUE(golden_lines("").empty());
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace isostep::tool

@@ -9,7 +9,7 @@
 #include <random>
 
 namespace isostep::tool::bake {
-namespace {
+namespace triangulate_test {
 
 using V = Vec3<double>;
 
@@ -61,5 +61,5 @@ TEST(Triangulated, EndsOnWhatIsNoPolygon) {
   EXPECT_EQ(triangulated(std::vector<V>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}).size(), 2u);
 }
 
-}  // namespace
+}  // namespace triangulate_test
 }  // namespace isostep::tool::bake

@@ -7,7 +7,7 @@
 #include "unit/transport/middle.hpp"
 
 namespace isostep::transport {
-namespace {
+namespace enet_forgery_test {
 
 /// A packet as ENet 1.3.17 itself sends it, without our tags: to a peer of this number and session.
 Bytevec bare_disconnect(std::uint32_t peer, std::uint32_t session) {
@@ -330,5 +330,5 @@ TEST(EnetForgery, WhoLacksTheMatchsKeyIsNoPeer) {
   EXPECT_EQ(bench.count(0, ArrivalKind::connected), 1u);
 }
 
-}  // namespace
+}  // namespace enet_forgery_test
 }  // namespace isostep::transport

@@ -10,7 +10,7 @@
 #include "transport/endpoint.hpp"
 
 namespace isostep::transport {
-namespace {
+namespace enet_guard_test {
 
 constexpr std::size_t kMostDatagram = cap_of(Channel::datagram);
 constexpr std::size_t kMostReliable = cap_of(Channel::reliable);
@@ -118,5 +118,5 @@ TEST(EnetGuard, RefusesCommandsThatDoNotExist) {
   }
 }
 
-}  // namespace
+}  // namespace enet_guard_test
 }  // namespace isostep::transport

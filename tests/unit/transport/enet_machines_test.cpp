@@ -3,7 +3,7 @@
 #include "unit/transport/enet_bench.hpp"
 
 namespace isostep::transport {
-namespace {
+namespace enet_machines_test {
 
 std::string address_of(const EnetTransport& machine) { return "127.0.0.1:" + std::to_string(machine.port()); }
 
@@ -87,5 +87,5 @@ TEST(EnetTransport, AnAddressThatOthersTellIsNotLookedUp) {
   EXPECT_FALSE(machine.connect_to("127.0.0.1", 0).ok());
 }
 
-}  // namespace
+}  // namespace enet_machines_test
 }  // namespace isostep::transport

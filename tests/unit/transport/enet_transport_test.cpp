@@ -8,7 +8,7 @@
 #include "unit/transport/enet_bench.hpp"
 
 namespace isostep::transport {
-namespace {
+namespace enet_transport_test {
 
 constexpr std::size_t kMostDatagram = cap_of(Channel::datagram);
 constexpr std::size_t kMostReliable = cap_of(Channel::reliable);
@@ -317,5 +317,5 @@ TEST(EnetTransport, ADatagramAloneTakesEighteenBytesMore) {
   EXPECT_EQ(least, 34u);
 }
 
-}  // namespace
+}  // namespace enet_transport_test
 }  // namespace isostep::transport

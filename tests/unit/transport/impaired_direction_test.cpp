@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace isostep::transport {
-namespace {
+namespace impaired_direction_test {
 
 constexpr std::size_t kBytes = 100;
 
@@ -228,5 +228,5 @@ TEST(ImpairedDirection, ADelayIsNeverNegative) {
   expect_share(at_once, 10000, 4001.0 / 10001, "at once");
 }
 
-}  // namespace
+}  // namespace impaired_direction_test
 }  // namespace isostep::transport

@@ -10,7 +10,7 @@
 #include "transport/enet_guard.hpp"
 
 namespace isostep::transport {
-namespace {
+namespace line_guard_test {
 
 using Bytevec = std::vector<std::uint8_t>;
 constexpr std::uint64_t kNonce = 0x1122334455667788u;
@@ -187,5 +187,5 @@ TEST(LineTags, OpenNothingThatIsAlteredCutOrOfAnotherLine) {
   EXPECT_TRUE(ends.host.open(good)) << "nothing of it counted";
 }
 
-}  // namespace
+}  // namespace line_guard_test
 }  // namespace isostep::transport

@@ -8,7 +8,7 @@
 #include <string>
 
 namespace isostep::transport {
-namespace {
+namespace network_profile_test {
 
 const NetworkProfile& named(const std::string& name) {
   for (const NetworkProfile& profile : named_profiles()) {
@@ -119,5 +119,5 @@ TEST(NetworkProfile, TextThatIsNotOneIsRefusedByItsItem) {
   EXPECT_TRUE(parse_profile("latency=60000,loss=100").ok());
 }
 
-}  // namespace
+}  // namespace network_profile_test
 }  // namespace isostep::transport

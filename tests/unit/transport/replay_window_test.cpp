@@ -9,7 +9,7 @@
 #include "isostep/core/random.hpp"
 
 namespace isostep::transport {
-namespace {
+namespace replay_window_test {
 
 TEST(ReplayWindow, TellsWhatAListOfAllThatHaveComeTells) {
   Pcg32 random = Pcg32::seeded(7);
@@ -50,5 +50,5 @@ TEST(ReplayWindow, GoesBeyondThirtyTwoBits) {
   EXPECT_FALSE(window.is_fresh(last - ReplayWindow::kSize));
 }
 
-}  // namespace
+}  // namespace replay_window_test
 }  // namespace isostep::transport

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace isostep::transport {
-namespace {
+namespace simulated_network_test {
 
 constexpr std::size_t kMostDatagram = cap_of(Channel::datagram);
 constexpr std::size_t kMostReliable = cap_of(Channel::reliable);
@@ -441,5 +441,5 @@ TEST(SimulatedNetwork, InjectedBytesArriveAsIfFromThePeerWhateverTheyAre) {
   EXPECT_EQ(log[1].peer, 17u);
 }
 
-}  // namespace
+}  // namespace simulated_network_test
 }  // namespace isostep::transport

@@ -12,7 +12,7 @@
 #include "unit/transport/udp.hpp"
 
 namespace isostep::transport {
-namespace {
+namespace udp_relay_test {
 
 using Bytevec = std::vector<std::uint8_t>;
 
@@ -210,5 +210,5 @@ TEST(UdpRelay, RefusesAddressesThatAreNot) {
   EXPECT_FALSE(UdpRelay::open({.listen_port = taken.port(), .target_port = 9}).ok());
 }
 
-}  // namespace
+}  // namespace udp_relay_test
 }  // namespace isostep::transport

@@ -5,7 +5,7 @@
 #include "unit/world/forces.hpp"
 
 namespace isostep::test {
-namespace {
+namespace aero_surfaces_test {
 
 template <class S> class AeroSurfaces : public Forces<S> {};
 TYPED_TEST_SUITE(AeroSurfaces, AllScalars);
@@ -102,5 +102,5 @@ TYPED_TEST(AeroSurfaces, large_tensors_are_stable) {
   }
 }
 
-}  // namespace
+}  // namespace aero_surfaces_test
 }  // namespace isostep::test

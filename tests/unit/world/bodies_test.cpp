@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace bodies_test {
 
 template <class S> class WorldBodies : public ::testing::Test {};
 TYPED_TEST_SUITE(WorldBodies, AllScalars);
@@ -276,5 +276,5 @@ TYPED_TEST(WorldBodies, a_point_of_a_body_moves_and_turns_with_it) {
   EXPECT_EQ(w.velocity_at({}, vec<S>(1, 2, 3)), Vec3<S>::zero());
 }
 
-}  // namespace
+}  // namespace bodies_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace body_events_test {
 
 template <class S> class BodyEvents : public ::testing::Test {};
 TYPED_TEST_SUITE(BodyEvents, AllScalars);
@@ -161,5 +161,5 @@ TYPED_TEST(BodyEvents, contact_events_ascend_by_bodies_and_pair_up) {
   EXPECT_GT(total, 40u);
 }
 
-}  // namespace
+}  // namespace body_events_test
 }  // namespace isostep::test

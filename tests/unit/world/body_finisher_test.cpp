@@ -8,7 +8,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace body_finisher_test {
 
 template <class S> class BodyFinishers : public ::testing::Test {
  protected:
@@ -95,5 +95,5 @@ TEST(BodyFinishersOfFloat, a_body_that_is_no_number_goes_back_and_stops) {
   EXPECT_EQ(systems.state.contacts[0].normal_impulse[1], 0.0f);
 }
 
-}  // namespace
+}  // namespace body_finisher_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace body_map_test {
 
 template <class S> class BodyMaps : public ::testing::Test {
  protected:
@@ -96,5 +96,5 @@ TYPED_TEST(BodyMaps, the_origin_of_a_body_is_not_its_centre_of_mass) {
   expect_near(real(origin_pose(body, properties).position), {1, 1, 3}, 1e-5);
 }
 
-}  // namespace
+}  // namespace body_map_test
 }  // namespace isostep::test

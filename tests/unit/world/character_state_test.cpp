@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace character_state_test {
 
 template <class S> class CharacterStates : public ::testing::Test {};
 TYPED_TEST_SUITE(CharacterStates, AllScalars);
@@ -66,5 +66,5 @@ TYPED_TEST(CharacterStates, have_inputs_and_states_in_range_and_none_where_there
   EXPECT_FALSE(is_valid_with([&](auto& parts) { parts.character_inputs.emplace_back(); }));
 }
 
-}  // namespace
+}  // namespace character_state_test
 }  // namespace isostep::test

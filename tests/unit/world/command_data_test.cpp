@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace command_data_test {
 
 /// Makes a member such that hardly any rule accepts it.
 template <class T> void spoil(T& member) {
@@ -246,5 +246,5 @@ TYPED_TEST(CommandData, a_command_returns_what_it_made) {
   EXPECT_STREQ(w.fault().command, "create_body");
 }
 
-}  // namespace
+}  // namespace command_data_test
 }  // namespace isostep::test

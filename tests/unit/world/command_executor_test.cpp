@@ -8,7 +8,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace command_executor_test {
 
 template <class S> class Executors : public ::testing::Test {
  protected:
@@ -122,5 +122,5 @@ TYPED_TEST(Executors, of_many_to_destroy_a_stale_id_is_a_fault_and_the_others_go
   EXPECT_TRUE(this->systems.state.awake.states.empty());
 }
 
-}  // namespace
+}  // namespace command_executor_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "isostep/state/verify.hpp"
 
 namespace isostep::test {
-namespace {
+namespace command_log_test {
 
 template <class S> class CommandLogs : public ::testing::Test {};
 TYPED_TEST_SUITE(CommandLogs, AllScalars);
@@ -192,5 +192,5 @@ TYPED_TEST(CommandLogs, a_recording_ends_before_a_frame_of_more_steps_than_the_c
   EXPECT_EQ(ReplayReader(file).frame_count(), 1u);
 }
 
-}  // namespace
+}  // namespace command_log_test
 }  // namespace isostep::test

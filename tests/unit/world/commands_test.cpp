@@ -4,7 +4,7 @@
 #include "unit/world/commanded_world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace commands_test {
 
 template <class S> class WorldCommands : public CommandedWorld<S> {};
 TYPED_TEST_SUITE(WorldCommands, AllScalars);
@@ -260,5 +260,5 @@ TYPED_TEST(WorldCommands, the_lists_of_bodies_and_joints_ascend_by_slot) {
   EXPECT_EQ(w.joints()[0], this->joint);
 }
 
-}  // namespace
+}  // namespace commands_test
 }  // namespace isostep::test

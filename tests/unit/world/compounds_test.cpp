@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace compounds_test {
 
 constexpr int kPosts = 12;  // children 2 to 13 of the yard
 
@@ -141,5 +141,5 @@ TYPED_TEST(Compounds, a_shape_that_is_removed_leaves_no_tree_to_the_next_in_its_
   EXPECT_FALSE(world.cast_ray(vec<S>(0.9, 2, 0), vec<S>(0, -4, 0)));
 }
 
-}  // namespace
+}  // namespace compounds_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace contact_events_test {
 
 /// Slot 0 is static; slots 1 and 2 have rows 1 and 2 and 2 kg each.
 template <class S> class ContactEventsOf : public ::testing::Test {
@@ -87,5 +87,5 @@ TYPED_TEST(ContactEventsOf, a_touch_ends_with_its_contact_or_with_its_impulse_in
   EXPECT_EQ(this->events.contact_end[2].a, this->bodies[1]);
 }
 
-}  // namespace
+}  // namespace contact_events_test
 }  // namespace isostep::test

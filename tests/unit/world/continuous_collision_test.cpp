@@ -10,7 +10,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace continuous_collision_test {
 
 template <class S> class ContinuousCollisions : public ::testing::Test {
  protected:
@@ -345,5 +345,5 @@ TYPED_TEST(ContinuousCollisions, the_order_of_bodies_in_the_tree_does_not_matter
   EXPECT_GT(stopped, 4);
 }
 
-}  // namespace
+}  // namespace continuous_collision_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace crowd_test {
 
 template <class S> Settings<S> with_budget(std::int32_t most_pairs, double gravity = -10) {
   Settings<S> s = settings<S>(gravity, 60, 4);
@@ -210,5 +210,5 @@ TYPED_TEST(Crowds, have_budgets_within_limits) {
   EXPECT_FALSE(other.read_portable(bad));
 }
 
-}  // namespace
+}  // namespace crowd_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "unit/world/debug_draw_told.hpp"
 
 namespace isostep::test {
-namespace {
+namespace debug_draw_records_test {
 
 template <class S> class DebugDrawsRecords : public ::testing::Test {};
 TYPED_TEST_SUITE(DebugDrawsRecords, AllScalars);
@@ -206,5 +206,5 @@ TYPED_TEST(DebugDrawsRecords, TellsParticlesWithWhatTiesThem) {
   expect_near(real(all.colliders[0].start), {0, -1, 0}, 1e-6);
 }
 
-}  // namespace
+}  // namespace debug_draw_records_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "unit/world/debug_draw_told.hpp"
 
 namespace isostep::test {
-namespace {
+namespace debug_draw_test {
 
 /// Equal numbers, whatever lies between their bytes.
 void expect_same(const ToldPart& a, const ToldPart& b) {
@@ -269,5 +269,5 @@ TYPED_TEST(DebugDraws, TakesTheCamerasPlaceBeforeItRounds) {
   EXPECT_EQ(real(all.bodies[0].pose.position), (D3{0.125, 0, 0.5}));
 }
 
-}  // namespace
+}  // namespace debug_draw_test
 }  // namespace isostep::test

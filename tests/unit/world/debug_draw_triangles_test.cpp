@@ -10,7 +10,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace debug_draw_triangles_test {
 
 using Corner = std::array<float, 3>;
 using Triangle = std::array<Corner, 3>;
@@ -174,5 +174,5 @@ TYPED_TEST(DebugDrawsTriangles, InTheFrameOfThePart) {
   }
 }
 
-}  // namespace
+}  // namespace debug_draw_triangles_test
 }  // namespace isostep::test

@@ -5,7 +5,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace destruction_order_test {
 
 /// Hubs with bodies around them on joints, which motors drive and loads measure; springs from body to body.
 template <class S> class DestructionOrder : public ::testing::Test {
@@ -97,5 +97,5 @@ TYPED_TEST(DestructionOrder, many_bodies_go_as_one_after_the_other) {
   }
 }
 
-}  // namespace
+}  // namespace destruction_order_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace destruction_test {
 
 /// Four balls in a row; neighbours touch, and a joint ties the first to the last.
 template <class S> class Destructions : public ::testing::Test {
@@ -72,5 +72,5 @@ TYPED_TEST(Destructions, the_joints_of_a_body_go_with_it) {
   EXPECT_TRUE(this->systems.state.joints.states.empty());
 }
 
-}  // namespace
+}  // namespace destruction_test
 }  // namespace isostep::test

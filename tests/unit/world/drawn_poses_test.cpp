@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace drawn_poses_test {
 
 template <class S> class DrawnPoses : public ::testing::Test {};
 TYPED_TEST_SUITE(DrawnPoses, AllScalars);
@@ -63,5 +63,5 @@ TYPED_TEST(DrawnPoses, a_teleported_body_is_not_drawn_on_the_way) {
   EXPECT_FLOAT_EQ(w.poses_float(0.5f)[0].position[0], 100);
 }
 
-}  // namespace
+}  // namespace drawn_poses_test
 }  // namespace isostep::test

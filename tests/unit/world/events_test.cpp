@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace events_test {
 
 /// A box at rest on the ground, inside a sensor that nothing moves.
 template <class S> class WorldEvents : public ::testing::Test {
@@ -229,5 +229,5 @@ TYPED_TEST(WorldEvents, a_sensor_that_is_moved_sees_what_stands_and_sees_no_sens
   EXPECT_EQ(began, (std::vector<BodyId>{mover, post}));
 }
 
-}  // namespace
+}  // namespace events_test
 }  // namespace isostep::test

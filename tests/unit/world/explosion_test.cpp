@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace explosion_test {
 
 template <class S> class Explosions : public ::testing::Test {
  protected:
@@ -253,5 +253,5 @@ TYPED_TEST(Explosions, bad_numbers_are_named) {
   EXPECT_EQ(this->world_.state().records->kinds(), 0u);
 }
 
-}  // namespace
+}  // namespace explosion_test
 }  // namespace isostep::test

@@ -9,7 +9,7 @@
 #include "unit/world/refusing_world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace faults_test {
 
 template <class S> class WorldFaults : public RefusingWorld<S> {};
 TYPED_TEST_SUITE(WorldFaults, AllScalars);
@@ -384,5 +384,5 @@ TYPED_TEST(WorldFaults, each_field_has_a_text_of_its_own) {
   EXPECT_EQ(texts[0], "create_body: material.friction: not a valid value; expected 0 to 16");
 }
 
-}  // namespace
+}  // namespace faults_test
 }  // namespace isostep::test

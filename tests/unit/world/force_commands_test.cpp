@@ -3,7 +3,7 @@
 #include "unit/world/commanded_world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace force_commands_test {
 
 template <class S> class ForceCommands : public CommandedWorld<S> {};
 TYPED_TEST_SUITE(ForceCommands, AllScalars);
@@ -107,5 +107,5 @@ TYPED_TEST(ForceCommands, gravity_set_anew_is_what_bodies_fall_by) {
   expect_near(real(w.velocity(id)), {0, 0, 16}, 1024 * speed_grain<S>(16));
 }
 
-}  // namespace
+}  // namespace force_commands_test
 }  // namespace isostep::test

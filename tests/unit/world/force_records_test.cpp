@@ -4,7 +4,7 @@
 #include "unit/world/forces.hpp"
 
 namespace isostep::test {
-namespace {
+namespace force_records_test {
 
 template <class S> class ForceRecordsOf : public Forces<S> {};
 TYPED_TEST_SUITE(ForceRecordsOf, AllScalars);
@@ -162,5 +162,5 @@ TYPED_TEST(ForceRecordsOf, are_state) {
   }
 }
 
-}  // namespace
+}  // namespace force_records_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "unit/world/forces.hpp"
 
 namespace isostep::test {
-namespace {
+namespace forces_test {
 
 TYPED_TEST_SUITE(Forces, AllScalars);
 
@@ -207,5 +207,5 @@ TYPED_TEST(Forces, attractors_keep_bodies_in_orbit) {
   EXPECT_EQ(this->velocity(far).x, 0);
 }
 
-}  // namespace
+}  // namespace forces_test
 }  // namespace isostep::test

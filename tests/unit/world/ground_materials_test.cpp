@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace ground_materials_test {
 
 constexpr std::uint32_t kExponent = 10;
 constexpr int kColumns = 25, kRows = 9;  // of half a metre: 12 m long, the first half ice
@@ -158,5 +158,5 @@ TEST(SurfaceMaterials, what_is_no_material_is_refused) {
   EXPECT_EQ(place(height_field({10, 0, 2, 2, 1024}, heights, ghosts)), "materials");
 }
 
-}  // namespace
+}  // namespace ground_materials_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace hulls_test {
 
 BlobRef blob_of(const std::vector<scenes::Point>& points) {
   std::vector<D3> own;
@@ -138,5 +138,5 @@ TYPED_TEST(Hulls, files_and_recordings_carry_it) {
   EXPECT_EQ(world.state().geometry->names().size(), 2u);
 }
 
-}  // namespace
+}  // namespace hulls_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace input_bytes_test {
 
 TEST(InputBytes, of_a_character_are_35_and_of_a_car_44_in_q32_32_with_their_number_and_id) {
   using S = Q32_32;
@@ -28,5 +28,5 @@ TEST(InputBytes, of_a_character_are_35_and_of_a_car_44_in_q32_32_with_their_numb
   EXPECT_EQ(log.size(), 44u);  // 1 + 2 + 5 numbers and the gear
 }
 
-}  // namespace
+}  // namespace input_bytes_test
 }  // namespace isostep::test

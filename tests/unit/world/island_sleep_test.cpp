@@ -6,7 +6,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace island_sleep_test {
 
 /// Three balls: a contact ties the first two together.
 template <class S> class IslandSleeps : public ::testing::Test {
@@ -163,5 +163,5 @@ TYPED_TEST(IslandSleeps, nothing_happens_where_the_settings_forbid_it) {
   EXPECT_EQ(this->systems.awake(this->balls[0]).sleep_clock, 0u);
 }
 
-}  // namespace
+}  // namespace island_sleep_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace island_wake_test {
 
 /// Three stacks of two boxes on the ground, asleep. Slots of the stacks alternate. Joints tie the boxes of the first
 /// and of the last stack.
@@ -120,5 +120,5 @@ TYPED_TEST(IslandWakes, a_body_that_moves_wakes_what_it_runs_into) {
   EXPECT_FALSE(this->systems.wake.wake_touched());
 }
 
-}  // namespace
+}  // namespace island_wake_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "unit/world/commanded_world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace joint_commands_test {
 
 template <class S> class JointCommands : public CommandedWorld<S> {};
 TYPED_TEST_SUITE(JointCommands, AllScalars);
@@ -129,5 +129,5 @@ TYPED_TEST(JointCommands, a_state_in_which_an_axis_has_two_drives_is_not_valid) 
   EXPECT_STREQ(broken_rule(state), "two records of a kind are about the same");
 }
 
-}  // namespace
+}  // namespace joint_commands_test
 }  // namespace isostep::test

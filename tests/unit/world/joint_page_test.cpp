@@ -3,7 +3,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace joint_page_test {
 
 template <class S> class JointPage : public ::testing::Test {
  protected:
@@ -61,5 +61,5 @@ TYPED_TEST(JointPage, couples_joints_and_measures_them) {
   EXPECT_EQ(world.state().records->joint_loads.slot_map().count_taken(), 1u) << describe(world.first_fault());
 }
 
-}  // namespace
+}  // namespace joint_page_test
 }  // namespace isostep::test

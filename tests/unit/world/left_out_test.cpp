@@ -10,7 +10,7 @@
 #include "unit/world/refusing_world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace left_out_test {
 
 const char* const kWhy = left_out(SolverName::worst_first);
 const std::string kSentence = "this build leaves out worst_first: ISOSTEP_BOOK is off";
@@ -97,5 +97,5 @@ TEST(LeftOutMethods, make_a_recording_incompatible_and_the_self_check_skip_it_an
   EXPECT_EQ(describe(result).find("replays skipped: " + kSentence) != std::string::npos, !kHasBook);
 }
 
-}  // namespace
+}  // namespace left_out_test
 }  // namespace isostep::test

@@ -3,7 +3,7 @@
 #include "unit/world/refusing_world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace limits_test {
 
 template <class S> class WorldLimits : public RefusingWorld<S> {};
 TYPED_TEST_SUITE(WorldLimits, AllScalars);
@@ -74,5 +74,5 @@ TYPED_TEST(WorldLimits, what_a_world_writes_it_reads_wherever_a_body_was_put) {
   }
 }
 
-}  // namespace
+}  // namespace limits_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "isostep/state/archive.hpp"
 
 namespace isostep::test {
-namespace {
+namespace many_sleepers_test {
 
 constexpr int kAcross = 28, kBalls = kAcross * kAcross;  // more than two pages of slots, and of islands
 
@@ -214,5 +214,5 @@ TYPED_TEST(ManySleepers, a_platform_that_moves_wakes_what_lies_on_it_alone_after
   expect_awake(true, true, true);
 }
 
-}  // namespace
+}  // namespace many_sleepers_test
 }  // namespace isostep::test

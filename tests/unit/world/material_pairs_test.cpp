@@ -4,7 +4,7 @@
 #include "unit/world/commanded_world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace material_pairs_test {
 
 template <class S> class MaterialPairs : public CommandedWorld<S> {
  protected:
@@ -157,5 +157,5 @@ TYPED_TEST(MaterialPairs, the_restitution_threshold_is_a_speed) {
   }
 }
 
-}  // namespace
+}  // namespace material_pairs_test
 }  // namespace isostep::test

@@ -11,7 +11,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace mechanisms_test {
 
 constexpr std::int32_t kRate = 480;
 
@@ -136,5 +136,5 @@ TYPED_TEST(MechanismRowsAlone, of_wheels_push_their_body_and_what_they_stand_on)
   EXPECT_NEAR(60 * cart_up + 600 * raft_up, 0, 0.01);
 }
 
-}  // namespace
+}  // namespace mechanisms_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace narrow_phase_test {
 
 template <class S> struct Phase {
   explicit Phase(const World<S>& world) : systems(world) {
@@ -143,5 +143,5 @@ TYPED_TEST(NarrowPhases, shared_among_threads_it_finds_the_same) {
   EXPECT_EQ(shared.phase.overlaps(), alone.phase.overlaps());
 }
 
-}  // namespace
+}  // namespace narrow_phase_test
 }  // namespace isostep::test

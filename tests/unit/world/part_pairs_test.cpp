@@ -11,7 +11,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace part_pairs_test {
 
 template <class S> class PartPairsOf : public ::testing::Test {
  protected:
@@ -169,5 +169,5 @@ TYPED_TEST(PartPairsOf, beyond_the_budget_every_pair_of_compounds_gets_the_same_
   }
 }
 
-}  // namespace
+}  // namespace part_pairs_test
 }  // namespace isostep::test

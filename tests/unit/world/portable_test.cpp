@@ -8,7 +8,7 @@
 #include "isostep/replay/world_kinds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace portable_test {
 
 template <class S> class PortableWorlds : public ::testing::Test {};
 TYPED_TEST_SUITE(PortableWorlds, AllScalars);
@@ -251,5 +251,5 @@ TYPED_TEST(RimOfTheScalar, the_heaviest_bodies_still_stack) {
   EXPECT_FALSE(w.is_awake(high));
 }
 
-}  // namespace
+}  // namespace portable_test
 }  // namespace isostep::test

@@ -11,7 +11,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep {
-namespace {
+namespace pose_smoother_test {
 
 using namespace test;
 
@@ -333,5 +333,5 @@ TYPED_TEST(PoseSmootherOf, AMispredictedBodyIsDrawnWithoutAJumpAndSoonWhereItIs)
   EXPECT_GT(raw_turn, 3 * kTurning) << "nothing to be smoothed: the test shows nothing";
 }
 
-}  // namespace
+}  // namespace pose_smoother_test
 }  // namespace isostep

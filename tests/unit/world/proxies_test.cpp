@@ -8,7 +8,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace proxies_test {
 
 using Pairs = std::vector<std::uint64_t>;
 
@@ -112,5 +112,5 @@ TYPED_TEST(ProxiesOf, beyond_the_budget_some_pairs_are_left_out_and_the_bodies_t
   EXPECT_EQ(this->proxies.bodies_left_out(), 0u);
 }
 
-}  // namespace
+}  // namespace proxies_test
 }  // namespace isostep::test

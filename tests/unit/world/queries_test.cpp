@@ -7,7 +7,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace queries_test {
 
 /// Three balls in a row.
 template <class S> class QueriesOf : public ::testing::Test {
@@ -63,5 +63,5 @@ TYPED_TEST(QueriesOf, a_question_that_is_refused_leaves_its_fault_in_the_log) {
   EXPECT_STREQ(this->faults.last().command, "closest_point");
 }
 
-}  // namespace
+}  // namespace queries_test
 }  // namespace isostep::test

@@ -3,7 +3,7 @@
 #include "unit/world/query_world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace query_casts_test {
 
 template <class S> class QueryCasts : public ::testing::Test {
  protected:
@@ -260,5 +260,5 @@ TYPED_TEST(QueryCasts, the_point_of_a_hit_lies_on_both_shapes) {
   EXPECT_LT(worst, 3e-3);
 }
 
-}  // namespace
+}  // namespace query_casts_test
 }  // namespace isostep::test

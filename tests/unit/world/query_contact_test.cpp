@@ -7,7 +7,7 @@
 #include "random/hull.hpp"
 
 namespace isostep::test {
-namespace {
+namespace query_contact_test {
 
 enum class Ground { half_space, box, mesh, height_field };
 constexpr Ground kGrounds[] = {Ground::half_space, Ground::box, Ground::mesh, Ground::height_field};
@@ -276,5 +276,5 @@ TYPED_TEST(QueryContact, a_ball_meets_hills_where_the_nearest_triangle_says) {
   }
 }
 
-}  // namespace
+}  // namespace query_contact_test
 }  // namespace isostep::test

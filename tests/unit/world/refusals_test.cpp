@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace refusals_test {
 
 template <class S> class Refusals : public ::testing::Test {
  protected:
@@ -126,5 +126,5 @@ TYPED_TEST(Refusals, a_density_that_makes_more_mass_than_the_format_holds_is_ref
   }
 }
 
-}  // namespace
+}  // namespace refusals_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace render_poses_test {
 
 template <class S> class RenderPosesOf : public ::testing::Test {
  protected:
@@ -56,5 +56,5 @@ TYPED_TEST(RenderPosesOf, after_a_load_bodies_are_drawn_where_they_are) {
   EXPECT_EQ(this->drawn_at(0.0f), 3.0f);
 }
 
-}  // namespace
+}  // namespace render_poses_test
 }  // namespace isostep::test

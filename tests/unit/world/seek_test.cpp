@@ -5,7 +5,7 @@
 #include "played_session.hpp"
 
 namespace isostep::test {
-namespace {
+namespace seek_test {
 
 constexpr Frame kFrames = 600;
 
@@ -154,5 +154,5 @@ TYPED_TEST(Seeking, a_recorded_hash_that_does_not_come_out_is_told) {
   EXPECT_FALSE(seeker.agrees());
 }
 
-}  // namespace
+}  // namespace seek_test
 }  // namespace isostep::test

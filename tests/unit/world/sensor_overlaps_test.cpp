@@ -6,7 +6,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace sensor_overlaps_test {
 
 /// Slot 0 is a static sensor, the others are awake balls.
 template <class S> class Overlaps : public ::testing::Test {
@@ -66,5 +66,5 @@ TYPED_TEST(Overlaps, ends_are_in_order_with_those_that_commands_made) {
   EXPECT_EQ(this->events.sensor_end[1].other, this->bodies[2]);
 }
 
-}  // namespace
+}  // namespace sensor_overlaps_test
 }  // namespace isostep::test

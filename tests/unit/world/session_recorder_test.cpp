@@ -7,7 +7,7 @@
 #include "played_session.hpp"
 
 namespace isostep::test {
-namespace {
+namespace session_recorder_test {
 
 /// The history first, as a driver would call both.
 template <class S> struct Recording {
@@ -316,5 +316,5 @@ TYPED_TEST(SessionRecording, what_is_flushed_or_older_than_a_second_survives_a_c
   EXPECT_EQ(result.frames, static_cast<std::uint64_t>(this->recorder.frames()));
 }
 
-}  // namespace
+}  // namespace session_recorder_test
 }  // namespace isostep::test

@@ -9,7 +9,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace set_heights_test {
 
 constexpr std::uint32_t kPlaces = 33;  // of half a metre: 16 m
 constexpr std::int16_t kDeep = -2048;  // [1/1024 m]
@@ -270,5 +270,5 @@ TYPED_TEST(SetHeightsOf, the_box_of_the_body_grows_with_its_field) {
   ASSERT_TRUE(w.cast_ray(vec<S>(-4, 9, 4), vec<S>(0.01, -4, 0.01)));
 }
 
-}  // namespace
+}  // namespace set_heights_test
 }  // namespace isostep::test

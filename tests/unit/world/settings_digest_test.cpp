@@ -8,7 +8,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace settings_digest_test {
 
 template <class S> class SettingsDigest : public ::testing::Test {};
 TYPED_TEST_SUITE(SettingsDigest, AllScalars);
@@ -49,5 +49,5 @@ TYPED_TEST(SettingsDigest, every_setting_of_particles_changes_it) {
   EXPECT_GE(expect_all_count<ParticleSettings<TypeParam>>(), 11);
 }
 
-}  // namespace
+}  // namespace settings_digest_test
 }  // namespace isostep::test

@@ -3,7 +3,7 @@
 #include "unit/world/commanded_world.hpp"
 
 namespace isostep::test {
-namespace {
+namespace shape_commands_test {
 
 template <class S> class ShapeCommands : public CommandedWorld<S> {};
 TYPED_TEST_SUITE(ShapeCommands, AllScalars);
@@ -74,5 +74,5 @@ TYPED_TEST(ShapeCommands, removing_a_shape_leaves_the_others_their_parts) {
   EXPECT_NEAR(height(20), 3, slack);
 }
 
-}  // namespace
+}  // namespace shape_commands_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace sleep_test {
 
 /// Two stacks of three boxes on a half-space, far apart.
 template <class S> class WorldSleep : public ::testing::Test {
@@ -397,5 +397,5 @@ TYPED_TEST(WorldSleep, a_fast_kinematic_body_takes_sleepers_along_as_it_does_oth
   EXPECT_NEAR(way[1], way[0], 0.05);
 }
 
-}  // namespace
+}  // namespace sleep_test
 }  // namespace isostep::test

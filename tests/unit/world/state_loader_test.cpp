@@ -4,7 +4,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace state_loader_test {
 
 template <class S> class StateLoaders : public ::testing::Test {
  protected:
@@ -52,5 +52,5 @@ TYPED_TEST(StateLoaders, what_another_state_lacks_is_forgotten_and_what_it_has_i
   EXPECT_EQ(systems.map.names(this->ground.slot), 1u);
 }
 
-}  // namespace
+}  // namespace state_loader_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace static_bodies_test {
 
 template <class S> class StaticPages : public ::testing::Test {
  protected:
@@ -131,5 +131,5 @@ TYPED_TEST(StaticPages, a_world_that_is_read_or_loaded_has_the_hash_of_the_one_t
   }
 }
 
-}  // namespace
+}  // namespace static_bodies_test
 }  // namespace isostep::test

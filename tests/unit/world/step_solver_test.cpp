@@ -10,7 +10,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace step_solver_test {
 
 template <class S> class StepSolvers : public ::testing::Test {
  protected:
@@ -111,5 +111,5 @@ TYPED_TEST(StepSolvers, the_solver_of_the_settings_moves_the_bodies_and_tells_th
   EXPECT_EQ(all_used.size(), std::size(kBuiltSolvers)) << "each name has a solver of its own";
 }
 
-}  // namespace
+}  // namespace step_solver_test
 }  // namespace isostep::test

@@ -4,7 +4,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace still_sensors_test {
 
 template <class S> class StillSensors : public ::testing::Test {
  protected:
@@ -75,5 +75,5 @@ TYPED_TEST(StillSensors, are_found_by_a_world_that_was_saved_before_the_step) {
   EXPECT_EQ(this->w.hash(), hash);
 }
 
-}  // namespace
+}  // namespace still_sensors_test
 }  // namespace isostep::test

@@ -9,7 +9,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace surfaces_test {
 
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
 using Heights = double (*)(int i, int k);
@@ -185,5 +185,5 @@ TYPED_TEST(Surfaces, several_in_one_body_beside_a_convex_part_all_hold) {
   EXPECT_NEAR(to_double(world.pose(on[2]).position.y), 1.25, 0.005);
 }
 
-}  // namespace
+}  // namespace surfaces_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "unit/world/systems.hpp"
 
 namespace isostep::test {
-namespace {
+namespace surroundings_test {
 
 /// Balls, a tilted box and a body of two boxes on a floor.
 template <class S> class SurroundingsOf : public ::testing::Test {
@@ -102,5 +102,5 @@ TYPED_TEST(SurroundingsOf, rays_tell_the_normal_of_what_they_meet_first) {
   EXPECT_FALSE(this->around.cast_ray(start.position, vec<S>(0, 4, 0)));
 }
 
-}  // namespace
+}  // namespace surroundings_test
 }  // namespace isostep::test

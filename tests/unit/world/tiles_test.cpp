@@ -8,7 +8,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace tiles_test {
 
 constexpr int kCells = 40, kSeam = kCells / 2;  // along a side; tiles meet at the seam
 constexpr std::uint32_t kExponent = 10, kPitch = 512;
@@ -181,5 +181,5 @@ TYPED_TEST(Tiles, with_ghosts_or_flush_ones_are_crossed_without_a_bump_and_other
   }
 }
 
-}  // namespace
+}  // namespace tiles_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace vehicles_test {
 
 template <class S> class VehicleRecords : public ::testing::Test {
  protected:
@@ -393,5 +393,5 @@ TYPED_TEST(VehicleRecords, stand_on_one_another) {
   EXPECT_GT(to_double(this->w.velocity(car).z), 0.1);
 }
 
-}  // namespace
+}  // namespace vehicles_test
 }  // namespace isostep::test

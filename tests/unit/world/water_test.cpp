@@ -5,7 +5,7 @@
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
-namespace {
+namespace water_test {
 
 template <class S> class Waters : public ::testing::Test {
  protected:
@@ -284,5 +284,5 @@ TYPED_TEST(Waters, bad_numbers_are_named) {
   EXPECT_EQ(this->world_.state().records->kinds(), 0u);
 }
 
-}  // namespace
+}  // namespace water_test
 }  // namespace isostep::test

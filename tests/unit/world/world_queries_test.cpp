@@ -11,7 +11,7 @@
 #include "isostep/collision/query/ray_cast.hpp"
 
 namespace isostep::test {
-namespace {
+namespace world_queries_test {
 
 template <class S> class WorldQueries : public ::testing::Test {
  protected:
@@ -381,5 +381,5 @@ TYPED_TEST(WorldQueries, bodies_near_a_box_are_those_whose_fat_boxes_meet_it_and
   EXPECT_EQ(w.view(line[5]).state, nullptr);
 }
 
-}  // namespace
+}  // namespace world_queries_test
 }  // namespace isostep::test

@@ -5,7 +5,7 @@
 #include "isostep/collision/broadphase/broad_phase_name.hpp"
 
 namespace isostep::test {
-namespace {
+namespace names_test {
 
 TEST(BroadPhaseNames, AreFoundAndOthersAreNot) {
   for (std::uint32_t i = 0; i < kBroadPhases; ++i)
@@ -16,5 +16,5 @@ TEST(BroadPhaseNames, AreFoundAndOthersAreNot) {
   EXPECT_EQ(broad_phase_named(""), std::nullopt);
 }
 
-}  // namespace
+}  // namespace names_test
 }  // namespace isostep::test

@@ -6,7 +6,7 @@
 #include "random/dice.hpp"
 
 namespace isostep::test {
-namespace {
+namespace surface_impact_test {
 
 /// Squares of 1 m at y = 0, 64 by 64, of two triangles each.
 TriangleMesh flat_squares() {
@@ -112,5 +112,5 @@ TYPED_TEST(SurfaceImpacts, look_at_all_that_the_core_passes) {
   }
 }
 
-}  // namespace
+}  // namespace surface_impact_test
 }  // namespace isostep::test

@@ -9,7 +9,7 @@
 #include "unit/collision/query/cores.hpp"
 
 namespace isostep::test {
-namespace {
+namespace time_of_impact_test {
 
 using oracle::D3;
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -225,5 +225,5 @@ TYPED_TEST(TimeOfImpactTest, what_does_not_move_is_apart_or_touches_at_the_start
   EXPECT_GT(to_double(hit.normal.x), 1.0 - 1e-6);
 }
 
-}  // namespace
+}  // namespace time_of_impact_test
 }  // namespace isostep::test

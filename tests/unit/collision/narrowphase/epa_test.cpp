@@ -9,7 +9,7 @@
 #include "unit/collision/narrowphase/placed_solids.hpp"
 
 namespace isostep::test {
-namespace {
+namespace epa_test {
 
 using oracle::D3;
 
@@ -24,7 +24,7 @@ TYPED_TEST(EpaTest, depth_is_that_of_the_best_axis) {
   double worst = 0;
   const int pairs = sampled(10000, 2500);
   for (int n = 0; n < pairs; ++n) {
-    const Solid<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 40 % 40)];
+    const Convex<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 40 % 40)];
     const D3 at = n % 3 == 0 ? D3{40, -30, 20} : D3{0, 0, 0};
     const double reach = this->random_.in(0, 0.9) * (a.radius() + b.radius());
     const Transform<S> ta = this->transform(at), tb = this->transform(at + this->random_.direction() * reach);
@@ -146,5 +146,5 @@ TYPED_TEST(EpaTest, cores_are_round) {
   EXPECT_NEAR(to_double(deep.normal.y), 0, 1e-4);
 }
 
-}  // namespace
+}  // namespace epa_test
 }  // namespace isostep::test

@@ -9,7 +9,7 @@
 #include "unit/collision/narrowphase/support_oracle.hpp"
 
 namespace isostep::test {
-namespace {
+namespace every_pair_test {
 
 constexpr double kMargin = 0.015625;  // [m]
 
@@ -258,5 +258,5 @@ TEST_P(EveryPair, keeps_the_laws_of_manifolds_in_every_scalar) {
 }
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryPair, testing::Range(0, kShapeTypes* kShapeTypes));
 
-}  // namespace
+}  // namespace every_pair_test
 }  // namespace isostep::test

@@ -8,7 +8,7 @@
 #include "unit/collision/narrowphase/placed_solids.hpp"
 
 namespace isostep::test {
-namespace {
+namespace gjk_test {
 
 using oracle::D3;
 
@@ -22,7 +22,7 @@ TYPED_TEST(Gjk, points_in_the_solids_and_a_plane_between_them_agree_on_the_dista
   int apart = 0, overlapping = 0, most_iterations = 0;
   const int pairs = sampled(10000, 2500);
   for (int n = 0; n < pairs; ++n) {
-    const Solid<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 40 % 40)];
+    const Convex<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 40 % 40)];
     const D3 at = n % 3 == 0 ? D3{40, -30, 20} : D3{0, 0, 0};
     const double reach = this->random_.in(0.1, 1.5) * (a.radius() + b.radius());
     const Transform<S> ta = this->transform(at), tb = this->transform(at + this->random_.direction() * reach);
@@ -54,5 +54,5 @@ TYPED_TEST(Gjk, points_in_the_solids_and_a_plane_between_them_agree_on_the_dista
   EXPECT_LT(most_iterations, 24);
 }
 
-}  // namespace
+}  // namespace gjk_test
 }  // namespace isostep::test

@@ -16,8 +16,8 @@
 namespace isostep::test {
 
 /// A hull in a scalar, and what an oracle knows of it.
-template <class S> struct Solid {
-  Solid(const std::vector<GridPoint>& points, int exponent)
+template <class S> struct Convex {
+  Convex(const std::vector<GridPoint>& points, int exponent)
       : hull(convex_hull(points).value()), solid(hull, exponent), step(std::ldexp(1.0, -exponent)) {}
   oracle::D3 vertex(std::uint32_t i) const {
     const GridPoint p = hull.vertices[i];
@@ -53,7 +53,7 @@ inline constexpr double kLeastSine = 0.005;
 /// Two solids where a scalar has them, in double.
 template <class S> class Placed {
  public:
-  Placed(const Solid<S>& a, const Transform<S>& ta, const Solid<S>& b, const Transform<S>& tb)
+  Placed(const Convex<S>& a, const Transform<S>& ta, const Convex<S>& b, const Transform<S>& tb)
       : ta_(oracle::real(ta)), tb_(oracle::real(tb)) {
     for (std::uint32_t i = 0; i < a.hull.vertices.size(); ++i) vertices_a.push_back(to_world(ta_, a.vertex(i)));
     for (std::uint32_t i = 0; i < b.hull.vertices.size(); ++i) vertices_b.push_back(to_world(tb_, b.vertex(i)));
@@ -126,16 +126,16 @@ template <class S> class SolidTest : public testing::Test {
 };
 
 /// 40 hulls of 20 to 50 cm; among them some of 5 m, some of 3 cm, and chips a hundred times as wide as thick.
-template <class S> std::vector<std::unique_ptr<Solid<S>>> solids_of_many_sizes(std::uint32_t seed) {
+template <class S> std::vector<std::unique_ptr<Convex<S>>> solids_of_many_sizes(std::uint32_t seed) {
   scenes::Draws draws(seed);
-  std::vector<std::unique_ptr<Solid<S>>> solids;
+  std::vector<std::unique_ptr<Convex<S>>> solids;
   for (int n = 0; n < 40; ++n) {
     std::vector<GridPoint> points = drawn_points(n, draws);
     for (GridPoint& p : points) {
       if (n >= 24 && n < 28) p = {p.x / 16, p.y / 16, p.z / 16};
       if (n >= 32) p.y = p.y / 64;
     }
-    solids.push_back(std::make_unique<Solid<S>>(points, n >= 20 && n < 24 ? 12 : 16));
+    solids.push_back(std::make_unique<Convex<S>>(points, n >= 20 && n < 24 ? 12 : 16));
   }
   return solids;
 }

@@ -13,7 +13,7 @@
 #include "unit/collision/narrowphase/placed_solids.hpp"
 
 namespace isostep::test {
-namespace {
+namespace polyhedra_test {
 
 using oracle::D3;
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -26,7 +26,7 @@ template <class S> class Polyhedra : public SolidTest<S> {
     int apart = 0, beside = 0, faces_a = 0, faces_b = 0, edges = 0, points = 0;
   };
   /// Checks whatever must hold of two solids where they are.
-  void check(const Solid<S>& a, const Transform<S>& ta, const Solid<S>& b, const Transform<S>& tb, Tally& tally) {
+  void check(const Convex<S>& a, const Transform<S>& ta, const Convex<S>& b, const Transform<S>& tb, Tally& tally) {
     Manifold<S> m, swapped;
     collide_polyhedra(b.solid.polyhedron(), tb, a.solid.polyhedron(), ta, from_double<S>(kMargin), swapped);
     collide_polyhedra(a.solid.polyhedron(), ta, b.solid.polyhedron(), tb, from_double<S>(kMargin), m);
@@ -83,7 +83,7 @@ TYPED_TEST(Polyhedra, agree_with_every_axis) {
   const auto solids = solids_of_many_sizes<S>(21);
   typename TestFixture::Tally tally;
   for (int n = 0; n < 10000; ++n) {
-    const Solid<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 40 % 40)];
+    const Convex<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 40 % 40)];
     const D3 at = n % 3 == 0 ? D3{40, -30, 20} : D3{0, 0, 0};
     const double reach = this->random_.in(0.1, 1.05) * (a.radius() + b.radius());
     const Transform<S> ta = this->transform(at), tb = this->transform(at + this->random_.direction() * reach);
@@ -105,7 +105,7 @@ TYPED_TEST(Polyhedra, leave_out_no_edges_that_decide) {
   const S margin = from_double<S>(this->kMargin);
   int overlap = 0, apart = 0, none = 0, open = 0;
   for (int n = 0; n < 8000; ++n) {
-    const Solid<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 40 % 40)];
+    const Convex<S>&a = *solids[static_cast<std::size_t>(n % 40)], &b = *solids[static_cast<std::size_t>(n / 40 % 40)];
     const double reach = this->random_.in(0.3, 1.0) * (a.radius() + b.radius());
     const Transform<S> ta = this->transform(D3{0, 0, 0}), tb = this->transform(this->random_.direction() * reach);
     const Polyhedron<S> of_a = a.solid.polyhedron(), of_b = b.solid.polyhedron();
@@ -177,7 +177,7 @@ TYPED_TEST(Polyhedra, lie_on_a_half_space_with_the_face_that_looks_down_most) {
   scenes::Draws draws(23);
   int apart = 0, four = 0;
   for (int n = 0; n < 2000; ++n) {
-    const Solid<S> solid(drawn_points(n, draws), 16);
+    const Convex<S> solid(drawn_points(n, draws), 16);
     const D3 at = n % 3 == 0 ? D3{40, -30, 20} : D3{0, 0, 0};
     const Transform<S> tb = this->transform(at);
     const Transform<S> ta = this->transform(at + this->random_.point(0.6));
@@ -259,5 +259,5 @@ TYPED_TEST(Polyhedra, touch_where_both_of_them_are) {
   EXPECT_GT(touching, 100);
 }
 
-}  // namespace
+}  // namespace polyhedra_test
 }  // namespace isostep::test

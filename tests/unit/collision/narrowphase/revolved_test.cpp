@@ -11,7 +11,7 @@
 #include "unit/geometry/oracle.hpp"
 
 namespace isostep::test {
-namespace {
+namespace revolved_test {
 
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
 
@@ -115,5 +115,5 @@ TYPED_TEST(Revolved, a_box_of_triangles_is_touched_where_the_box_is) {
   }
 }
 
-}  // namespace
+}  // namespace revolved_test
 }  // namespace isostep::test

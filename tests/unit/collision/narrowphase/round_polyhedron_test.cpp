@@ -12,7 +12,7 @@
 #include "unit/collision/narrowphase/placed_solids.hpp"
 
 namespace isostep::test {
-namespace {
+namespace round_polyhedron_test {
 
 using oracle::D3;
 
@@ -255,5 +255,5 @@ TYPED_TEST(RoundOnPolyhedron, a_capsule_along_a_ridge_touches_it_at_both_ends) {
   }
 }
 
-}  // namespace
+}  // namespace round_polyhedron_test
 }  // namespace isostep::test

@@ -11,7 +11,7 @@
 #include "unit/geometry/oracle.hpp"
 
 namespace isostep::test {
-namespace {
+namespace triangle_test {
 
 using oracle::D3;
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -214,5 +214,5 @@ TYPED_TEST(Triangles, that_have_a_capsule_in_their_plane_push_it_off_the_near_ed
   EXPECT_GE(touches, 10);
 }
 
-}  // namespace
+}  // namespace triangle_test
 }  // namespace isostep::test

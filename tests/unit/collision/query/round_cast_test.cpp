@@ -6,7 +6,7 @@
 #include "unit/collision/query/cores.hpp"
 
 namespace isostep::test {
-namespace {
+namespace round_cast_test {
 
 using oracle::D3;
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -87,5 +87,5 @@ TYPED_TEST(RoundCasts, leave_a_plane_when_they_miss_that_no_other_way_crosses_un
   EXPECT_GT(spared, 500);
 }
 
-}  // namespace
+}  // namespace round_cast_test
 }  // namespace isostep::test

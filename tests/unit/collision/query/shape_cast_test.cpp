@@ -9,7 +9,7 @@
 #include "unit/collision/query/cores.hpp"
 
 namespace isostep::test {
-namespace {
+namespace shape_cast_test {
 
 using oracle::D3;
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
@@ -273,5 +273,5 @@ TYPED_TEST(ShapeCast, looks_no_further_than_it_is_told) {
   EXPECT_NEAR(to_double(hit.point.x), 3.75, 1e-4);
 }
 
-}  // namespace
+}  // namespace shape_cast_test
 }  // namespace isostep::test

@@ -7,7 +7,7 @@
 #include "isostep/session/client/host_search.hpp"
 
 namespace isostep {
-namespace {
+namespace failover_test {
 
 using Duty = Tenure::Duty;
 using Step = Election::Step;
@@ -344,5 +344,5 @@ TEST(Election, GoesOnWithThoseWhoAreHereWhenTheGameSaysSo) {
   EXPECT_EQ(election.supporters(), 0b110u);
 }
 
-}  // namespace
+}  // namespace failover_test
 }  // namespace isostep

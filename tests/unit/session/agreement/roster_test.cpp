@@ -8,7 +8,7 @@
 #include "isostep/session/protocol/message.hpp"
 
 namespace isostep {
-namespace {
+namespace roster_test {
 
 Roster of(int count) {
   Roster roster;
@@ -194,5 +194,5 @@ TEST(Roster, MessagesOfACandidateAreChecked) {
   EXPECT_FALSE(read_known(bytes).ok());
 }
 
-}  // namespace
+}  // namespace roster_test
 }  // namespace isostep

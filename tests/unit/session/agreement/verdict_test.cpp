@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace isostep {
-namespace {
+namespace verdict_test {
 
 Statements said(std::initializer_list<std::uint64_t> chains) {
   Statements statements;
@@ -27,5 +27,5 @@ TEST(Judge, NamesWhoDiffersFromMoreThanHalfOfAllThatWereAsked) {
   EXPECT_TRUE(judge(said({7, 7, 7})).is_decided);
 }
 
-}  // namespace
+}  // namespace verdict_test
 }  // namespace isostep

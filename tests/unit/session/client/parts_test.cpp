@@ -11,7 +11,7 @@
 #include "isostep/session/peer/tempo_track.hpp"
 
 namespace isostep {
-namespace {
+namespace parts_test {
 
 using Message = std::vector<std::uint8_t>;
 
@@ -186,5 +186,5 @@ TEST(Wishes, AreToldOnceTheLastOfEachKind) {
   EXPECT_FALSE(wishes.write_next(message));
 }
 
-}  // namespace
+}  // namespace parts_test
 }  // namespace isostep

@@ -9,7 +9,7 @@
 #include "isostep/world/world.hpp"
 
 namespace isostep {
-namespace {
+namespace event_log_ball_test {
 
 struct Touch {
   BodyId a, b;
@@ -86,5 +86,5 @@ TEST(EventLog, ABallThatIsRolledBackHitsTheFloorAsOftenAsInAStraightRun) {
   EXPECT_GT(ledger.taken_back, 0u) << "no contact was foreseen wrongly: the test shows nothing";
 }
 
-}  // namespace
+}  // namespace event_log_ball_test
 }  // namespace isostep

@@ -10,7 +10,7 @@
 #include "isostep/core/random.hpp"
 
 namespace isostep {
-namespace {
+namespace event_log_test {
 
 struct Hit {
   std::uint32_t who;
@@ -386,5 +386,5 @@ TEST(EventLog, AnyRollbacksConfirmWhatAStraightRunEmits) {
   EXPECT_GT(ledger.moved, 20u);
 }
 
-}  // namespace
+}  // namespace event_log_test
 }  // namespace isostep

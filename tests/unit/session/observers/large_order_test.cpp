@@ -7,7 +7,7 @@
 #include "isostep/core/random.hpp"
 
 namespace isostep {
-namespace {
+namespace large_order_test {
 
 struct Stick {
   std::int8_t way = 0;
@@ -151,5 +151,5 @@ TEST(OrderAssembly, ReadsNoStateThatCannotBe) {
   EXPECT_GT(refused, 1000);
 }
 
-}  // namespace
+}  // namespace large_order_test
 }  // namespace isostep

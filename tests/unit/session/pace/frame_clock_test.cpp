@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace isostep {
-namespace {
+namespace frame_clock_test {
 
 TEST(FrameClock, StepsAsManyFramesASecondAsItWasTold) {
   for (const int hz : {1, 30, 60, 144, 1000}) {
@@ -96,5 +96,5 @@ TEST(FrameClock, TwoClocksThatLeanTowardsAThirdMeetIt) {
   EXPECT_NEAR(client_frame, host_frame, 1);
 }
 
-}  // namespace
+}  // namespace frame_clock_test
 }  // namespace isostep

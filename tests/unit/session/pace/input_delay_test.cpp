@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace isostep {
-namespace {
+namespace input_delay_test {
 
 /// Frames of the same slack until the delay changes, or `limit`.
 int until_change(InputDelay& delay, Frame slack, int limit = 2000) {
@@ -130,5 +130,5 @@ TEST(RecentLeast, RemembersTwoBuckets) {
   EXPECT_EQ(least.value(), RecentLeast::kNothing);
 }
 
-}  // namespace
+}  // namespace input_delay_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace isostep {
-namespace {
+namespace line_meter_test {
 
 TEST(LineMeter, CountsWhatIsLostAcrossTheEndOfTheNumbers) {
   LineMeter meter;
@@ -50,5 +50,5 @@ TEST(LineMeter, SaysByHowMuchTheWaysOfDatagramsDiffer) {
   EXPECT_EQ(meter.jitter(200 * kSecond), 0u) << "nothing was heard for a minute";
 }
 
-}  // namespace
+}  // namespace line_meter_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace isostep {
-namespace {
+namespace remote_position_test {
 
 constexpr Time kPeriod = 10000;  // [us]
 /// The key of a number, ascending for negative ones too.
@@ -70,5 +70,5 @@ TEST(RemotePosition, FollowsAPeerThatIsReallyElsewhere) {
   EXPECT_TRUE(position.is_near(505, now, kPeriod)) << "five datagrams are enough";
 }
 
-}  // namespace
+}  // namespace remote_position_test
 }  // namespace isostep

@@ -10,7 +10,7 @@
 #include "isostep/core/random.hpp"
 
 namespace isostep {
-namespace {
+namespace stall_budget_test {
 
 TEST(StallBudget, ForgetsWhatIsAMinuteOld) {
   StallBudget budget;
@@ -44,5 +44,5 @@ TEST(StallBudget, IsTheSumOfFiftyFiveToSixtySeconds) {
   }
 }
 
-}  // namespace
+}  // namespace stall_budget_test
 }  // namespace isostep

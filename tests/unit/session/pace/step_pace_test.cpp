@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace isostep {
-namespace {
+namespace step_pace_test {
 
 constexpr Time kPeriod = 16666;  // [us]
 
@@ -116,5 +116,5 @@ TEST(StepPace, APauseOrAWaitForOthersIsNotSlowness) {
   EXPECT_EQ(pace.stretch(), 0);
 }
 
-}  // namespace
+}  // namespace step_pace_test
 }  // namespace isostep

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace isostep {
-namespace {
+namespace peer_link_test {
 
 TEST(Allowance, ASteadyPeerWithinItIsAlwaysHeard) {
   for (const std::uint32_t most : {1u, 2u, 60u, 480u, 1000000u}) {
@@ -74,5 +74,5 @@ TEST(PeerLink, AnEchoFromTheFutureIsIgnored) {
   }
 }
 
-}  // namespace
+}  // namespace peer_link_test
 }  // namespace isostep

@@ -8,7 +8,7 @@
 #include <deque>
 
 namespace isostep {
-namespace {
+namespace snapshot_transfer_test {
 
 /// A line of one rate and one round trip: what is sent waits for what was sent before.
 struct Outcome {
@@ -110,5 +110,5 @@ TEST(SnapshotTransfer, OfWhatIsThereAlreadyHasNothingToSend) {
   EXPECT_EQ(transfer.next_piece(0), 0u);
 }
 
-}  // namespace
+}  // namespace snapshot_transfer_test
 }  // namespace isostep

@@ -10,7 +10,7 @@
 #include "isostep/session/config.hpp"
 
 namespace isostep {
-namespace {
+namespace message_test {
 
 using Buffer = std::vector<std::uint8_t>;
 
@@ -245,5 +245,5 @@ TEST(Message, OpeningsOutOfRangeAreRefused) {
   EXPECT_TRUE(read_open(bytes).ok());
 }
 
-}  // namespace
+}  // namespace message_test
 }  // namespace isostep

@@ -12,7 +12,7 @@
 #include "isostep/session/timeline/input_codec.hpp"
 
 namespace isostep {
-namespace {
+namespace packet_test {
 
 using Buffer = std::vector<std::uint8_t>;
 
@@ -395,5 +395,5 @@ TEST(Packet, SlicesOutOfRangeAreRefused) {
   EXPECT_FALSE(slice_reads(3, 0, 1, 1, true)) << "one player twice";
 }
 
-}  // namespace
+}  // namespace packet_test
 }  // namespace isostep

@@ -7,7 +7,7 @@
 #include <bit>
 
 namespace isostep {
-namespace {
+namespace siphash_test {
 
 /// The key of the paper: the bytes 0, 1, ... 15.
 constexpr SipKey kKey = {0x0706050403020100u, 0x0f0e0d0c0b0a0908u};
@@ -40,5 +40,5 @@ TEST(SipHash, ChangesInHalfOfItsBitsWithEveryBitOfTheKey) {
   }
 }
 
-}  // namespace
+}  // namespace siphash_test
 }  // namespace isostep

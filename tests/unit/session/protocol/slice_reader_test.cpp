@@ -7,7 +7,7 @@
 #include "isostep/session/protocol/packet.hpp"
 
 namespace isostep {
-namespace {
+namespace slice_reader_test {
 
 using Buffer = std::vector<std::uint8_t>;
 
@@ -55,5 +55,5 @@ TEST(SliceReader, DamagedTokensAreNoticed) {
   }
 }
 
-}  // namespace
+}  // namespace slice_reader_test
 }  // namespace isostep

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace isostep {
-namespace {
+namespace wire_test {
 
 using Buffer = std::vector<std::uint8_t>;
 
@@ -120,5 +120,5 @@ TEST(Wire, TheFirstFailureSticks) {
   EXPECT_TRUE(whole.failed());
 }
 
-}  // namespace
+}  // namespace wire_test
 }  // namespace isostep

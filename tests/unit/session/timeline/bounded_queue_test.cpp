@@ -7,7 +7,7 @@
 #include <deque>
 
 namespace isostep {
-namespace {
+namespace bounded_queue_test {
 
 TEST(BoundedQueue, GivesBackInOrder) {
   BoundedQueue<int> queue(3);
@@ -49,5 +49,5 @@ TEST(BoundedQueue, DoesWhatAListOfThatLengthDoes) {
   }
 }
 
-}  // namespace
+}  // namespace bounded_queue_test
 }  // namespace isostep

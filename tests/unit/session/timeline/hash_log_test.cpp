@@ -7,7 +7,7 @@
 #include "isostep/state/hash.hpp"
 
 namespace isostep {
-namespace {
+namespace hash_log_test {
 
 std::uint64_t hash_of(std::uint64_t a, std::uint64_t b) {
   std::uint8_t bytes[16];
@@ -111,5 +111,5 @@ TEST(HashLog, StartsAnewAnywhere) {
   EXPECT_EQ(log.settled().chain, link(42, 44));
 }
 
-}  // namespace
+}  // namespace hash_log_test
 }  // namespace isostep

@@ -12,7 +12,7 @@
 #include "isostep/scalar/scalar.hpp"
 
 namespace isostep {
-namespace {
+namespace input_codec_test {
 
 using Buffer = std::vector<std::uint8_t>;
 
@@ -243,5 +243,5 @@ TEST(InputRules, APredictorOfTheGamesOwnKnowsHowFarItGuesses) {
   }
 }
 
-}  // namespace
+}  // namespace input_codec_test
 }  // namespace isostep

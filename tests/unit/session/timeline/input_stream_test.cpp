@@ -11,7 +11,7 @@
 #include "isostep/core/random.hpp"
 
 namespace isostep {
-namespace {
+namespace input_stream_test {
 
 using Buffer = std::vector<std::uint8_t>;
 
@@ -125,5 +125,5 @@ TEST(InputStream, DoesWhatAListDoes) {
   }
 }
 
-}  // namespace
+}  // namespace input_stream_test
 }  // namespace isostep

@@ -7,7 +7,7 @@
 #include "isostep/core/random.hpp"
 
 namespace isostep {
-namespace {
+namespace timeline_test {
 
 struct Key {
   std::uint8_t down = 0;
@@ -147,5 +147,5 @@ TEST_F(Table, WhateverComesInWhateverOrderWhatWasSaidIsPlayedInTheEnd) {
   EXPECT_GT(timeline.current(), 1000);
 }
 
-}  // namespace
+}  // namespace timeline_test
 }  // namespace isostep
