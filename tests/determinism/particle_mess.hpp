@@ -155,7 +155,7 @@ template <class S> std::uint64_t play(ParticleWorld<S>& w, std::uint64_t frame, 
   RandomCommands<S> random(w, frame * 1000003 + 17, 0);
   const std::uint32_t count = random.chance().below(8);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const bool taken = w.apply(random.next());
+    const bool taken = apply_any(w, random.next());
     if (activity != nullptr) ++(taken ? activity->accepted : activity->refused);
   }
   const ParticleReport report = w.step();

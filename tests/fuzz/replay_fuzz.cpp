@@ -50,8 +50,8 @@ void check_facts(Bytes payload, std::uint64_t frames) {
 
 template <class S> void check_command_log(Bytes log) {
   std::uint32_t commands = 0, steps = 0;
-  const Result<void> played = play_commands<Command<S>>(
-      log, [&](const Command<S>&) { return ++commands != 1000; }, [&] { ++steps; });
+  const Result<void> played = play_commands<EveryCommand<S>>(
+      log, [&](const auto&) { return ++commands != 1000; }, [&] { ++steps; });
   require(steps <= kFrameStepCap && commands <= 1000 && commands + steps <= log.size());
   if (played) require(log.empty() == (commands + steps == 0));
 }

@@ -143,11 +143,11 @@ template <class S> void use_state(World<S>& world) {
   keep(commands.begin("none")), keep(commands.end_frame()), keep(commands.keyframe()), keep(commands.finish());
   std::vector<std::uint8_t> log;
   Writer log_writer(log);
-  using Few = std::variant<SetPose<S>, AddShape<S>>;  // names of the whole list fill pages
+  using Few = CommandTypes<void, SetPose<S>, AddShape<S>>;  // names of the whole list fill pages
   write_command<Few>(log_writer, SetPose<S>{BodyId{}, Pose<S>::identity()});
   write_command<Few>(log_writer, AddShape<S>{});
   keep(play_commands<Few>(
-           log, [&](const Few&) { return true; }, [&] { world.step(); })
+           log, [&](const auto&) { return true; }, [&] { world.step(); })
            .ok());
 }
 
@@ -185,7 +185,7 @@ template <class S> void use_world() {
   world.cast_ray_all({S(0), S(9), S(0)}, {S(0), S(-9), S(0)}, hits);
   keep(world.closest_point({S(0), S(9), S(0)}, S(4))), keep(world.pose(body)), keep(world.bodies().size());
   for (const RenderPose& pose : world.poses_float(0.5f)) keep(pose.position);
-  world.apply(Command<S>(WakeBody{body}));
+  world.apply(WakeBody{body});
   Drawer drawer;
   draw(world, drawer, {.masses = true});
   typename World<S>::Snapshot frame;
@@ -218,7 +218,7 @@ template <class S> void use_particle_records(ParticleWorld<S>& world, ParticleId
   keep(world.find(spring_id)), keep(world.find(force_id)), keep(world.find(cohesion_id));
   ParticleTouch<S> touch = {};
   touch.particle = a;
-  keep(world.touch(touch)), keep(world.apply(ParticleCommand<S>(DestroyParticle{ParticleId{}})));
+  keep(world.touch(touch)), keep(world.apply(DestroyParticle{ParticleId{}}));
   keep(ParticleLimits<S>::position()), keep(ParticleLimits<S>::speed()), keep(ParticleLimits<S>::acceleration());
   keep(ParticleLimits<S>::least_mass()), keep(ParticleLimits<S>::mass());
   keep(distance_to(plane, {S(1), S(2), S(3)}));

@@ -32,7 +32,7 @@ bool read(World<float>& world, const Buffer& bytes) {
   return world.read_portable(reader).ok();
 }
 bool play(World<float>& world, const Buffer& log) {
-  return play_commands<Command<float>>(
+  return play_commands<EveryCommand<float>>(
              log, [&](const auto& c) { return static_cast<bool>(world.apply(c)); }, [] {})
       .ok();
 }

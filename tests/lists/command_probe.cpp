@@ -14,7 +14,7 @@ int main() {
   world.record_to(&log);
   const bool taken = world.apply(Probe{3}), again = world.apply(Probe{2});
   const FaultReport& fault = world.fault();
-  const Result<void> played = play_commands<Command<float>>(
+  const Result<void> played = play_commands<EveryCommand<float>>(
       log, [&](const auto& command) { return static_cast<bool>(other.apply(command)); }, [] {});
   std::printf("taken %d again %d %s.%s bytes %d number %d played %d tick %d\n", taken, again, fault.command,
               fault.field, static_cast<int>(log.size()), log[0], played.ok(), static_cast<int>(other.tick()));

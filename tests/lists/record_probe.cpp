@@ -53,7 +53,7 @@ int main() {
   world.set(balloon, Balloon<float>{BodyId{}, 3});
   say_refusal(world);
   world.set(balloon, Balloon<float>{body, 3});
-  const Result<void> played = play_commands<Command<float>>(
+  const Result<void> played = play_commands<EveryCommand<float>>(
       log, [&](const auto& command) { return static_cast<bool>(other.apply(command)); }, [] {});
   std::vector<std::uint8_t> bytes;
   Writer writer(bytes);

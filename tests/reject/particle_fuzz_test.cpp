@@ -8,7 +8,7 @@
 namespace isostep::test {
 namespace particle_fuzz_test {
 
-constexpr std::size_t kKinds = std::variant_size_v<ParticleCommand<float>>;
+constexpr std::size_t kKinds = EveryParticleCommand<float>::kCount;
 constexpr std::size_t kFaults = static_cast<std::size_t>(Fault::not_dynamic) + 1;
 
 struct Tally {
@@ -37,7 +37,7 @@ template <class S> void play(ParticleWorld<S>& w, std::uint64_t seed, std::uint3
     const ParticleCommand<S> command = random.next();
     const bool looks = i % 4 == 0;
     const std::uint64_t before = looks ? w.hash() : 0;
-    const bool taken = w.apply(command);
+    const bool taken = apply_any(w, command);
     ++(taken ? tally.accepted : tally.refused)[command.index()];
     ++tally.faults[static_cast<std::size_t>(w.fault().fault)];
     ASSERT_EQ(taken, w.fault() == Fault::none) << describe(w.fault());

@@ -139,7 +139,7 @@ TYPED_TEST(ParticleReplay, command_logs_that_no_world_wrote_are_refused) {
   ParticleWorld<S> empty;
   log.clear();
   Writer writer(log);
-  write_command<ParticleCommand<S>>(writer, DestroyParticle{id});
+  write_command<EveryParticleCommand<S>>(writer, DestroyParticle{id});
   EXPECT_FALSE(empty.step_recorded(log).ok()) << "a command that the world refuses";
 }
 

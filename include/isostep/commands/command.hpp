@@ -265,7 +265,7 @@ template <class Input> using SetInputOf = SetInput<Input, typename detail::Recor
 #define ISO_INPUT_COMMAND(X, name, Input, Id, S) X(set_##name##_input, SetInputOf<Input>, bool, S)
 
 #define ISO_TYPE(name, Type, Result, S) , Type
-template <class S> using Command = CommandVariant<void ISO_FOR_EACH_COMMAND(ISO_TYPE, S)>;
+template <class S> using EveryCommand = CommandTypes<void ISO_FOR_EACH_COMMAND(ISO_TYPE, S)>;
 #undef ISO_TYPE
 
 #define ISO_NAME(name, Type, Result, S) #name,

@@ -28,7 +28,7 @@ namespace isostep {
 /// Keeps:   nothing.
 template <class S> class CommandExecutor {
  public:
-  using Command = isostep::Command<S>;
+  using EveryCommand = isostep::EveryCommand<S>;
 
   ISO_INLINE CommandExecutor(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies, IslandWake<S>& wake,
                              IslandSleep<S>& sleep, Destruction<S>& destruction, RenderPoses<S>& render_poses,

@@ -134,10 +134,10 @@ template <class S> std::size_t CommandExecutor<S>::destroy_all(std::span<const B
   std::size_t count = 0;
   for (const BodyId body : bodies) {
     if (!mark_for_destruction(body)) {
-      faults_.sign(kCommandNames[detail::kNumberOf<DestroyBody, Command>]);
+      faults_.sign(kCommandNames[detail::kNumberOf<DestroyBody, EveryCommand>]);
       continue;
     }
-    journal_.record<Command>(DestroyBody{body});
+    journal_.record<EveryCommand>(DestroyBody{body});
     ++count;
     // Sleepers are woken to be destroyed: so that the awake stay few, those that are gone leave now and then.
     const std::size_t marked = destruction_.marked_awake();

@@ -14,7 +14,7 @@ namespace isostep {
 /// changes nothing and leaves its fault in the log.
 template <class S> class ParticleCommands {
  public:
-  using Command = ParticleCommand<S>;
+  using EveryCommand = EveryParticleCommand<S>;
 
   ISO_INLINE ParticleCommands(ParticleState<S>& state, FaultLog& faults, ParticleRemoval<S>& removal)
       : state_(state), faults_(faults), removal_(removal) {}

@@ -88,7 +88,8 @@ template <class S> struct SetParticleGravity {
 
 #define ISO_TYPE(name, Type, Result, S) , Type
 #define ISO_TYPES(name, Record, Id, S) , AddRecord<Record>, SetRecord<Record, Id>, RemoveRecord<Id>
-template <class S> using ParticleCommand = CommandVariant<void ISO_FOR_EACH_PARTICLE_COMMAND(ISO_TYPE, ISO_TYPES, S)>;
+template <class S>
+using EveryParticleCommand = CommandTypes<void ISO_FOR_EACH_PARTICLE_COMMAND(ISO_TYPE, ISO_TYPES, S)>;
 #undef ISO_TYPE
 #undef ISO_TYPES
 

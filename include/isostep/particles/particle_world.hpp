@@ -25,7 +25,7 @@ template <class S> struct WorldParts<ParticleWorld<S>> {
   using Settings = ParticleSettings<S>;
   using State = ParticleState<S>;
   using Engine = ParticleEngine<S>;
-  using Command = ParticleCommand<S>;
+  using EveryCommand = EveryParticleCommand<S>;
   static constexpr std::uint32_t kStages = kParticleStages;
   static constexpr const char* kName = "particle world";
 };
@@ -49,7 +49,7 @@ template <class S> class ParticleWorld final : public WorldBase<ParticleWorld<S>
 
  public:
   using Scalar = S;
-  using Command = ParticleCommand<S>;
+  using EveryCommand = EveryParticleCommand<S>;
 
   /// Settings out of range are brought into it, and that is a fault.
   explicit ParticleWorld(const ParticleSettings<S>& settings = {}) : Base(settings) {}
@@ -91,8 +91,6 @@ template <class S> class ParticleWorld final : public WorldBase<ParticleWorld<S>
   ISO_FOR_EACH_PARTICLE_COMMAND(ISO_APPLY, ISO_APPLY_RECORD, S)
 #undef ISO_APPLY
 #undef ISO_APPLY_RECORD
-  /// Any of them, as recorded ones are.
-  bool apply(const ParticleCommand<S>& command);
 
   // Getters of particles. A stale id gives the zero of the type that is returned.
   bool contains(ParticleId particle) const;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <utility>
-#include <variant>
 
 #include "isostep/particles/commands.inl"
 #include "isostep/particles/engine_state.inl"
@@ -49,9 +48,6 @@ template <class S> const char* ParticleWorld<S>::simd_name() const { return engi
 ISO_FOR_EACH_PARTICLE_COMMAND(ISO_APPLY, ISO_RECORD, S)
 #undef ISO_APPLY
 #undef ISO_RECORD
-template <class S> bool ParticleWorld<S>::apply(const ParticleCommand<S>& command) {
-  return std::visit([&](const auto& c) { return static_cast<bool>(apply(c)); }, command);
-}
 
 template <class S> ParticleMaterialId ParticleWorld<S>::default_material() const {
   return engine_->state_.first_material();

@@ -15,11 +15,11 @@ class CommandJournal {
   /// Appends commands to `log` from now on; null: to nothing.
   ISO_INLINE void record_to(std::vector<std::uint8_t>* log) { log_ = log; }
   ISO_INLINE bool records_to(const std::vector<std::uint8_t>* log) const { return log_ == log; }
-  /// A command of the closed list `Command`.
-  template <class Command, class C> ISO_INLINE void record(const C& command) {
+  /// Records a command of a closed list.
+  template <class List, class C> ISO_INLINE void record(const C& command) {
     if (log_ == nullptr) return;
     Writer writer(*log_);
-    write_command<Command>(writer, command);
+    write_command<List>(writer, command);
   }
   ISO_INLINE void record_step() {
     if (log_ != nullptr) log_->push_back(kStepMarker);

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <variant>
 
 #include "isostep/core/result.hpp"
 #include "isostep/state/archive.hpp"
@@ -33,13 +32,8 @@ concept WritesItself = requires(C& command, const C& same, Writer& writer, Reade
 template <class C>
 concept Recordable = HasFields<C> || WritesItself<C>;
 
-template <class Unused, class... Commands> struct CommandVariantOf {
-  static_assert((Recordable<Commands> && ...), "a command lacks `fields`, or `write` and `read`");
-  using Type = std::variant<Commands...>;
-};
-
 /// The place of each command in a list, as base classes: one instantiation for the list and one for each place, where a
-/// search through std::variant takes as many for every command, and a list of a hundred is minutes of compiling.
+/// search through a std::variant takes as many for every command.
 template <std::size_t I, class C> struct Numbered {};
 template <class Indices, class... Commands> struct NumbersOf;
 template <std::size_t... I, class... Commands>
@@ -61,24 +55,30 @@ struct NumbersOf<std::index_sequence<I...>, Commands...> : Numbered<I, Commands>
     return true;
   }
 };
-template <class Variant> struct Numbers;
-template <class... Commands>
-struct Numbers<std::variant<Commands...>> : NumbersOf<std::index_sequence_for<Commands...>, Commands...> {};
+template <class List> struct Numbers;
 template <class C, std::size_t I> constexpr std::uint8_t number_in(const Numbered<I, C>*) { return I; }
 /// The number of a command in a list.
-template <class C, class Variant>
-inline constexpr std::uint8_t kNumberOf = number_in<C>(static_cast<const Numbers<Variant>*>(nullptr));
+template <class C, class List>
+inline constexpr std::uint8_t kNumberOf = number_in<C>(static_cast<const Numbers<List>*>(nullptr));
 }  // namespace detail
 
 /// The closed list of a world's commands: a command's place in it is its number. A macro that writes the list puts a
-/// comma before each, so what stands before the first comma is not used.
-template <class Unused, class... Commands>
-using CommandVariant = typename detail::CommandVariantOf<Unused, Commands...>::Type;
+/// comma before each, so what stands before the first comma is not used. No std::variant holds them: each conversion to
+/// one of a hundred commands takes the compiler a second.
+template <class Unused, class... Commands> struct CommandTypes {
+  static_assert((detail::Recordable<Commands> && ...), "a command lacks `fields`, or `write` and `read`");
+  static constexpr std::size_t kCount = sizeof...(Commands);
+  static_assert(kCount < kStepMarker);
+};
 
-/// `Variant` is such a list.
-template <class Variant, class C> ISO_INLINE void write_command(Writer& writer, const C& command) {
-  static_assert(std::variant_size_v<Variant> < kStepMarker);
-  writer.write(detail::kNumberOf<C, Variant>);
+namespace detail {
+template <class Unused, class... Commands>
+struct Numbers<CommandTypes<Unused, Commands...>> : NumbersOf<std::index_sequence_for<Commands...>, Commands...> {};
+}  // namespace detail
+
+/// Writes a command of the list: its number and its content.
+template <class List, class C> ISO_INLINE void write_command(Writer& writer, const C& command) {
+  writer.write(detail::kNumberOf<C, List>);
   if constexpr (detail::WritesItself<C>) {
     command.write(writer);
   } else {
@@ -88,9 +88,9 @@ template <class Variant, class C> ISO_INLINE void write_command(Writer& writer, 
 
 /// Calls visit(command) with the one that is next, as the type that it is. Bytes that are no command are not visited,
 /// and leave a reader that has failed.
-template <class Variant, class Visit> ISO_INLINE void read_command(Reader& reader, Visit&& visit) {
+template <class List, class Visit> ISO_INLINE void read_command(Reader& reader, Visit&& visit) {
   const auto number = reader.read<std::uint8_t>();
-  const bool known = detail::Numbers<Variant>::visit_read(number, reader, visit);
+  const bool known = detail::Numbers<List>::visit_read(number, reader, visit);
   if (reader.ok() && !known) reader.fail(ErrorCode::invalid, "no command has this number");
 }
 
@@ -102,13 +102,13 @@ struct Stepper {
 
 /// A frame's command log from front to back: `apply(command)`, called with each as the type that it is, says whether it
 /// was accepted. What comes before an error was done.
-template <class Variant, class Apply, class Step>
+template <class List, class Apply, class Step>
 ISO_INLINE Result<void> play_commands(Bytes log, Apply&& apply, Step&& step) {
   Reader reader(log);
   std::uint32_t steps = 0;
   while (reader.remaining() > 0) {
     if (log[reader.offset()] != kStepMarker) {
-      read_command<Variant>(reader, [&](const auto& command) ISO_INLINE_LAMBDA {
+      read_command<List>(reader, [&](const auto& command) ISO_INLINE_LAMBDA {
         if (!apply(command)) reader.fail(ErrorCode::corrupt, "a recorded command was refused");
       });
     } else if (steps++ == kFrameStepCap) {

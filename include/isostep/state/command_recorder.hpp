@@ -31,7 +31,7 @@ ISO_INLINE Result<ReplayHeader> header_of_world(const Settings& settings, std::s
 /// it: write_command for what it accepts, kStepMarker for a step.
 template <class W>
 concept RecordableWorld = ReplayableSimulation<W> && requires(W& world, const W& same, std::vector<std::uint8_t>* log) {
-  typename W::Command;
+  typename W::EveryCommand;
   world.record_to(log);
   { same.records_to(log) } -> std::same_as<bool>;
   { same.tick() } -> std::convertible_to<std::uint64_t>;   // steps taken

@@ -25,7 +25,7 @@ template <class World> class WorldBase {
 
  public:
   using State = typename Parts::State;
-  using Command = typename Parts::Command;
+  using EveryCommand = typename Parts::EveryCommand;
 
   const typename Parts::Settings& settings() const;
   std::uint64_t tick() const;

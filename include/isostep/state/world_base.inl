@@ -3,7 +3,6 @@
 #pragma once
 
 #include <utility>
-#include <variant>
 
 #include "isostep/scalar/environment.hpp"
 #include "isostep/state/fields.hpp"
@@ -59,7 +58,7 @@ template <class World> Result<void> WorldBase<World>::step_recorded(Bytes input,
   if (!engine_->desk_.enter("step_recorded").allowed())
     return Error{ErrorCode::invalid, "called while the world steps", "commands"};
   World& world = static_cast<World&>(*this);
-  return play_commands<Command>(
+  return play_commands<EveryCommand>(
       input, [&](const auto& command) ISO_INLINE_LAMBDA { return static_cast<bool>(world.apply(command)); },
       [&]() ISO_INLINE_LAMBDA { stepper.step(stepper.user); });
 }

@@ -21,7 +21,7 @@ struct WorldDesk {
 
   ISO_INLINE ExclusiveCall enter(const char* name) { return {entry, faults, name}; }
 
-  /// Has a command of the closed list Executor::Command executed. Returns what `execute` returns: an id of what was
+  /// Has a command of the list Executor::EveryCommand executed. Returns what `execute` returns: an id of what was
   /// made, or whether it was accepted. What is refused changes nothing and is not recorded.
   template <class Executor, class C> ISO_INLINE auto run(const char* name, Executor& executor, const C& command) {
     using Result = decltype(executor.execute(command));
@@ -30,7 +30,7 @@ struct WorldDesk {
     faults.clear();
     const Result result = pin_floats([&] { return executor.execute(command); });
     faults.sign(name);
-    if (static_cast<bool>(result)) journal.record<typename Executor::Command>(command);
+    if (static_cast<bool>(result)) journal.record<typename Executor::EveryCommand>(command);
     return result;
   }
 

@@ -35,7 +35,7 @@ template <class S> struct WorldParts<World<S>> {
   using Settings = isostep::Settings<S>;
   using State = WorldState<S>;
   using Engine = WorldEngine<S>;
-  using Command = isostep::Command<S>;
+  using EveryCommand = isostep::EveryCommand<S>;
   static constexpr std::uint32_t kStages = isostep::kStages;
   static constexpr const char* kName = "world";
 };
@@ -56,7 +56,7 @@ template <class S> class World final : public WorldBase<World<S>> {
 
  public:
   using Scalar = S;
-  using Command = isostep::Command<S>;
+  using EveryCommand = isostep::EveryCommand<S>;
 
   /// Settings out of range are brought into it, and that is a fault. So is a solver that the build leaves out
   /// (ISOSTEP_BOOK): the world has soft_step then.
@@ -201,8 +201,6 @@ template <class S> class World final : public WorldBase<World<S>> {
 #define ISO_APPLY(name, Type, Result, S) Result apply(const Type& command);
   ISO_FOR_EACH_COMMAND(ISO_APPLY, S)
 #undef ISO_APPLY
-  /// Applies any of them, as recorded ones are.
-  bool apply(const Command& command);
 
   // Getters of bodies. A stale id gives the zero of the type that is returned.
   bool contains(BodyId body) const;

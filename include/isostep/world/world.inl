@@ -3,7 +3,6 @@
 #pragma once
 
 #include <utility>
-#include <variant>
 
 #include "isostep/scalar/environment.hpp"
 #include "isostep/state/world_base.inl"
@@ -47,9 +46,6 @@ template <class S> void World<S>::use_assets(const AssetSource& assets) {
   }
 ISO_FOR_EACH_COMMAND(ISO_APPLY, S)
 #undef ISO_APPLY
-template <class S> bool World<S>::apply(const Command& command) {
-  return std::visit([&](const auto& c) { return static_cast<bool>(apply(c)); }, command);
-}
 
 namespace detail {
 template <class S, class Shape> ShapeId add_one(World<S>& world, const Shape& shape) {

@@ -307,8 +307,8 @@ TYPED_TEST(ParticleCommands, commands_applied_as_records_do_the_same) {
 /// By position in the list: files name them by these.
 TYPED_TEST(ParticleCommands, have_the_numbers_that_replays_know) {
   using S = TypeParam;
-  using Command = ParticleCommand<S>;
-  static_assert(std::variant_size_v<Command> == 27);
+  using Command = EveryParticleCommand<S>;
+  static_assert(Command::kCount == 27);
   static_assert(detail::kNumberOf<SetParticleGravity<S>, Command> == 8);
   static_assert(detail::kNumberOf<AddRecord<ParticleMaterial<S>>, Command> == 9);
   static_assert(detail::kNumberOf<SetRecord<Spring<S>, SpringId>, Command> == 13);

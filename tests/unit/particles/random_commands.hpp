@@ -2,9 +2,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <variant>
+
 #include "unit/particles/particle_worlds.hpp"
 
 namespace isostep::test {
+
+template <class List> struct VariantOf;
+template <class Unused, class... Commands> struct VariantOf<CommandTypes<Unused, Commands...>> {
+  using Type = std::variant<Commands...>;
+};
+/// Any command of a particle world.
+template <class S> using ParticleCommand = typename VariantOf<EveryParticleCommand<S>>::Type;
+
+/// Returns whether the world accepted it.
+template <class S> bool apply_any(ParticleWorld<S>& w, const ParticleCommand<S>& command) {
+  return std::visit([&](const auto& one) { return static_cast<bool>(w.apply(one)); }, command);
+}
 
 /// A function of the seed, the world's state and `wild`: of 1000 numbers, enumerators and ids so many are not meant to
 /// be taken. 0: those of a lively game.

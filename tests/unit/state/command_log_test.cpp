@@ -23,7 +23,7 @@ struct Heard {
   Result<void> result;
 
   explicit Heard(Bytes log, std::size_t accepted = 1000)
-      : result(play_commands<ToyCommand>(
+      : result(play_commands<EveryToyCommand>(
             log,
             [&](const ToyCommand& command) {
               commands.push_back(command);
@@ -35,9 +35,9 @@ struct Heard {
 TEST(CommandLog, ACommandIsItsPlaceInTheListAndItsFields) {
   Buffer log;
   Writer writer(log);
-  write_command<ToyCommand>(writer, Clear{});
+  write_command<EveryToyCommand>(writer, Clear{});
   EXPECT_EQ(log, (Buffer{1}));
-  write_command<ToyCommand>(writer, Push{0x01020304, Q32_32(1.5)});
+  write_command<EveryToyCommand>(writer, Push{0x01020304, Q32_32(1.5)});
   EXPECT_EQ(log, (Buffer{1, 0, 0x84, 0x86, 0x88, 0x08, 0, 0, 0, 0x80, 1, 0, 0, 0}));
 }
 
@@ -70,7 +70,7 @@ TEST(CommandLog, IsWhatItsCommandsAreWrittenAs) {
     Buffer again;
     Writer writer(again);
     for (const ToyCommand& command : heard.commands)
-      std::visit([&](const auto& one) { write_command<ToyCommand>(writer, one); }, command);
+      std::visit([&](const auto& one) { write_command<EveryToyCommand>(writer, one); }, command);
     ASSERT_EQ(again, log);
     ++read;
   }
@@ -80,7 +80,7 @@ TEST(CommandLog, IsWhatItsCommandsAreWrittenAs) {
 TEST(CommandLog, ACommandOfVaryingLengthWritesItself) {
   Buffer log;
   Writer writer(log);
-  write_command<ToyCommand>(writer, Fill{{7, 0x0102}});
+  write_command<EveryToyCommand>(writer, Fill{{7, 0x0102}});
   EXPECT_EQ(log, (Buffer{2, 2, 0, 0, 0, 7, 0, 2, 1}));
 }
 
@@ -88,11 +88,11 @@ TEST(CommandLog, IsPlayedFromFrontToBackWithTheStepsInTheirPlaces) {
   Buffer log;
   Writer writer(log);
   log.push_back(kStepMarker);
-  write_command<ToyCommand>(writer, Push{3, Q32_32(-0.25)});
-  write_command<ToyCommand>(writer, Fill{{5, 6, 7}});
+  write_command<EveryToyCommand>(writer, Push{3, Q32_32(-0.25)});
+  write_command<EveryToyCommand>(writer, Fill{{5, 6, 7}});
   log.push_back(kStepMarker);
   log.push_back(kStepMarker);
-  write_command<ToyCommand>(writer, Clear{});
+  write_command<EveryToyCommand>(writer, Clear{});
   const Heard heard{log};
   ASSERT_TRUE(heard.result.ok());
   EXPECT_EQ(heard.steps, (std::vector<std::size_t>{0, 2, 2}));
@@ -116,9 +116,9 @@ TEST(CommandLog, ANumberThatNoCommandHasIsInvalid) {
 TEST(CommandLog, ACommandThatIsCutOffIsNotCarriedOut) {
   Buffer whole;
   Writer writer(whole);
-  write_command<ToyCommand>(writer, Push{1, 2});
+  write_command<EveryToyCommand>(writer, Push{1, 2});
   const std::size_t push = whole.size();
-  write_command<ToyCommand>(writer, Fill{{1, 2, 3}});
+  write_command<EveryToyCommand>(writer, Fill{{1, 2, 3}});
   for (std::size_t size = 1; size < whole.size(); ++size) {
     const Heard heard{Bytes(whole).first(size)};
     EXPECT_EQ(heard.result.ok(), size == push) << size;
@@ -129,10 +129,10 @@ TEST(CommandLog, ACommandThatIsCutOffIsNotCarriedOut) {
 TEST(CommandLog, ACountAboveTheCommandsOwnCapIsRefused) {
   Buffer log;
   Writer writer(log);
-  write_command<ToyCommand>(writer, Fill{std::vector<std::uint16_t>(kFillCap, 9)});
+  write_command<EveryToyCommand>(writer, Fill{std::vector<std::uint16_t>(kFillCap, 9)});
   EXPECT_TRUE(Heard{log}.result.ok());
   log.clear();
-  write_command<ToyCommand>(writer, Fill{std::vector<std::uint16_t>(kFillCap + 1, 9)});
+  write_command<EveryToyCommand>(writer, Fill{std::vector<std::uint16_t>(kFillCap + 1, 9)});
   const Heard heard{log};
   EXPECT_FALSE(heard.result.ok());
   EXPECT_TRUE(heard.commands.empty());

@@ -30,6 +30,7 @@ struct Fill {
   void read(Reader& reader) { reader.read_array(numbers, kFillCap); }
 };
 using ToyCommand = std::variant<Push, Clear, Fill>;
+using EveryToyCommand = CommandTypes<void, Push, Clear, Fill>;
 
 struct ToySettings {
   std::uint32_t hz = 30;
@@ -53,7 +54,7 @@ struct ToyObserver {
 class ToyWorld {
  public:
   using Scalar = Q32_32;
-  using Command = ToyCommand;
+  using EveryCommand = EveryToyCommand;
   struct State {
     std::uint64_t tick = 0, sum = 0;
     ISO_FIELDS(tick, sum)
@@ -68,7 +69,7 @@ class ToyWorld {
   bool records_to(const Buffer* log) const { return desk_->journal.records_to(log); }
   void trace_to(std::vector<std::uint64_t>* hashes) { desk_->trace = hashes; }
 
-  bool apply(const Command& command) {
+  bool apply(const ToyCommand& command) {
     return std::visit([&](const auto& one) { return desk_->run("apply", *this, one); }, command);
   }
   bool execute(const Push& push) { return set_sum(state_.sum + (push.to ^ to_bits(push.by))); }
@@ -101,8 +102,8 @@ class ToyWorld {
     return step_recorded(commands, {[](void* world) { static_cast<ToyWorld*>(world)->step(); }, this});
   }
   Result<void> step_recorded(Bytes commands, const Stepper& stepper) {
-    return play_commands<Command>(
-        commands, [&](const Command& command) { return apply(command); }, [&] { stepper.step(stepper.user); });
+    return play_commands<EveryCommand>(
+        commands, [&](const ToyCommand& command) { return apply(command); }, [&] { stepper.step(stepper.user); });
   }
 
  private:

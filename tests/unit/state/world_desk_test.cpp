@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <variant>
 #include <vector>
 
 #include "determinism/hostile_environment.hpp"
@@ -22,7 +21,7 @@ struct Take {
 
 /// A sum. Add returns it, 0 where it was refused.
 struct Counter {
-  using Command = std::variant<Take, Add>;
+  using EveryCommand = CommandTypes<void, Take, Add>;
   WorldDesk desk;
   std::uint32_t sum = 0, deviations = 0;
 

@@ -58,7 +58,7 @@ template <class W> class Surveyor {
     Reader reader(replay.state());
     EXPECT_TRUE(world_.read_portable(reader).ok());
     for (frame_ = 0; frame_ < replay.frame_count(); ++frame_) {
-      const Result<void> played = play_commands<typename W::Command>(
+      const Result<void> played = play_commands<typename W::EveryCommand>(
           replay.frame(frame_).input, [&](const auto& command) { return static_cast<bool>(world_.apply(command)); },
           [&] {
             look("commands", world_.state_fields());

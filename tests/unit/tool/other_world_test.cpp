@@ -33,15 +33,15 @@ namespace other_world_test {
 
 using toy::Buffer;
 using toy::Push;
-using toy::ToyCommand;
+using toy::EveryToyCommand;
 using toy::ToyWorld;
 
 Buffer log_of(std::uint32_t before, std::uint32_t between) {
   Buffer log;
   Writer writer(log);
-  write_command<ToyCommand>(writer, Push{before, 0});
+  write_command<EveryToyCommand>(writer, Push{before, 0});
   log.push_back(kStepMarker);
-  write_command<ToyCommand>(writer, Push{between, 0});
+  write_command<EveryToyCommand>(writer, Push{between, 0});
   log.push_back(kStepMarker);
   return log;
 }

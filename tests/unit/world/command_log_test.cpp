@@ -59,7 +59,7 @@ TYPED_TEST(CommandLogs, a_log_is_numbers_of_commands_their_fields_and_markers) {
   w.step();
   w.set_gravity(vec<S>(1, 2, 3));
   w.remove_shape(shape);
-  using Command = isostep::Command<S>;
+  using Command = EveryCommand<S>;
   const auto number = [](std::size_t of) { return static_cast<std::uint8_t>(of); };
   Writer writer(expected);
   writer.write(number(detail::kNumberOf<AddShape<S>, Command>));

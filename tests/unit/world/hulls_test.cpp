@@ -122,7 +122,7 @@ TYPED_TEST(Hulls, files_and_recordings_carry_it) {
                            {0.1 * i, 0.5 + 0.7 * i, 0}));
   for (int i = 0; i < 40; ++i) world.step();
   World<S> played(settings<S>()), read;
-  EXPECT_TRUE(play_commands<Command<S>>(
+  EXPECT_TRUE(play_commands<EveryCommand<S>>(
                   log, [&](const auto& c) { return static_cast<bool>(played.apply(c)); }, [&] { played.step(); })
                   .ok());
   EXPECT_EQ(played.hash(), world.hash());
