@@ -180,7 +180,7 @@ TYPED_TEST(RimOfTheScalar, the_lowest_number_of_all_is_no_speed_of_a_state) {
   }
 }
 
-TYPED_TEST(RimOfTheScalar, a_negative_cone_is_refused) {
+TYPED_TEST(RimOfTheScalar, a_cone_ends_at_half_a_turn) {
   using S = TypeParam;
   World<S> w(settings<S>(0));
   const BodyId id = w.create(moving<S>(add_ball(w, 0.5), {0, 0, 0}));
@@ -194,6 +194,11 @@ TYPED_TEST(RimOfTheScalar, a_negative_cone_is_refused) {
   ASSERT_TRUE(made);
   joint.cone = S(-6);
   EXPECT_FALSE(w.set_joint(made, joint));
+  joint.cone = num<S>(3.2);
+  EXPECT_FALSE(w.set_joint(made, joint));
+  EXPECT_EQ(w.fault(), Fault::out_of_range);
+  joint.cone = num<S>(3.14);
+  EXPECT_TRUE(w.set_joint(made, joint));
 }
 
 TYPED_TEST(RimOfTheScalar, gravity_scaled_up_pulls_down_or_is_refused) {

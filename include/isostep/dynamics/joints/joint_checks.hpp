@@ -39,7 +39,7 @@ template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_
       .proper(is_unit<S>(j.frame_a.orientation), "frame_a.orientation", kUnitLength)
       .proper(is_unit<S>(j.frame_b.orientation), "frame_b.orientation", kUnitLength)
       .also(fault_of_drive(j, length, reach, expected))
-      .in_range(S(0) <= j.cone && j.cone <= kMaxAngle<S>, "cone", "0 to 2 pi")
+      .in_range(S(0) <= j.cone && j.cone <= kMaxAngle<S> * S(0.5), "cone", "0 to pi")
       .proper((j.flags & ~rules.flags) == 0, "flags", rules.flag_names)
       .proper(j.lower <= j.upper, "lower", "no more than upper")
       .proper(length || (j.flags & joint_flag::kLimit) == 0 || j.upper - j.lower <= kMaxAngle<S>, "upper",
