@@ -1,8 +1,8 @@
 # What coarse structures cost a frame, and a query, from coarse.tsv.
-# Called as: gnuplot -e "data='coarse.tsv'; out='coarse.svg'" coarse.gp
+# Called as: gnuplot -e "data='coarse.tsv'; out='coarse.png'" coarse.gp
 # SPDX-License-Identifier: MIT
 if (!exists("data")) data = "coarse.tsv"
-if (!exists("out")) out = "coarse.svg"
+if (!exists("out")) out = "coarse.png"
 height = 640
 load ARG0[1:strstrt(ARG0, "coarse.gp") - 1]."style.gp"
 set output out

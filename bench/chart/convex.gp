@@ -1,8 +1,8 @@
 # Time against error of the convex algorithms, from convex.tsv.
-# Called as: gnuplot -e "data='convex.tsv'; out='convex.svg'" convex.gp
+# Called as: gnuplot -e "data='convex.tsv'; out='convex.png'" convex.gp
 # SPDX-License-Identifier: MIT
 if (!exists("data")) data = "convex.tsv"
-if (!exists("out")) out = "convex.svg"
+if (!exists("out")) out = "convex.png"
 height = 560
 load ARG0[1:strstrt(ARG0, "convex.gp") - 1]."style.gp"
 set output out

@@ -1,8 +1,8 @@
 # Step time against error over sub-steps, a panel a scene, from lab_accuracy.tsv (isostep lab --all).
-# Called as: gnuplot -e "data='lab_accuracy.tsv'; out='lab_accuracy.svg'" lab_accuracy.gp
+# Called as: gnuplot -e "data='lab_accuracy.tsv'; out='lab_accuracy.png'" lab_accuracy.gp
 # SPDX-License-Identifier: MIT
 if (!exists("data")) data = "lab_accuracy.tsv"
-if (!exists("out")) out = "lab_accuracy.svg"
+if (!exists("out")) out = "lab_accuracy.png"
 # The scenes that the table has, in its order.
 listed(n) = system(sprintf("tail -n +2 '%s' | cut -f%d | uniq", data, n))
 scenes = listed(1)

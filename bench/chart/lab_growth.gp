@@ -1,8 +1,8 @@
 # How far each scalar gets from double with time, from lab_growth.tsv (isostep lab --all).
-# Called as: gnuplot -e "data='lab_growth.tsv'; out='lab_growth.svg'" lab_growth.gp
+# Called as: gnuplot -e "data='lab_growth.tsv'; out='lab_growth.png'" lab_growth.gp
 # SPDX-License-Identifier: MIT
 if (!exists("data")) data = "lab_growth.tsv"
-if (!exists("out")) out = "lab_growth.svg"
+if (!exists("out")) out = "lab_growth.png"
 height = 720
 load ARG0[1:strstrt(ARG0, "lab_growth.gp") - 1]."style.gp"
 set output out

@@ -1,8 +1,8 @@
 # What each stage of a step costs, a bar a scalar, from lab_stages.tsv (isostep lab --all).
-# Called as: gnuplot -e "data='lab_stages.tsv'; out='lab_stages.svg'" lab_stages.gp
+# Called as: gnuplot -e "data='lab_stages.tsv'; out='lab_stages.png'" lab_stages.gp
 # SPDX-License-Identifier: MIT
 if (!exists("data")) data = "lab_stages.tsv"
-if (!exists("out")) out = "lab_stages.svg"
+if (!exists("out")) out = "lab_stages.png"
 height = 430
 load ARG0[1:strstrt(ARG0, "lab_stages.gp") - 1]."style.gp"
 set output out

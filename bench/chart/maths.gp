@@ -1,7 +1,7 @@
-# Own vectors against Eigen's, from maths.tsv. Called as: gnuplot -e "data='maths.tsv'; out='maths.svg'" maths.gp
+# Own vectors against Eigen's, from maths.tsv. Called as: gnuplot -e "data='maths.tsv'; out='maths.png'" maths.gp
 # SPDX-License-Identifier: MIT
 if (!exists("data")) data = "maths.tsv"
-if (!exists("out")) out = "maths.svg"
+if (!exists("out")) out = "maths.png"
 height = 470
 load ARG0[1:strstrt(ARG0, "maths.gp") - 1]."style.gp"
 set output out

@@ -1,8 +1,8 @@
 # What it costs to find the worst contact, from projection.tsv.
-# Called as: gnuplot -e "data='projection.tsv'; out='projection.svg'" projection.gp
+# Called as: gnuplot -e "data='projection.tsv'; out='projection.png'" projection.gp
 # SPDX-License-Identifier: MIT
 if (!exists("data")) data = "projection.tsv"
-if (!exists("out")) out = "projection.svg"
+if (!exists("out")) out = "projection.png"
 height = 460
 load ARG0[1:strstrt(ARG0, "projection.gp") - 1]."style.gp"
 set output out

@@ -1,7 +1,7 @@
-# Cost of a body against their number, from scale.tsv. Called as: gnuplot -e "data='scale.tsv'; out='scale.svg'" scale.gp
+# Cost of a body against their number, from scale.tsv. Called as: gnuplot -e "data='scale.tsv'; out='scale.png'" scale.gp
 # SPDX-License-Identifier: MIT
 if (!exists("data")) data = "scale.tsv"
-if (!exists("out")) out = "scale.svg"
+if (!exists("out")) out = "scale.png"
 height = 560
 load ARG0[1:strstrt(ARG0, "scale.gp") - 1]."style.gp"
 set output out

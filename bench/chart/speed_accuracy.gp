@@ -1,8 +1,8 @@
 # Step time against error, ours and peers, from speed_accuracy.tsv.
-# Called as: gnuplot -e "data='speed_accuracy.tsv'; out='speed_accuracy.svg'" speed_accuracy.gp
+# Called as: gnuplot -e "data='speed_accuracy.tsv'; out='speed_accuracy.png'" speed_accuracy.gp
 # SPDX-License-Identifier: MIT
 if (!exists("data")) data = "speed_accuracy.tsv"
-if (!exists("out")) out = "speed_accuracy.svg"
+if (!exists("out")) out = "speed_accuracy.png"
 height = 1000
 load ARG0[1:strstrt(ARG0, "speed_accuracy.gp") - 1]."style.gp"
 set output out

@@ -1,8 +1,8 @@
 # Energy after 10 s against stiffness, and time of a step, from springs.tsv (isostep lab springs --out DIRECTORY).
-# Called as: gnuplot -e "data='springs.tsv'; out='springs.svg'" springs.gp
+# Called as: gnuplot -e "data='springs.tsv'; out='springs.png'" springs.gp
 # SPDX-License-Identifier: MIT
 if (!exists("data")) data = "springs.tsv"
-if (!exists("out")) out = "springs.svg"
+if (!exists("out")) out = "springs.png"
 height = 1010
 load ARG0[1:strstrt(ARG0, "springs.gp") - 1]."style.gp"
 set output out

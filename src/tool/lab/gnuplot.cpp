@@ -16,6 +16,16 @@ std::string quoted(const std::string& word, const char* quote) {
   return text + "'";
 }
 
+bool rasterise(const std::string& svg, const std::string& png) {
+  if (std::system("rsvg-convert --version >/dev/null 2>&1") != 0) {
+    std::cerr << "isostep: rsvg-convert is not there: no " << png << "\n";
+    return false;
+  }
+  const std::string shell = "rsvg-convert " + shell_quoted(svg) + " -o " + shell_quoted(png) + " >&2";
+  if (std::system(shell.c_str()) != 0) throw ToolError(exit_status::kOutput, png + ": rsvg-convert failed");
+  return true;
+}
+
 bool draw_chart(const std::string& directory, const std::string& name) {
   const std::string script = std::string(ISOSTEP_CHART_DIR) + "/" + name + ".gp";
   const std::string table = directory + "/" + name + ".tsv", chart = directory + "/" + name + ".svg";

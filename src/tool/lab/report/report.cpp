@@ -153,10 +153,10 @@ class ReportWriter {
   void renew_repository() {
     const fs::path bench = fs::path(ISOSTEP_CHART_DIR).parent_path();
     if (!fs::is_directory(bench / "charts") || !fs::is_directory(bench / "results")) return;
-    if (!data_.accuracy.empty()) write_file((bench / "charts/lab_accuracy.svg").string(), data_.accuracy);
-    write_file((bench / "charts/lab_survival.svg").string(), survival_svg(data_.matrix));
+    if (!data_.accuracy.empty()) rasterise(in("lab_accuracy.svg"), (bench / "charts/lab_accuracy.png").string());
+    rasterise(in("lab_survival.svg"), (bench / "charts/lab_survival.png").string());
     write_file((bench / "results/lab.md").string(), summary_of(data_));
-    std::cerr << "lab: renewed charts/lab_*.svg and results/lab.md in " << bench.string() << "\n";
+    std::cerr << "lab: renewed charts/lab_*.png and results/lab.md in " << bench.string() << "\n";
   }
 
   const ReportOptions& options_;

@@ -15,7 +15,7 @@ struct ReportOptions {
   std::string peers;              // program that runs the peers; empty: what peers.jsonl already holds
 };
 
-/// report.html, its pictures and tables; a whole run renews bench/charts/lab_*.svg and bench/results/lab.md too, where
+/// report.html, its pictures and tables; a whole run renews bench/charts/lab_*.png and bench/results/lab.md too, where
 /// the sources still are. An exit status; throws ToolError.
 int write_lab_report(const ReportOptions& options);
 

@@ -12,12 +12,12 @@
 namespace isostep::tool::lab {
 namespace {
 
-struct Watch {
+struct StageClock {
   double last = 0;  // [ms]
   std::vector<double> times[kStages];
 
   static void after(void* user, Stage stage, const StageView&) {
-    Watch& watch = *static_cast<Watch*>(user);
+    StageClock& watch = *static_cast<StageClock*>(user);
     const double now = thread_milliseconds();
     watch.times[static_cast<std::size_t>(stage)].push_back(now - watch.last);
     watch.last = now;
@@ -27,13 +27,13 @@ struct Watch {
 template <class S> void measure(const scenes::Scene& scene, int settling, int timed, std::vector<StageCost>& costs) {
   World<S> world(scenes::settings_of<S>(scene));
   scenes::build(scene, world);
-  Watch watch;
+  StageClock watch;
   for (int frame = 0; frame < settling + timed; ++frame) {
     stop_if_interrupted();
     scenes::before_step(scene.script, world);
     watch.last = thread_milliseconds();
     if (frame < settling) static_cast<void>(world.step());
-    else static_cast<void>(world.step({Watch::after, &watch}));
+    else static_cast<void>(world.step({StageClock::after, &watch}));
   }
   for (std::size_t stage = 0; stage < kStages; ++stage) {
     costs.push_back({scene.name, ScalarTraits<S>::kName, kStageNames[stage], 1e3 * median(watch.times[stage])});
