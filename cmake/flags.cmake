@@ -20,7 +20,10 @@ set(isostep_roomy_flags $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288
 set(isostep_quick_flags $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-O1>)
 
 isostep_speed_flags(isostep_speed)
-if(isostep_speed)
+if(ISOSTEP_QUICK_BUILD)
+  set(CMAKE_UNITY_BUILD ON)
+  set(isostep_speed $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-O2>)
+elseif(isostep_speed)
   message(STATUS "isostep: no CMAKE_BUILD_TYPE: the engine is compiled with -O2, the rest of the project is not")
 endif()
 

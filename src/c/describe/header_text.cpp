@@ -102,7 +102,7 @@ std::vector<std::string> names_of(const std::vector<Struct>& structs, bool is_si
   return names;
 }
 
-std::string offsets_of(const Struct& described) {
+std::string offsets_text(const Struct& described) {
   std::string text;
   int head = described.is_sized ? 2 : 0;
   for (const Member& member : described.members) {
@@ -115,7 +115,7 @@ std::string offsets_of(const Struct& described) {
 /// A call of X on lines of a macro.
 std::string check_text(const std::string& what, const Struct& described) {
   const std::string call =
-      "X(" + what + ", " + (described.is_sized ? "true" : "false") + ", " + offsets_of(described) + ")";
+      "X(" + what + ", " + (described.is_sized ? "true" : "false") + ", " + offsets_text(described) + ")";
   std::string text, row = " ";
   for (std::size_t at = 0; at < call.size();) {
     std::size_t end = call.find(' ', at);

@@ -54,7 +54,7 @@ std::string struct_text(const Struct& described, const Family* family) {
          ", \"members\": " + rows(members, "      ") + "}";
 }
 
-std::string enum_text(const Enum& described) {
+std::string enum_json(const Enum& described) {
   std::vector<std::string> values;
   for (const Enumerator& value : described.values) {
     values.push_back("{" + pair("name", name_of(value, described)) + ", " + pair("base", value.name) + ", " +
@@ -88,7 +88,7 @@ std::string family_text(const Family& family) {
 std::string json_text(const Schema& schema, const std::vector<Function>& functions) {
   std::vector<std::string> families, enums, pointers, structs, declared;
   for (const Family& family : schema.families) families.push_back(family_text(family));
-  for (const Enum& described : schema.enums) enums.push_back(enum_text(described));
+  for (const Enum& described : schema.enums) enums.push_back(enum_json(described));
   for (const PointerType& type : pointer_types()) {
     pointers.push_back("{" + pair("name", type.name) + ", " + pair("to", type.to) + "}");
   }

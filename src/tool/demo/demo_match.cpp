@@ -16,8 +16,7 @@ namespace isostep::tool {
 namespace {
 
 constexpr const char* kPeers[] = {"host", "client"};
-constexpr const char* kPatience =
-    "120";  // [s] for the demo is of the line: a machine that stalls is no player who left
+constexpr const char* kDemoPatience = "120";  // [s] a machine that stalls is no player who left
 
 /// The port that the host was given, once it has written it.
 std::string port_of(ChildProcess& host, const std::string& file, const std::string& log) {
@@ -42,7 +41,7 @@ DemoMatch::DemoMatch(const std::string& scalar, int frames, const std::string& d
   std::filesystem::remove(port_file);
   const auto start = [&](const char* peer, const std::vector<std::string>& where) {
     std::vector<std::string> words = {"peer",       "--json", "--scalar", scalar, "--frames", std::to_string(frames),
-                                      "--patience", kPatience};
+                                      "--patience", kDemoPatience};
     words.insert(words.end(), where.begin(), where.end());
     words.insert(words.end(), {"--hashes", path(peer, "hashes"), "--record", path(peer, "replay")});
     words.insert(words.end(), {"--bot", peer == kPeers[0] ? "1" : "2"});

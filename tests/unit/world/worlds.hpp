@@ -14,7 +14,11 @@
 
 namespace isostep::test {
 
+#if defined(ISOSTEP_TEST_SCALARS)  // a sample of them
+using AllScalars = ::testing::Types<ISOSTEP_TEST_SCALARS>;
+#else
 using AllScalars = ::testing::Types<float, double, Q16_16, Q32_32>;
+#endif
 using IeeeScalars = ::testing::Types<float, double>;
 using FixedScalars = ::testing::Types<Q16_16, Q32_32>;
 using D3 = Vec3<double>;
