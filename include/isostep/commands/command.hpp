@@ -26,7 +26,7 @@ template <class S> struct AddShape {
     writer.write_array(children);
     for (const BlobMention& blob : blobs) blob.write(writer);
   }
-  /// There are as many blobs as the children name.
+  /// Reads as many blobs as the children name.
   ISO_INLINE void read(Reader& reader) {
     reader.read_array(children, kMaxChildren);
     std::uint32_t count = 0;
@@ -52,7 +52,7 @@ struct WakeBody {
   BodyId body;
   ISO_FIELDS(body)
 };
-/// The body is elsewhere at once; its velocity stays.
+/// Places the body elsewhere at once; its velocity stays.
 template <class S> struct SetPose {
   BodyId body;
   Pose<S> pose;  // of the body's origin
@@ -88,7 +88,7 @@ struct SetFilter {
   Filter filter;
   ISO_FIELDS(body, filter)
 };
-/// Gravity and damping act on a body by these factors; its locked motions stop.
+/// Sets the factors by which gravity and damping act on a body, and its locks; locked motions stop.
 template <class S> struct SetMotion {
   BodyId body;
   S gravity_scale;      // [1]
@@ -114,20 +114,20 @@ struct DestroyJoint {
   JointId joint;
   ISO_FIELDS(joint)
 };
-/// Limits, motor and spring of a joint that exists; bodies, frames and type stay.
+/// Changes limits, motor and spring of a joint; bodies, frames and type stay.
 template <class S> struct SetJoint {
   JointId joint;
   JointProperties<S> properties;
   ISO_FIELDS(joint, properties)
 };
 
-/// The joint keeps its position within lower..upper.
+/// Keeps the joint's position within lower..upper.
 template <class S> struct SetJointLimits {
   JointId joint;
   S lower, upper;  // [rad], [m] of a length
   ISO_FIELDS(joint, lower, upper)
 };
-/// A motor drives the joint at that speed with at most that force or torque.
+/// A motor drives the joint at this speed with at most this force or torque.
 template <class S> struct SetJointMotor {
   JointId joint;
   S speed;      // [rad/s], [m/s] along a length
@@ -141,22 +141,22 @@ template <class S> struct SetJointSpring {
   S damping;    // [1] ratio, 1 = critical
   ISO_FIELDS(joint, frequency, damping)
 };
-/// The joint's spring pulls to this target.
+/// Sets the target to which the joint's spring pulls.
 template <class S> struct SetJointTarget {
   JointId joint;
   S target;  // [rad], [m] of a length
   ISO_FIELDS(joint, target)
 };
 
-/// A wheel turns so fast from now on: of a car that is put on the road at speed, or starts anew.
+/// Sets how fast a wheel turns from now on: for a car that is put on the road at speed, or starts anew.
 template <class S> struct SetWheelSpin {
   WheelId wheel;
   S spin;  // [rad/s]
   ISO_FIELDS(wheel, spin)
 };
 
-/// A rectangle of a height field gets other heights and materials: HeightPatch as a record. The shape's field becomes
-/// another one, with a name of its own, for all bodies of the shape; what is near wakes, and what it buries rises.
+/// Gives a rectangle of a height field other heights and materials: HeightPatch as a record. The shape's field becomes
+/// another one, with a name of its own, for all bodies of the shape. Bodies nearby wake, and buried ones rise.
 struct SetHeights {
   static constexpr std::uint32_t kMost = 1u << 26;  // heights in a file; fields have fewer places
 
@@ -182,7 +182,7 @@ struct SetHeights {
   }
 };
 
-/// A disabled body keeps its id, state, joints and records, and takes no part until it is enabled again: see
+/// A disabled body keeps its id, state, joints and records. It takes no part until it is enabled again: see
 /// World::set_enabled.
 struct SetEnabled {
   BodyId body;
@@ -200,19 +200,19 @@ template <class S> struct SetMass {
   BodyMass<S> mass;
   ISO_FIELDS(body, mass)
 };
-/// A body that exists gets another shape; its origin stays where it is.
+/// Gives a body another shape; its origin stays where it is.
 template <class S> struct SetShape {
   BodyId body;
   ShapeId shape;
   BodyMass<S> mass = {};  // of a dynamic one
   ISO_FIELDS(body, shape, mass)
 };
-/// Its island falls asleep at once.
+/// The body's island falls asleep at once.
 struct SleepBody {
   BodyId body;
   ISO_FIELDS(body)
 };
-/// The next step carries a kinematic body there: World::move_to.
+/// The next step carries a kinematic body there: see World::move_to.
 template <class S> struct MoveTo {
   BodyId body;
   Pose<S> pose;  // of the body's origin
@@ -222,9 +222,9 @@ template <class S> struct MoveTo {
 template <class Record> using SetRecordOf = SetRecord<Record, typename detail::RecordIdOf<Record>::Type>;
 template <class Input> using SetInputOf = SetInput<Input, typename detail::RecordIdOf<Input>::Type>;
 
-/// ISO_FOR_EACH_COMMAND(X, S) expands X(name, Type, Result, S) for each command: its name in faults, the record, and
-/// what `World<S>::apply` and `execute` return: an id of what was made, or whether it was accepted. To add
-/// one: its record above, its line here, its `execute`; see README.md. Each kind of record has three, and one for its
+/// ISO_FOR_EACH_COMMAND(X, S) expands X(name, Type, Result, S) for each command: its name in faults, its record, and
+/// what `World<S>::apply` and `execute` return: the id of what was made, or whether it was accepted. To add one: its
+/// record above, its line here, its `execute`; see README.md. Each kind of record has three commands, and one for its
 /// input. The position is the number in replays.
 #define ISO_FOR_EACH_COMMAND(X, S)                    \
   X(add_shape, AddShape<S>, ShapeId, S)               \

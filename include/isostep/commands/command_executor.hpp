@@ -48,7 +48,7 @@ template <class S> class CommandExecutor {
 #define ISO_EXECUTE(name, Type, Result, S) Result execute(const Type& command);
   ISO_FOR_EACH_COMMAND(ISO_EXECUTE, S)
 #undef ISO_EXECUTE
-  /// Does what as many DestroyBody do; a stale id is a fault, and the others go on. Returns how many were destroyed.
+  /// Does what that many DestroyBody do. A stale id is a fault, and the others go on. Returns how many it destroyed.
   std::size_t destroy_all(std::span<const BodyId> bodies);
 
  private:
@@ -65,7 +65,7 @@ template <class S> class CommandExecutor {
   bool find_blobs(const AddShape<S>& command, std::vector<BlobRef>& blobs);
   bool accept_patch(const Result<BakedHeightField>& changed);
   void replace_blob(std::uint32_t shape, std::uint32_t child, const BlobRef& blob);
-  /// A change of a height field, in its frame.
+  /// A change of a height field, in the field's frame.
   struct FieldChange {
     std::uint32_t child;  // of its shape
     Aabb<S> about;        // [m] old and new heights

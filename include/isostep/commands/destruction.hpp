@@ -13,30 +13,30 @@ namespace isostep {
 
 /// Input:   slots of bodies and joints that exist.
 /// Output:  the state without them: their ids, records, contacts, joints, overlaps and forces. WorldState::untold keeps
-///          what their touches and overlaps were. What they may have held up is awake.
+///          the ends of their contacts and overlaps. What they may have held up is awake.
 /// Keeps:   bodies that are marked and not yet erased.
-/// Many bodies at once leave the state that they leave one by one, in the order of their marks.
+/// Destroying many bodies at once gives the same state as one by one, in the order of their marks.
 template <class S> class Destruction {
  public:
   ISO_INLINE Destruction(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies, IslandWake<S>& wake)
       : state_(state), map_(map), proxies_(proxies), wake_(wake) {}
 
-  /// Destroys a body but for what takes a pass over the world: its id, its records and its joints stay until
-  /// `erase_marked`.
+  /// Destroys a body but for what takes a pass over the world:
+  /// its id, records and joints stay until `erase_marked`.
   void mark(std::uint32_t slot);
   ISO_INLINE bool is_marked(std::uint32_t slot) const { return is_marked_.test(slot); }
   ISO_INLINE std::size_t marked() const { return marked_.size(); }
-  /// How many marked bodies leave the awake ones.
+  /// The number of marked bodies that are awake.
   ISO_INLINE std::size_t marked_awake() const { return marked_awake_; }
-  /// Takes one pass over each array, whatever the number of bodies and of their joints.
+  /// Erases the marked bodies in one pass over each array, whatever their number and that of their joints.
   void erase_marked();
   void destroy_joint(std::uint32_t slot);
-  /// Ends the contacts and overlaps of a body, and the forces that were asked for it: the body itself stays. What it
-  /// may have held up is awake, and so is the body.
+  /// Ends the contacts and overlaps of a body, and the forces that were asked for it. The body itself stays and is
+  /// awake, and so is what it may have held up.
   void part(std::uint32_t slot);
 
  private:
-  /// When a body or joint goes; ascending, and behind all others where it stays.
+  /// The turn in which a body or joint goes; ascending. kStays comes after all others.
   using Turn = std::uint64_t;
   static constexpr Turn kStays = ~Turn{0};
   struct Going {

@@ -54,7 +54,7 @@ template <class S> void Destruction<S>::part(std::uint32_t slot) {
   is_marked_.reset(slot);
 }
 
-/// The next step reports that what touched the marked bodies, or was inside them, does so no more.
+/// Notes for the next step's report that contacts and overlaps of the marked bodies have ended.
 template <class S> void Destruction<S>::tell_ends() {
   const auto id = [&](std::uint32_t slot) { return state_.body_slots.template id_of<BodyId>(slot); };
   const auto ends = [&](std::uint32_t a, std::uint32_t b) { return is_marked(a) || is_marked(b); };
@@ -75,7 +75,7 @@ template <class S> void Destruction<S>::tell_ends() {
   detail::sort_ends(state_.untold.sensor_end, sensor_end_scratch_);
 }
 
-/// Erases contacts and overlaps that name a marked body.
+/// Erases contacts, overlaps and forces that name a marked body.
 template <class S> void Destruction<S>::erase_what_names_them() {
   std::erase_if(state_.contacts,
                 [&](const Contact<S>& c) { return is_marked(c.key.body_a) || is_marked(c.key.body_b); });
@@ -117,7 +117,7 @@ template <class S> void Destruction<S>::destroy_joint(std::uint32_t slot) {
   state_.joint_slots.give_back(slot);
 }
 
-/// A body goes after its joints; those go by slot.
+/// A body goes after its joints, which go by slot.
 template <class S> auto Destruction<S>::turn_of_body(BodyId body) const -> Turn {
   return body && is_marked(body.slot) ? Turn{ranks_[body.slot]} << 33 | Turn{1} << 32 : kStays;
 }
@@ -125,7 +125,7 @@ template <class S> auto Destruction<S>::turn_of_joint(JointId joint) const -> Tu
   return joint && joint.slot < turns_.size() ? turns_[joint.slot] : kStays;
 }
 
-/// Erases the joints of marked bodies. They are awake: what sleeps and names such a body has been woken.
+/// Erases the joints of marked bodies. They are awake: whatever slept and names such a body has been woken.
 template <class S> void Destruction<S>::erase_joints() {
   joints_.clear();
   turns_.resize(state_.joint_slots.entries().size(), kStays);
@@ -156,7 +156,7 @@ template <class S> void Destruction<S>::erase_joints() {
   for (const Going& joint : joints_) state_.joint_slots.give_back(joint.slot);
 }
 
-/// turn_of(record) -> Turn, of every record; those that stay do so.
+/// Removes the records whose turn_of(record) is not kStays, in the order of their turns.
 template <class S> template <class TurnOf> void Destruction<S>::remove_records(const TurnOf& turn_of) {
   const auto find = [&](const auto& registry) {
     records_.clear();

@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// Checks everything about a definition that needs no mass.
+/// Checks all of a definition that needs no mass.
 template <class S> bool CommandExecutor<S>::accepts(const BodyDefinition<S>& d) {
   const Vec3<S> zero = Vec3<S>::zero();
   const bool still = d.type == BodyType::static_;
@@ -35,7 +35,7 @@ template <class S> bool CommandExecutor<S>::accepts(const BodyDefinition<S>& d) 
                  .report());
 }
 
-/// Checks the mass of a dynamic body; `shape` is at that density.
+/// Checks the mass of a dynamic body. `shape`: the shape's mass at that density.
 template <class S> bool CommandExecutor<S>::check_mass(const BodyMass<S>& d, const MassProperties<S>& shape) {
   const S zero = S(0);
   return faults_.accept(
@@ -47,7 +47,7 @@ template <class S> bool CommandExecutor<S>::check_mass(const BodyMass<S>& d, con
           .report());
 }
 
-/// Gives a body the mass that follows from its type and shape, as for the first time.
+/// Gives a body the mass that follows from its type and shape, as when it is made.
 template <class S> bool CommandExecutor<S>::give_mass(const BodyMass<S>& d, BodyProperties<S>& body) {
   const S zero = S(0);
   const std::span<const Child<S>> children = map_.shapes.children_of(body.shape);
@@ -71,7 +71,7 @@ template <class S> bool CommandExecutor<S>::give_mass(const BodyMass<S>& d, Body
   return true;
 }
 
-/// Properties of a body without its mass.
+/// Returns the properties of a body without its mass.
 template <class S> BodyProperties<S> CommandExecutor<S>::properties_of(const BodyDefinition<S>& d) {
   BodyProperties<S> body = {};
   body.type = d.type;
@@ -150,7 +150,7 @@ template <class S> std::size_t CommandExecutor<S>::destroy_all(std::span<const B
 template <class S> bool CommandExecutor<S>::is_enabled(BodyId body) {
   return map_.is_enabled(body.slot) || faults_.refuse({Fault::bad_argument, "", "body", "one that is enabled"});
 }
-/// Whether a body's motion is to be changed at all: not that of a static one.
+/// Refuses a body whose motion cannot be changed, a static one. Returns true if it can.
 template <class S> bool CommandExecutor<S>::may_change(BodyId body) {
   if (!known(body) || !is_enabled(body)) return false;
   const bool moves = map_.location(body.slot).set != Location::kStatic;
@@ -188,7 +188,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetPose<S>& command) {
   return true;
 }
 
-/// Sets a velocity of zero: what sleeps has no other, and what rests rests on, so that a game may say so every frame.
+/// Sets a velocity of zero without waking: what sleeps has no other, what rests rests on. A game may do it every frame.
 template <class S> void CommandExecutor<S>::halt(std::uint32_t slot) {
   if (map_.location(slot).set != Location::kAwake) return;
   BodyState<S>& state = state_.awake.states[map_.location(slot).index];

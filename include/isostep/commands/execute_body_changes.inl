@@ -21,7 +21,7 @@ template <class S> bool CommandExecutor<S>::accepts(const BodyMass<S>& mass) {
                             .report());
 }
 
-/// The centre is the shape's and stays: another density rounds it otherwise.
+/// The centre is the shape's and stays, since another density would round it differently.
 template <class S> bool CommandExecutor<S>::give_mass_anew(const BodyMass<S>& mass, BodyProperties<S>& body) {
   const Vec3<S> centre = body.local_centre;
   const bool good = accepts(mass) && give_mass(mass, body);
@@ -47,7 +47,7 @@ bool CommandExecutor<S>::check_tie(const Record& record, std::uint32_t slot, con
   return faults_.refuse({Fault::bad_argument, "", "type", "one that the body's springs may tie"});
 }
 
-/// Refuses a body whose joints would reach too far or tie it to one that is far lighter or heavier.
+/// Refuses a body whose joints would reach too far, or would tie it to one that is far lighter or heavier.
 template <class S> bool CommandExecutor<S>::check_joints_of(std::uint32_t slot, const BodyProperties<S>& next) {
   bool good = true, even = true;
   const auto look_at = [&](std::uint32_t other, const Pose<S>& frame) {
@@ -72,7 +72,7 @@ template <class S> bool CommandExecutor<S>::check_joints_of(std::uint32_t slot, 
   return even || faults_.refuse({Fault::out_of_range, "", "mass", kRatio});
 }
 
-/// Whether the joints and records of a body bear that it is like that from now on.
+/// Returns true if the joints and records of a body allow its next properties.
 template <class S> bool CommandExecutor<S>::check_ties(std::uint32_t slot, const BodyProperties<S>& next) {
   if (!check_joints_of(slot, next)) return false;
   bool good = true;
@@ -105,8 +105,8 @@ template <class S> void CommandExecutor<S>::wake_coupled(std::uint32_t slot) {
   }
 }
 
-/// Ends the footing of a character whose body was away, or was put elsewhere `from` there: the ground carries it no
-/// further. One that is only turned stands where it stood.
+/// Ends the footing of a character whose body was away, or was put elsewhere than `from`: the ground carries it no
+/// further. One that only turned, or moved by no more than its skin, keeps its ground.
 template <class S> void CommandExecutor<S>::leave_ground(std::uint32_t slot, const Pose<S>* from) {
   if (map_.properties_at(map_.location(slot)).type != BodyType::kinematic) return;
   const auto& characters = state_.records->characters;
@@ -118,7 +118,7 @@ template <class S> void CommandExecutor<S>::leave_ground(std::uint32_t slot, con
   state_.parts.character_states[id.slot].ground = {};
 }
 
-/// Puts another body in place of one, in its slot: all that it touched has ended, joints begin without impulses.
+/// Puts another body into a slot in place of one: all that it touched has ended, joints begin without impulses.
 template <class S>
 void CommandExecutor<S>::replace(std::uint32_t slot, BodyState<S> state, const BodyProperties<S>& next) {
   destruction_.part(slot);
@@ -178,7 +178,7 @@ template <class S> bool CommandExecutor<S>::execute(const SetMass<S>& command) {
   return true;
 }
 
-/// Contacts end and begin anew. The pose that a game sees, that of the body's origin, stays; a character stays on its
+/// Contacts end and begin anew. The pose of the body's origin, which a game sees, stays. A character stays on its
 /// ground.
 template <class S> bool CommandExecutor<S>::execute(const SetShape<S>& command) {
   if (!known(command.body) || !known(state_.shape_slots, command.shape, "shape") || !accepts(command.mass))
@@ -209,8 +209,8 @@ template <class S> void CommandExecutor<S>::forget_move(std::uint32_t slot) {
   std::erase_if(state_.moves, [slot](const PendingMove<S>& move) { return move.slot == slot; });
 }
 
-/// Replaces the move that the body was told before. What rests where it is told to be goes on resting, so that a
-/// game may say so every frame.
+/// Replaces an earlier move of the body. A body that rests at that pose goes on resting, so a game may say it every
+/// frame.
 template <class S> bool CommandExecutor<S>::execute(const MoveTo<S>& command) {
   if (!known(command.body)) return false;
   const std::uint32_t slot = command.body.slot;

@@ -61,7 +61,7 @@ template <class S> bool CommandExecutor<S>::execute(const ApplyImpulse<S>& comma
   return true;
 }
 
-/// The force that is asked of a body until the next step.
+/// Returns the force that is asked of a body until the next step.
 template <class S> PendingForce<S>& CommandExecutor<S>::pending_force(std::uint32_t slot) {
   return find_or_insert(state_.forces, PendingForce<S>{slot, 0, Vec3<S>::zero(), Vec3<S>::zero()});
 }

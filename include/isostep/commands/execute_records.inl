@@ -34,7 +34,7 @@ template <class S> template <class Record> bool CommandExecutor<S>::check_joints
   }
   return true;
 }
-/// Finds what a record names, with `next`, where it is not null, in place of the properties of the body in `slot`.
+/// Finds what a record names. If `next` is not null, it takes the place of the properties of the body in `slot`.
 template <class S>
 template <class Record>
 detail::RecordPlace<S> CommandExecutor<S>::place_of(const Record& record, std::uint32_t slot,
@@ -45,7 +45,7 @@ detail::RecordPlace<S> CommandExecutor<S>::place_of(const Record& record, std::u
   return detail::place_of<S>(record, state_.settings, body, joint, children_of);
 }
 
-/// Refuses a record that has in common with one of another slot what no two may have.
+/// Refuses a record that shares with one of another slot what no two may share.
 template <class S>
 template <class Record>
 bool CommandExecutor<S>::check_alone(const Record& record, std::uint32_t slot) {
@@ -72,7 +72,7 @@ bool CommandExecutor<S>::check_alone(const Record& record, std::uint32_t slot) {
   return true;
 }
 
-/// Wakes what touches a body, and what sleeps on it as a step found it.
+/// Wakes what touches a body, and what sleeps on it by the last step.
 template <class S> void CommandExecutor<S>::wake_what_rests_on(BodyId body) {
   wake_.wake_touching(body.slot);
   wake_.wake_held_by(body.slot);

@@ -48,7 +48,7 @@ template <class S> bool CommandExecutor<S>::accept_traits(std::span<const Child<
   return true;
 }
 
-/// The content of what a command names, each of which a part must name.
+/// Finds the content that a command names. A part must name each.
 template <class S> bool CommandExecutor<S>::find_blobs(const AddShape<S>& command, std::vector<BlobRef>& blobs) {
   const GeometryStore& known = *state_.geometry;
   for (std::size_t i = 0; i < blobs.size(); ++i) {
@@ -83,7 +83,7 @@ template <class S> bool CommandExecutor<S>::execute(const RemoveShape& command) 
   return true;
 }
 
-/// Old and new heights decide together what the change is about: who stood on the one, or lies under the other.
+/// The change covers old and new heights: a body stood on the old ones, or lies under the new ones.
 template <class S> bool CommandExecutor<S>::execute(const SetHeights& command) {
   if (!known(state_.shape_slots, command.shape, "shape")) return false;
   const std::uint32_t shape = command.shape.slot;
@@ -117,7 +117,7 @@ template <class S> bool CommandExecutor<S>::accept_patch(const Result<BakedHeigh
   const bool fits = state_.geometry->names().size() < kMaxBlobs;
   return fits || faults_.refuse({Fault::bad_shape, "", "heights", "fewer than kMaxBlobs in a world"});
 }
-/// An asset stays one: what the store or the game's assets have by that name is taken from there.
+/// An asset stays one: if the store or the game's assets have content of that name, it comes from there.
 template <class S>
 void CommandExecutor<S>::replace_blob(std::uint32_t shape, std::uint32_t child, const BlobRef& blob) {
   const BlobRef known = state_.geometry->find(BlobMention{blob->id(), nullptr}, assets_);
@@ -132,7 +132,7 @@ void CommandExecutor<S>::replace_blob(std::uint32_t shape, std::uint32_t child, 
   map_.shapes.renew_content(place);
   map_.shapes.put(shape, std::move(children));
 }
-/// A body whose field, at a pose in its frame, has changed.
+/// Renews a body whose field has changed. `field`: its pose in the body's frame.
 template <class S>
 void CommandExecutor<S>::renew_ground(std::uint32_t body, const Pose<S>& field, const FieldChange& change) {
   const Location at = map_.location(body);
@@ -152,7 +152,7 @@ void CommandExecutor<S>::renew_ground(std::uint32_t body, const Pose<S>& field, 
   wake_.wake_wheels_on(body, there);
   lift_buried(body, placed, there, change);
 }
-/// A field holds nothing from behind: what was above its old heights and has its centre below the new ones goes up by
+/// A field holds nothing from behind: a body whose centre was above its old heights and is below the new ones rises by
 /// as much as the ground below that centre.
 template <class S>
 void CommandExecutor<S>::lift_buried(std::uint32_t ground, const Transform<S>& placed, const Aabb<S>& there,
@@ -182,7 +182,7 @@ void CommandExecutor<S>::lift_buried(std::uint32_t ground, const Transform<S>& p
       execute(SetPose<S>{state_.body_slots.template id_of<BodyId>(slot), pose});
   }
 }
-/// [m] Of the field below a centre that was above it and is not any more; else 0.
+/// [m] The rise of the field below a centre that was above it and no longer is; else 0.
 template <class S>
 S CommandExecutor<S>::rise_below(Vec3<S> centre, const Transform<S>& placed, const FieldChange& change) const {
   const Vec3<Unit<S>> up = placed.rotation.column(1);

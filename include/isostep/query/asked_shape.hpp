@@ -9,7 +9,7 @@
 
 namespace isostep::detail {
 
-/// In the world.
+/// A shape to query with, placed in the world.
 template <class S> struct AskedShape {
   Primitive<S> primitive;
   const void* content;  // of its blob
@@ -20,9 +20,9 @@ template <class S> struct AskedShape {
 
 template <class S>
 FaultReport fault_of_shape(const WorldState<S>& state, const QueryShape<S>& shape, const Pose<S>& pose);
-/// Of an accepted shape.
+/// Returns the placed shape, which fault_of_shape() has accepted.
 template <class S> AskedShape<S> asked_of(const BodyMap<S>& map, const QueryShape<S>& shape, const Pose<S>& pose);
-/// [m] how far a shape of the world reaches from its frame's origin along a direction.
+/// [m] How far a shape of the world reaches from its frame's origin along a direction.
 template <class S>
 S reach_of(const BodyMap<S>& map, ShapeId shape, const Quat<Unit<S>>& orientation, Vec3<Unit<S>> along);
 

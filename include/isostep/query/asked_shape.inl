@@ -37,7 +37,7 @@ template <class S> AskedShape<S> asked_of(const BodyMap<S>& map, const QueryShap
           part.pose.is_identity() ? pose : compose(pose, part.pose)};
 }
 
-/// By the box of the shape in a frame whose y is that direction.
+/// Uses the box of the shape in a frame whose y is that direction.
 template <class S>
 S reach_of(const BodyMap<S>& map, ShapeId shape, const Quat<Unit<S>>& orientation, Vec3<Unit<S>> along) {
   const Vec3<Unit<S>> y = {Unit<S>(0), Unit<S>(1), Unit<S>(0)};

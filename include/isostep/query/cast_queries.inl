@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// All that a probe meets, body by body, those in its way first.
+/// Gathers all that a probe meets, body by body, those in its way first.
 template <class S>
 template <class Probe, class List>
 void CastQueries<S>::gather(const Probe& probe, const QueryFilter& filter, List& list) const {
@@ -24,8 +24,8 @@ void CastQueries<S>::gather(const Probe& probe, const QueryFilter& filter, List&
   });
 }
 
-/// A body's hits: of each triangle, of each child, or the first of all of them. Of parts that collide with `own`, where
-/// there is one.
+/// Gathers the hits of a body: of each triangle, of each child, or the first of all. If `own` is not null, only parts
+/// that collide with it count.
 template <class S>
 template <class Probe, class List>
 void CastQueries<S>::meet(const Probe& probe, const QueryFilter& filter, std::uint32_t slot, List& list,
@@ -115,7 +115,7 @@ template <class S> FaultReport CastQueries<S>::fault_of_cast(const ShapeCast<S>&
       .also(detail::fault_of_place(cast.translation, "translation"))
       .report();
 }
-/// visit(probe) of an accepted cast. Bodies that rest on each other overlap by up to kDeepOverlap: that is touch.
+/// Calls visit(probe) for an accepted cast. Bodies at rest overlap by up to kDeepOverlap: that counts as touching.
 template <class S>
 template <class Visit>
 void CastQueries<S>::visit_cast(const ShapeCast<S>& cast, const Visit& visit) const {

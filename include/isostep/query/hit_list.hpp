@@ -19,14 +19,14 @@ ISO_INLINE bool comes_before(const QueryHit<S, Fraction>& a, const QueryHit<S, F
   return a.child != b.child ? a.child < b.child : a.triangle < b.triangle;
 }
 
-/// A list of the first hits that there is room for, in the memory of the caller.
+/// Lists the first hits, as many as the caller's memory has room for.
 template <class S, class Fraction> class NearestHits {
   using Hit = QueryHit<S, Fraction>;
 
  public:
   ISO_INLINE explicit NearestHits(std::span<Hit> room) : room_(room) {}
   ISO_INLINE std::size_t count() const { return count_; }
-  /// [1] The latest fraction of interest: a hit after it is not among them.
+  /// [1] The latest fraction of interest: a later hit is not listed.
   ISO_INLINE Fraction latest() const {
     return count_ < room_.size() ? Fraction(1) : room_.empty() ? Fraction(0) : room_[count_ - 1].fraction;
   }
@@ -46,7 +46,7 @@ template <class S, class Fraction> class NearestHits {
   std::size_t count_ = 0;
 };
 
-/// A list of all hits, appended to a vector.
+/// Appends all hits to a vector.
 template <class S, class Fraction> class EveryHit {
   using Hit = QueryHit<S, Fraction>;
   struct ByPart {
@@ -55,7 +55,7 @@ template <class S, class Fraction> class EveryHit {
   struct BySlot {
     ISO_INLINE std::uint64_t operator()(const Hit& hit) const { return hit.body.slot; }
   };
-  /// Fractions are not negative, so their bits ascend as they do; but for a zero that has a sign.
+  /// Fractions are not negative, so their bits ascend as they do, except those of a zero with a sign.
   struct ByFraction {
     ISO_INLINE std::uint64_t operator()(const Hit& hit) const {
       return hit.fraction == Fraction(0) ? 0 : static_cast<std::uint64_t>(field_bits(hit.fraction));

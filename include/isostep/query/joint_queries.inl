@@ -7,7 +7,7 @@
 
 namespace isostep::detail {
 
-/// The frames of a joint in the world, as its bodies lie now.
+/// The frames of a joint in the world, by the present poses of its bodies.
 template <class S> struct JointPoses { Pose<S> a, b; };
 template <class S> ISO_INLINE JointPoses<S> poses_of(const BodyMap<S>& map, const JointProperties<S>& joint) {
   return {compose(map.centre_pose_at(joint.body_a), joint.frame_a),
@@ -23,7 +23,7 @@ template <class S> S joint_error(const BodyMap<S>& map, JointId joint) {
   });
 }
 
-/// Leaves the arms unset.
+/// Returns the frames of a joint, and leaves the arms unset.
 template <class S> ISO_INLINE JointFrames<S> frames_of(const BodyMap<S>& map, const JointProperties<S>& joint) {
   const JointPoses<S> poses = poses_of(map, joint);
   const Vec3<S> none = Vec3<S>::zero();

@@ -16,7 +16,7 @@ namespace detail {
 template <class S> ISO_INLINE std::uint8_t material_of(const ShapeView<S>& surface, std::uint32_t triangle) {
   return visit_surface(surface, [&](const auto& of) ISO_INLINE_LAMBDA { return of.material(triangle); });
 }
-/// Ascending.
+/// Returns the children whose boxes meet `box`, ascending.
 template <class S>
 std::vector<std::uint32_t> children_near(const ChildTree<S>& tree, const Transform<S>& t, const Aabb<S>& box) {
   std::vector<std::uint32_t> nearby;
@@ -31,9 +31,9 @@ std::vector<std::uint32_t> children_near(const ChildTree<S>& tree, const Transfo
 }
 }  // namespace detail
 
-/// visit(i, part, at, here) -> bool for the children of a body's shape, ascending, until it returns false. Of those of
-/// a tree the ones whose boxes meet the shape's. `at` and `here` are the places of the part and of the shape asked with
-/// both relative to the latter's position, as the narrow phase wants them.
+/// Calls visit(i, part, at, here) -> bool for the children of a body's shape, ascending, until it returns false. With a
+/// tree, it visits only children whose boxes meet the asked shape's. `at` and `here` are the places of the part and of
+/// the asked shape, both relative to the latter's position, as the narrow phase needs them.
 template <class S>
 template <class Visit>
 void OverlapQueries<S>::visit_parts_near(const detail::AskedShape<S>& asked, std::uint32_t slot, Visit&& visit) const {
@@ -59,8 +59,8 @@ void OverlapQueries<S>::visit_parts_near(const detail::AskedShape<S>& asked, std
   }
 }
 
-/// visit(hit) -> bool for the parts of a body that overlap, until it returns false: every triangle, the lowest one of
-/// each child, or the lowest of all. Children ascend.
+/// Calls visit(hit) -> bool for the parts of a body that overlap, until it returns false: for every triangle, for the
+/// lowest one of each child, or for the lowest of all. Children ascend.
 template <class S>
 template <class Visit>
 void OverlapQueries<S>::visit_overlaps(const detail::AskedShape<S>& asked, const QueryFilter& filter,

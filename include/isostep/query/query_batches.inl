@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// The pieces of a batch, by index. Each query fills its own hits and reads the world alone.
+/// The pieces of a batch, by index. Each query writes its own hits, and only reads the world.
 template <class S> template <class Work> struct CastQueries<S>::Batch {
   const Work& work;
   std::size_t pieces;
@@ -21,10 +21,10 @@ template <class S> template <class Work> struct CastQueries<S>::Batch {
 };
 
 namespace detail {
-/// The fewest queries that are worth waking threads.
+/// The fewest queries for which waking threads is worth it.
 inline constexpr std::size_t kLeastSharedQueries = 16;
 
-/// The work of a batch: hits.size() / asked.size() hits a query, the nearest; hits that there are not have no body.
+/// The work of a batch. Each query gets hits.size() / asked.size() hits, its nearest. Those left over have no body.
 template <class Asked, class Hit, class Fault, class Gather> struct BatchWork {
   std::span<const Asked> asked;
   std::span<Hit> hits;
@@ -43,7 +43,7 @@ template <class Asked, class Hit, class Fault, class Gather>
 BatchWork(std::span<const Asked>, std::span<Hit>, const Fault&, const Gather&) -> BatchWork<Asked, Hit, Fault, Gather>;
 }  // namespace detail
 
-/// The fault is that of the first query that is refused, however many threads there are.
+/// The reported fault is that of the first refused query, however many threads there are.
 template <class S>
 template <class Work>
 bool CastQueries<S>::run_batch(const char* name, const Work& work, const TaskRunner& runner) const {

@@ -9,7 +9,7 @@
 
 namespace isostep::detail {
 
-/// A part as hits name it, and the list to put them in: the memory that takers of hits are given.
+/// A part as hits name it, and the list for its hits. Takers of hits are given a pointer to it.
 template <class Probe, class List> struct PartSink {
   const Probe& probe;
   List& list;
@@ -36,7 +36,7 @@ template <class S> class RayProbe {
         skip_inside_(filter.start_inside == StartInside::ignore) {}
 
   ISO_INLINE Sweep<S> sweep() const { return {origin_, translation_, Vec3<S>::zero(), Unit<S>(1)}; }
-  /// The fraction after which no hit at `fraction` or before can begin: fractions are rounded.
+  /// Returns the fraction after which no hit at `fraction` or before can begin, since fractions are rounded.
   ISO_INLINE Unit<S> beyond(S fraction) const { return convert<Unit<S>>(min(fraction + resolution<S>(), S(1))); }
   ISO_INLINE bool first(const ShapeView<S>& part, const Transform<S>& at, S latest, PartHit& hit) const {
     return ray_cast(part, at, origin_, translation_, latest, hit, back_faces_) && !(hit.inside && skip_inside_);
@@ -69,11 +69,11 @@ template <class S> class CastProbe {
   using Hit = ShapeCastHit<S>;
   using PartHit = SolidHit<S>;
 
-  /// `box` is around the solid at the start, in the world's frame.
+  /// `box`: around the solid at the start, in the world's frame.
   ISO_INLINE CastProbe(const SolidCast<S>& cast, const Aabb<S>& box) : cast_(cast), box_(box) {}
 
-  /// The sweep of the solid's box. It is wider than the error by which a cast may hit beside a shape, `gap_noise` for
-  /// cores.
+  /// Returns the sweep of the solid's box. It is wider than the error by which a cast may hit beside a shape, which is
+  /// `gap_noise` for cores.
   ISO_INLINE Sweep<S> sweep() const {
     const Vec3<S> half = (box_.high - box_.low) * S(0.5), centre = box_.low + half;
     const S margin = cast_margin(max_abs(half) + length(cast_.motion.translation)) + S(0.015625);

@@ -16,9 +16,9 @@ template <class S> class QuerySight {
   ISO_INLINE QuerySight(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
   ISO_INLINE BodyId id_of(std::uint32_t slot) const { return state_.body_slots.template id_of<BodyId>(slot); }
-  /// Whether the filter takes a part of that body.
+  /// Returns true if the filter takes a part of that body.
   bool sees(const QueryFilter& filter, std::uint32_t slot) const;
-  /// Of a body that is not ignored by its id.
+  /// Returns true if the filter takes the part. Its body is not ignored by its id.
   bool sees_part(const QueryFilter& filter, const BodyProperties<S>& body, const PartTraits<S>& part) const;
 
  private:

@@ -17,7 +17,7 @@
 
 namespace isostep {
 
-/// What is near to a character.
+/// A contact of a character with something near it.
 template <class S> struct NearContact {
   BodyId body;
   Vec3<Unit<S>> normal;  // [1] of the surface, towards the character
@@ -25,7 +25,7 @@ template <class S> struct NearContact {
   Vec3<S> point;         // [m] that one, midway between the two, world
 };
 
-/// What a character meets on its way.
+/// An obstacle that a character meets on its way.
 template <class S> struct ObstacleHit {
   BodyId body;
   Vec3<S> point;         // [m] of the surface, world
@@ -36,30 +36,30 @@ template <class S> struct ObstacleHit {
 /// Input:   the state and its caches, which stay as they are from `begin_step` to the last question. Positions are of
 ///          the body's origin.
 /// Output:  the contacts and hits that CastQueries would find among what the filter sees.
-/// Keeps:   through a step, where the parts are that some character has come near; of one character, the parts around
-///          it, and planes that part it from them: nothing is looked at again while its plane shows that it is not in
-///          the way.
+/// Keeps:   through a step, the places of all parts that a character has come near; of one character, the parts around
+///          it, and planes that separate it from them. A part is not looked at again while its plane shows that it is
+///          not in the way.
 template <class S> class Surroundings {
  public:
   ISO_INLINE Surroundings(const WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
       : state_(state), map_(map), proxies_(proxies), sight_(state, map) {}
 
   void begin_step();
-  /// For a body of one convex part that does not turn. Lists that the filter names outlive what is asked. What the
-  /// body, or its part, whose filter is `collides`, does not collide with is not seen, nor are bodies whose materials
+  /// Begins with a body of one convex part that does not turn. Lists that the filter names outlive the questions. The
+  /// body does not see what it, or its part, does not collide with by the filter `collides`, nor bodies whose materials
   /// are of `passed_kinds`.
   void begin(ShapeId shape, const Pose<S>& pose, const QueryFilter& filter, const Filter& collides,
              std::span<const std::uint32_t> passed_kinds = {});
-  /// Gathers what is within `reach` [m] of the place where it began. What is asked beyond is gathered then.
+  /// Gathers what is within `reach` [m] of the place where it began. A question beyond that gathers more.
   void gather(Vec3<S> reach);
 
-  /// [m] of the shape from a point; below 0: it is inside.
+  /// [m] The distance of the shape at `at` from a point; below 0: the point is inside.
   S distance(Vec3<S> at, Vec3<S> point) const;
-  /// Of every part and triangle within `margin` [m] of the shape, in order of bodies, children, triangles.
+  /// Finds contacts with all parts and triangles within `margin` [m] of the shape. Order: bodies, children, triangles.
   void find_contacts(Vec3<S> at, S margin, std::vector<NearContact<S>>& out);
-  /// The first part that it meets. What it overlaps from the start is in its way only where it goes further in.
+  /// Returns the first part that it meets. One that it overlaps from the start counts only if the way leads further in.
   std::optional<ObstacleHit<S>> cast(Vec3<S> from, Vec3<S> way);
-  /// [1] The normal of the surface that a ray meets first; none where it begins inside of that.
+  /// [1] The normal of the surface that a ray meets first; none if it begins inside of that.
   std::optional<Vec3<Unit<S>>> cast_ray(Vec3<S> from, Vec3<S> way);
 
  private:
@@ -108,7 +108,7 @@ template <class S> class Surroundings {
     }
     return (other.flags & body_flag::kCollide) != 0 && should_collide(collides_, map_.shapes.filter_of(other));
   }
-  /// Of a body that has parts which are in the way.
+  /// Returns true if the part is in the way. Some part of its body is.
   ISO_INLINE bool is_in_the_way(std::uint32_t slot, const Placed& part) const {
     if (part.traits == nullptr) return true;
     const BodyProperties<S>& body = map_.properties_at(map_.location(slot));

@@ -15,10 +15,10 @@
 namespace isostep {
 
 namespace detail {
-/// [m] What a plane parts by so much, rounding brings no nearer.
+/// [m] What a plane separates by so much stays separate despite rounding.
 template <class S> inline constexpr S kClearlyParted = S(0x1p-9);
-/// [m] Boxes are met this much sooner than what is in them. Casts are certain to `gap_noise` alone, and the slack of
-/// SweepTest follows from the region, which big boxes reach out of.
+/// [m] Boxes are met this much sooner than what is in them. Casts are exact only to `gap_noise`, and the slack of
+/// SweepTest follows from the region, beyond which big boxes reach.
 template <class S> inline constexpr S kBoxMargin = S(0.015625);
 }  // namespace detail
 
@@ -61,7 +61,7 @@ template <class S> void Surroundings<S>::gather(Vec3<S> reach) {
   gather_around({saturating_subtract(box.low, reach), saturating_add(box.high, reach)});
 }
 
-/// In order of the bodies and their children.
+/// Gathers parts in order of the bodies and their children.
 template <class S> void Surroundings<S>::gather_around(const Aabb<S>& box) {
   const S edge = Limits<S>::position() * S(2);
   const Aabb<S> all = merge(region_, box);
@@ -75,7 +75,7 @@ template <class S> void Surroundings<S>::gather_around(const Aabb<S>& box) {
   }
 }
 
-/// Ascending by slot. Fat boxes meet the region oftener than parts do, and to ask the filter costs more than to look.
+/// Ascending by slot. Looks at parts before it asks the filter, which costs more: fat boxes meet the region oftener.
 template <class S> void Surroundings<S>::find_bodies_near() {
   near_.clear();
   proxies_.boxes().query(region_, [&](std::uint32_t slot) {
@@ -99,7 +99,7 @@ template <class S> auto Surroundings<S>::place(std::uint32_t slot) -> Range {
   for (const Child<S>& child : map_.shapes.children_of(shape)) add_placed(body, origin, child, traits);
   return placed_of_[slot] = {first, static_cast<std::uint32_t>(placed_.size())};
 }
-/// Those in the region, anew for each region.
+/// Places the children in the region, anew for each region.
 template <class S> auto Surroundings<S>::place_some(std::uint32_t slot, const ChildTree<S>& tree) -> Range {
   const BodyId body = state_.body_slots.template id_of<BodyId>(slot);
   const Transform<S> origin = Transform<S>::of(map_.origin_pose_at(slot));
@@ -126,15 +126,15 @@ void Surroundings<S>::add_placed(BodyId body, const Transform<S>& origin, const 
 
 // ---- casts
 
-/// Wider than what a hit can pass a part by.
+/// Returns a sweep that is wider than the error by which a hit may pass a part.
 template <class S> Sweep<S> Surroundings<S>::sweep_of(Vec3<S> from, Vec3<S> way) const {
   const Vec3<S> half = (box_.high - box_.low) * S(0.5);
   const S margin = detail::cast_margin(max_abs(half) + max_abs(way) + max_abs(way)) + detail::kBoxMargin<S>;
   return {from + box_.low + half, way, half + Vec3<S>{margin, margin, margin}, Unit<S>(1)};
 }
 
-/// What may be in the way, by boxes and planes. What it runs into most comes first: with that known, others are too
-/// far.
+/// Finds parts that may be in the way, by boxes and planes. The part that it runs into most comes first: with its hit
+/// known, others are too far.
 template <class S> void Surroundings<S>::find_candidates(Vec3<S> from, Vec3<S> way) {
   const Sweep<S> sweep = sweep_of(from, way);
   detail::SweepTest<S> test(sweep, region_);
@@ -161,13 +161,13 @@ template <class S> void Surroundings<S>::find_candidates(Vec3<S> from, Vec3<S> w
   }
 }
 
-/// Of what has a plane that is soon found. Casts leave others'.
+/// Finds the plane of a round shape, which is soon found. Casts leave the planes of other shapes.
 template <class S> void Surroundings<S>::find_parting(Part& part, Vec3<S> start) {
   const Placed& placed = placed_[part.placed];
   if (round_) part.parting = part_round(*round_, start, placed.shape, placed.at);
 }
 
-/// A hit leaves a plane as a miss does: the one that the two then have in common.
+/// A hit leaves a plane as a miss does: the plane that the two then have in common.
 template <class S> bool Surroundings<S>::meet(Part& part, Vec3<S> from, Vec3<S> way, Unit<S> latest, SolidHit<S>& hit) {
   const Placed& placed = placed_[part.placed];
   const bool is_convex = placed.is_convex();

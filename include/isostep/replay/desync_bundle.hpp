@@ -34,7 +34,7 @@ ISO_INLINE void write_facts(Writer& writer, const BundleFacts& facts) {
   writer.write_array(facts.stages);
   if (!facts.changed_before.empty()) writer.write_array(facts.changed_before);
 }
-/// `frames`: as many as the replay has; `trace_hashes`: of a step, by the kind of world.
+/// Reads the facts. `frames`: how many the replay has. `trace_hashes`: those of one step, by the kind of world.
 ISO_INLINE Result<BundleFacts> read_facts(Bytes payload, std::uint64_t frames,
                                           std::uint32_t trace_hashes = kTraceHashes) {
   BundleFacts facts;
@@ -70,9 +70,9 @@ struct BundleSettings {
                               // event are enough for `isostep diff` to have the one in which the peers part
 };
 
-/// Writes the confirmed frames that `history` keeps from `agreed` on, with the states that this peer really had. For
-/// between two calls of `drive`, before a restart empties the history. Costs a world, and a portable form for every
-/// state.
+/// Writes the confirmed frames that `history` keeps from `agreed` on, with the states that this peer really had. Call
+/// it between two calls of `drive`, before a restart empties the history. It costs a world, and a portable form for
+/// every state.
 template <class S>
 ISO_INLINE Result<void> write_bundle(ReplaySink sink, const FrameHistory<S>& history, std::string_view scene,
                                      const BundleSettings& settings) {

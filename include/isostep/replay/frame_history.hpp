@@ -19,7 +19,7 @@ struct HistorySettings {
 };
 
 /// Observes `drive` for SessionRecorder and write_bundle. The world is the one that the game steps, at most
-/// kFrameStepCap times a frame; it must outlive this and record to nothing else meanwhile. Nothing is allocated once
+/// kFrameStepCap times a frame. It must outlive this, and records to nothing else meanwhile. Nothing is allocated once
 /// the kept command logs and snapshots have grown.
 template <class S> class FrameHistory {
  public:
@@ -67,7 +67,7 @@ template <class S> class FrameHistory {
     if (settings_.states) world_.save(kept.state);
     let_go();
   }
-  /// A sync test also goes back behind confirmed frames; those stay so.
+  /// A sync test also goes back behind confirmed frames, which stay confirmed.
   ISO_INLINE void rolled_back(Frame frame) {
     for (Kept& kept : ring_) {
       if (kept.frame >= frame && !kept.confirmed) kept.frame = kNoFrame;
@@ -80,7 +80,7 @@ template <class S> class FrameHistory {
     kept.game_hash = hash;
     confirmed_ = frame;
   }
-  /// Another past: nothing of before is kept.
+  /// The session has another past: forgets all frames.
   ISO_INLINE void restarted(Frame) {
     for (Kept& kept : ring_) kept.frame = kNoFrame;
     first_ = confirmed_ = kNoFrame;
@@ -88,13 +88,13 @@ template <class S> class FrameHistory {
 
   ISO_INLINE const World<S>& world() const { return world_; }
   ISO_INLINE const HistorySettings& settings() const { return settings_; }
-  /// Returns null when the frame is not kept, or no more.
+  /// Returns null if the frame is not kept, or no longer kept.
   ISO_INLINE const Kept* find(Frame frame) const {
     if (frame < 0) return nullptr;
     const Kept& kept = ring_[static_cast<std::size_t>(frame) % ring_.size()];
     return kept.frame == frame ? &kept : nullptr;
   }
-  /// Returns null when the frame is not kept, or no more, or states are not.
+  /// Returns null if the frame is not kept, or no longer kept, or if states are not.
   ISO_INLINE const typename World<S>::Snapshot* state_before(Frame frame) const {
     if (!settings_.states) return nullptr;
     if (frame != kNoFrame && frame == first_) return &start_;

@@ -24,17 +24,17 @@ struct PoseSmootherSettings {
 ///     ...
 ///     draw(smoother.smooth(game.world.poses_float(alpha), seconds_since_the_last_picture));
 ///
-/// The error of a body is where it was believed to be less where it is, both at one tick: the last that was stepped
-/// before the rollback. It is added to what is drawn and halves with every half-life, so a body that was corrected
-/// moves on with its new velocity, and one that was not is drawn exactly where it is. New bodies are drawn where they
-/// are. An error is dropped below snap_distance / 2^14 and 2^-13 rad: any is gone 15 half-lives after its correction.
+/// The error of a body is where it was believed to be less where it is, both at the last tick that was stepped before
+/// the rollback. It is added to what is drawn and halves with every half-life. So a corrected body moves on with its
+/// new velocity, and one that was not corrected is drawn exactly where it is. New bodies are drawn where they are. An
+/// error is dropped below snap_distance / 2^14 and 2^-13 rad: any is gone 15 half-lives after its correction.
 ///
 /// Never part of the state, and different on every machine. Allocates when bodies appear.
 class PoseSmoother {
  public:
   ISO_INLINE explicit PoseSmoother(const PoseSmootherSettings& settings = {}) : settings_(settings) {}
 
-  /// `world` has stepped `frame`, once more if it was loaded. What is called, `poses_float`, is no state.
+  /// Call it when `world` has stepped `frame`, for the first time or again. It calls `poses_float`, which is no state.
   template <class W> ISO_INLINE void after_step(Frame frame, W& world) {
     if (frame < stepped_ && present_ == kNoFrame) present_ = stepped_;
     stepped_ = frame + 1;
@@ -44,14 +44,14 @@ class PoseSmoother {
     present_ = kNoFrame;
     believe(poses);
   }
-  /// Another past: everything is drawn where it is.
+  /// The session has another past: everything is drawn where it is.
   ISO_INLINE void restarted(Frame frame) {
     bodies_.clear();
     present_ = kNoFrame;
     stepped_ = frame;
   }
 
-  /// The poses to draw, in the order given. `dt` [s]: since the last call. The result is valid until the next.
+  /// Returns the poses to draw, in the given order. `dt` [s]: since the last call. They are valid until the next.
   ISO_INLINE const std::vector<RenderPose>& smooth(const std::vector<RenderPose>& poses, float dt) {
     const float left = share_left(dt);
     drawn_.clear();
@@ -105,7 +105,7 @@ class PoseSmoother {
     return {pose.orientation[0], pose.orientation[1], pose.orientation[2], pose.orientation[3]};
   }
 
-  /// Changes the error so that what is drawn stays where it is: offset + believed = new offset + pose, turn believed =
+  /// Changes the error so that the drawn pose stays where it is: offset + believed = new offset + pose, turn believed =
   /// new turn pose.
   ISO_INLINE void add_error(Body& body, const RenderPose& pose) {
     if (!body.off) {
@@ -118,7 +118,7 @@ class PoseSmoother {
     body.off = dot(body.offset, body.offset) <= snap * snap;
   }
 
-  /// The offset shrinks to `left` of itself. The turn goes as much of the straight line to identity: small angles
+  /// Shrinks the offset to `left` of itself. The turn goes as much of the straight line to identity: small angles
   /// shrink to `left` too, and tan(angle / 4) never to more than that.
   ISO_INLINE void decay(Body& body, float left) const {
     body.offset = body.offset * left;
@@ -136,7 +136,7 @@ class PoseSmoother {
     pose = {pose.body, {position.x, position.y, position.z}, {q.x, q.y, q.z, q.w}};
   }
 
-  /// 2^(-dt / half-life): the whole halvings, and exp(-z) of the rest by its series up to z^7, within 3e-6 of
+  /// Returns 2^(-dt / half-life): the whole halvings, and exp(-z) of the rest by its series up to z^7, within 3e-6 of
   /// itself for z < ln 2.
   ISO_INLINE float share_left(float dt) const {
     if (!(dt < settings_.half_life * kForgotten)) return 0;

@@ -17,7 +17,7 @@ ISO_INLINE const char* solver_name(SolverName solver) {
   return index < kSolvers ? kSolverNames[index] : "unknown";
 }
 
-/// The identity that must be equal where a recording of such a world is replayed. `scene` is kept by reference.
+/// Returns what must be equal where a recording of such a world is replayed. `scene` is kept by reference.
 template <class S> ISO_INLINE ReplayIdentity identity_of_world(const Settings<S>& settings, std::string_view scene) {
   ReplayIdentity identity{};
   identity.behaviour = behaviour_version();

@@ -25,7 +25,7 @@ struct CheckedReplay {
   const char* left_out = nullptr;  // the method that this build lacks for it; it is incompatible then
 };
 
-/// Refuses what was made with another behaviour version, as it does every other required field.
+/// Refuses a file of another behaviour version, as it does one in which any other required field differs.
 CheckedReplay check_replay(Bytes file, const ReplayCheck& checks = {});
 
 }  // namespace isostep

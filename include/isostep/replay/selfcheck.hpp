@@ -24,7 +24,7 @@ struct SelfcheckPart {
   std::uint64_t frames;      // whose hashes were computed again and agreed
 };
 
-/// The first replay that did not come out.
+/// The first replay that failed.
 struct SelfcheckFailure {
   std::string recording, scalar, lanes;
   VerifyResult result{};  // the frame with both hashes, or why it was not played
@@ -33,14 +33,14 @@ struct SelfcheckFailure {
 struct SelfcheckResult {
   /// Deviations (bits of scalar/environment.hpp) of the library's arithmetic in the environment that steps run in.
   std::uint32_t engine = 0;
-  /// The deviations of the calling file's flags in the calling thread's environment, likewise. The engine does not
-  /// depend on them; float arithmetic of the caller's own does.
+  /// Deviations, likewise, of the calling file's flags in the calling thread's environment. The engine does not depend
+  /// on them; float arithmetic of the caller's own does.
   std::uint32_t caller = 0;
   std::vector<SelfcheckPart> parts;
   std::optional<SelfcheckFailure> failure;
   const char* left_out = nullptr;  // why recordings were skipped
 
-  /// Every scalar of the build with every set of lanes has frames that agree, and none that does not.
+  /// Returns true if all parts have frames that agree, no replay failed, and the engine's arithmetic is sound.
   ISO_INLINE bool sound() const {
     bool compared = !parts.empty();
     for (const SelfcheckPart& part : parts) compared = compared && part.frames > 0;
@@ -53,9 +53,9 @@ struct SelfcheckResult {
   }
 };
 
-/// One line: the result, the build, what was compared and the first failure.
+/// Returns one line: the result, the build, what was compared and the first failure.
 std::string describe(const SelfcheckResult& result);
-/// "flush-float rounding", empty for 0.
+/// Returns "flush-float rounding", for example; empty for 0.
 std::string deviation_names(std::uint32_t deviations);
 
 /// A file of replays/selfcheck as it was when the library was built.
@@ -66,14 +66,14 @@ struct SelfcheckRecording {
 };
 
 namespace detail {
-/// Those of the build's scalars.
+/// Returns the recordings of the build's scalars.
 std::span<const SelfcheckRecording> selfcheck_recordings();
 SelfcheckResult selfcheck(std::span<const SelfcheckRecording> recordings, std::uint32_t caller);
 }  // namespace detail
 
 /// Replays the built-in recordings in every scalar of the build with every set of lanes that the processor has, and
-/// probes the floating-point environment. Half a second on a PC; allocates; safe on any thread. What is not called is
-/// not linked. Of scalars added by a program it knows nothing.
+/// probes the floating-point environment. It takes half a second on a PC, allocates, and is safe on any thread. If it
+/// is not called, it is not linked. It knows nothing of scalars that a program adds.
 ISO_INLINE SelfcheckResult selfcheck() {
   return detail::selfcheck(detail::selfcheck_recordings(), probe_environment_here());
 }

@@ -12,12 +12,12 @@
 namespace isostep {
 
 /// Observes `drive` beside the FrameHistory of the same world, which keeps at least as many frames as may be predicted.
-/// The recording starts with the state before the first frame that is stepped, and a frame is written once it is
-/// confirmed. Where the session restarts from another state the recording ends, whole; what follows wants a recorder of
-/// its own. Errors stay, and `finish` returns them: the hooks of observers return nothing.
+/// The recording starts with the state before the first stepped frame, and a frame is written once it is confirmed. If
+/// the session restarts from another state, the recording ends as a whole file; the rest needs another recorder. Errors
+/// stay, and `finish` returns them, because the hooks of observers return nothing.
 template <class S> class SessionRecorder {
  public:
-  /// `scene` is copied; the history must outlive this. `block_frames`: as MatchRecorder has it.
+  /// `scene` is copied. `history` must outlive this. `block_frames`: see MatchRecorder.
   ISO_INLINE SessionRecorder(const FrameHistory<S>& history, ReplaySink sink, std::string_view scene,
                              std::uint32_t block_frames = 0)
       : history_(history), recorder_(sink, block_frames), scene_(scene) {}
@@ -41,21 +41,21 @@ template <class S> class SessionRecorder {
     if (phase_ == Phase::open) end();
   }
 
-  /// All final frames so far are with the sink.
+  /// Passes all final frames so far to the sink.
   ISO_INLINE const Result<void>& flush() {
     if (phase_ == Phase::open) keep(recorder_.flush());
     return result_;
   }
-  /// Ends the file with the last confirmed frame.
+  /// Ends the file after the last confirmed frame.
   ISO_INLINE Result<void> finish() {
     if (phase_ == Phase::waiting) fail("no frame was stepped");
     if (phase_ == Phase::open) end();
     return result_;
   }
   ISO_INLINE const Result<void>& result() const { return result_; }
-  /// Frames written.
+  /// The number of written frames.
   ISO_INLINE Frame frames() const { return next_ - first_; }
-  /// It is false once the session restarted, or after an error.
+  /// Returns false after `finish`, after the session restarted, or after an error.
   ISO_INLINE bool recording() const { return phase_ == Phase::waiting || phase_ == Phase::open; }
 
  private:

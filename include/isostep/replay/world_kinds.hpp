@@ -20,7 +20,7 @@
 
 namespace isostep {
 
-/// The facts about a RecordableWorld that it does not say of itself.
+/// The facts about a RecordableWorld that it does not tell itself.
 template <class W> struct WorldTraits;
 
 template <class S> struct WorldTraits<World<S>> {
@@ -36,7 +36,7 @@ template <class S> struct WorldTraits<ParticleWorld<S>> {
 };
 
 
-/// The whole of a portable form, nothing after it.
+/// Reads a whole portable form, with nothing after it.
 template <class W> ISO_INLINE Result<void> read_whole(W& world, Bytes bytes) {
   Reader reader(bytes);
   const Result<void> read = world.read_portable(reader);
@@ -47,7 +47,7 @@ template <class W> ISO_INLINE Result<void> read_whole(W& world, Bytes bytes) {
 
 template <class W> struct WorldTag { using Type = W; };
 
-/// Calls visit(WorldTag<W>{}) for each world until one call returns true; whether one did.
+/// Calls visit(WorldTag<W>{}) for each world until a call returns true. Returns true if one did.
 template <class Visit> ISO_INLINE bool any_world(Visit&& visit) {
   return any_scalar([&](auto tag) ISO_INLINE_LAMBDA {
     using S = typename decltype(tag)::Type;
@@ -55,8 +55,8 @@ template <class Visit> ISO_INLINE bool any_world(Visit&& visit) {
   });
 }
 
-/// visit(WorldTag<W>{}) for the world of that kind whose ScalarTraits satisfy `is_scalar(name, id)`. Empty, or the
-/// field of HEAD that names nothing of this build.
+/// Calls visit(WorldTag<W>{}) for the world of that kind whose ScalarTraits satisfy `is_scalar(name, id)`. Returns an
+/// empty text, or the field of HEAD that names nothing of this build.
 template <class IsScalar, class Visit>
 ISO_INLINE std::string_view with_world_if(std::string_view kind, IsScalar&& is_scalar, Visit&& visit) {
   bool known = false;
@@ -76,7 +76,7 @@ ISO_INLINE std::string_view with_world(std::string_view kind, std::string_view s
   return with_world_if(
       kind, [&](std::string_view name, std::uint32_t) ISO_INLINE_LAMBDA { return name == scalar; }, visit);
 }
-/// The header's facts about the world of a recording; views of it.
+/// The header's facts about the world of a recording, as views of the header.
 struct RecordedWorld {
   std::string_view kind;    // WorldTraits::kName
   std::uint64_t scalar_id;  // of ScalarTraits
@@ -92,7 +92,7 @@ template <class Visit> ISO_INLINE std::string_view with_world(const RecordedWorl
       world.kind, [&](std::string_view, std::uint32_t id) ISO_INLINE_LAMBDA { return id == world.scalar_id; }, visit);
 }
 
-/// visit(WorldTag<W>{}) for the world whose portable form begins with that word; false when there is none.
+/// Calls visit(WorldTag<W>{}) for the world whose portable form begins with that word. False: there is none.
 template <class Visit> ISO_INLINE bool with_portable_world(std::uint32_t word, Visit&& visit) {
   return any_world([&](auto tag) ISO_INLINE_LAMBDA {
     if (word != WorldTraits<typename decltype(tag)::Type>::kPortableId) return false;

@@ -6,7 +6,7 @@
 
 namespace isostep {
 
-/// What a game asks of its session. CHOOSING.md has what each of these gives on good and on bad lines.
+/// A kind of game, by what it asks of its session. CHOOSING.md shows what each preset gives on good and bad lines.
 enum class Genre : std::uint8_t {
   fighting,  // two players; a frame of delay is felt
   brawler,   // a few players on one small stage
@@ -15,8 +15,8 @@ enum class Genre : std::uint8_t {
   sandbox    // a thousand awake bodies: a step is dear, and a rollback of many frames takes longer than a frame
 };
 
-/// Mode, window, delays and deadline of `genre`, for so many players. Who hosts, the seed, `migration` and the game's
-/// identity are still to be set.
+/// Returns the mode, window, delays and deadline for `genre` and so many players. The game still sets who hosts, the
+/// seed, `migration` and its identity.
 SessionConfig preset(Genre genre, int players);
 
 }  // namespace isostep

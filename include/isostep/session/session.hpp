@@ -16,20 +16,20 @@
 
 namespace isostep {
 
-/// One thing to do, in order: see RequestKind. `inputs` belong to `step` and hold until the next advance().
+/// One thing that the game must do: see RequestKind. `inputs` are set for `step` and valid until the next advance().
 template <class Input> struct Request {
   RequestKind kind;
   Frame frame;
   InputView<Input> inputs;
 };
 
-/// What `config` asks for; `recording` is the match of a SessionMode::replay and must outlive the session. The
-/// configuration with a problem gives a session that is refused, by the event that names the field.
+/// Makes the session that `config` asks for. `recording` is the match of a SessionMode::replay and must outlive the
+/// session. A `config` with a problem makes a refused session, whose event names the field.
 std::unique_ptr<SessionCore> make_session_core(const SessionConfig& config, const InputRules& rules, Bytes recording);
 
 /// A session of `Game`, which models Simulation. It has no sockets, no clock and no threads. In a running match it
-/// allocates only what the game's own save does; joins, returns, repairs, a new host and saved matches take memory. A
-/// turn of the game's loop:
+/// allocates only what the game's own save allocates. Joins, returns, repairs, a new host and saved matches allocate
+/// more. A turn of the game's loop:
 ///
 ///     transport's events  -> connected, disconnected, receive
 ///     session.add_local_input(player, input);
@@ -37,14 +37,14 @@ std::unique_ptr<SessionCore> make_session_core(const SessionConfig& config, cons
 ///     while (auto out = session.poll_send(now)) ... -> transport
 ///     while (auto event = session.poll_event()) ...
 ///
-/// Faults of the network, of peers and of the caller are events and counts, never undefined.
+/// Faults of the network, of peers and of the caller become events and counts, never undefined behaviour.
 template <class Game, class Predictor = typename DefaultPredictor<typename Game::Input>::Type> class Session {
  public:
   using Input = typename Game::Input;
 
   explicit Session(const SessionConfig& config, Bytes recording = {})
       : Session(config, input_rules<Input, Predictor>(), recording) {}
-  /// Of inputs whose size and guess are known at run time only, as those of the C interface.
+  /// Takes inputs whose size and prediction are known only at run time, such as those of the C interface.
   Session(const SessionConfig& config, const InputRules& rules, Bytes recording)
       : core_(make_session_core(config, rules, recording)), states_(static_cast<std::size_t>(core_->config().kept)) {
     const std::size_t steps = states_.size() * 2 + 8;
@@ -54,7 +54,7 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   }
 
   // From the transport.
-  /// `incoming`: the other side asked for the connection, as all do at a host.
+  /// `incoming`: the peer opened the connection. On a host all connections are incoming.
   void connected(PeerId peer, Time now, bool incoming = false) {
     if (incoming) core_->accepted(peer, latest(now));
     else core_->connected(peer, latest(now));
@@ -63,36 +63,36 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   void receive(PeerId peer, Channel channel, Bytes bytes, Time now) {
     core_->receive(peer, channel, bytes, latest(now));
   }
-  /// To the transport: connect to this machine, as SessionConfig::address of its session says; each once. What comes
-  /// of it are the events above, or nothing.
+  /// Returns the next machine to which the transport must connect, each once: the SessionConfig::address of its
+  /// session. The transport reports the outcome by the functions above, or reports nothing.
   std::optional<Address> poll_connect() { return core_->poll_connect(); }
-  /// To the transport, until there is nothing more; the bytes hold until the next call.
+  /// Returns the next bytes to send. Call it until it returns nothing. The bytes are valid until the next call.
   std::optional<Outgoing> poll_send(Time now) { return core_->poll_send(latest(now)); }
 
-  /// For the next frame; until that is stepped a later input replaces an earlier one. False when the player is not ours
-  /// or not in the match now, or the input is none.
+  /// Sets the player's input for the next frame. Until that frame is stepped, a later input replaces an earlier one.
+  /// Returns false if the player is not local or not in the match now, or if the input is invalid.
   bool add_local_input(int player, const Input& input) {
     std::uint8_t bytes[kInputCap];
     const std::size_t size = InputCodec<Input>::encode(input, bytes);
     return core_->add_local_input(player, {bytes, size});
   }
-  /// Has the last one been taken? A game of orders hands over the next only then.
+  /// Returns true if no input of the local player waits for the next frame. A game of orders adds one only then.
   bool wants_input(int player) const { return core_->wants_input(player); }
-  /// Client: takes a state of the host's, as one that joins does, and keeps its seat. It is for who is outvoted, which
-  /// SessionConfig::repair does by itself, or whose game would have it. Kind::repaired tells when it is done. What
-  /// the observers of drive() saw stays as it was until they are told `restarted`: write the bundle before that. False:
-  /// not in the match, or under way already.
+  /// Client: takes a state of the host's again, as a joining client does, and keeps its seat. It is for a client that
+  /// is outvoted, which SessionConfig::repair does automatically, or whose game wants it. Kind::repaired reports the
+  /// end. The observers of drive() keep what they saw until they are told `restarted`, so write the desync bundle
+  /// before that. Returns false if not in the match, or if a repair is under way.
   bool resync() { return core_->resync(); }
-  /// Host: begins although seats are empty.
+  /// Host: starts the match although some seats are empty.
   void start(Time now) { core_->start(latest(now)); }
-  /// With `migration`, where the match stands for lack of a majority, or its host is lost: goes on with those who are
-  /// here, at this machine. Whoever calls knows that the others play nowhere else, for nothing else prevents a
-  /// split. False: the match goes on without, or this machine has no
-  /// part in it or no `seed`.
+  /// With `migration`, when the match stalls because no majority is here, or when the host is lost: continues with the
+  /// machines that are here, on this one. Call it only if you know that the other machines play nowhere else, for
+  /// nothing else prevents a split match. Returns false if the match runs without it, or if this machine has no part in
+  /// the match or no `seed`.
   bool go_on(Time now) { return core_->go_on(latest(now)); }
 
-  /// Host, between two drives: the match in its newest final state as bytes, with the seats of its players, for
-  /// SessionConfig::saved_match of another process. An error when it has not begun, or the game has no portable form.
+  /// Host, between two drives: writes the match in its newest final state, with its players' seats, for
+  /// SessionConfig::saved_match of another process. Fails if the match has not begun, or the game has no portable form.
   Result<void> save_match(Game& game, std::vector<std::uint8_t>& out) {
     std::optional<SavedMatch> saved = core_->save_match();
     if (!saved) return Error{ErrorCode::invalid, "of a host whose match has begun", "save_match"};
@@ -108,47 +108,47 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
       return Error{ErrorCode::invalid, "of a game with a portable form", "save_match"};
     }
   }
-  /// The match stands still, or goes on: on all machines before the same frame, as events say. The host decides; a
-  /// client in the match asks it, see SessionConfig::players_set_tempo. False: not possible now.
+  /// pause() and unpause() stop and continue the match on all machines before the same frame, as events report. The
+  /// host decides. A client asks it, see SessionConfig::players_set_tempo. Returns false if not possible now.
   bool pause() { return core_->control() != nullptr && core_->control()->pause(true); }
   bool unpause() { return core_->control() != nullptr && core_->control()->pause(false); }
-  /// [1/8 of the match's rate] 4 to 16, likewise; in a pause for afterwards. False also where the host's most_packets
-  /// is below twice the rate.
+  /// Sets the speed, 4 to 16 [1/8 of the match's rate], in the same way. In a pause it is the speed after the pause. On
+  /// the host it also returns false if most_packets is below twice the new rate.
   bool set_speed(int eighths) { return core_->control() != nullptr && core_->control()->set_speed(eighths); }
 
-  /// `player`, one of ours, asks all who play, see SessionConfig::votes; one vote at a time. What passes is done.
-  /// False: not now, or not sound. A client's that the host does not take is counted there.
+  /// Proposes a vote of all players for the local `player`, see SessionConfig::votes. One vote runs at a time. What
+  /// passes is carried out. False: not now, or invalid. The host counts the clients' proposals that it rejects.
   bool propose(int player, const Proposal& proposal) {
     return core_->control() != nullptr && core_->control()->propose(player, proposal);
   }
-  /// In the vote of the last event `vote`; the last word counts. False: there is none, or the player is not ours.
+  /// Votes for a local player in the open ballot; its last vote counts. False: none is open, or it has no vote in it.
   bool vote(int player, bool yes) { return core_->control() != nullptr && core_->control()->vote(player, yes); }
 
-  /// Host with SessionConfig::asks_admission: who waits for an answer, each once. One that comes after `silence` is too
-  /// late. False: it has gone, or is refused all the same, for there is no seat.
+  /// Host with SessionConfig::asks_admission: returns the next applicant that waits, each once. An answer after
+  /// `silence` is too late. admit() returns false if the applicant is gone, or refused because no seat is free.
   std::optional<Applicant> poll_applicant() {
     return core_->admission() == nullptr ? std::nullopt : core_->admission()->poll_applicant();
   }
   bool admit(std::uint64_t applicant) { return core_->admission() != nullptr && core_->admission()->admit(applicant); }
-  /// The reason is text for people, printable ASCII of at most kReplayValueCap characters; false: it is not.
+  /// Returns false if the applicant is gone or `reason` is not printable ASCII of at most kReplayValueCap characters.
   bool refuse(std::uint64_t applicant, std::string_view reason) {
     return core_->admission() != nullptr && core_->admission()->refuse(applicant, reason);
   }
-  /// Host: ends the player's connection, if it has one, with that reason. Its token is void and its seat free. False: a
-  /// seat of nobody or of the host's own, or no reason as above.
+  /// Host: ends the connection of the player's machine, if it has one, with that reason. Its token is void, its seats
+  /// are free. Returns false for an empty seat, a seat of the host's own, or an invalid reason (see refuse).
   bool kick(int player, std::string_view reason) {
     return core_->admission() != nullptr && core_->admission()->kick(player, reason);
   }
-  /// Likewise of a connection: a spectator's as well.
+  /// Kicks the peer of a connection in the same way, also a spectator.
   bool kick_peer(PeerId peer, std::string_view reason) {
     return core_->admission() != nullptr && core_->admission()->kick_peer(peer, reason);
   }
-  /// Host: who has this seat now. Nobody, while it is kept for a player who is away, and for the host's own players.
+  /// Host: returns the peer in this seat. Nothing if the seat is kept for an absent player, or is the host's own.
   std::optional<PeerId> peer_of(int player) const {
     return core_->admission() == nullptr ? std::nullopt : core_->admission()->peer_of(player);
   }
 
-  /// What to do now, in order and all of it: the low level under drive().
+  /// Returns what the game must do now: all of it, in this order. It is the low level under drive().
   std::span<const Request<Input>> advance(Time now) {
     if (std::unique_ptr<SessionCore> next = core_->succeed(latest(now))) core_ = std::move(next);
     requests_.clear();
@@ -174,31 +174,31 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
     }
     return requests_;
   }
-  /// After a `save`: the hash of that state.
+  /// Reports the hash of a state after its `save`.
   void saved(Frame state, std::uint64_t hash) { core_->saved(state, hash); }
-  /// After a `capture`, also where the game has no portable form.
+  /// Reports that a `capture` was carried out, also if the game has no portable form.
   void captured() { core_->captured(); }
-  /// After a `restore`.
+  /// Reports the outcome of a `restore`.
   void restored(bool ok) { core_->restored(ok); }
-  /// After a `probe` that found one.
+  /// Reports a byte of the state that the hash does not cover, found by a `probe`.
   void unhashed(Frame state, std::size_t byte) { core_->unhashed(state, byte); }
   std::vector<std::uint8_t>& portable() { return core_->portable(); }
-  /// Where `save` puts and `load` finds state `frame`.
+  /// Returns the snapshot of state `frame`: `save` writes it, `load` reads it.
   typename Game::Snapshot& state(Frame frame) { return states_[static_cast<std::size_t>(frame) % states_.size()]; }
 
   std::optional<SessionCore::Confirmed> poll_confirmed() { return core_->poll_confirmed(); }
   std::optional<SessionEvent> poll_event() { return core_->poll_event(); }
-  /// [us] until the next frame is due: how long a loop may sleep when the network is silent.
+  /// [us] until the next frame is due. A loop may sleep so long while the network is silent.
   Time wait(Time now) const { return core_->wait(now); }
 
   SessionPhase phase() const { return core_->phase(); }
-  /// Says who we are after a crash: see SessionConfig::token. 0: not seated yet.
+  /// The token identifies this player after a crash: see SessionConfig::token. 0: not seated yet.
   std::uint64_t token() const { return core_->token(); }
-  /// Of the snapshot that is under way: on a client the one that it waits for, on a host the one that `peer` is sent.
+  /// The progress of a snapshot: on a client of the one that it receives, on a host of the one that `peer` is sent.
   SnapshotProgress snapshot_progress(PeerId peer = 0) const { return core_->snapshot_progress(peer); }
   /// The first player of this machine; -1: none, or none yet.
   int local_player() const { return core_->local_player(); }
-  /// All of them, a bit each: those for whom inputs are added here. On a client they come and go together.
+  /// All local players, a bit each: inputs are added for them here. On a client they join and leave together.
   std::uint32_t local_players() const { return core_->local_players(); }
   const SessionConfig& config() const { return core_->config(); }
   const SessionStats& stats() const { return core_->stats(); }
@@ -206,7 +206,7 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   Frame current() const { return core_->current(); }
   /// States up to this one are final.
   Frame confirmed() const { return core_->confirmed(); }
-  /// What a player did in a frame that is at most `kept` frames old; Input{} for who was absent.
+  /// Returns a player's input of a frame that is at most `kept` frames old; Input{} if the player was absent.
   Input input(Frame frame, int player) const {
     Input value{};
     InputCodec<Input>::decode(core_->input(frame, player).bytes, value);
@@ -215,7 +215,7 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   InputStatus status(Frame frame, int player) const { return core_->input(frame, player).status; }
 
  private:
-  /// Cores reckon with times that never run backwards; a caller may read its clock twice in a turn.
+  /// Returns a time that never runs backwards, as cores need it. A caller may read its clock twice in a turn.
   Time latest(Time now) {
     if (latest_ < now) latest_ = now;
     return latest_;
@@ -229,10 +229,10 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
   std::vector<InputStatus> statuses_;
 };
 
-/// Sees nothing. An observer has any of these members, each called as its name says; see Observers for several.
+/// An observer that does nothing. An observer has any of the members that drive() lists. Observers combines several.
 struct NoObserver {};
 
-/// Several observers in one, called in their order.
+/// Combines several observers, which are called in their order.
 template <class... Each> struct Observers {
   std::tuple<Each&...> each;
   explicit Observers(Each&... observers) : each(observers...) {}
@@ -255,7 +255,7 @@ ISO_TELL(confirmed)
 }  // namespace detail
 
 namespace detail {
-/// A sync test changes so many bytes of each state, one bit each: one of 10 kB is gone through in some 40 s of play.
+/// A sync test flips one bit in so many bytes of each state. It covers 10 kB in some 40 s of play.
 inline constexpr std::uint64_t kProbes = 4;
 
 template <class Game> void write_whole(const Game& game, std::vector<std::uint8_t>& bytes) {
@@ -267,7 +267,7 @@ template <class Game> bool read_whole(Game& game, const std::vector<std::uint8_t
   Reader reader(bytes);
   return game.read_portable(reader).ok() && reader.remaining() == 0;
 }
-/// What is written is what is saved: where the game takes other bytes and keeps them, its hash must be another one.
+/// Flips bits of the portable state. If the game accepts and keeps a changed byte, its hash must change too.
 template <class Game, class Predictor> void probe(Session<Game, Predictor>& session, Game& game, Frame frame) {
   std::vector<std::uint8_t>& bytes = session.portable();
   write_whole(game, bytes);
@@ -289,7 +289,7 @@ template <class Game, class Predictor> void probe(Session<Game, Predictor>& sess
 }
 }  // namespace detail
 
-/// Carries out a request that is no `step`, and calls `observer` as drive() does: for callers that step by themselves.
+/// Carries out a request that is no `step`, and calls `observer` as drive() does: for callers that step the game.
 template <class Game, class Predictor, class Observer>
 void carry_out(Session<Game, Predictor>& session, Game& game, const Request<typename Game::Input>& request,
                Observer& observer) {
@@ -330,11 +330,11 @@ void carry_out(Session<Game, Predictor>& session, Game& game, const Request<type
 
 /// Plays what is due: carries out the session's requests with the game, and calls `observer`:
 ///   before_step(f), after_step(f)   frame f is stepped, for the first time or again
-///   rolled_back(f)                  the state is again that before frame f
-///   restarted(f)                    the state is one that arrived from elsewhere, before frame f
+///   rolled_back(f)                  the state is that before frame f again
+///   restarted(f)                    the state was replaced from elsewhere; it is that before frame f
 ///   confirmed(f, hash)              frame f is final: once each, ascending, after restarted(f) from there; hash is
 ///                                   that of the state after it
-/// Returns how many frames were stepped, those again included.
+/// Returns the number of steps, including those of frames that are stepped again.
 template <class Game, class Predictor, class Observer = NoObserver>
 int drive(Session<Game, Predictor>& session, Game& game, Time now, Observer&& observer = Observer{}) {
   int steps = 0;

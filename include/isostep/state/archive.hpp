@@ -21,7 +21,7 @@ struct BoolVisitor {
   bool* found;
   template <class T> constexpr void operator()(const char*, const T&) const { *found = *found || has_bool<T>(); }
 };
-/// Does T hold a bool? Its bytes then need a look before they become a T.
+/// Returns true if T holds a bool: then its bytes must be checked before they become a T.
 template <class T> constexpr bool has_bool() {
   if constexpr (std::is_bounded_array_v<T>) {
     return has_bool<std::remove_extent_t<T>>();
@@ -57,13 +57,13 @@ class Writer {
 
   template <class T> ISO_INLINE void write(const T& value) { pack(grow(kPackedSize<T>), value); }
   template <class T> ISO_INLINE void operator()(const char*, const T& value) { write(value); }
-  /// Writes the short form: pack_short.
+  /// Writes the short form, see pack_short.
   template <class T> ISO_INLINE void write_short(const T& value) {
     std::uint8_t bytes[kMostShort<T> + 1];
     write_raw({bytes, pack_short(bytes, value)});
   }
 
-  /// n records with no count before them.
+  /// Writes n records, with no count before them.
   template <class T> ISO_INLINE void write_records(const T* first, std::size_t n) {
     if constexpr (kCopiesWhole<T>) {
       write_raw({reinterpret_cast<const std::uint8_t*>(first), n * sizeof(T)});
@@ -72,7 +72,7 @@ class Writer {
       for (std::size_t i = 0; i < n; ++i) at = pack(at, first[i]);
     }
   }
-  /// A u32 count and the records.
+  /// Writes a u32 count and the records.
   template <class T> ISO_INLINE void write_array(const T* first, std::size_t n) {
     write_count(n);
     write_records(first, n);
@@ -80,7 +80,7 @@ class Writer {
   template <class T> ISO_INLINE void write_array(const std::vector<T>& records) {
     write_array(records.data(), records.size());
   }
-  /// A u32 count and the bytes.
+  /// Writes a u32 count and the bytes.
   ISO_INLINE void write_bytes(Bytes bytes) {
     write_count(bytes.size());
     write_raw(bytes);
@@ -89,20 +89,20 @@ class Writer {
     write_bytes({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   }
 
-  /// 2^32 records or more are the caller's bug.
+  /// A count of 2^32 or more is the caller's bug.
   void write_count(std::size_t count);
   void write_raw(Bytes bytes);
   std::size_t size() const;
 
  private:
-  /// `more` fresh bytes at the end; the pointer holds until the next call.
+  /// Appends `more` bytes. The pointer is valid until the next call.
   std::uint8_t* grow(std::size_t more);
 
   std::vector<std::uint8_t>* out_;
 };
 
-/// Reads what a Writer wrote from bytes nobody vouches for. The first failure sticks: every later read gives zero, so
-/// a caller may read a whole record and check once.
+/// Reads what a Writer wrote, from untrusted bytes. The first failure sticks: every later read returns zero, so a
+/// caller may read a whole record and check once.
 class Reader {
  public:
   ISO_INLINE explicit Reader(Bytes bytes)
@@ -110,7 +110,7 @@ class Reader {
 
   ISO_INLINE bool ok() const { return ok_; }
   ISO_INLINE std::size_t remaining() const { return ok_ ? bytes_.size() - offset_ : 0; }
-  /// The offset of the next byte, or of the one where reading failed.
+  /// Returns the offset of the next byte, or of the byte where reading failed.
   ISO_INLINE std::size_t offset() const { return offset_; }
 
   template <class T> ISO_INLINE bool read(T& value) {
@@ -139,8 +139,8 @@ class Reader {
     read(value);
   }
 
-  /// Reads what write_short wrote. A number in more bytes than it needs, or above its type's largest, is corrupt: a
-  /// value has one form.
+  /// Reads what write_short wrote. A number in more bytes than it needs, or above its type's largest, is corrupt, so
+  /// that a value has one form.
   template <class T> ISO_INLINE bool read_short(T& value) {
     if constexpr (std::is_bounded_array_v<T>) {
       for (auto& element : value) read_short(element);
@@ -168,35 +168,35 @@ class Reader {
       return ok_;
     }
   }
-  /// A count that is at most `cap` and whose records of `packed_size` bytes each are all there; else 0 and a failure.
-  /// Call before allocating.
+  /// Reads a count that is at most `cap` and whose records of `packed_size` bytes each are all there. Else it fails and
+  /// returns 0. Call it before allocating.
   std::uint32_t read_count(std::uint32_t cap, std::size_t packed_size);
-  /// Replaces what `records` holds; on failure it is empty.
+  /// Replaces the content of `records`. On failure it is empty.
   template <class T> ISO_INLINE bool read_array(std::vector<T>& records, std::uint32_t cap) {
     records.clear();
     records.resize(read_count(cap, kPackedSize<T>));
     if (!records.empty() && !read_records(records.data(), records.size())) records.clear();
     return ok_;
   }
-  /// A view into the input.
+  /// Returns a view into the input.
   Bytes read_bytes(std::uint32_t cap);
   std::string_view read_text(std::uint32_t cap);
-  /// `size` bytes with no count before them.
+  /// Returns a view of `size` bytes, with no count before them.
   Bytes read_view(std::size_t size);
 
-  /// Fails by a rule of the caller's own: an index past the end, a number that is not finite. `reason` is a literal.
+  /// Fails by a rule of the caller: an index past the end, a number that is not finite. `reason` is a literal.
   void fail(ErrorCode code, const char* reason);
-  /// Bytes left over are an error too.
+  /// Fails if bytes are left over.
   void expect_end();
-  /// `what` was being read.
+  /// Returns the result of reading `what`.
   Result<void> result(std::string_view what) const;
 
  private:
-  /// The next `size` bytes, or null.
+  /// Returns the next `size` bytes, or null.
   const std::uint8_t* take(std::size_t size);
   bool read_raw(void* to, std::size_t n, std::size_t size);
   std::uint8_t refuse_bool();
-  /// A number up to `most`, or 0 and a failure.
+  /// Reads a number up to `most`. Else it fails and returns 0.
   std::uint64_t read_leb128(std::uint64_t most);
 
   Bytes bytes_;

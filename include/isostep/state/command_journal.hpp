@@ -24,7 +24,7 @@ class CommandJournal {
   ISO_INLINE void record_step() {
     if (log_ != nullptr) log_->push_back(kStepMarker);
   }
-  /// The state was replaced by one to which the command log does not lead.
+  /// Notes that the state was replaced by one to which the command log does not lead.
   ISO_INLINE void note_load() { ++loads_; }
   ISO_INLINE std::uint64_t loads() const { return loads_; }
 

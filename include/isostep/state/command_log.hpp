@@ -14,10 +14,10 @@
 
 namespace isostep {
 
-/// Stands in a command log where the world stepped; no command has this number.
+/// Marks in a command log that the world stepped. No command has this number.
 inline constexpr std::uint8_t kStepMarker = 0xff;
 
-/// Steps in one frame, at most: a marker is one byte, so a frame's bytes alone could keep whoever plays them for hours.
+/// The most steps in one frame. A marker is one byte, so a few bytes of a frame could keep its player busy for hours.
 inline constexpr std::uint32_t kFrameStepCap = 64;
 inline constexpr char kTooManySteps[] = "more steps than a frame may have";
 
@@ -32,13 +32,13 @@ concept WritesItself = requires(C& command, const C& same, Writer& writer, Reade
 template <class C>
 concept Recordable = HasFields<C> || WritesItself<C>;
 
-/// The place of each command in a list, as base classes: one instantiation for the list and one for each place, where a
-/// search through a std::variant takes as many for every command.
+/// The place of each command in a list, as base classes. They take one instantiation for the list and one for each
+/// place; a search through a std::variant takes as many for every command.
 template <std::size_t I, class C> struct Numbered {};
 template <class Indices, class... Commands> struct NumbersOf;
 template <std::size_t... I, class... Commands>
 struct NumbersOf<std::index_sequence<I...>, Commands...> : Numbered<I, Commands>... {
-  /// Calls visit(command) for the command of this number once it is read. False: there is none.
+  /// Reads the command of this number and calls visit(command). Returns false if there is none.
   template <class Visit> static ISO_INLINE bool visit_read(std::size_t number, Reader& reader, Visit& visit) {
     return (... || (number == I && read_one<Commands>(reader, visit)));
   }
@@ -63,8 +63,8 @@ inline constexpr std::uint8_t kNumberOf = number_in<C>(static_cast<const Numbers
 }  // namespace detail
 
 /// The closed list of a world's commands: a command's place in it is its number. A macro that writes the list puts a
-/// comma before each, so what stands before the first comma is not used. No std::variant holds them: each conversion to
-/// one of a hundred commands takes the compiler a second.
+/// comma before each command, so the first argument is not used. It is no std::variant: each conversion to one of a
+/// hundred commands takes the compiler a second.
 template <class Unused, class... Commands> struct CommandTypes {
   static_assert((detail::Recordable<Commands> && ...), "a command lacks `fields`, or `write` and `read`");
   static constexpr std::size_t kCount = sizeof...(Commands);
@@ -86,22 +86,22 @@ template <class List, class C> ISO_INLINE void write_command(Writer& writer, con
   }
 }
 
-/// Calls visit(command) with the one that is next, as the type that it is. Bytes that are no command are not visited,
-/// and leave a reader that has failed.
+/// Calls visit(command) with the next command, as the type that it is. Bytes that are no command are not visited, and
+/// the reader has then failed.
 template <class List, class Visit> ISO_INLINE void read_command(Reader& reader, Visit&& visit) {
   const auto number = reader.read<std::uint8_t>();
   const bool known = detail::Numbers<List>::visit_read(number, reader, visit);
   if (reader.ok() && !known) reader.fail(ErrorCode::invalid, "no command has this number");
 }
 
-/// Steps a world in the place of its own `step`, for those who watch stages while a command log is played.
+/// Steps a world in place of its own `step`, for code that watches stages while a command log is played.
 struct Stepper {
   void (*step)(void* user);
   void* user;
 };
 
-/// A frame's command log from front to back: `apply(command)`, called with each as the type that it is, says whether it
-/// was accepted. What comes before an error was done.
+/// Plays a frame's command log from front to back. `apply(command)` gets each command as the type that it is, and
+/// returns whether it was accepted. What comes before an error was done.
 template <class List, class Apply, class Step>
 ISO_INLINE Result<void> play_commands(Bytes log, Apply&& apply, Step&& step) {
   Reader reader(log);

@@ -16,8 +16,8 @@
 
 namespace isostep {
 
-/// The header of a recording from frame `first` on. `identity_of_world(settings, scene)` stands beside the settings and
-/// says what must be equal where a recording of such a world is replayed.
+/// Returns the header of a recording from frame `first` on. `identity_of_world(settings, scene)` is found beside the
+/// settings and tells what must be equal where a recording of such a world is replayed.
 template <class Settings>
 ISO_INLINE Result<ReplayHeader> header_of_world(const Settings& settings, std::string_view scene, Frame first) {
   Result<ReplayHeader> header = make_replay_header(identity_of_world(settings, scene));
@@ -45,7 +45,7 @@ template <RecordableWorld W> struct CommandLogStart {
 
   CommandLogStart() = default;
   ISO_INLINE explicit CommandLogStart(const W& world) : loads(world.loads()), tick(world.tick()) {}
-  /// The reason why the command log does not lead from the state then to the state now; null: it does.
+  /// Returns why the command log does not lead from the state then to the state now; null: it does.
   ISO_INLINE const char* flaw(const W& world, const std::vector<std::uint8_t>& log) const {
     if (!world.records_to(&log) || world.loads() != loads) {
       return "the world was loaded or replaced while it was recorded";
@@ -54,11 +54,11 @@ template <RecordableWorld W> struct CommandLogStart {
   }
 };
 
-/// `begin`; then for every frame commands and steps, in any number and order, and `end_frame`; then `finish`. A frame
-/// without a step is a pause; one has at most kFrameStepCap. The world must outlive it and records to nothing else
-/// meanwhile. Loading a snapshot ends a recording, for commands alone do not lead there. Without `finish` the file is
-/// truncated, its whole blocks still play: a crash costs at most a second of frames, or `block_frames`, or what came
-/// after the last `flush`.
+/// Call `begin`; for every frame commands and steps, in any number and order, and `end_frame`; then `finish`. A frame
+/// without a step is a pause, and a frame has at most kFrameStepCap steps. The world must outlive the recorder and
+/// records to nothing else meanwhile. Loading a snapshot ends a recording, because commands alone do not lead there.
+/// Without `finish` the file is truncated, and its whole blocks still play: a crash costs at most a second of frames,
+/// or `block_frames`, or what came after the last `flush`.
 template <RecordableWorld W> class CommandRecorder {
  public:
   ISO_INLINE CommandRecorder(W& world, ReplaySink sink, std::uint32_t block_frames = 0)
@@ -67,7 +67,7 @@ template <RecordableWorld W> class CommandRecorder {
   CommandRecorder(const CommandRecorder&) = delete;
   CommandRecorder& operator=(const CommandRecorder&) = delete;
 
-  /// The world as it is now, whatever it holds, is the recording's first state, before the game's frame `first`.
+  /// Begins with the world as it is now, whatever it holds, as the first state, before the game's frame `first`.
   ISO_INLINE Result<void> begin(std::string_view scene, Frame first = 0) {
     const Result<ReplayHeader> header = header_of_world(world_.settings(), scene, first);
     if (!header) return header.error();
@@ -75,7 +75,7 @@ template <RecordableWorld W> class CommandRecorder {
     world_.record_to(&log_);
     return recorder_.begin(world_, header.value());
   }
-  /// `hash` is the world's now: callers that have it need not compute it twice.
+  /// `hash`: the world's present one. Callers that have it need not compute it twice.
   ISO_INLINE Result<void> end_frame(std::uint64_t hash) {
     if (const char* flaw = start_.flaw(world_, log_)) return Error{ErrorCode::invalid, flaw, "recorder"};
     const Result<void> result = recorder_.frame(log_, hash);
@@ -83,15 +83,15 @@ template <RecordableWorld W> class CommandRecorder {
     return result;
   }
   ISO_INLINE Result<void> end_frame() { return end_frame(world_.hash()); }
-  /// Writes the state as a keyframe. It follows `end_frame`, with no call to the world since: whoever verifies the
-  /// recording compares this state byte for byte with its own.
+  /// Writes the state as a keyframe. Call it after `end_frame`, with no call to the world in between: whoever verifies
+  /// the recording compares this state byte for byte with its own.
   ISO_INLINE Result<void> keyframe() {
     const char* flaw = start_.flaw(world_, log_);
     if (flaw == nullptr && !log_.empty()) flaw = "a keyframe stands between two frames";
     if (flaw != nullptr) return Error{ErrorCode::invalid, flaw, "recorder"};
     return recorder_.keyframe(world_);
   }
-  /// All frames so far are with the sink.
+  /// Passes all frames so far to the sink.
   ISO_INLINE Result<void> flush() { return recorder_.flush(); }
   ISO_INLINE Result<void> finish() { return recorder_.finish(); }
 

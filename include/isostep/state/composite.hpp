@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// State that is just a struct with `fields`: its snapshot is a copy.
+/// State that is a plain struct with `fields`: its snapshot is a copy.
 template <class T>
 concept PlainState = HasFields<T> && std::is_trivially_copyable_v<T> && !Rollbackable<T>;
 
@@ -29,7 +29,7 @@ template <class T> ISO_INLINE void save_part(const T& part, typename SnapshotOf<
     part.save(to);
   }
 }
-/// Loads a part. Returns false where the part says that it was refused.
+/// Loads a part. Returns false if the part refuses.
 template <class T> ISO_INLINE bool load_part(T& part, const typename SnapshotOf<T>::Type& from) {
   if constexpr (PlainState<T>) {
     part = from;
@@ -72,8 +72,8 @@ template <class World, class User> struct CompositeSnapshot {
 };
 
 /// A world and the game's own state. A game derives from Composite<World, State>, which holds both by value, and adds
-/// `step`: whatever it remembers from frame to frame is a field of `user`, for what stands beside is neither saved nor
-/// hashed, and a sync test finds it. Composite<World&, State&> refers to parts that live elsewhere.
+/// `step`. Whatever it remembers from frame to frame is a field of `user`: members beside it are neither saved nor
+/// hashed, and a sync test finds them. Composite<World&, State&> refers to parts that live elsewhere.
 template <class WorldPart, class UserPart>
 requires detail::CompositePart<std::remove_reference_t<WorldPart>> &&
     detail::CompositePart<std::remove_reference_t<UserPart>>
@@ -87,7 +87,7 @@ struct Composite {
     detail::save_part(world, to.world);
     detail::save_part(user, to.user);
   }
-  /// Loads both parts. Returns false, and the user's part is as it was, where the world refuses.
+  /// Loads both parts. If the world refuses, it returns false and leaves the user's part as it was.
   ISO_INLINE bool load(const Snapshot& from) {
     return detail::load_part(world, from.world) && detail::load_part(user, from.user);
   }
@@ -102,7 +102,7 @@ struct Composite {
     detail::write_part(world, writer);
     detail::write_part(user, writer);
   }
-  /// Both parts or neither.
+  /// Reads both parts or neither.
   ISO_INLINE Result<void> read_portable(Reader& reader) {
     typename detail::SnapshotOf<std::remove_cvref_t<WorldPart>>::Type before;
     detail::save_part(world, before);
@@ -113,7 +113,7 @@ struct Composite {
   }
 };
 
-/// Refers to parts that live elsewhere and outlive it.
+/// Returns a composite that refers to these parts, which must outlive it.
 template <class World, class User> ISO_INLINE Composite<World&, User&> composite(World& world, User& user) {
   return {world, user};
 }

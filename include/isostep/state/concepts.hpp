@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// load(save(x)) and any inputs give at every later frame the hash of an x that never saved. Snapshots are reused:
+/// After load(save(x)) any inputs give at every later frame the hash of an x that never saved. Snapshots are reused:
 /// saving into one of the same size allocates nothing.
 template <class T>
 concept Rollbackable = std::default_initializable<typename T::Snapshot> &&
@@ -41,22 +41,22 @@ template <class Input> struct InputView {
   ISO_INLINE InputStatus status(std::size_t player) const { return statuses[player]; }
 };
 
-/// A game: `step` is exactly one tick. Its outcome depends on the state, the input values and who is disconnected; a
-/// predicted input must give what the same input gives once it is confirmed.
+/// A game: `step` is exactly one tick. Its result depends on the state, the input values and who is disconnected. A
+/// predicted input must have the same effect as the same input once it is confirmed.
 template <class T>
 concept Simulation = Rollbackable<T> && std::default_initializable<typename T::Input> &&
     std::equality_comparable<typename T::Input> && requires(T& game, InputView<typename T::Input> inputs) {
   game.step(inputs);
 };
 
-/// Can be written down and rebuilt on any machine. A refused read leaves the object as it was.
+/// An object that can be written and rebuilt on any machine. A refused read leaves it as it was.
 template <class T>
 concept PortableState = requires(T& mutable_state, const T& state, Writer& writer, Reader& reader) {
   state.write_portable(writer);
   { mutable_state.read_portable(reader) } -> std::same_as<Result<void>>;
 };
 
-/// Can be recorded and verified: a frame is opaque bytes that the simulation itself knows how to decode and apply.
+/// A simulation that can be recorded and verified. It alone decodes and applies a frame, which is opaque bytes.
 template <class T>
 concept ReplayableSimulation = PortableState<T> && requires(T& mutable_state, const T& state, Bytes input) {
   { mutable_state.step_recorded(input) } -> std::same_as<Result<void>>;

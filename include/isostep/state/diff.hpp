@@ -23,7 +23,7 @@ struct Difference {
 /// "bodies[17].velocity.x: 1.5 | 1.25 (0x3fc00000 | 0x3fa00000), 2097152 ulp apart"
 std::string describe(const Difference& difference);
 
-/// Counts every difference, keeps the first few.
+/// Counts all differences and keeps the first few.
 class DiffReport {
  public:
   explicit DiffReport(std::size_t keep = 1);
@@ -35,7 +35,7 @@ class DiffReport {
   std::uint64_t count() const;
   const std::vector<Difference>& kept() const;
 
-  /// Adds a field of which the bits differ.
+  /// Adds a field whose bits differ.
   void add(const PathPart& path, FieldFormat format, std::uint64_t a, std::uint64_t b);
 
  private:
@@ -60,7 +60,7 @@ template <class T> ISO_INLINE void diff_value(const char* name, const T& a, cons
   diff_value(PathPart{nullptr, name, 0}, a, b, report);
 }
 
-/// Lengths first, as "name.count", then record by record as far as both go.
+/// Compares the lengths, as "name.count", then the records as far as both go.
 template <class T>
 ISO_INLINE void diff_records(const char* name, const T* a, std::size_t count_a, const T* b, std::size_t count_b,
                              DiffReport& report) {

@@ -33,7 +33,7 @@ namespace detail {
 template <class T> constexpr FieldType field_type_of();
 }  // namespace detail
 
-/// The table of T: follows from its `fields`.
+/// The table of T, made from its `fields`.
 template <class T> inline constexpr FieldType kFieldType = detail::field_type_of<T>();
 
 namespace detail {
@@ -76,7 +76,7 @@ template <class T> constexpr FieldType field_type_of() {
 }
 }  // namespace detail
 
-/// A name, or an index, and what it is a part of; a chain on the stack, made into text only where it is needed.
+/// A name, or an index, and what it is a part of. The chain lies on the stack and becomes text only where it is needed.
 struct PathPart {
   const PathPart* outer;  // null at the root
   const char* name;       // null for an index
@@ -86,7 +86,7 @@ struct PathPart {
 /// "bodies[17].velocity.x"
 std::string path_text(const PathPart& path);
 
-/// Is called with a number's path, its format, and where its bytes begin in the canonical form of the whole value.
+/// Called with a number's path, its format, and the offset of its bytes in the canonical form of the whole value.
 struct NumberSink {
   void (*number)(void* user, const PathPart& path, FieldFormat format, std::uint32_t offset);
   void* user;
@@ -96,7 +96,7 @@ struct NumberSink {
 /// has the array's path.
 void each_number(const PathPart& path, const FieldType& type, const NumberSink& sink);
 
-/// The bits of a number of `size` bytes: 1, 2, 4 or 8.
+/// Returns the bits of a number of `size` bytes: 1, 2, 4 or 8.
 std::uint64_t load_number(const std::uint8_t* at, std::uint32_t size);
 
 }  // namespace isostep

@@ -21,7 +21,7 @@ std::string field_line(const NamedField& field);
 /// Reads a field's line. Returns false for anything else.
 bool read_field_line(std::string_view line, NamedField& field);
 
-/// Is called for every field in turn.
+/// Called for every field in turn.
 struct FieldSink {
   void (*field)(void* user, const PathPart& path, FieldFormat format, std::uint64_t bits);
   void* user;
@@ -37,16 +37,16 @@ struct FieldSource {
   void (*walk)(void* engine, FieldGroup group, std::uint32_t stage, const FieldSink& sink);
 };
 
-/// All state, and of a step's scratch what one stage made: given to an observer for the length of its call.
+/// All state, and what one stage left in the scratch of a step. An observer gets it for the length of its call.
 /// Cost:  nothing until it is called; a hash or a walk takes some 5 ns a field, a contact has up to two hundred.
-/// Order: fixed, and of what contacts are worked on by lanes, by contact: a look does not depend on their number.
+/// Order: fixed. What lanes work on is visited by contact, so it does not depend on the number of lanes.
 class StageView {
  public:
   StageView(const FieldSource& source, std::uint32_t stage);
 
-  /// The hash of the state's hash and every field of the scratch; where there is none, the state's.
+  /// Returns the hash of the state's hash and every field of the scratch; without scratch the state's hash.
   std::uint64_t hash() const;
-  /// The state's fields in the order in which the state hash takes them, then the scratch's.
+  /// Visits the state's fields in the order in which the state hash takes them, then the scratch's.
   void visit(const FieldSink& sink) const;
 
  private:

@@ -15,14 +15,14 @@
 namespace isostep {
 namespace {
 
-/// A vector, a span, an array in pages.
+/// A list of fields: a vector, a span, an array in pages.
 template <class T>
 concept FieldList = requires(T& list) {
   list.size();
   list[0];
 };
 
-/// A copy of a part of T, to be written only where T may be.
+/// A copy of a part of T, which is const if T is.
 template <class T, class Part> using ConstAs = std::conditional_t<std::is_const_v<T>, const Part, Part>;
 
 /// Calls a sink for every field.
@@ -37,8 +37,8 @@ struct FieldReading {
 
 template <class Visitor, class T> void walk_fields(const PathPart& path, const Visitor& visit, T& value);
 
-/// visit("name", value) for a number, a struct with `fields`, an array or a list of such. `Access` is FieldReading, or
-/// with kEdits returns the bits that a field is to have: fields that are not const get them.
+/// Visits a number, a struct with `fields`, an array or a list of such, by visit("name", value). `Access` is
+/// FieldReading, or with kEdits returns the bits that a field is to have; fields that are not const get them.
 template <class Access> class FieldVisitor {
  public:
   static constexpr bool kEdits = Access::kEdits;
@@ -49,7 +49,7 @@ template <class Access> class FieldVisitor {
   template <class T> void operator()(const char* name, T&& value) const {
     walk_fields(PathPart{outer_, name, 0}, *this, value);
   }
-  /// Visits items that are made only to be looked at, or of which not all is there: each(visitor of the item, index).
+  /// Visits items that are made only to be visited, or of which not all exist: each(visitor of the item, index).
   template <class Each> void each(const char* name, std::size_t count, Each&& each) const {
     const PathPart list{outer_, name, 0};
     tell_count(list, count);
@@ -58,7 +58,7 @@ template <class Access> class FieldVisitor {
       each(FieldVisitor(item, *this), i);
     }
   }
-  /// An item by itself, under the index that it has elsewhere.
+  /// Visits one item by itself, under the index that it has elsewhere.
   template <class Each> void one(const char* name, std::size_t index, Each&& each) const {
     const PathPart list{outer_, name, 0};
     const PathPart item{&list, nullptr, index};
@@ -74,7 +74,7 @@ template <class Access> class FieldVisitor {
     visit_bits(path, kFieldFormat<Bare>, value, field_bits(value),
                [](std::uint64_t wanted) { return field_from_bits<Bare>(static_cast<FieldBits<Bare>>(wanted)); });
   }
-  /// A format of fixed point that is no Scalar by itself: steps of time.
+  /// Visits a fixed-point format that is no Scalar by itself: steps of time.
   template <class T> void fixed_field(const PathPart& path, T& value) const {
     using Bare = std::remove_const_t<T>;
     using Raw = typename Bare::Raw;
@@ -137,7 +137,7 @@ template <class Visitor, class T> void walk_fields(const PathPart& path, const V
   }
 }
 
-/// A whole state field by field: see members.hpp. What copies of a state share is copied first where it is written;
+/// Visits a whole state field by field, see members.hpp. What copies of a state share is copied before it is written;
 /// islands are never written.
 template <class Visitor> class StateFields {
  public:

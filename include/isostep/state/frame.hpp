@@ -8,10 +8,10 @@
 
 namespace isostep {
 
-/// State f is what `step` of frame f starts from; state 0 is the start of the match.
+/// State f is the state from which frame f is stepped; state 0 is the start of the match.
 using Frame = std::int32_t;
 inline constexpr Frame kNoFrame = -1;
-/// Larger ones are refused wherever they come from: 200 days at 60 Hz, and sums of a few frames cannot overflow.
+/// The largest frame; larger ones are refused everywhere. It is 200 days at 60 Hz, and sums of a few cannot overflow.
 inline constexpr Frame kLastFrame = 1 << 30;
 
 }  // namespace isostep

@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// Names the algorithm in files.
+/// The name of the algorithm in files.
 inline constexpr char kHashName[] = "xxh3-64";
 
 /// XXH3-64 with seed 0. The result depends on the bytes alone, not on the instruction set.
@@ -27,23 +27,23 @@ struct ContentId {
   }
   ISO_FIELDS(low, high)
 };
-/// The id of the tag's bytes followed by the content's.
+/// Returns the id of the tag's bytes followed by the content's.
 ContentId content_id_of(Bytes tag, Bytes content);
 
-/// Hashes bytes that arrive in pieces, as hash_bytes hashes them at once.
+/// Hashes bytes that arrive in pieces, with the result that hash_bytes has for all at once.
 class HashStream {
  public:
   HashStream();
   void update(const void* bytes, std::size_t size);
-  /// The hash of everything so far; more may follow.
+  /// Returns the hash of everything so far; more may follow.
   std::uint64_t value() const;
 
  private:
   alignas(64) std::uint8_t state_[576];  // an XXH3_state_t, whose header stays out of ours
 };
 
-/// One hash of all words that are added, in the order in which they are added. Not a sum and not an exclusive or, so
-/// two subsystems that trade their hashes, or two equal ones, do not cancel.
+/// Makes one hash of all added words, in the order in which they are added. It is no sum and no exclusive or, so two
+/// subsystems that swap their hashes change it, and two equal hashes do not cancel.
 class HashCombiner {
  public:
   ISO_INLINE HashCombiner() : hash_(0) {}
@@ -59,7 +59,7 @@ class HashCombiner {
   std::uint64_t hash_;
 };
 
-/// The hash of n records by their fields: right on every machine, for records with or without padding.
+/// Hashes n records by their fields: correct on every machine, for records with or without padding.
 template <class T> ISO_INLINE std::uint64_t hash_records_by_fields(const T* first, std::size_t n) {
   HashStream stream;
   std::uint8_t bytes[kPackedSize<T> + 1];
@@ -70,7 +70,7 @@ template <class T> ISO_INLINE std::uint64_t hash_records_by_fields(const T* firs
   return stream.value();
 }
 
-/// Hashes records as hash_records_by_fields does, at the speed of memory where their bytes there are canonical.
+/// Hashes records as hash_records_by_fields does, at the speed of memory if their bytes there are canonical.
 template <class T> ISO_INLINE std::uint64_t hash_records(const T* first, std::size_t n) {
   static_assert(kHasNoPadding<T>, "padding has no value, so it can have no hash");
   if constexpr (std::endian::native == std::endian::little) {

@@ -37,8 +37,8 @@ template <class Island> ISO_INLINE std::uint64_t hash_sections(const Island& isl
   return combiner.value();
 }
 
-/// The state hash. Islands bring their own hashes; every full page of them that another follows is one word, for they
-/// rarely change.
+/// Computes the state hash. Islands bring their own hashes. Each full page of islands that another page follows is one
+/// word, because such pages rarely change.
 class StateHasher {
  public:
   ISO_INLINE std::uint64_t value() const { return combiner_.value(); }
@@ -57,7 +57,7 @@ class StateHasher {
     combiner_.add(registry.remembered().get(
         [&]() ISO_INLINE_LAMBDA { return hash_records_by_fields(registry.all().data(), registry.all().size()); }));
   }
-  /// Page by page, so that a change costs its page; empty ones do not show.
+  /// Hashes page by page, so that a change costs its page. Empty pages do not count.
   template <class List> ISO_INLINE void bodies_in_pages(const List& list) {
     combiner_.add(list.remembered_of_all(0).get([&]() ISO_INLINE_LAMBDA {
       HashCombiner all;
@@ -100,7 +100,7 @@ class StateHasher {
   HashCombiner combiner_;
 };
 
-/// [bytes] The size of what a copy of a state has for itself, without what it shares until one of the copies changes
+/// [bytes] The size of what a copy of a state holds for itself, without what it shares until one of the copies changes
 /// it.
 class StateSize {
  public:
@@ -146,7 +146,7 @@ class StateWriter {
     write_slots(writer_, registry.slot_map());
     writer_.write_array(registry.all());
   }
-  /// Writes the bodies as two arrays: the pages do not show.
+  /// Writes the bodies as two arrays, in which pages do not show.
   template <class List> ISO_INLINE void bodies_in_pages(const List& list) {
     const auto write = [&](auto array) ISO_INLINE_LAMBDA {
       writer_.write_count(list.size());
@@ -173,12 +173,12 @@ class StateWriter {
   Writer& writer_;
 };
 
-/// ReadStore of a world that has no store.
+/// The ReadStore of a world that has no store.
 struct ReadNoStore {
   template <class Store> ISO_INLINE void operator()(Store&) const {}
 };
-/// Reads into a state that is new. What it reads is well formed; whether it is valid, the engine's validator says.
-/// `read_store` reads a store that may be changed, when its turn comes.
+/// Reads into a new state. The result is well formed; the engine's validator tells if it is valid. `read_store` reads a
+/// store, which it may change, when its turn comes.
 template <class ReadStore = ReadNoStore> class StateReader {
  public:
   ISO_INLINE explicit StateReader(Reader& reader, ReadStore read_store = {})

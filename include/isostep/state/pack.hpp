@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// The length of T's canonical bytes.
+/// [bytes] The length of T's canonical form.
 template <class T> inline constexpr std::size_t kPackedSize = detail::packed_size<T>();
 
 /// The unsigned integer that holds a field's bits.
@@ -33,7 +33,7 @@ template <FieldValue T> ISO_INLINE constexpr FieldBits<T> field_bits(T value) {
     return to_bits(value);
   }
 }
-/// Any bits are a value, but for bool: there the caller has made sure of 0 or 1.
+/// Any bits are a value, except for bool: the caller has made sure of 0 or 1.
 template <FieldValue T> ISO_INLINE constexpr T field_from_bits(FieldBits<T> bits) {
   if constexpr (std::is_same_v<T, bool>) {
     return bits != 0;
@@ -69,10 +69,10 @@ template <class T> ISO_INLINE constexpr std::uint8_t* pack(std::uint8_t* at, con
   return at;
 }
 
-/// Numbers whose short form is LEB128: ids, kinds, masks, counts, ticks. Scalars, bools and signed numbers stay as wide
-/// as they are.
+/// The numbers whose short form is LEB128: ids, kinds, masks, counts, ticks. Scalars, bools and signed numbers keep
+/// their width.
 template <class T> inline constexpr bool kIsLeb128 = sizeof(T) > 1 && (std::is_enum_v<T> || std::is_unsigned_v<T>);
-/// An upper bound for the short form of T [bytes]: LEB128 makes three bytes of two, five of four, ten of eight.
+/// [bytes] An upper bound for the short form of T: LEB128 makes three bytes of two, five of four, ten of eight.
 template <class T> inline constexpr std::size_t kMostShort = kPackedSize<T> + kPackedSize<T> / 2;
 
 template <class T> ISO_INLINE constexpr std::uint8_t* pack_short(std::uint8_t* at, const T& value);
@@ -100,8 +100,8 @@ template <class T> ISO_INLINE constexpr std::uint8_t* pack_short(std::uint8_t* a
   return at;
 }
 
-/// The value's bytes in memory, on a little-endian machine, are its canonical bytes. kHasNoPadding cannot see `fields`
-/// that name members out of order or one twice; a test checks this for every stored struct, with all members different.
+/// Returns true if the value's bytes in memory, on a little-endian machine, are canonical. kHasNoPadding cannot see
+/// `fields` out of order or named twice; a test checks this for every stored struct, with all members different.
 template <class T> ISO_INLINE bool memory_is_canonical(const T& value) {
   std::uint8_t bytes[kPackedSize<T> + 1];
   pack(bytes, value);

@@ -10,20 +10,20 @@
 
 namespace isostep {
 
-/// begin, then for every frame: step the simulation, pass the input and the hash; finish. Without `finish` the file is
-/// truncated, its whole blocks still play.
+/// Call begin; for every frame step the simulation and pass its input and hash; then finish. Without `finish` the file
+/// is truncated, and its whole blocks still play.
 template <PortableState Sim> class Recorder {
  public:
-  /// `block_frames`: as ReplayWriter has it.
+  /// `block_frames`: see ReplayWriter.
   ISO_INLINE explicit Recorder(ReplaySink sink, std::uint32_t block_frames = 0) : writer_(sink, block_frames) {}
 
   ISO_INLINE Result<void> begin(const Sim& sim, const ReplayHeader& header) {
     return writer_.begin(header, portable(sim), sim.hash());
   }
   ISO_INLINE Result<void> frame(Bytes input, std::uint64_t hash) { return writer_.frame(input, hash); }
-  /// A state to seek to: what `sim` is after the last frame.
+  /// Writes a keyframe, which is a state to seek to: that of `sim` after the last frame.
   ISO_INLINE Result<void> keyframe(const Sim& sim) { return writer_.keyframe(portable(sim), sim.hash()); }
-  /// All frames so far are with the sink: what a crash leaves behind.
+  /// Passes all frames so far to the sink: they survive a crash.
   ISO_INLINE Result<void> flush() { return writer_.flush(); }
   ISO_INLINE Result<void> finish() { return writer_.finish(); }
 

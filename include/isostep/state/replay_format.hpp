@@ -17,17 +17,17 @@ namespace isostep {
 inline constexpr std::uint16_t kReplayMajor = 2;
 inline constexpr std::uint16_t kReplayMinor = 0;
 inline constexpr std::size_t kReplayPreambleSize = 32;  // [bytes]
-/// The high bit and both line ends, so that a transfer as text shows at once.
+/// The high bit and both line ends show at once if the file was transferred as text.
 inline constexpr std::uint8_t kReplayMagic[8] = {0x89, 'I', 'S', 'O', '\r', '\n', 0x1a, '\n'};
-/// The file begins as a replay does; the rest of it may be wrong.
+/// Returns true if the file begins as a replay does; the rest of it may be wrong.
 bool has_replay_magic(Bytes file);
 inline constexpr std::uint32_t kReplayBlockFrames = 60;  // at most in a block
-/// A second of frames, as far as one block holds them: a crash costs no more.
+/// Returns a second of frames, at most one block: a crash costs no more.
 constexpr std::uint32_t second_of_frames(std::uint64_t hz) {
   return hz == 0 ? 1 : hz < kReplayBlockFrames ? static_cast<std::uint32_t>(hz) : kReplayBlockFrames;
 }
 
-/// A chunk's type is four letters; as a little-endian u32 they stand in the file in reading order.
+/// Returns a chunk type of four letters. As a little-endian u32 they stand in the file in reading order.
 constexpr std::uint32_t replay_chunk_type(char a, char b, char c, char d) {
   return std::uint32_t(a) | std::uint32_t(b) << 8 | std::uint32_t(c) << 16 | std::uint32_t(d) << 24;
 }
@@ -50,33 +50,33 @@ inline constexpr std::uint32_t kReplayInputCap = 1u << 25;       // one block's 
 inline constexpr std::uint32_t kReplayUnknownCap = 1u << 24;
 std::uint32_t replay_payload_cap(std::uint32_t type);
 
-/// The receiver of a replay's bytes. False ends the recording with an error.
+/// Receives a replay's bytes. If `write` returns false, the recording ends with an error.
 struct ReplaySink {
   bool (*write)(void* context, const std::uint8_t* bytes, std::size_t size);
   void* context;
-  /// Makes what `write` holds back safe from a crash; called after every whole block. Null: nothing is held back.
+  /// Makes what `write` holds back safe from a crash. Called after every whole block. Null: nothing is held back.
   bool (*flush)(void* context) = nullptr;
 };
-/// Appends to `out`, which must outlive the writer.
+/// Returns a sink that appends to `out`, which must outlive the writer.
 ReplaySink sink_to(std::vector<std::uint8_t>& out);
 
-/// Writes a replay from front to back. What was written stays a valid beginning at every moment; at most one block of
-/// frames is held back. After an error every call returns that error.
+/// Writes a replay from front to back. The written bytes are a valid beginning at every moment, and at most one block
+/// of frames is held back. After an error every call returns that error.
 class ReplayWriter {
  public:
-  /// `block_frames`: as many frames make a block, 1 to kReplayBlockFrames; 0: those of a second, by the header's hz.
+  /// `block_frames`: the frames of a block, 1 to kReplayBlockFrames; 0: those of a second, by the header's hz.
   explicit ReplayWriter(ReplaySink sink, std::uint32_t block_frames = 0);
   ~ReplayWriter();
   ReplayWriter(const ReplayWriter&) = delete;
   ReplayWriter& operator=(const ReplayWriter&) = delete;
 
-  /// `state` is the portable form of the state before the first frame and `hash` its hash.
+  /// `state`: the portable form of the state before the first frame. `hash`: its hash.
   Result<void> begin(const ReplayHeader& header, Bytes state, std::uint64_t hash);
-  /// The next frame: its input, and the state's hash after it was stepped.
+  /// Writes the next frame: its input, and the hash of the state after it.
   Result<void> frame(Bytes input, std::uint64_t hash);
-  /// The state after the last frame, for seeking. Ends the block.
+  /// Writes the state after the last frame, for seeking. Ends the block.
   Result<void> keyframe(Bytes state, std::uint64_t hash);
-  /// A chunk of the caller's own; the type's first letter is lower case. Ends the block.
+  /// Writes a chunk of the caller's own, whose type begins with a lower-case letter. Ends the block.
   Result<void> ancillary(std::uint32_t type, Bytes payload);
   /// Ends the block early and flushes the sink: all frames so far survive a crash.
   Result<void> flush();
@@ -123,15 +123,15 @@ struct ReplayKeyframe {
   std::size_t offset;  // of its chunk
 };
 
-/// A chunk that a reader may skip; what it means, whoever knows its type says.
+/// A chunk that a reader may skip. Its meaning is known to those who know its type.
 struct ReplayAncillary {
   std::uint32_t type;
   Bytes payload;
 };
 
-/// Checks a whole file once, then gives views into it. Copies nothing of the file; its own memory is a few words a
+/// Checks a whole file once, then gives views into it. Copies nothing of the file. Its own memory is a few words per
 /// block, keyframe and ancillary chunk.
-/// Says nothing about whether the hashes are true: that takes a simulation (verify.hpp).
+/// It does not tell if the hashes are true: that takes a simulation (verify.hpp).
 class ReplayReader {
  public:
   /// `file` must outlive the reader.
@@ -146,21 +146,21 @@ class ReplayReader {
   /// The error of a status other than `complete`.
   const Error& error() const;
 
-  /// These are of the whole chunks before the place of error:
+  /// These are from the whole chunks before the place of the error:
   bool has_header() const;
   bool has_state() const;
   const ReplayHeader& header() const;
   Bytes state() const;
   std::size_t state_offset() const;
   std::uint64_t state_hash() const;
-  /// Frames in whole blocks.
+  /// The number of frames in whole blocks.
   std::uint64_t frame_count() const;
-  /// i < frame_count().
+  /// Returns frame i < frame_count().
   ReplayFrame frame(std::uint64_t i) const;
   const std::vector<ReplayKeyframe>& keyframes() const;
   /// The ancillary chunks in the order of the file.
   const std::vector<ReplayAncillary>& ancillaries() const;
-  /// The offset in the file of a view that this reader gave out [bytes].
+  /// [bytes] The offset in the file of a view that this reader gave out.
   std::size_t offset_of(Bytes view) const;
 
  private:

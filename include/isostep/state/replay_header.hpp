@@ -19,7 +19,7 @@ inline constexpr std::size_t kReplayFieldCap = 32;
 inline constexpr std::size_t kReplayKeyCap = 32;     // [characters]
 inline constexpr std::size_t kReplayValueCap = 128;  // [characters]
 
-/// `required` shapes the results: whoever replays the file must have the same value. The others are there to be read.
+/// A `required` field shapes the results: whoever replays the file must have the same value. Others are informative.
 struct ReplayField {
   ShortText<kReplayKeyCap> key;
   ShortText<kReplayValueCap> value;
@@ -31,14 +31,14 @@ class ReplayHeader {
  public:
   ReplayHeader();
 
-  /// Adds or replaces. False, and nothing happens, when the key or value is too long or empty, is not printable ASCII,
-  /// or the header is full.
+  /// Adds or replaces a field. Returns false and does nothing if the key or value is too long, empty or not printable
+  /// ASCII, or if the header is full.
   bool set(std::string_view key, std::string_view value, bool required);
   /// Returns null when there is none.
   const ReplayField* find(std::string_view key) const;
-  /// The value of a decimal field, or an error that names the key.
+  /// Returns the value of a decimal field, or an error that names the key.
   Result<std::uint64_t> number(std::string_view key) const;
-  /// The value of a field of 16 hexadecimal digits.
+  /// Returns the value of a field of 16 hexadecimal digits.
   Result<std::uint64_t> digest(std::string_view key) const;
 
   ISO_INLINE std::size_t size() const { return size_; }
@@ -49,12 +49,12 @@ class ReplayHeader {
   ReplayField fields_[kReplayFieldCap];
 };
 
-/// The header's key for the kind of world. Files of rigid bodies, which came first, are without it.
+/// The header's key for the kind of world. Files of rigid bodies, the first kind, do not have it.
 inline constexpr std::string_view kWorldKey = "world";
-/// The header's key, where it is not 0, for the number that the game or session gives to the file's frame 0.
+/// The header's key for the number that the game or session gives to the file's frame 0, if it is not 0.
 inline constexpr std::string_view kFirstFrameKey = "first_frame";
 
-/// The fields that every replay of a world has, typed. Texts are views: into the caller's strings, or into the header.
+/// The typed fields that every replay of a world has. Texts are views of the caller's strings, or of the header.
 struct ReplayIdentity {
   std::uint64_t behaviour;  // digest of the golden hashes: the version of the results
   std::string_view scalar;  // ScalarTraits::kName
@@ -69,16 +69,16 @@ struct ReplayIdentity {
   std::string_view engine = kVersionText;  // informative: two releases of one behaviour replay each other's files
 };
 
-/// Hashes all settings of a kind of world: those that the header names by itself as well, so that none is forgotten.
+/// Hashes all settings of a kind of world, also those that the header names itself, so that none is forgotten.
 template <class Settings> ISO_INLINE std::uint64_t settings_digest(const Settings& settings) {
   return hash_records_by_fields(&settings, 1);
 }
 
-/// Compiler and architecture are added as informative fields.
+/// Makes a header. Compiler and architecture are added as informative fields.
 Result<ReplayHeader> make_replay_header(const ReplayIdentity& identity);
 Result<ReplayIdentity> identity_of(const ReplayHeader& header);
 
-/// The first required field on which the two do not agree; `key` is empty when they do.
+/// The first required field in which two headers differ. `key` is empty if none does.
 struct HeaderMismatch {
   ShortText<kReplayKeyCap> key;
   ShortText<kReplayValueCap> in_file;  // empty: the field is missing there

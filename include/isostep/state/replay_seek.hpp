@@ -18,10 +18,10 @@ struct SeekSettings {
   std::uint64_t spacing = 15;                  // [frames] between two of them at first
 };
 
-/// Keeps the states after every `spacing` frames played so far. When there is room for no more, every other one goes
-/// and the spacing doubles: so a frame that was passed once costs at most one spacing of steps, whatever the length.
-/// Only what was played here is believed: stored keyframes are not looked at. `replay` and `sim` must outlive it, and
-/// nobody else changes `sim` between calls.
+/// Keeps the states after every `spacing` frames played so far. When the room is full, it drops every other one and
+/// doubles the spacing. So a frame that was passed once costs at most one spacing of steps, whatever the length. It
+/// trusts only what was played here, and ignores stored keyframes. `replay` and `sim` must outlive it, and nobody else
+/// changes `sim` between calls.
 template <class Sim>
 requires ReplayableSimulation<Sim> && Rollbackable<Sim>
 class ReplaySeeker {
@@ -29,8 +29,8 @@ class ReplaySeeker {
   ISO_INLINE ReplaySeeker(const ReplayReader& replay, Sim& sim, const SeekSettings& settings = {})
       : replay_(replay), sim_(sim), settings_(settings), spacing_(settings.spacing == 0 ? 1 : settings.spacing) {}
 
-  /// `sim` becomes the state after so many frames; 0 is the start. Where a frame cannot be applied it stays before that
-  /// frame.
+  /// Brings `sim` to the state after so many frames; 0 is the start. If a frame cannot be applied, `sim` stays before
+  /// that frame.
   ISO_INLINE Result<void> seek(std::uint64_t frames) {
     if (frames > replay_.frame_count()) return Error{ErrorCode::invalid, "past the replay's last frame", "seek"};
     if (keys_.empty()) {
@@ -45,9 +45,9 @@ class ReplaySeeker {
     return {};
   }
 
-  /// Frames stepped to reach the state that `sim` has.
+  /// The number of frames that lead to the present state of `sim`.
   ISO_INLINE std::uint64_t position() const { return position_; }
-  /// The state has the hash that was recorded there. Nothing else says that a replay still plays as it did.
+  /// Returns true if the state has the hash recorded there. Only this tells if a replay still plays as it did.
   ISO_INLINE bool agrees() const {
     return sim_.hash() == (position_ == 0 ? replay_.state_hash() : replay_.frame(position_ - 1).hash);
   }
@@ -89,7 +89,7 @@ class ReplaySeeker {
     if constexpr (requires { state.bytes(); }) return state.bytes();
     return sizeof(state);
   }
-  /// The state at keys_.size() spacings.
+  /// Keeps the state after keys_.size() spacings.
   ISO_INLINE void keep() {
     keys_.emplace_back();
     sim_.save(keys_.back());

@@ -13,7 +13,7 @@ namespace isostep::detail {
 
 inline constexpr std::uint32_t kMaxRecords = 1u << 24;  // of any kind in a file; more is a damaged count
 
-/// Hashes the free list's start and the entries page by page, so that a slot taken or given back costs its page.
+/// Hashes the start of the free list, and the entries page by page, so that a slot taken or given back costs its page.
 ISO_INLINE std::uint64_t hash_slots(const SlotMap& slot_map) {
   return slot_map.remembered_hash().get([&]() ISO_INLINE_LAMBDA {
     const SlotMap::Entries& entries = slot_map.entries();

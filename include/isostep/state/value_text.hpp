@@ -12,7 +12,7 @@ namespace isostep {
 
 enum class FieldKind : std::uint32_t { truth, signed_integer, unsigned_integer, scalar };
 
-/// The facts about a field's type that its bits are read with.
+/// The facts about a field's type that are needed to read its bits.
 struct FieldFormat {
   FieldKind kind;
   std::uint32_t size;       // [bytes]
@@ -32,17 +32,17 @@ template <FieldValue T> constexpr FieldFormat field_format_of() {
 }
 template <FieldValue T> inline constexpr FieldFormat kFieldFormat = field_format_of<T>();
 
-/// Decimal; for scalars the shortest that reads back to the same bits.
+/// Returns decimal text; for scalars the shortest that reads back to the same bits.
 std::string value_text(FieldFormat format, std::uint64_t bits);
 template <FieldValue T> ISO_INLINE std::string value_text(T value) {
   return value_text(kFieldFormat<T>, field_bits(value));
 }
 
-/// "0x" and two digits a byte.
+/// Returns "0x" and two digits per byte.
 std::string bits_text(FieldFormat format, std::uint64_t bits);
 
-/// Representable steps from one to the other: units in the last place for float and double (-0 and +0 are one step
-/// apart), least significant bits for fixed point, the difference for integers.
+/// Returns the representable steps from one to the other: units in the last place for float and double (-0 and +0 are
+/// one step apart), least significant bits for fixed point, the difference for integers.
 std::uint64_t steps_between(FieldFormat format, std::uint64_t a, std::uint64_t b);
 
 }  // namespace isostep

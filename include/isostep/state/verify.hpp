@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// They stand in the order of the tool's exit codes.
+/// The order is that of the tool's exit codes.
 enum class VerifyOutcome : std::uint8_t { verified, diverged, incompatible, truncated, corrupt, stopped };
 
 struct VerifyResult {
@@ -35,20 +35,20 @@ struct VerifySpan {
   std::uint64_t first = 0;           // frames before it
   std::uint64_t count = kAllFrames;  // at most
   Bytes state = {};  // portable, after `first` frames; empty: the replay's own start, where `first` is 0
-  /// Asked before every frame; false: verify has no more of the time, or whatever its caller counts.
+  /// Called before every frame. False: the caller stops verify, for lack of time or whatever it counts.
   bool (*go_on)(void* user) = nullptr;
   void* user = nullptr;
 };
 
-/// 0 verified, 1 diverged, 2 incompatible, 3 truncated, 4 corrupt, 5 stopped by its caller.
+/// Returns 0 verified, 1 diverged, 2 incompatible, 3 truncated, 4 corrupt, 5 stopped by its caller.
 int exit_code(VerifyOutcome outcome);
 /// "DIVERGED at frame 17: 0123456789abcdef in the replay, fedcba9876543210 here"
 std::string describe(const VerifyResult& result);
 
 namespace detail {
-/// The file's own answer before any simulation runs; `verified` when nothing speaks against it.
+/// Returns the file's own verdict before any simulation runs; `verified` if nothing speaks against it.
 VerifyResult verify_file(const ReplayReader& replay);
-/// The result when every frame that was to be compared agreed, so many.
+/// Returns the result when all `compared` frames agreed.
 VerifyResult verify_end(const ReplayReader& replay, std::uint64_t compared);
 VerifyResult too_short(const ReplayReader& replay);
 VerifyResult stopped(std::uint64_t frames);
@@ -57,7 +57,7 @@ VerifyResult corrupt(std::uint64_t frames, std::size_t offset, const Error& erro
 VerifyResult incompatible(const HeaderMismatch& mismatch);
 bool same_bytes(Bytes a, Bytes b);
 
-/// `sim` becomes the span's start; `verified` if that can be read.
+/// Makes `sim` the span's start. Returns `verified` if that can be read.
 template <ReplayableSimulation Sim>
 ISO_INLINE VerifyResult read_start(const ReplayReader& replay, Sim& sim, const VerifySpan& span) {
   const bool own = span.state.empty();
@@ -71,8 +71,8 @@ ISO_INLINE VerifyResult read_start(const ReplayReader& replay, Sim& sim, const V
   return {};
 }
 
-/// `sim` is at the span's start, which must be the state that the replay has there. Steps through what the reader
-/// holds. A keyframe must be, byte for byte, the state that was reached.
+/// `sim` is at the span's start, which must be the replay's state there. Steps through the frames that the reader
+/// holds. A keyframe must equal the reached state byte for byte.
 template <ReplayableSimulation Sim>
 ISO_INLINE VerifyResult verify_frames(const ReplayReader& replay, Sim& sim, const VerifySpan& span) {
   const std::uint64_t expected = span.first == 0 ? replay.state_hash() : replay.frame(span.first - 1).hash;
@@ -106,8 +106,8 @@ ISO_INLINE VerifyResult verify_frames(const ReplayReader& replay, Sim& sim, cons
 }
 }  // namespace detail
 
-/// `check(header)` returns a HeaderMismatch; with an empty key the replay is accepted. What `sim` was before does not
-/// matter. A damaged file is never stepped; a cut one is, as far as it goes, and may turn out to diverge.
+/// `check_header(header)` returns a HeaderMismatch; with an empty key the replay is accepted. The former state of `sim`
+/// does not matter. A damaged file is never stepped. A cut one is, as far as it goes, and may turn out to diverge.
 template <ReplayableSimulation Sim, class Check>
 requires requires(Check& check_header, const ReplayHeader& header) { HeaderMismatch(check_header(header)); }
 ISO_INLINE VerifyResult verify_replay(const ReplayReader& replay, Sim& sim, Check&& check_header,
@@ -124,7 +124,7 @@ ISO_INLINE VerifyResult verify_replay(const ReplayReader& replay, Sim& sim, Chec
   return start.outcome == VerifyOutcome::verified ? detail::verify_frames(replay, sim, span) : start;
 }
 
-/// Accepts what has the same required fields as `here`.
+/// Accepts a file that has the same required fields as `here`.
 struct SameHeader {
   const ReplayHeader& here;
   ISO_INLINE HeaderMismatch operator()(const ReplayHeader& file) const { return compare_headers(file, here); }

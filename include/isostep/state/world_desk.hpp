@@ -21,8 +21,8 @@ struct WorldDesk {
 
   ISO_INLINE ExclusiveCall enter(const char* name) { return {entry, faults, name}; }
 
-  /// Has a command of the list Executor::EveryCommand executed. Returns what `execute` returns: an id of what was
-  /// made, or whether it was accepted. What is refused changes nothing and is not recorded.
+  /// Executes a command of the closed list Executor::EveryCommand. Returns what `execute` returns: the id of what was
+  /// made, or whether it was accepted. A refused command changes nothing and is not recorded.
   template <class Executor, class C> ISO_INLINE auto run(const char* name, Executor& executor, const C& command) {
     using Result = decltype(executor.execute(command));
     const ExclusiveCall call = enter(name);
@@ -41,7 +41,7 @@ struct WorldDesk {
     journal.note_load();
     faults.clear();
   }
-  /// The world is moved: who records or traces it refers to the object that it was.
+  /// Ends recording and tracing as the world is moved, because whoever does them refers to the former object.
   ISO_INLINE void detach() {
     journal.record_to(nullptr);
     trace = nullptr;

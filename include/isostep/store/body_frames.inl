@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// Whether pairs with it are to be found by visit_leaves.
+/// Returns true if visit_leaves() must find the pairs of the body.
 template <class S> ISO_INLINE bool is_large(const BodyFrame<S>& body) { return body.surfaces || body.tree != nullptr; }
 
 namespace detail {
@@ -125,7 +125,7 @@ ISO_INLINE bool visit_leaves_of(const PlacedLeaves<S>& a, const PlacedLeaves<S>&
 }  // namespace detail
 
 namespace detail {
-/// visit(child, its first leaf) -> bool for all children of a body, or for those that its tree finds to meet a box.
+/// Calls visit(child, its first leaf) -> bool for all children of a body, or for those that its tree finds in a box.
 template <class S, class Visit>
 ISO_INLINE bool visit_children_near(const BodyFrame<S>& body, const Transform<S>& origin, const Aabb<S>& box,
                                     const Visit& visit) {
@@ -140,7 +140,7 @@ ISO_INLINE bool visit_children_near(const BodyFrame<S>& body, const Transform<S>
   }
   return true;
 }
-/// visit(leaves of outer, leaves of inner) -> bool for the children of two bodies. `inner` has a tree, or neither has.
+/// Calls visit(leaves of outer, of inner) -> bool for children of two bodies. `inner` has a tree, or neither has.
 template <class S, class Visit>
 ISO_INLINE bool visit_near_children(const BodyFrame<S>& outer, const Transform<S>& of_outer, const BodyFrame<S>& inner,
                                     const Transform<S>& of_inner, S margin, const Visit& visit) {
@@ -204,7 +204,7 @@ PartMeeting meeting_of(const BodyMap<S>& map, const BodyFrame<S>& a, std::uint32
 }
 
 namespace detail {
-/// Of two leaves, one of which is a sensor's.
+/// Returns the overlap of two leaves, one of which is a sensor's.
 template <class S>
 SensorOverlap overlap_of(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j) {
   const std::uint32_t child_a = leaf_at(a, i).child, child_b = leaf_at(b, j).child;

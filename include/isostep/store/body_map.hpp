@@ -16,11 +16,11 @@
 
 namespace isostep {
 
-/// BodyMap leads from a slot to the record of a body, in O(1). A cache: all of it follows from the state. Whoever meets
-/// a body asks for its shape and its joints too, so their maps are part of it.
+/// BodyMap finds the record of a body by its slot, in O(1). It is a cache: all of it follows from the state. Code that
+/// meets a body also needs its shape and its joints, so their maps are part of it.
 /// Input:   the state, and calls from whatever moves bodies between its arrays.
 /// Output:  locations, and the records that lie there.
-/// Keeps:   a location for each slot; how often sleeping islands name a body.
+/// Keeps:   a location for each slot; how many contacts and joints of sleeping islands name a body.
 template <class S> class BodyMap {
  public:
   ISO_INLINE explicit BodyMap(WorldState<S>& state) : shapes(state), joints(state), state_(state) {}
@@ -31,20 +31,20 @@ template <class S> class BodyMap {
   // Locations, by slot.
   ISO_INLINE std::size_t slot_count() const { return locations_.size(); }
   ISO_INLINE Location location(std::uint32_t slot) const { return locations_[slot]; }
-  /// The row of SolverBodies: 0, which nothing moves, unless the body is awake.
+  /// Returns the body's row in SolverBodies: 0, which nothing moves, unless the body is awake.
   ISO_INLINE std::uint32_t row_of(std::uint32_t slot) const {
     if (slot == kNoBody) return 0;
     const Location at = locations_[slot];
     return at.set == Location::kAwake ? at.index + 1 : 0;
   }
-  /// Contacts and joints of sleeping islands that name the body.
+  /// Returns how many contacts and joints of sleeping islands name the body.
   ISO_INLINE std::uint32_t names(std::uint32_t slot) const { return names_[slot]; }
-  /// Whether the body takes part; what is disabled lies among the static ones. kNoBody, the world itself, does.
+  /// Returns true if the body takes part. A disabled one lies among the static ones. kNoBody, the world, takes part.
   ISO_INLINE bool is_enabled(std::uint32_t slot) const {
     if (slot == kNoBody || locations_[slot].set != Location::kStatic) return true;
     return isostep::is_enabled(state_.static_bodies.properties(locations_[slot].index));
   }
-  /// Whether both bodies of a joint take part: if not, it holds nothing.
+  /// Returns true if both bodies of a joint take part. If not, the joint holds nothing.
   ISO_INLINE bool is_enabled(const JointProperties<S>& joint) const {
     return is_enabled(joint.body_a) && is_enabled(joint.body_b);
   }
@@ -62,16 +62,16 @@ template <class S> class BodyMap {
   }
   const BodyState<S>* state_of(BodyId body) const;
   const BodyProperties<S>* properties_of(BodyId body) const;
-  /// The records of a body that does not sleep, to be changed.
+  /// Returns the records of a body that does not sleep, for writing.
   BodyState<S>& change_state(std::uint32_t slot);
   BodyProperties<S>& change_properties(std::uint32_t slot);
-  /// Whether one of two bodies is dynamic: others do not push each other.
+  /// Returns true if one of two bodies is dynamic: others do not push each other.
   ISO_INLINE bool is_pushed(std::uint32_t slot_a, std::uint32_t slot_b) const {
     return properties_at(location(slot_a)).type == BodyType::dynamic ||
            properties_at(location(slot_b)).type == BodyType::dynamic;
   }
   Pose<S> origin_pose_at(std::uint32_t slot) const;
-  /// Pose of the centre of mass, or for kNoBody of the world itself.
+  /// Returns the pose of the centre of mass; for kNoBody that of the world itself.
   ISO_INLINE Pose<S> centre_pose_at(std::uint32_t slot) const {
     if (slot == kNoBody) return Pose<S>::identity();
     const BodyState<S>& state = state_at(locations_[slot]);
@@ -83,13 +83,13 @@ template <class S> class BodyMap {
   void insert(const BodyState<S>& state, const BodyProperties<S>& body);
   /// Erases a body that does not sleep.
   void erase(std::uint32_t slot);
-  /// The records of an array from index `from` on were moved.
+  /// Renews the locations of an array's records from index `from` on, which have moved.
   void relabel(const BodySet<S>& bodies, std::uint32_t set, std::size_t from);
   ISO_INLINE void place(std::uint32_t slot, Location at) { locations_[slot] = at; }
-  /// Counts the bodies that an island's contacts and joints name. `by`: 1 when it falls asleep; modulo 2^32, -1 when it
+  /// Counts how often an island's contacts and joints name bodies. `by`: 1 when it falls asleep; -1 modulo 2^32 when it
   /// wakes.
   void count_names(const SleepingIsland<S>& island, std::uint32_t by);
-  /// The bodies of a page of StaticBodies from row `from` on were moved.
+  /// Renews the locations of the bodies on a page of StaticBodies from row `from` on, which have moved.
   void relabel_static(std::size_t page, std::size_t from = 0);
   /// Makes room for every slot that the state has handed out.
   void make_room();

@@ -26,9 +26,9 @@ template <class S> struct BodySet {
   ISO_INLINE BodySet& operator=(BodySet&&) = default;
 };
 
-/// Ascending by slot too. A page holds the bodies of kPageSlots slots in a row, so a body's page follows from its slot
-/// alone, and a body that comes, goes or changes copies one page at most. Copies share all other pages.
-/// A place names a body until its page changes: the page, then the row on it.
+/// Static bodies, ascending by slot too. A page holds the bodies of kPageSlots slots in a row, so the slot alone gives
+/// the page. A body that comes, goes or changes copies at most one page; copies share all others. A place, which is a
+/// page and a row, names a body until that page changes.
 template <class S> class StaticBodies {
  public:
   using Page = BodySet<S>;
@@ -47,10 +47,10 @@ template <class S> class StaticBodies {
   ISO_INLINE const BodyProperties<S>& properties(std::uint32_t place) const {
     return pages_[place / kPageSlots]->properties[place % kPageSlots];
   }
-  /// The page of a place, to be written; the reference holds until the next copy. Bodies keep their slots.
+  /// Returns the page of a place for writing, valid until the next copy. Bodies keep their slots.
   ISO_INLINE Page& change_page_of(std::uint32_t place) { return own(place / kPageSlots); }
 
-  /// Returns its place.
+  /// Inserts a body and returns its place.
   ISO_INLINE std::uint32_t insert(const BodyState<S>& state, const BodyProperties<S>& body) {
     const std::uint32_t p = state.slot / kPageSlots;
     if (pages_.size() <= p) pages_.resize(p + 1, Shared<Page>());
@@ -76,7 +76,7 @@ template <class S> class StaticBodies {
   ISO_INLINE static std::uint32_t place_of(std::size_t page, std::size_t row) {
     return static_cast<std::uint32_t>(page) * kPageSlots + static_cast<std::uint32_t>(row);
   }
-  /// visit(state, properties), ascending by slot.
+  /// Calls visit(state, properties) for all bodies, ascending by slot.
   template <class Visit> ISO_INLINE void each(const Visit& visit) const {
     for (const Shared<Page>& page : pages_) {
       for (std::size_t i = 0; i < page->states.size(); ++i) visit(page->states[i], page->properties[i]);
@@ -86,18 +86,18 @@ template <class S> class StaticBodies {
     return p < pages_.size() && p < other.pages_.size() && pages_[p].is_same(other.pages_[p]);
   }
 
-  /// Values that were computed of a page, 0 to 2. Hashes take 0 and 1.
+  /// Returns a value that was computed of a page, `which` 0 to 2. Hashes use 0 and 1.
   ISO_INLINE const Remembered& remembered(std::size_t p, int which) const { return pages_[p].remembered(which); }
-  /// Values that were computed of all pages, 0 or 1. The hash takes 0.
+  /// Returns a value that was computed of all pages, `which` 0 or 1. The hash uses 0.
   ISO_INLINE const Remembered& remembered_of_all(int which) const { return remembered_[which]; }
 
-  /// Rows of all pages in one list, of states or of properties.
+  /// The rows of all pages in one list, of states or of properties.
   template <class Row> struct Rows {
     std::vector<Row*> rows;
     ISO_INLINE std::size_t size() const { return rows.size(); }
     ISO_INLINE Row& operator[](std::size_t i) const { return *rows[i]; }
   };
-  /// visit("name", list) of states, then of properties: for those who look at every field.
+  /// Calls visit("name", list) with the states, then with the properties: for code that looks at every field.
   template <class Visit> void arrays(Visit&& visit) const {
     Rows<const BodyState<S>> states;
     Rows<const BodyProperties<S>> properties;
@@ -108,7 +108,7 @@ template <class S> class StaticBodies {
     visit("static_bodies", states);
     visit("static_properties", properties);
   }
-  /// Visits both lists, to be written.
+  /// Visits both lists for writing.
   template <class Visit> void change_arrays(Visit&& visit) {
     Rows<BodyState<S>> states;
     Rows<BodyProperties<S>> properties;

@@ -16,12 +16,12 @@
 
 namespace isostep {
 
-/// A BroadPhase but for pairs, which `with` leads to. The tree of boxes, the choice of most, is asked without a detour;
-/// the others are behind one call a visit. Structures that are not in use are empty.
+/// A BroadPhase but for pairs, for which `with` gives the structure. The box tree, which most worlds use, is called
+/// directly. The others cost an indirect call per visit. Structures that are not in use are empty.
 template <class S> class ChosenBroadPhase {
  public:
   ISO_INLINE BroadPhaseName name() const { return name_; }
-  /// Chooses a structure that this build holds and empties the present one: the caller inserts the boxes again.
+  /// Chooses a structure of this build and empties the present one. The caller inserts the boxes again.
   void choose(BroadPhaseName name);
 
   void insert(std::uint32_t slot, const Aabb<S>& box);
@@ -44,7 +44,7 @@ template <class S> class ChosenBroadPhase {
                           ISO_INLINE_LAMBDA { return (*static_cast<Plain*>(data))(slot, most); };
     sweep_other(sweep, call, const_cast<void*>(static_cast<const void*>(&visit)));
   }
-  /// Calls visit(structure), which is a BroadPhase.
+  /// Calls visit(structure) with the structure in use, which is a BroadPhase.
   template <class Visit> ISO_INLINE auto with(Visit&& visit) { return with(*this, visit); }
 
  private:

@@ -19,7 +19,7 @@ template <class S> ISO_INLINE std::size_t end_of_pair(std::span<const Contact<S>
   return end;
 }
 
-/// visit(first, end) for the contacts of each pair, in order.
+/// Calls visit(first, end) for the contacts of each pair, in order.
 template <class S, class Visit>
 ISO_INLINE void for_each_pair(std::span<const Contact<S>> contacts, const Visit& visit) {
   for (std::size_t first = 0, end = 0; first < contacts.size(); first = end) {
@@ -28,7 +28,7 @@ ISO_INLINE void for_each_pair(std::span<const Contact<S>> contacts, const Visit&
   }
 }
 
-/// Contacts of the bodies in slots a < b; empty where they have none.
+/// Returns the contacts of the bodies in slots a < b; empty if they have none.
 template <class S>
 ISO_INLINE std::span<const Contact<S>> contacts_of(std::span<const Contact<S>> contacts, std::uint32_t a,
                                                    std::uint32_t b) {

@@ -13,28 +13,28 @@
 
 namespace isostep {
 
-/// Bodies in one place have pairs by the square of their number; a budget keeps a step's time and memory in bounds.
-/// Method:  All pairs, if they are no more than the budget. Else, in this order and as far as it lasts: pairs with what
-///          is static, kinematic or asleep, so that nothing falls through a floor; pairs of moving bodies that have
-///          contacts already; new ones. What is first to be too much is shared: each moving body gets as many partners
-///          as there is budget a body, those that stand behind it, nearest first, in the walk of a tree.
-/// Order:   that tree is built anew from the bodies in order of their slots, so it is a function of the state, and with
-///          it the choice: of boxes, traits and contacts alone, not of what came before.
-/// Cost:    O(bodies log bodies + budget) where few boxes meet in vain. Whole subtrees are left out by what filters
-///          and kinds they hold, so bodies that do not collide with one another cost no more in one place than apart.
+/// The pairs of bodies in one place grow by the square of their number. A budget bounds a step's time and memory.
+/// Method:  All pairs, if they are no more than the budget. Else, in this order and until it is used up: pairs with
+///          what is static, kinematic or asleep, so that nothing falls through a floor; pairs of moving bodies that
+///          have contacts; new pairs. The first kind that is too much is shared: each awake body gets budget / bodies
+///          partners. Among moving bodies they are those behind it, nearest first, in the walk of a tree.
+/// Order:   The tree is built anew from the bodies in order of their slots. So the tree and the choice are functions of
+///          the state: of boxes, traits and contacts alone, not of what came before.
+/// Cost:    O(bodies log bodies + budget) if few boxes meet in vain. Whole subtrees are skipped by the filters and
+///          kinds in them, so bodies that do not collide with one another cost no more in one place than apart.
 template <class S> class Crowd {
  public:
-  /// `proxies` by slot; `contacts` of the last step, ascending by key. Afterwards keys() are the choice, ascending.
+  /// `proxies`: by slot. `contacts`: of the last step, ascending by key. Then keys() are the chosen pairs, ascending.
   void choose(std::span<const Proxy<S>> proxies, std::span<const Contact<S>> contacts, std::size_t budget);
 
   std::vector<std::uint64_t>& keys() { return keys_; }
-  /// Whether these are all pairs that there are.
+  /// Returns true if these are all pairs.
   bool whole() const { return left_out_ == 0; }
-  /// Bodies that were not given all their pairs.
+  /// The number of bodies that were not given all their pairs.
   std::uint32_t bodies_left_out() const { return left_out_; }
 
  private:
-  /// A search finds the pairs of a body with everything that is not free, or those of two free bodies.
+  /// A search finds the pairs of a body with everything that is not free, or the pairs of two free bodies.
   enum class Side : std::uint8_t { held, free };
   struct Search;
 

@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// The search of one body.
+/// The search for the partners of one body.
 template <class S> struct Crowd<S>::Search {
   Crowd* crowd;
   std::uint32_t slot;
@@ -18,14 +18,14 @@ template <class S> struct Crowd<S>::Search {
   std::size_t share;  // partners that the body may have
   std::size_t most;   // and all bodies together
 
-  /// Two that are awake and not free are found by both.
+  /// Returns true if the other body takes the pair: two that are awake and not free both find it.
   bool is_others(std::uint32_t other) const {
     if (other == slot) return true;
     const std::uint32_t own = crowd->proxies_[slot].traits.kinds, its = crowd->proxies_[other].traits.kinds;
     return side == Side::held && other < slot && ((own | its) & proxy_kind::kFree) == 0 &&
            (its & proxy_kind::kAllAwake) != 0;
   }
-  /// False: here is one more than there may be.
+  /// Takes a pair. Returns false if it is one more than there may be.
   bool take(std::uint32_t other) {
     if (is_others(other)) return true;
     const std::uint64_t key = pair_key(slot, other);
@@ -60,8 +60,8 @@ template <class S> void Crowd<S>::build(std::span<const Proxy<S>> proxies) {
       traits_, [&](std::uint32_t slot) { return proxies_[slot].traits; }, ProxyTraits::of_both);
 }
 
-/// Every awake body's partners on one side, so many each and with those that are there at most so many together. False:
-/// some are left out.
+/// Gathers every awake body's partners on one side: at most `share` for each, until there are `most` pairs in all.
+/// Returns false if some are left out.
 template <class S> bool Crowd<S>::gather(Side side, std::size_t share, std::size_t most) {
   const std::uint32_t before = left_out_;
   for (const std::uint32_t slot : awake_) {
@@ -78,7 +78,7 @@ template <class S> std::size_t Crowd<S>::share_of(std::size_t room) const {
   return max(std::size_t{1}, room / max(std::size_t{1}, awake_.size()));
 }
 
-/// Pairs of free bodies that have contacts, in order of their keys.
+/// Keeps the pairs of free bodies that have contacts, in order of their keys.
 template <class S> void Crowd<S>::keep_contacts(std::span<const Contact<S>> contacts, std::size_t most) {
   contacts_begin_ = keys_.size();
   std::uint64_t last = ~std::uint64_t{0};

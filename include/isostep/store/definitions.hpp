@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// Mass of a dynamic body, with its principal moments of inertia.
+/// The mass of a dynamic body, and its principal moments of inertia.
 template <class S> struct BodyMass {
   S density = S(1);                      // [kg/m^3] where mass is 0; water has 1000
   S mass = S(0);                         // [kg] 0: from density

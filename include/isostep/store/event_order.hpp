@@ -12,8 +12,8 @@
 
 namespace isostep::detail {
 
-/// No two ends of contacts have the same slots, no two of overlaps the same slots and parts: a body that took another's
-/// slot has not been through a step.
+/// Sorts ends by slots. No two ends of contacts have the same slots, and no two of overlaps have the same slots and
+/// parts: a body that took another's slot has not been through a step.
 struct EndKey {
   ISO_INLINE std::uint64_t operator()(const ContactEnd& end) const { return pair_key(end.a.slot, end.b.slot); }
   ISO_INLINE std::uint64_t operator()(const SensorEvent& end) const {

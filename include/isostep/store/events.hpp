@@ -13,8 +13,8 @@
 
 namespace isostep {
 
-/// Two bodies began to press on each other by parts that report: of a body with `report_contacts`, or with
-/// part_flag::kReportContacts of their own.
+/// Two bodies began to press on each other by parts that report: their body has `report_contacts`, or they have
+/// part_flag::kReportContacts themselves.
 template <class S> struct ContactBegin {
   BodyId a, b;
   std::uint32_t child_a, child_b;  // the first parts of their shapes in contact
@@ -47,7 +47,7 @@ template <class S> struct Broke {
   ISO_FIELDS(body, impulse, point, direction)
 };
 
-/// A joint bore more than its JointLoad lets it, and is gone.
+/// A joint bore more than its JointLoad allows, and is gone.
 template <class S> struct JointBroke {
   JointId joint;
   BodyId a, b;  // null: the world
@@ -69,7 +69,7 @@ template <class S> struct ContactHit {
   ISO_FIELDS(a, b, child_a, child_b, point, normal, speed)
 };
 
-/// A point of a contact of a body with a ContactReport: also one that is only near, with a separation and no impulse.
+/// A point of a contact of a body with a ContactReport. One that is only near has a separation and no impulse.
 template <class S> struct ContactPoint {
   BodyId a, b;
   std::uint32_t child_a, child_b;        // parts of their shapes
@@ -106,8 +106,8 @@ template <class S> struct Events {
   }
 };
 
-/// Ends and wakings by commands since the last step, for the next one to tell. A game that counts its events must count
-/// the same after a load, so this is state. By id: the bodies may be gone, and their slots taken, before the step.
+/// Ends and wakings that commands caused since the last step, which the next step reports. They are state, for a game
+/// that counts events must count the same after a load. They have ids, since bodies may be gone and slots reused.
 struct UntoldEvents {
   std::vector<ContactEnd> contact_end;  // ascending by slots
   std::vector<SensorEvent> sensor_end;  // ascending by slots, then parts
@@ -115,7 +115,7 @@ struct UntoldEvents {
   std::vector<BodyId> sensors;          // as commands changed them: sensors that lie still, for who sleeps in them
 };
 
-/// The report tells what a step had to mend. Identical on every peer.
+/// Counts what a step had to correct. It is identical on every peer.
 struct StepReport {
   std::uint32_t clamped_speed = 0;     // bodies whose speed was cut to Limits<S>, or whose turn to a radian a sub-step
   std::uint32_t clamped_force = 0;     // bodies whose forces or impulses were cut: they would leave its range at once
@@ -124,7 +124,7 @@ struct StepReport {
   std::uint32_t crowded = 0;           // bodies that did not find all their pairs: beyond Settings::most_pairs
   std::uint32_t cut_compounds = 0;     // pairs of bodies some of whose parts were left out, by the same budget
   std::uint32_t unsolved = 0;          // islands that `direct` or, for each of its passes, `worst_first` left too early
-  /// Nothing was lost. What is unsolved is only less exact.
+  /// Returns true if nothing was lost. What is unsolved is only less exact.
   ISO_INLINE constexpr bool clean() const {
     return clamped_speed == 0 && clamped_force == 0 && clamped_position == 0 && stopped == 0 && crowded == 0 &&
            cut_compounds == 0;

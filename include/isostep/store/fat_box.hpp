@@ -7,16 +7,16 @@
 
 namespace isostep::detail {
 
-/// [m] The margin added around a body's bounds: a body's pairs are looked up anew only when it leaves its fat box.
+/// [m] The margin around a body's bounds. A body's pairs are looked up anew only when it leaves its fat box.
 template <class S> inline constexpr S kFatMargin = S(0.1);
 
-/// Renews a body's fat box when the body has left it, or `always`.
+/// Renews a body's fat box if the body has left it, or if `always`.
 template <class S>
 void renew_fat_box(const BodyMap<S>& map, BodyState<S>& state, const BodyProperties<S>& body, bool always);
-/// [m] Around the parts of a body that are no sensors, with that margin. Of a body with both kinds of parts.
+/// [m] The box around the parts of a body that are no sensors, with that margin. The body has both kinds of parts.
 template <class S>
 Aabb<S> box_without_sensors(const BodyMap<S>& map, const BodyState<S>& state, const BodyProperties<S>& body);
-/// [m] The fat box without what sensors alone reach: they weigh nothing and touch nothing.
+/// [m] The fat box without parts that are sensors: they weigh nothing and touch nothing.
 template <class S>
 ISO_INLINE Aabb<S> solid_box(const BodyMap<S>& map, const BodyState<S>& state, const BodyProperties<S>& body) {
   const ShapeTraits& traits = map.shapes.traits_of(body.shape);

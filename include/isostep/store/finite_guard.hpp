@@ -8,7 +8,7 @@
 
 namespace isostep::detail {
 
-/// The finite number nearest to `a`: 0 of a NaN, the end of the format of an infinity.
+/// Returns the finite number nearest to `a`: 0 for a NaN, the end of the format for an infinity.
 template <class S> ISO_INLINE constexpr S finite_of(S a) {
   if (is_finite(a)) return a;
   return S(0) < a ? highest<S>() : a < S(0) ? -highest<S>() : S(0);
@@ -25,8 +25,8 @@ struct FiniteGuard {
     }
   }
 };
-/// Makes all fields of a record finite. No NaN may get there: its sign bit depends on the lanes that made it, and so
-/// would the hash; and a state with one is refused when it is read.
+/// Makes all fields of a record finite. No NaN may get into a record: its sign bit depends on the lanes that made it,
+/// and so would the hash. A state with a NaN is refused when it is read.
 template <class Record> ISO_INLINE constexpr void keep_finite(Record& record) { Record::fields(FiniteGuard{}, record); }
 
 }  // namespace isostep::detail

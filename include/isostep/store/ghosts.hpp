@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// Whether two bodies pass each other by a Ghost or a KindGhost. Looks at all of these records: for single pairs.
+/// Returns true if two bodies pass each other by a Ghost or a KindGhost. Searches all these records: for single pairs.
 template <class S>
 bool are_ghosts(const WorldState<S>& state, const BodyMap<S>& map, std::uint32_t a, std::uint32_t b) {
   const RecordStore<S>& records = *state.records;

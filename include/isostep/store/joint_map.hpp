@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// JointMap leads from a slot to the record of a joint, in O(1). A cache: all of it follows from the state.
+/// JointMap finds the record of a joint by its slot, in O(1). It is a cache: all of it follows from the state.
 /// Input:   the state, and calls from whatever moves joints between its arrays.
 /// Output:  locations, and the records that lie there.
 /// Keeps:   a location for each slot.
@@ -22,7 +22,7 @@ template <class S> class JointMap {
   ISO_INLINE explicit JointMap(WorldState<S>& state) : state_(state) {}
 
   ISO_INLINE Location location(std::uint32_t slot) const { return locations_[slot]; }
-  /// Null for an id that names nothing.
+  /// Returns null for an id that names nothing.
   const JointProperties<S>* properties_of(JointId joint) const;
 
   // Changes. `set` is the array's name in a Location.
@@ -30,7 +30,7 @@ template <class S> class JointMap {
   void insert(const JointState<S>& state, const JointProperties<S>& joint);
   /// Erases an awake joint.
   void erase(std::uint32_t slot);
-  /// The records of an array from index `from` on were moved.
+  /// Renews the locations of an array's records from index `from` on, which have moved.
   void relabel(const JointSet<S>& joints, std::uint32_t set, std::size_t from);
   ISO_INLINE void place(std::uint32_t slot, Location at) { locations_[slot] = at; }
   /// Makes room for every slot that the state has handed out.

@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// The array that holds a body or joint, and its place there: an index, or a place of StaticBodies.
+/// The array that holds a body or joint, and its index there; in StaticBodies it is a place.
 struct Location {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::uint32_t kStatic = 0xfffffffeu;

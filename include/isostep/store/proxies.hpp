@@ -17,29 +17,29 @@
 
 namespace isostep {
 
-/// A cache, not state: the pairs are a function of every body's fat box, type, filters and whether it is awake, all of
-/// them state, and where they are more than the budget of the contacts too. `place` compares with what it knew, so that
-/// loading a snapshot renews only what differs.
+/// A cache, not state. The pairs are a function of every body's fat box, type, filters and whether it is awake, and
+/// beyond the budget also of the contacts; all of them are state. `place` compares a body with what it knew, so loading
+/// a snapshot renews only what differs.
 template <class S> class Proxies {
  public:
-  /// `shapes` of the state, as they are when a body is placed.
+  /// `shapes`: those of the state. They are read when a body is placed.
   ISO_INLINE explicit Proxies(const StoredShapes<S>& shapes) : shapes_(shapes) {}
 
-  /// A body that is disabled has no place.
+  /// Places a body, or renews its place. A disabled body has none.
   void place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake);
   void remove(std::uint32_t slot);
-  /// `contacts` of the last step: of pairs beyond `budget` they decide which are looked at.
+  /// Renews the pairs. If there are more than `budget`, the `contacts` of the last step help to choose among them.
   void update(std::span<const Contact<S>> contacts, std::size_t budget);
   bool present(std::uint32_t slot) const { return slot < proxies_.size() && proxies_[slot].present; }
 
   ISO_INLINE const std::vector<std::uint64_t>& pairs() const { return pairs_.keys(); }
-  /// Bodies that the budget keeps from some of their pairs.
+  /// The number of bodies that the budget keeps from some of their pairs.
   std::uint32_t bodies_left_out() const { return left_out_; }
   const ChosenBroadPhase<S>& boxes() const { return boxes_; }
-  /// Has another structure hold the boxes from now on.
+  /// Moves the boxes to another structure.
   void use(BroadPhaseName name);
 
-  /// The pairs alone: structures differ between worlds that agree.
+  /// Visits the pairs alone: structures differ between worlds that agree.
   template <class Visit> void visit_scratch(const Visit& visit) {
     visit("pairs", const_cast<std::vector<std::uint64_t>&>(pairs_.keys()));  // injected faults are written to them
   }

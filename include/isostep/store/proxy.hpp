@@ -9,18 +9,18 @@
 
 namespace isostep {
 
-/// The kind is what a body is to others, an index of bits; those who collide with nothing are of no kind.
+/// The kind is what a body is to others, an index of these bits. Bodies that collide with nothing have no kind.
 namespace proxy_kind {
 inline constexpr std::uint32_t kAwake = 1, kDynamic = 2, kSensor = 4;
 inline constexpr std::uint32_t kCount = 8;
 
-/// Whether bodies of two kinds pair: one of them is awake, and one can be pushed or one alone is a sensor. A sensor
-/// sees whatever moves, and what it passes when it moves itself; no other sensor.
+/// Returns true if bodies of two kinds pair: one is awake, and one is dynamic and none a sensor, or exactly one is a
+/// sensor. A sensor sees whatever moves, and what it passes when it moves itself, but no other sensor.
 ISO_INLINE constexpr bool pair(std::uint32_t a, std::uint32_t b) {
   const bool sees = ((a ^ b) & kSensor) != 0, touches = ((a | b) & kSensor) == 0 && ((a | b) & kDynamic) != 0;
   return ((a | b) & kAwake) != 0 && (sees || touches);
 }
-/// A bit for every kind that pairs with this one.
+/// Returns a bit for every kind that pairs with this one.
 ISO_INLINE constexpr std::uint32_t partners(std::uint32_t kind) {
   std::uint32_t set = 0;
   for (std::uint32_t other = 0; other < kCount; ++other) set |= pair(kind, other) ? 1u << other : 0u;
@@ -28,13 +28,13 @@ ISO_INLINE constexpr std::uint32_t partners(std::uint32_t kind) {
 }
 inline constexpr std::array<std::uint32_t, kCount> kPartners = {partners(0), partners(1), partners(2), partners(3),
                                                                 partners(4), partners(5), partners(6), partners(7)};
-/// Bits: what is awake, and what of it can be pushed.
+/// Bits: the awake kinds, and those of them that can be pushed.
 inline constexpr std::uint32_t kAllAwake = 0xaau;
 inline constexpr std::uint32_t kFree = 1u << (kAwake | kDynamic) | 1u << (kAwake | kDynamic | kSensor);
 }  // namespace proxy_kind
 
-/// Traits decide with whom a body pairs, but for its box. A body whose parts differ and a subtree of bodies have no
-/// less than any of them would allow.
+/// Traits and boxes decide which bodies pair. The traits of a body whose parts differ, and of a subtree of bodies,
+/// allow at least what any of them allows.
 struct ProxyTraits {
   std::uint32_t kinds = 0;     // bits: what it is, a proxy_kind each
   std::uint32_t partners = 0;  // bits: the kinds it pairs with

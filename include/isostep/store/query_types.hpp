@@ -12,22 +12,22 @@
 
 namespace isostep {
 
-/// StartInside is what a ray or cast says of what it starts inside of. A mesh or height field has no inside: a ray
-/// starts outside of it, a cast inside of triangles that it overlaps.
+/// The answer of a query about a shape that a ray or cast starts in. A mesh or height field has no inside: a ray starts
+/// outside of it, a cast starts inside of triangles that it overlaps.
 enum class StartInside : std::uint8_t {
   report,  // a hit at fraction 0
   ignore   // nothing, wherever it goes
 };
-/// `all` lists one hit of each of these, the first.
+/// `all` lists one hit for each of these, the first.
 enum class HitPer : std::uint8_t {
   body,
   child,    // of a body's shape
   triangle  // of a mesh or height field; of other children as `child`
 };
 
-/// A query sees bodies whose category meets the mask, sensors only when asked, and neither the one to be ignored nor
-/// those of the group: use this to exclude the caster. A stale id ignores nobody. A part with a filter, material or
-/// sensor flag of its own is seen by those, whatever its body's are.
+/// A query sees bodies whose category meets the mask, and sensors only if asked. It does not see the ignored body and
+/// those of the group: use this to exclude the caster. A stale id ignores nobody. A part with its own filter, material
+/// or sensor flag is judged by that instead of its body's.
 struct QueryFilter {
   std::uint32_t mask = 0xffffffffu;
   bool sensors = false;
@@ -40,7 +40,7 @@ struct QueryFilter {
   std::span<const std::uint32_t> ignore_kinds = {};  // nor parts of any of these Material::kinds: likewise
 };
 
-/// Hits are ordered by fraction, of equal fractions by the body's slot, child, triangle.
+/// Hits are ordered by fraction, then by the body's slot, child, triangle.
 template <class S, class Fraction> struct QueryHit {
   BodyId body;             // null: nothing was hit
   std::uint32_t child;     // of the body's shape
@@ -51,12 +51,12 @@ template <class S, class Fraction> struct QueryHit {
   std::uint8_t material;   // of the triangle; 0 where there is none
   bool inside;             // from the start: the normal is the way back of a ray, the shortest way out of a shape
 };
-/// A point that a ray met.
+/// The point where a ray met a surface.
 template <class S> using RayCastHit = QueryHit<S, S>;
-/// A part that a shape met when it was cast. The fraction is rounded down: there the two do not overlap.
+/// A part that a cast shape met. The fraction is rounded down, so that the two do not overlap there.
 template <class S> using ShapeCastHit = QueryHit<S, Unit<S>>;
 
-/// A part or triangle that a shape overlaps. In order of the slot, child, triangle.
+/// A part or triangle that a shape overlaps. Ordered by slot, child, triangle.
 struct OverlapHit {
   BodyId body;
   std::uint32_t child;     // of the body's shape
@@ -77,7 +77,7 @@ template <class S> struct ClosestBody {
   S distance;            // [m] negative: inside
 };
 
-/// A convex shape to ask with: one of the world, of a single part, or a primitive without a blob.
+/// A convex shape to query with: a shape of the world that has one part, or a primitive without a blob.
 template <class S> struct QueryShape {
   bool of_world;
   ShapeId id = {};              // where it is of the world
@@ -87,13 +87,13 @@ template <class S> struct QueryShape {
   ISO_INLINE QueryShape(const Primitive<S>& shape) : of_world(false), primitive(shape) {}
 };
 
-/// A ray of many.
+/// One ray of a batch.
 template <class S> struct RayCast {
   Vec3<S> origin;       // [m] world
   Vec3<S> translation;  // [m]
   QueryFilter filter = {};
 };
-/// A cast of many.
+/// One cast of a batch.
 template <class S> struct ShapeCast {
   QueryShape<S> shape;
   Pose<S> pose;         // [m] of the shape's frame at the start, world

@@ -12,7 +12,7 @@ template <class S> ISO_INLINE JointSeen<S> seen(const JointProperties<S>* joint)
   return {joint, has_coordinate(joint->type), measure_of(joint->type)};
 }
 
-/// A world's tables answer by body(id) and joint(id), null for a null id, and children_of(shape's slot).
+/// Finds what a record names, by body(id) and joint(id), null for a null id, and children_of(shape's slot).
 template <class S, class Record, class Body, class Joint, class Children>
 ISO_INLINE RecordPlace<S> place_of(const Record& record, const Settings<S>& settings, const Body& body,
                                    const Joint& joint, const Children& children_of) {

@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// Tables of what a state has in its slots of bodies and joints, and in which set.
+/// Tables of the bodies and joints of a state by slot, and of the sets in which they lie.
 template <class S> struct SlotTables {
   struct JointAt {
     const JointProperties<S>* joint;
@@ -25,12 +25,12 @@ template <class S> struct SlotTables {
   std::vector<JointAt> joint_at;
 
   bool is_body(std::uint32_t slot) const { return slot < set_of_body.size() && set_of_body[slot] != Location::kNone; }
-  /// The type of a body that is there.
+  /// Returns the type of a body that exists.
   BodyType type_of(std::uint32_t slot) const { return properties_of_body[slot]->type; }
   bool is_disabled(std::uint32_t slot) const {
     return set_of_body[slot] == Location::kStatic && type_of(slot) != BodyType::static_;
   }
-  /// Whether forces move it.
+  /// Returns true if forces move the body.
   bool moves(std::uint32_t slot) const {
     return slot != kNoBody && type_of(slot) == BodyType::dynamic && set_of_body[slot] != Location::kStatic;
   }
@@ -45,12 +45,12 @@ ISO_INLINE bool lie_in(const SlotMap& slot_map, std::uint32_t space) {
 }
 }  // namespace detail
 
-/// Input:   a state, and tables of it in which every body and joint has its place.
+/// Checks the records of a state. The tables have the place of every body and joint.
 template <class S> class RecordValidator {
  public:
   RecordValidator(const WorldState<S>& state, const SlotTables<S>& seen) : state_(state), seen_(seen) {}
 
-  /// Null, or a sentence for the first rule that is broken.
+  /// Returns null, or a sentence for the first broken rule.
   const char* broken_rule() const {
     const char* broken = nullptr;
     RecordStore<S>::members(
@@ -87,7 +87,7 @@ template <class S> class RecordValidator {
     }
     return nullptr;
   }
-  /// Each slot has one, a free slot a new one.
+  /// Returns true if each slot has one part of a kind, and a free slot a new one.
   template <class Record, class IdType> bool has_parts(const Registry<Record, IdType>& registry) const {
     bool good = true;
     detail::for_each_part<IdType>(state_.parts, [&](const auto& parts) {
@@ -117,14 +117,14 @@ template <class S> class RecordValidator {
     }
     return true;
   }
-  /// The record names well.
+  /// `record` keeps the rules of names_well().
   template <class Record> detail::RecordPlace<S> place_of(const Record& record) const {
     const auto body = [&](BodyId id) { return id ? seen_.properties_of_body[id.slot] : nullptr; };
     const auto joint = [&](JointId id) { return id ? seen_.joint_at[id.slot].joint : nullptr; };
     const auto children_of = [&](std::uint32_t shape) { return std::span(state_.shapes[shape]->children); };
     return detail::place_of<S>(record, state_.settings, body, joint, children_of);
   }
-  /// True where bodies that move, or joints that hold something, lie in two sets.
+  /// Returns true if bodies that move, or joints that hold something, lie in two sets.
   template <class Record> bool ties_islands(const Record& record) const {
     std::uint32_t set = Location::kNone;
     bool differ = false;
@@ -158,7 +158,7 @@ template <class S> class RecordValidator {
     }
     return false;
   }
-  /// True where the second body of one record is the first of another.
+  /// Returns true if the second body of one record is the first of another.
   template <class Record> bool has_chain(const std::vector<Record>& all) const {
     std::vector<std::uint8_t> is_first(seen_.set_of_body.size(), 0);
     for (const Record& record : all) {

@@ -29,12 +29,12 @@ inline constexpr const char* kStageNames[kStages] = {
     "solve_substeps", "store_impulses", "finalise_bodies",  "continuous",         "update_sensors",
     "emit_events",    "update_sleep",   "move_characters"};
 
-/// Hashes of one step: before its first stage, then after each.
+/// The number of hashes of one step: before its first stage, then after each.
 inline constexpr std::uint32_t kTraceHashes = kStages + 1;
 
 class StageView;  // state/fields.hpp
 
-/// Called after each stage of a step; sees the world and what the stage left for the next ones, changes nothing.
+/// Called after each stage of a step. It sees the world and what the stage left for the next ones, and changes nothing.
 struct StageObserver {
   void (*after)(void* user, Stage stage, const StageView& left) = nullptr;
   void* user = nullptr;

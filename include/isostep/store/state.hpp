@@ -23,7 +23,7 @@
 
 namespace isostep {
 
-/// A shape, never changed once made: worlds and snapshots share it. That of a free slot has no children.
+/// A shape, never changed once made: worlds and snapshots share it. The shape of a free slot has no children.
 template <class S> struct StoredShape {
   std::vector<Child<S>> children;
   std::uint64_t hash = 0;  // of them
@@ -46,7 +46,7 @@ template <class S> struct JointSet {
   std::vector<JointProperties<S>> properties;
 };
 
-/// A force or torque asked for since the last step, as acceleration. Ascending by slot, one a body.
+/// A force or torque that was asked for since the last step, as acceleration. Ascending by slot, one per body.
 template <class S> struct PendingForce {
   std::uint32_t slot;
   std::uint32_t cut;  // 1: more was asked for than bodies can take, an impulse included; the step reports it
@@ -57,7 +57,7 @@ template <class S> struct PendingForce {
 };
 static_assert(kHasNoPadding<PendingForce<float>> && kHasNoPadding<PendingForce<double>>);
 
-/// Where the next step carries a kinematic body, by move_to. Ascending by slot, one a body.
+/// The pose to which the next step carries a kinematic body, by move_to. Ascending by slot, one per body.
 template <class S> struct PendingMove {
   std::uint32_t slot;
   std::uint32_t reserved;  // 0: keeps records of 8-byte scalars without padding
@@ -83,8 +83,8 @@ struct SensorOverlap {
   ISO_FIELDS(sensor, other, sensor_child, other_child)
 };
 
-/// Bodies asleep together, with their contacts and joints. Never changed once made: worlds and snapshots share it, and
-/// it costs a step, a save and a hash the same whatever its size.
+/// Bodies that sleep together, with their contacts and joints. Never changed once made: worlds and snapshots share it.
+/// Its cost for a step, a save and a hash does not depend on its size.
 template <class S> struct SleepingIsland {
   BodySet<S> bodies;
   std::vector<Contact<S>> contacts;
@@ -93,7 +93,7 @@ template <class S> struct SleepingIsland {
 
   static constexpr std::size_t kLeastWritten = 20;  // [bytes] five counts
 
-  /// visit("name", array) in a fixed order.
+  /// Calls visit("name", array) in a fixed order.
   template <class Visitor, class Self> static ISO_INLINE void sections(Visitor&& visit, Self&& self) {
     visit("bodies", self.bodies.states);
     visit("properties", self.bodies.properties);
@@ -103,7 +103,7 @@ template <class S> struct SleepingIsland {
   }
 };
 
-/// Shared a page at a time, for there may be more of them than bodies awake.
+/// Copies share them a page at a time, for there may be more of them than awake bodies.
 template <class S> using SleepingIslands = PagedArray<std::shared_ptr<const SleepingIsland<S>>, 256>;
 
 template <class S> struct WorldState {
@@ -125,7 +125,7 @@ template <class S> struct WorldState {
   UntoldEvents untold;
   SleepingIslands<S> sleeping;
 
-  /// Visits all in the order of the hash and of the portable form: state/members.hpp.
+  /// Visits all members in the order of the hash and of the portable form: state/members.hpp.
   template <class Visitor, class Self> static ISO_INLINE void members(Visitor&& visit, Self&& self) {
     visit("settings", self.settings);
     visit("tick", self.tick);
@@ -153,7 +153,7 @@ template <class S> struct WorldState {
 };
 
 namespace detail {
-/// visit(wheel's body, its state) for each wheel that stands on something; both bodies exist.
+/// Calls visit(wheel's body, its state) for each wheel that stands on something; both bodies exist.
 template <class S, class Visit>
 ISO_INLINE void for_each_standing_wheel(const WorldState<S>& state, const Visit& visit) {
   const std::vector<WheelSettings<S>>& wheels = state.records->wheels.all();

@@ -15,7 +15,7 @@ namespace isostep {
 /// Output:  that state; the body map and the broad phase renewed where it differs.
 /// Keeps:   nothing from call to call but memory.
 /// Cost:    time for what is awake in either state, for the islands that only one of them has at their place, and for
-///          the static bodies if they differ.
+///          the pages of static bodies that differ.
 template <class S> class StateLoader {
  public:
   ISO_INLINE StateLoader(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies)

@@ -30,7 +30,7 @@ template <class S> void StateLoader<S>::load(const WorldState<S>& from) {
   renew_places();
 }
 
-/// Forgets the places of everything but the islands, and the pages of static bodies, that stay.
+/// Forgets all places but those of islands and of pages of static bodies that stay.
 template <class S> void StateLoader<S>::forget_places() {
   forgotten_.clear();
   for (const std::uint32_t p : other_pages_) {
@@ -56,7 +56,7 @@ template <class S> void StateLoader<S>::forget(const JointSet<S>& joints) {
   for (const JointState<S>& joint : joints.states) map_.joints.place(joint.slot, Location{});
 }
 
-/// Renews those places from the new state; the broad phase changes only where a body differs from what it knew.
+/// Renews those places from the new state. The broad phase changes only where a body differs from what it knew.
 template <class S> void StateLoader<S>::renew_places() {
   map_.make_room();
   map_.joints.make_room();

@@ -17,7 +17,7 @@ namespace isostep {
 
 namespace detail {
 
-/// `broken_rule` is called once.
+/// Checks one state: `broken_rule` is called once.
 template <class S> class StateValidator {
  public:
   explicit StateValidator(const WorldState<S>& state) : state_(state) {}
@@ -64,7 +64,7 @@ template <class S> class StateValidator {
   }
 
  private:
-  /// A slot that is taken has a valid shape, a free one a shape without parts.
+  /// Checks that a taken slot has a valid shape, and a free one a shape without parts.
   const char* shapes() {
     if (state_.shapes.size() != state_.shape_slots.entries().size()) return "as many shapes as shape slots";
     leaves_of_shape_.assign(state_.shapes.size(), 0);
@@ -84,7 +84,7 @@ template <class S> class StateValidator {
     }
     return blobs();
   }
-  /// Every blob is used as often as its name says.
+  /// Checks that every blob is used as often as its name says.
   const char* blobs() const {
     const GeometryStore& store = *state_.geometry;
     std::vector<std::uint64_t> uses(store.names().size(), 0);
@@ -185,7 +185,7 @@ template <class S> class StateValidator {
     return nullptr;
   }
 
-  /// A link of set `name` ties no body of another island.
+  /// Returns true if a link of set `name` ties no body of another island.
   bool belongs(std::uint32_t a, std::uint32_t b, std::uint32_t name) const {
     return (!seen_.moves(a) || seen_.set_of_body[a] == name) && (!seen_.moves(b) || seen_.set_of_body[b] == name);
   }

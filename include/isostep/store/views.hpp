@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// A body as the world keeps it, for effects that meet shapes themselves. Holds until the next command, step or load.
+/// A body as the world keeps it, for effects that meet shapes themselves. Valid until the next command, step or load.
 template <class S> struct BodyView {
   const BodyState<S>* state = nullptr;  // null: a stale id
   const BodyProperties<S>* properties = nullptr;
@@ -19,14 +19,14 @@ template <class S> struct BodyView {
   Contents<S> contents;                // of the blobs that they name
   Pose<S> pose = Pose<S>::identity();  // of the body's origin
 };
-/// A pose for drawing, in float whatever the scalar: interpolated, never state.
+/// A pose for drawing, in float for every scalar: interpolated, never state.
 struct RenderPose {
   BodyId body;
   float position[3];     // [m] of the body's origin
   float orientation[4];  // x y z w
 };
 
-/// Counts of the moment, for reports.
+/// Counts of the present state, for reports.
 struct WorldCounts {
   std::uint32_t bodies, static_bodies, awake, asleep, contacts, points, joints, shapes;
 };

@@ -6,7 +6,7 @@
 
 namespace isostep::c {
 
-/// The number in the soname. It grows when a program that was built before could not run: the gate in tests/c says so.
+/// The number in the soname. It grows if a program that was built before cannot run: the gate in tests/c says so.
 inline constexpr std::uint32_t kAbiVersion = 0;
 
 }  // namespace isostep::c

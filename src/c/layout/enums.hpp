@@ -65,7 +65,7 @@ ISO_NAMED_ENUM(BreakPattern, break_pattern, kBreakPatternNames)
 #undef ISO_NAMED_ENUM
 static_assert(Enumerators<Fault>::kCount == kFaults);
 
-/// Of all enumerations, for the one who writes the header.
+/// Lists all enumerations, for the program that writes the header.
 #define ISO_C_ENUMS(X)                                                                                                 \
   X(ScalarName)                                                                                                        \
   X(BodyType)                                                                                                          \
@@ -73,7 +73,7 @@ static_assert(Enumerators<Fault>::kCount == kFaults);
       X(BreakPattern) X(Footing) X(StartInside) X(HitPer) X(BlobHome) X(Fault) X(VerifyOutcome) X(VerifyResult::Where) \
           X(Stage)
 
-/// A bit of a member of flags. In C: ISO_SET_NAME.
+/// A bit of a flags member. In C: ISO_SET_NAME.
 struct Flag {
   const char* name;
   std::uint32_t bits;

@@ -37,8 +37,8 @@ template <class T> inline constexpr bool kIsOptional<std::optional<T>> = true;
 
 /// [bytes] The head of a struct that goes by pointer: its size as the caller knows it, and a reserved word.
 inline constexpr std::size_t kHeadSize = 8;
-/// The number of members that a struct that goes by pointer had in the last release, where it has grown since; 0 where
-/// it has not. Later members begin where the struct ended then, so that callers of that release give none of them.
+/// The number of members that a struct that goes by pointer had in the last release, if it has grown since; else 0.
+/// Later members begin where the struct ended then, so callers of that release pass none of them.
 template <class T> inline constexpr int kMembersReleased = 0;
 
 struct Extent {
@@ -49,7 +49,7 @@ constexpr std::size_t round_up(std::size_t n, std::size_t to) { return (n + to -
 template <class T> constexpr Extent extent_of();
 template <> constexpr Extent extent_of<bool>() { return {1, 1}; }  // which is asked for before the others are defined
 
-/// Puts one member behind another, each at a multiple of its own alignment.
+/// Places one member behind another, each at a multiple of its own alignment.
 struct Placing {
   std::size_t end = 0;
   std::size_t align = 1;

@@ -7,7 +7,7 @@
 
 // X(name, Type, S): iso_NAME of a family, and its C++ twin over the scalar S.
 
-/// What stands within others, or in arrays: without a size of its own, so it never grows.
+/// Structs that stand within others or in arrays. They have no size member, so they never grow.
 #define ISO_C_PLAIN(X, S)              \
   X(vec3, Vec3<S>, S)                  \
   X(unit_vec3, Vec3<Unit<S>>, S)       \
@@ -43,7 +43,7 @@
   X(cylinder, Cylinder<S>, S)    \
   X(cone, Cone<S>, S)
 
-/// Joints by the field's names: joint_presets.hpp. A wheel is a record too.
+/// Joints by the names of joint_presets.hpp's fields. A wheel is a record too.
 #define ISO_C_JOINTS(X, S)               \
   X(ball, SwingJoint<S>, S)              \
   X(constant_velocity, SwingJoint<S>, S) \
@@ -60,7 +60,7 @@
   X(motor_joint, MotorJoint<S>, S)       \
   X(six_axis, SixAxisDefinition<S>, S)
 
-/// What goes by pointer and begins with its size, without records.
+/// Structs that go by pointer and begin with their size, without records.
 #define ISO_C_SIZED(X, S)                    \
   X(settings, Settings<S>, S)                \
   X(body_definition, BodyDefinition<S>, S)   \

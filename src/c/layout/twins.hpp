@@ -66,7 +66,7 @@ template <class S> struct CBoxQuery {
   ISO_FIELDS(box, filter)
 };
 
-/// What moves of a body, and what is asked most often beside it.
+/// The motion of a body, and what is asked most often beside it.
 template <class S> struct CBodyState {
   Pose<S> pose = Pose<S>::identity();          // [m] of the body's origin, world
   Vec3<S> centre = Vec3<S>::zero();            // [m] centre of mass, world
@@ -78,7 +78,7 @@ template <class S> struct CBodyState {
   bool enabled = true;
   ISO_FIELDS(pose, centre, velocity, angular_velocity, user_data, type, awake, enabled)
 };
-/// What only commands change of a body.
+/// The properties of a body that only commands change.
 template <class S> struct CBodyProperties {
   BodyType type = BodyType::static_;
   std::uint32_t flags = 0;  // ISO_BODY_FLAG_...
@@ -94,7 +94,7 @@ template <class S> struct CBodyProperties {
              angular_damping)
 };
 
-/// A hull's radius; its points are a blob's.
+/// The radius of a hull; its points are in a blob.
 template <class S> struct CHull {
   S radius = S(0);  // [m] around the core
   ISO_FIELDS(radius)

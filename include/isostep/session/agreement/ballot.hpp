@@ -13,7 +13,7 @@
 namespace isostep {
 
 struct Proposal {
-  /// What passes is done by the host; `other` is the game's.
+  /// The host carries out a proposal that passes; `other` is the game's.
   enum class Kind : std::uint8_t { pause = 1, unpause, speed, kick, other };
   Kind kind = Kind::other;
   std::uint32_t subject = 0;  // speed: [1/8 of the rate]; kick: the player; other: what the game likes
@@ -29,16 +29,16 @@ struct Ballot {
   std::uint32_t voters = 0, yes = 0, no = 0;  // players, a bit each
   Outcome outcome = Outcome::open;
 
-  /// True if its players are of a match of so many.
+  /// Returns true if its players are of a match of so many.
   bool is_of(int players) const { return by < players && std::uint64_t{voters | yes | no} >> players == 0; }
   bool is_open() const { return number != 0 && outcome == Outcome::open; }
-  /// More than half of the voters are for it.
+  /// Returns true if more than half of the voters are for it.
   bool has_passed() const { return 2 * std::popcount(yes) > std::popcount(voters); }
-  /// Half of them are against it: more than half cannot be for it.
+  /// Returns true if half of the voters are against it: more than half cannot be for it.
   bool has_failed() const { return 2 * std::popcount(no) >= std::popcount(voters); }
 };
 
-/// Of players of one machine, a bit each, in the vote of that number.
+/// The votes of players of one machine, a bit each, in the ballot of that number.
 struct Votes {
   std::uint32_t number = 0, yes = 0, no = 0;
 };
@@ -47,7 +47,7 @@ struct PlayersProposal {
   Proposal proposal;
 };
 
-/// Each replaces what `out` held.
+/// These functions replace the content of `out`.
 void write_proposal(const PlayersProposal& proposal, std::vector<std::uint8_t>& out);
 void write_votes(const Votes& votes, std::vector<std::uint8_t>& out);
 void write_ballot(const Ballot& ballot, std::vector<std::uint8_t>& out);

@@ -8,9 +8,9 @@
 
 namespace isostep {
 
-/// Raft's candidate and voter. All have the same roster, so they ask the same machines in the same order, each for a
-/// while, beginning with the lowest player and ending with the host that was lost. To whom a majority has come asks
-/// it for support in a new term; each supports one machine in a term, and none in an earlier one.
+/// Raft's candidate and voter. All machines have the same roster, so they ask the same machines in the same order, each
+/// for a while: the lowest player first, the lost host last. A machine to which a majority has connected asks it for
+/// support in a new term. A machine supports one candidate in a term, and none in an earlier one.
 class Election {
  public:
   enum class Step : std::uint8_t {
@@ -21,56 +21,56 @@ class Election {
     gives_up  // nobody is asked any more; but who comes may still make a majority
   };
 
-  /// `knocks`: the host spoke until the connection ended, so it is asked first, whether it lives.
+  /// `knocks`: the host was heard until the connection ended, so it is asked first if it still lives.
   void begin(Time now, bool knocks);
   void end();
   bool is_under_way() const { return is_under_way_; }
   bool has_given_up() const { return has_given_up_; }
-  /// The connection to who is asked has ended: not for much longer, then.
+  /// The connection to the asked machine has ended: goes on to the next one soon.
   void was_turned_away(Time now);
-  /// We go where we were sent, and ask nobody for support.
+  /// We were redirected: gives the other machine time to answer, and withdraws our own call.
   void was_sent_on(Time now);
-  /// The place in the roster of who is asked now; ours: we are, by the others. -1: nobody.
+  /// Returns the roster's index of the machine that is asked now. Our own: the others ask us. -1: nobody.
   int target(const Roster& roster, int own) const;
 
   // Machines connect to us; `voter` is their place in the roster.
   void came(int voter) { came_ |= bit(voter); }
   void went(int voter) { came_ &= ~bit(voter), supports_ &= ~bit(voter); }
-  /// The machine is there without its memory, or has left: it votes for nobody.
+  /// The machine came back without its memory, or has left: it has no vote.
   void is_over(int machine) { over_ |= bit(machine); }
-  /// Places are others: all come anew.
+  /// The indices have changed: all machines count as gone until they come again.
   void has_new_roster();
-  /// A voter's. One that no elections could have made is not heard.
+  /// Notes the term of a voter. A term that no election can have reached is ignored.
   void hear_term(std::uint32_t term) { heard_ = term > heard_ && can_be(term) ? term : heard_; }
   void supported(int voter, std::uint32_t term) {
     if (term == called_ && called_ != 0) supports_ |= bit(voter);
   }
-  /// A game decides that those who are here are all.
+  /// The game decides that the machines that are here are all.
   void force() { is_forced_ = true; }
 
-  /// Once a turn. `own`: our place in the roster; `may_stand`: we are in the match, and our states are right.
+  /// Call it once per turn. `own`: our index in the roster. `may_stand`: we are in the match, and our states are right.
   Step turn(const Roster& roster, int own, bool may_stand, Time now);
 
-  /// The newest that we are bound to: what we follow, or whom we support.
+  /// The newest term to which we are bound, because we follow its host or support its candidate.
   std::uint32_t term() const { return promised_; }
   bool has_called() const { return called_ != 0; }
   Time called_at() const { return called_at_; }
-  /// More than our own support makes us the host; false: by a game's word, or because nobody else remembers.
+  /// Returns true if a majority elected us. False: the game forced it, or nobody else remembers the match.
   bool has_majority(const Roster& roster) const { return roster.is_majority(won_with_); }
-  /// With whom it was won; some may have gone since, and are bound to us all the same.
+  /// Returns true if the voter elected us. It is bound to us even if its connection has ended since.
   bool has_won_with(int voter) const { return (won_with_ & bit(voter)) != 0; }
   std::uint64_t supporters() const { return won_with_; }
 
-  /// May this one be the host? If so we are bound to it.
+  /// Returns true if the candidate may be the host; then we are bound to its term.
   bool give_support(const Candidate& candidate);
-  /// The host is of this term, and we have had all inputs that it took over. False: of one that is over.
+  /// Returns true if we may follow a host of this term; false: the term is over.
   bool may_follow(std::uint32_t term) const { return term >= promised_ && can_be(term); }
   void follow(std::uint32_t term) { promised_ = term > promised_ ? term : promised_; }
   std::uint32_t log_term() const { return log_term_; }
   void has_log_of(std::uint32_t term) { log_term_ = term; }
 
  private:
-  /// Terms grow by one with each call. Who names one far ahead would use them up; at the last one nobody could call.
+  /// Returns true if the term is plausible: one far ahead would use up terms, and after the last nobody could call.
   bool can_be(std::uint32_t term) const {
     constexpr std::uint32_t kMostAhead = 1u << 16, kLast = 1u << 31;
     return term <= kLast && (promised_ == 0 || term <= promised_ + kMostAhead);

@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// A machine that connected to a client: it has lost the host, and would have us as the next or be told where that is.
+/// A machine that connected to a client. It lost the host, and asks for the next one: this client, or its address.
 struct Caller {
   bool is_connected = false;
   Time since = 0;                   // [us] when it connected
@@ -23,7 +23,7 @@ struct Caller {
   Allowance messages;
 };
 
-/// What a host takes over from the client that it was.
+/// Holds what a host takes over from the client that it was.
 struct Succession {
   Roster roster;
   int machine = -1;  // our place in it
@@ -33,7 +33,7 @@ struct Succession {
   std::optional<PeerId> asked{};  // whom we asked to be our host since we called; its connection ends
 };
 
-/// What a client takes over from the host that it was.
+/// Holds what a client takes over from the host that it was.
 struct Retreat {
   Roster roster;
   std::uint32_t players = 0;  // ours, a bit each

@@ -9,10 +9,10 @@
 
 namespace isostep {
 
-/// From a client: it would have a state of the host's.
+/// From a client: it asks for a state of the host's.
 void write_resync(std::vector<std::uint8_t>& out);
 
-/// The host's answer; pieces of the state follow.
+/// The host's answer. The pieces of the state follow.
 struct RepairOffer {
   HashReport start;
   std::uint64_t hash = 0;           // of the state `start.frame`
@@ -21,7 +21,7 @@ struct RepairOffer {
 void write_offer(const RepairOffer& offer, std::vector<std::uint8_t>& out);
 Result<RepairOffer> read_offer(Bytes message);
 
-/// From the client to the host, and from it to all: what `player` says of its states up to `after` was of before.
+/// From the client to the host, and from it to all: reports of `player` on states up to `after` predate its repair.
 struct Repaired {
   std::uint8_t player = 0xff;  // from a client: its own, 0xff
   Frame after = kNoFrame;

@@ -9,17 +9,17 @@
 
 namespace isostep {
 
-/// What a host knows of one machine of its roster.
+/// Holds what a host knows of one machine of its roster.
 struct Follower {
   Time heard = 0;  // [us] when we said the newest that we know it has heard, in this term; 0: nothing
   Frame has = 0;   // all inputs before this frame are there
-  /// It remembers nothing any more: its process has left, or another has come in its place. So it votes for nobody.
+  /// Its process has left, or another one has taken its place. It remembers nothing, so it has no vote.
   bool is_over = false;
 };
 
-/// Raft's leader. An input is final when a majority has it, under a host that the majority still follows; so whoever is
-/// elected later knows it. A lease says how long the others certainly wait for us: it is shorter than their patience,
-/// for it begins when we said what they heard, and theirs when they heard it.
+/// Raft's leader. An input is final when a majority has it and still follows this host, so whoever is elected later
+/// knows it. A lease is how long the others certainly wait for us. It is shorter than their patience, because it begins
+/// when we sent what they heard, and their patience when they heard it.
 class Tenure {
  public:
   enum class Duty : std::uint8_t {
@@ -29,9 +29,9 @@ class Tenure {
     steps_down  // the others may have another host, or soon will
   };
 
-  /// `start`: before this frame we took over all inputs; `final_end`: of those that were final already.
+  /// `start`: we took over all inputs before this frame. `final_end`: the end of those that were final already.
   void begin(std::uint32_t term, Time patience, Frame start, Frame final_end, Time now);
-  /// Once a turn, before anything is stepped. `followers`: by their places in the roster. `own_end`: of what we have.
+  /// Call it once per turn, before any step. `followers`: by index in the roster. `own_end`: the end of our inputs.
   Duty turn(const Roster& roster, std::span<const Follower> followers, Frame own_end, Time now);
 
   std::uint32_t term() const { return term_; }
@@ -39,10 +39,10 @@ class Tenure {
   /// Inputs before this frame are final.
   Frame final_end() const { return final_end_; }
   bool is_backed() const { return is_backed_; }
-  /// [us] how long a machine that heard us waits for us at least, by our clock.
+  /// [us] A machine that heard us waits for us at least so long, by our clock.
   Time lease() const { return patience_ / 4 * 3; }
-  /// The roster may be replaced by the next: those who have this one have all that is final, so whoever is elected by
-  /// the next knows it.
+  /// Returns true if the next roster may replace this one: a majority has this roster and all final inputs, so whoever
+  /// is elected by the next one knows them.
   bool may_go_on_to_next(const Roster& roster, std::uint64_t enrolled, std::span<const Follower> followers) const;
 
  private:

@@ -13,7 +13,7 @@ namespace isostep {
 inline constexpr std::size_t kHostMachine = kMaxPlayers;
 inline constexpr std::size_t kMachines = kMaxPlayers + 1;
 
-/// What the machines of a match say of the state `frame`.
+/// Holds what the machines of a match say of state `frame`.
 struct Statements {
   struct One {
     bool is_asked = false;    // it is in the match
@@ -29,14 +29,14 @@ struct Verdict {
   std::uint64_t minority = 0;  // who has another, a bit for each machine; who said nothing is not in it
   std::uint64_t chain = 0;     // of the majority
 };
-/// Of two machines that differ none is in the minority, and of four no two.
+/// Decides by a majority of all asked machines. Two that differ, or four in two pairs, give no verdict.
 Verdict judge(const Statements& statements);
 
-/// From the host, to all who are in the match: which hash chain has this state?
+/// From the host, to all who are in the match: asks for the hash chain of a state.
 void write_inquiry(Frame state, std::vector<std::uint8_t>& out);
 Result<Frame> read_inquiry(Bytes message);
 
-/// From a client, as the answer.
+/// A client's answer to an inquiry.
 struct Statement {
   Frame frame = kNoFrame;
   bool is_known = false;  // false: it came later than that state, or keeps its chain no more
@@ -45,7 +45,7 @@ struct Statement {
 void write_statement(const Statement& statement, std::vector<std::uint8_t>& out);
 Result<Statement> read_statement(Bytes message);
 
-/// From the host, to everybody: who said what. Each judges by itself, so all come to the same verdict.
+/// From the host, to all: what each machine said. Each judges it by itself, so all reach the same verdict.
 void write_statements(const Statements& statements, std::vector<std::uint8_t>& out);
 Result<Statements> read_statements(Bytes message);
 

@@ -10,11 +10,11 @@
 
 namespace isostep {
 
-/// Raft's candidate. In: connections and hellos, inputs that others know, and their support. Out: what they are told:
-/// where the host is, or the roster and the request for support; and the streams, with what they know. Keeps: the
-/// connections, by PeerId, and how far the players' own machines have told us their inputs: such a machine knows all
-/// that the host can have had of it, and its word counts more than another's; but with a deadline the host plays what
-/// none of them said.
+/// Raft's candidate. In: connections and hellos, inputs that others know, and their support. Out: their answers, which
+/// are the host's address, or the roster and a request for support; and the streams with what they know. Keeps: the
+/// connections, by PeerId, and how far the players' own machines have told us their inputs. A player's own machine
+/// knows all inputs that the host can have of it, so its word counts more than another's. Not with a deadline: then the
+/// host plays inputs that none of them said.
 class Callers {
  public:
   Callers(const Roster& roster, Election& election, Partings& partings, std::vector<InputStream>& streams,
@@ -31,28 +31,28 @@ class Callers {
   static constexpr Time kGreeting = 2 * kSecond;  // [us] from the connection to the hello, as at a host
 
   void make_room(std::size_t most) { all_.resize(most); }
-  /// False: there is no room.
+  /// Returns false if there is no room.
   bool accept(PeerId peer, Time now);
   void disconnected(PeerId peer) {
     if (peer < all_.size()) went(all_[peer]);
   }
-  /// Null: nobody is connected.
+  /// Returns null if the peer is not connected.
   Caller* find(PeerId peer) { return peer < all_.size() && all_[peer].is_connected ? &all_[peer] : nullptr; }
   bool take_hello(Caller& caller, Bytes bytes);
-  /// Their places are others.
+  /// The roster has changed: finds all callers in it anew.
   void has_new_roster();
-  /// We are a candidate: all are asked for their support.
+  /// We are a candidate: asks all callers for their support.
   void call();
-  /// False: it cannot be, as no input from frame `most` on can.
+  /// Takes inputs that a caller knows. Returns false if they are invalid, or of frame `most` or later.
   bool take_known(const Caller& caller, const InputSlice& slice, Frame most);
-  /// False: we have not all inputs that it counts on.
+  /// Takes a caller's support. Returns false if we lack inputs that it relies on.
   bool take_support(const Caller& caller, const Support& support);
-  /// Another is the better candidate, as this one says, who goes there itself.
+  /// Redirects all callers but `from` to a better candidate: `from` has named it, and goes there itself.
   void send_on(const Caller& from, const Address& to);
-  /// Once a turn: how many have said nothing, and go. `has_host`: the match goes on where we are.
+  /// Call it once per turn. Returns how many silent callers it drops. `has_host`: others are sent on to our host.
   std::uint64_t tend(bool has_host, Time now);
   std::optional<PeerId> write_next(std::vector<std::uint8_t>& message);
-  /// We are elected: inputs of players whose machines support us, and which only others know.
+  /// We are elected: forgets a supporter's inputs that only other machines have told.
   void forget_untold();
   std::vector<Caller>&& hand_over() { return std::move(all_); }
 

@@ -12,14 +12,14 @@
 
 namespace isostep {
 
-/// Our own inputs are final when the host says it has them; the others' when they arrive. Cut off, the client keeps its
-/// history, and greets again from its newest final state: if the host still has the inputs since, no snapshot travels.
-/// In: the host's word, or that it is gone. Out: ours, to the host and to who connects to us. Keeps: the link, and the
-/// parts below, each of which can be read alone.
+/// Our own inputs are final when the host says that it has them; the others' when they arrive. A client that is cut off
+/// keeps its history, and greets again from its newest final state: if the host still has the inputs since, it sends no
+/// snapshot. In: the host's messages, or its loss. Out: ours, to the host and to machines that connect to us. Keeps:
+/// the link, and the parts below, each of which can be read alone.
 class ClientCore : public PeerCore {
  public:
   ClientCore(const SessionConfig& config, const InputRules& rules);
-  /// A host that the others have left behind.
+  /// Turns a host that the others have left behind into a client.
   ClientCore(PeerCore&& host, Retreat&& retreat, Time now);
 
   void connected(PeerId host, Time now) override;
@@ -52,11 +52,11 @@ class ClientCore : public PeerCore {
   void hash_known(Frame state, std::uint64_t hash) override;
 
   bool is_host(PeerId peer) const { return host_.is_connected && host_.peer == peer; }
-  /// We have the host's states, and go on from there.
+  /// Returns true if we have a state of the host's, and go on from there.
   bool is_settled_in() const {
     return is_greeted() && has_start_ && !entry_.is_under_way() && !entry_.is_spoiled() && !repair_.is_under_way();
   }
-  /// The match has begun; also while the host is away.
+  /// Returns true if the match has begun, also while the host is away.
   bool has_begun() const { return standing_ == Standing::runs || current() > 0; }
   std::uint64_t match() const { return entry_.welcome().match; }
   std::uint32_t hosted() const { return entry_.welcome().hosted; }
@@ -68,14 +68,14 @@ class ClientCore : public PeerCore {
   bool is_greeted() const { return standing_ != Standing::unknown; }
 
   // --- connection and beginning, in client_join.cpp ---
-  /// `knocks`: it spoke until now, and may live.
+  /// We lost the host. `knocks`: it was heard until now, and may live.
   void lose(Time now, bool knocks);
   void leave_host();
   bool take_message(MessageKind kind, Bytes bytes, Time now);
   void take_welcome(const Welcome& welcome, Time now);
   void write_own_hello();
   void begin();
-  /// The game becomes the state that has arrived.
+  /// Restores the state that has arrived.
   void restore(Frame frame);
 
   // --- in the match, in client_core.cpp ---
@@ -83,17 +83,17 @@ class ClientCore : public PeerCore {
   void take_inputs(const InputSlice& slice, Time now);
   bool write_to_host(Time now);
   PacketHeader header() const;
-  /// To the host, of our players.
+  /// The ends of our players' inputs, which the host is sent.
   SendEnds ends() const;
-  /// Our seats: whether they may be open, and whether we say so.
+  /// Checks if our players may play, and asks the host for it.
   void tend_seats(Time now);
 
   // --- without a host, in client_failover.cpp ---
-  /// We could be the host: we have a state of the match, and ours are right.
+  /// Returns true if we could be the host: we play, have a state of the match, and no majority finds it wrong.
   bool may_stand() const;
 
   // --- among machines that differ, in client_resync.cpp ---
-  /// Once a turn: hands over the state that has arrived, and lets the present go on while frames are stepped again.
+  /// Once per turn: restores the state that has arrived, and moves the present on while frames are stepped again.
   void tend_repair(Time now);
   void finish_repair(std::uint64_t hash);
 

@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// What we are to the host to which we connected last.
+/// The standing of this client at the host to which it connected last.
 enum class Standing : std::uint8_t {
   unknown,
   greeted,  // it has welcomed us
@@ -36,7 +36,7 @@ struct ClientParts {
   Frame present() const { return catches_up_to > timeline.current() ? catches_up_to : timeline.current(); }
   bool is_greeted() const { return standing != Standing::unknown; }
   void tell_of(SessionEvent::Kind kind) const { events.tell({.kind = kind, .frame = timeline.current()}); }
-  /// The host, or its place, is gone.
+  /// Reports that the host, or our place at it, is gone, and enters the phase `now`.
   void fail(SessionEvent::Kind kind, SessionPhase now) const {
     phase = now;
     tell_of(kind);

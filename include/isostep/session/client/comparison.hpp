@@ -9,12 +9,12 @@
 namespace isostep {
 
 /// In: the host's questions, verdicts and offers. Out: events, and a Repair that begins or goes on. It keeps nothing:
-/// that stands in Repair and MachineViews.
+/// Repair and MachineViews do.
 class Comparison {
  public:
   Comparison(const ClientParts& parts, const HashLog& hashes, MachineViews& views, Repair& repair)
       : client_(parts), hashes_(hashes), views_(views), repair_(repair) {}
-  /// False: it is none of these, or cannot be.
+  /// Takes a message of the host. Returns false if it is of another kind, or invalid.
   bool receive(MessageKind kind, Bytes bytes);
   /// See Session.
   bool resync();

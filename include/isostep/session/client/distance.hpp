@@ -9,26 +9,26 @@
 
 namespace isostep {
 
-/// In: what the link measures, and what the host says of our line. Out: frames that we are behind or lag, and a clock
-/// that leans. Keeps: the lag, by which we run behind the host when our line is so much worse than the others' that
-/// they do not wait for it: their inputs are in time for who runs later.
+/// In: what the link measures, and what the host says of our line. Out: how many frames we are behind or lag, and a
+/// clock that leans. Keeps: the lag, by which we run behind the host if our line is so much worse than the others' that
+/// they do not wait for it. Whoever runs later gets their inputs in time.
 class Distance {
  public:
   Distance(const SessionConfig& config, const PeerLink& host, FrameClock& clock)
       : config_(config), host_(host), clock_(clock) {}
 
-  /// Behind another host, or from another state on.
+  /// Begins anew behind another host, or from another state.
   void restart() {
     clock_.forget_lean();
     lag_ = InputDelay(lag_settings(config_));
     is_far_ = knows_way_ = false;
   }
-  /// As the host says: the others do not wait for our line.
+  /// `is_far`: the host says that the others do not wait for our line.
   void hear(bool is_far) {
     if (is_far_ && !is_far) lag_ = InputDelay(lag_settings(config_));
     is_far_ = is_far;
   }
-  /// [frames] that an input needs to who waits for it, once, when that is known first; 0: not now.
+  /// Returns how many frames an input travels to those who wait for it: once, when it is first known; else 0.
   Frame find_way(bool is_over_host) {
     if (knows_way_ || host_.round_trip == 0) return 0;
     knows_way_ = true;
@@ -36,7 +36,7 @@ class Distance {
   }
   Frame lag() const { return lag_.frames(); }
   bool may_lag_more() const { return is_far_ && !lag_.is_at_most(); }
-  /// By how many frames we run later from now on, where others' latest input came with this slack.
+  /// Takes the slack of the others' latest input. Returns by how many frames we run later from now on.
   Frame observe(Frame slack) {
     if (!is_far_ || slack == RecentLeast::kNothing) return 0;
     const Frame before = lag();
@@ -64,7 +64,7 @@ class Distance {
     const bool rolls_back = config.mode == SessionMode::rollback && config.window > kBeforeBlock;
     return {.start = 0, .least = 0, .most = most, .wanted_slack = rolls_back ? kBeforeBlock - config.window : 0};
   }
-  /// [1/256 frame] the host's next frame, as we estimate it; less the broadcast delay of a relay.
+  /// [1/256 frame] The estimate of the host's next frame, less the broadcast delay of a relay.
   std::int64_t host_position(Time now) const {
     const auto way = static_cast<std::int64_t>(host_.round_trip / 2 * 256 / clock_.period());
     return host_.position.at(now, clock_.period()) + way - std::int64_t{config_.broadcast_delay} * 256;

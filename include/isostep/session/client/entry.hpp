@@ -6,19 +6,19 @@
 
 namespace isostep {
 
-/// In: the welcome, word of the pieces, and the hash of the state. Out: what a hello says of what we have, and when the
-/// game begins from where. Keeps: the welcome, the stage, and whether the game is in a state of the match.
+/// In: the welcome, arrived pieces, and the hash of the state. Out: what a hello says of our state, and when and where
+/// the game begins. Keeps: the welcome, the stage, and whether the game is in a state of the match.
 class Entry {
  public:
   Entry(SnapshotArrival& arrival, bool is_spoiled) : arrival_(arrival), is_spoiled_(is_spoiled) {}
 
   const Welcome& welcome() const { return welcome_; }
   bool is_under_way() const { return stage_ != Stage::none; }
-  /// To a state of the host's, not from one that we have.
+  /// Returns true if we enter by a state of the host's, not from one that we have.
   bool is_restoring() const { return is_under_way() && stage_ != Stage::goes_on; }
-  /// All is there: begin, in the next plan.
+  /// Returns true if all is there, so that the next plan begins.
   bool is_due() const { return stage_ == Stage::is_whole || stage_ == Stage::goes_on; }
-  /// A snapshot was bad: the game may be in no state of this match.
+  /// Returns true if a snapshot was bad, so that the game may be in no state of this match.
   bool is_spoiled() const { return is_spoiled_; }
   bool is_restored_by(Frame state) const { return is_restoring() && state == welcome_.start.frame; }
 
@@ -28,8 +28,8 @@ class Entry {
     hello.partial = arrival_.start();
     hello.partial_size = arrival_.progress().arrived;
   }
-  /// Without a snapshot we go on from the state that our hello named, and from no other: others may be gone. Pieces go
-  /// on where those end that we have, or begin anew.
+  /// Returns true if the welcome fits what we have. Without a snapshot we go on only from the state that our hello
+  /// named, for others may be gone. Pieces continue ours, or begin anew.
   bool fits(const Welcome& welcome, const HashReport& settled) const {
     const bool has_start = welcome.start.frame == settled.frame && welcome.start.chain == settled.chain;
     const bool fits = welcome.snapshot_from == 0 || arrival_.goes_on(welcome.start, welcome.snapshot_from);
@@ -46,13 +46,13 @@ class Entry {
   void has_pieces() {
     if (stage_ == Stage::arrives && arrival_.is_whole()) stage_ = Stage::is_whole;
   }
-  /// The requests of the last turn were not carried out.
+  /// Returns true if the requests of the last turn were not carried out.
   bool must_restore_again() const { return stage_ == Stage::restores; }
-  /// The host says meanwhile from when on our players play; kNoFrame: it has not.
+  /// Keeps the frame from which our players play, which the host told in the meantime. kNoFrame: it has not.
   void keep_opened(Frame first) { opened_ = first; }
   Frame opened() const { return opened_; }
   void was_begun() { stage_ = is_restoring() ? Stage::restores : Stage::none; }
-  /// False: its hash is not the host's.
+  /// Takes the hash of the restored state. Returns false if it is not the host's.
   bool has_hash(std::uint64_t hash) {
     if (hash != welcome_.hash) return false;
     stage_ = Stage::none;

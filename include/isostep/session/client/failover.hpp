@@ -9,8 +9,8 @@
 
 namespace isostep {
 
-/// In: that the host is lost, machines that connect to us, and what they, the host and candidates say of that. Out:
-/// where to connect to, and messages to all of these. Keeps: the search, the callers, and our support.
+/// In: the loss of the host, machines that connect to us, and what they, the host and candidates say. Out: the address
+/// to connect to, and messages to all of these. Keeps: the search, the callers, and our support.
 class Failover {
  public:
   Failover(const ClientParts& parts, FollowerLog& log, HostSearch&& search, std::vector<std::uint8_t>& scratch)
@@ -20,23 +20,23 @@ class Failover {
   const HostSearch& search() const { return search_; }
   Callers& callers() { return callers_; }
   bool can_begin() const { return client_.config.migration > 0 && search_.can_begin(); }
-  /// We are connected to another: what a candidate has not been answered, nor a host been told, is not for that one.
+  /// We are connected to another machine: drops what a candidate or a host was still to be told.
   void is_connected() {
     supporter_.answer_nothing();
     must_enroll_ = false;
   }
-  /// `knocks`: the host spoke until now, and may live.
+  /// `knocks`: the host was heard until now, and may live.
   void begin(Time now, bool knocks);
-  /// Once a turn. `may_stand`: we could be the host.
+  /// Call it once per turn. `may_stand`: we could be the host.
   void tend(bool may_stand, Time now);
-  /// Another is welcome as our host.
+  /// Ends the search: another machine has welcomed us as its client.
   void end();
   /// See Session.
   bool go_on(bool may_stand, Time now);
 
-  /// Of the host, or who would follow it; false: it is none of these, or damaged.
+  /// Takes a message of the host or a candidate. Returns false if it is of another kind, or damaged.
   bool receive(MessageKind kind, Bytes bytes, bool may_stand, Time now);
-  /// Of a machine that connected to us.
+  /// Takes a message of a machine that connected to us.
   void receive_call(PeerId peer, Channel channel, Bytes bytes, Time now);
   std::optional<PeerId> write_next(std::vector<std::uint8_t>& message);
 

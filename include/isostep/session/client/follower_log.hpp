@@ -9,34 +9,34 @@
 
 namespace isostep {
 
-/// In: welcomes, and what a host says is final. Out: where every player's final inputs end. Keeps: the host's word on
-/// that, what the host before had told, and where a candidate's log ended when it asked for others' inputs.
+/// In: welcomes, and which inputs a host calls final. Out: the end of each player's final inputs. Keeps: the host's
+/// word on that, what the host before had told, and where our log ended when we asked for inputs as a candidate.
 class FollowerLog {
  public:
   FollowerLog(std::vector<InputStream>& streams, Timeline& timeline, OwnSeats& own, const Entry& entry)
       : streams_(streams), timeline_(timeline), own_(own), entry_(entry) {}
 
-  /// Inputs before this frame are final, as the host says; beyond kLastFrame: all that it says is.
+  /// The host calls inputs before this frame final. Beyond kLastFrame: all inputs that it sends are final.
   Frame told_final() const { return told_final_; }
   void is_final_until(Frame end) { told_final_ = end; }
-  /// As a datagram says; kNoFrame: all of it.
+  /// Takes the end of final inputs from a datagram; kNoFrame: all are.
   void hear_final(Frame end);
-  /// This machine writes the player's stream: the seat is ours and open, or opens once we begin.
+  /// Returns true if this machine writes the player's stream: the seat is ours and open, or opens once we begin.
   bool is_told_by_us(int player) const { return own_.has(player) && (own_.is_open() || entry_.is_under_way()); }
-  /// Where the inputs of `player` end that the host has made final, as far as we know.
+  /// The end of the inputs of `player` that the host has made final, as far as we know.
   Frame final_end(int player) const { return is_told_by_us(player) ? own_.accepted(player) : stream(player).end(); }
   void copy_ends(Frame (&ends)[kMaxPlayers]) const;
-  /// A candidate asks for inputs: what follows these ends from now on is no host's word.
+  /// Notes the ends as we ask for inputs as a candidate: what follows them is no host's word.
   void note_ends();
   Frame noted_end(int player) const { return noted_[player]; }
 
-  /// We go on behind this host: before its welcome is taken.
+  /// Prepares to go on behind this host. Call it before its welcome is taken.
   void follow(const Welcome& next, std::uint32_t log_term);
-  /// The streams, for a beginning in this state.
+  /// Prepares the streams to begin in the state `frame`.
   void begin_at(Frame frame);
-  /// Once a turn: does the log hold all that the host took over?
+  /// Call it once per turn. Tells the election when the log holds all that the host took over.
   void tend(Election& election);
-  /// Another election is about the log of the host before, while this one has not told all: its inputs are ours again.
+  /// This host is lost before it told all: the inputs of the host before are ours again, for the next election.
   void take_back_former();
 
  private:

@@ -10,15 +10,15 @@
 
 namespace isostep {
 
-/// Raft's log across a change of the leader. A client has acknowledged these inputs, so some may be final by its word:
-/// it keeps them until the new host has told it all that it took over, which the final ones are among; or the same one,
-/// from a snapshot on, as much as before.
-/// Input:   the streams and where in each the host's word ends, as the client begins anew behind a host.
-/// Output:  the same inputs behind what that host told, when it is lost before it told all.
+/// Raft's log across a change of the leader. The client has acknowledged these inputs, so some may be final because of
+/// it. It keeps them until the new host has told all that it took over, which includes the final ones; or until the
+/// same host, after a snapshot, has told as much as before.
+/// Input:   the streams, and in each the end of the host's word, as the client begins anew behind a host.
+/// Output:  the same inputs after those that this host told, if it is lost before it told all.
 class FormerInputs {
  public:
   bool are_kept() const { return place_ == Place::here; }
-  /// They are among the inputs of the host, of which none counts as told any more.
+  /// Returns true if they are in the streams again, of which none counts as told by the host any more.
   bool are_back() const { return place_ == Place::in_streams; }
   void keep(const std::vector<InputStream>& streams, const Frame (&ends)[kMaxPlayers]) {
     streams_ = streams;

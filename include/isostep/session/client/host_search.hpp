@@ -8,8 +8,8 @@
 
 namespace isostep {
 
-/// In: rosters, that the host is lost, and where others send us. Out: where to connect to, and what the Election says.
-/// Keeps: the roster and who we are in it, the election, and the address that is next.
+/// In: rosters, the loss of the host, and redirects. Out: the address to connect to, and the Election's steps. Keeps:
+/// the roster and who we are in it, the election, and the next address.
 class HostSearch {
  public:
   explicit HostSearch(std::uint64_t token) : token_(token) {}
@@ -24,16 +24,16 @@ class HostSearch {
   Election& election() { return election_; }
   const Election& election() const { return election_; }
   std::uint64_t token() const { return token_; }
-  /// Of our process, as the host numbered it; 0: it knows no host yet.
+  /// The host's number of our process; 0: we know no host yet.
   std::uint64_t life() const { return life_; }
-  /// Our place in the roster, as a voter.
+  /// Our index in the roster, as a voter; -1: we have no vote.
   int own_machine() const { return roster_.voter_of(token_, life_); }
   bool is_under_way() const { return election_.is_under_way(); }
   bool is_elected() const { return is_under_way() && is_elected_; }
-  /// The roster names somebody to ask.
+  /// Returns true if the roster names a machine to ask.
   bool can_begin() const { return election_.target(roster_, own_machine()) >= 0; }
 
-  /// `knocks`: the host spoke until now, and may live.
+  /// `knocks`: the host was heard until now, and may live.
   void begin(Time now, bool knocks) {
     election_.begin(now, knocks && !roster_.machines[roster_.host].address.view().empty());
     is_elected_ = false;
@@ -44,19 +44,19 @@ class HostSearch {
     if (step == Election::Step::gives_up) next_.reset();
     return step;
   }
-  /// The machine that is to be asked now.
+  /// Makes the machine that is asked now the next to connect to.
   void ask_next() {
     const int machine = election_.target(roster_, own_machine());
     next_.reset();
     if (machine >= 0 && machine != own_machine()) next_ = roster_.machines[machine].address;
   }
-  /// We ask there next; an empty address is nobody's.
+  /// Makes this address the next to connect to; if it is empty there is none.
   void go_to(const Address& address, Time now) {
     next_.reset();
     if (!address.view().empty()) next_ = address;
     election_.was_sent_on(now);
   }
-  /// Each address once.
+  /// Returns each address once.
   std::optional<Address> poll_connect() {
     const std::optional<Address> address = next_;
     next_.reset();
@@ -66,7 +66,7 @@ class HostSearch {
     election_.end();
     next_.reset();
   }
-  /// False: we have it, or a newer one; true: all places are others.
+  /// Takes a newer roster, in which all indices may differ. Returns false if we have it, or a newer one.
   bool take_newer(const Roster& roster) {
     if (!roster.is_newer_than(roster_)) return false;
     roster_ = roster;

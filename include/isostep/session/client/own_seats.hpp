@@ -8,15 +8,15 @@
 
 namespace isostep {
 
-/// In: what the host says of our seats and inputs, who has the states that we have. Out: our streams, as they count,
-/// and whether our players may play. Keeps: which seats are ours, whether they are open, the first input of each that
-/// the host lacks, and since when we have caught up.
+/// In: what the host says of our seats and inputs, and which machines have our states. Out: our streams, as the host
+/// counts them, and whether our players may play. Keeps: which seats are ours, whether they are open, the first input
+/// of each that the host lacks, and since when we have caught up.
 class OwnSeats {
  public:
   OwnSeats(std::vector<InputStream>& streams, Timeline& timeline, PeerLink& host)
       : streams_(streams), timeline_(timeline), host_(host) {}
 
-  /// These players, a bit each, come and go together; nobody plays for them yet.
+  /// Takes the seats of these players, a bit each, who come and go together. They do not play yet.
   void sit(std::uint32_t players) {
     players_ = players;
     stage_ = Stage::closed;
@@ -25,11 +25,11 @@ class OwnSeats {
   bool has(int player) const {
     return player >= 0 && player < static_cast<int>(kMaxPlayers) && (players_ >> player & 1) != 0;
   }
-  /// -1: a spectator.
+  /// The first of our players; -1: a spectator.
   int first() const { return first_of(players_); }
   bool is_open() const { return stage_ == Stage::open; }
   bool is_closed() const { return stage_ == Stage::closed; }
-  /// We step anew from here on; after a repair from there, in the same match.
+  /// begin_at: we step anew from here. is_repaired_at: a repair goes on from here, in the same match.
   void begin_at(Frame base) {
     base_ = base;
     near_since_ = 0;
@@ -38,32 +38,32 @@ class OwnSeats {
   /// The state with which our part of the match began.
   Frame base() const { return base_; }
   void is_near(Time now) { near_since_ = near_since_ == 0 ? now : near_since_; }
-  /// Do the host's machine and enough others have the states that we have? Machines, a bit each: whose states since
-  /// base() were ours, and who differs; `with_host`: players who share a machine with the host.
+  /// Returns true if enough machines have our states. Machines, a bit each: `agreeing` have had them since base(),
+  /// `differing` differ. `with_host`: players who share a machine with the host.
   bool are_vouched_for(std::uint64_t agreeing, std::uint64_t differing, std::uint32_t with_host, Time now) const;
-  /// The host is told that we may play; until it answers, or the connection is another.
+  /// Asks the host to let us play. This holds until it answers, or the connection is another.
   void ask() { stage_ = Stage::asked; }
   void stop_asking() {
     if (stage_ == Stage::asked) stage_ = Stage::closed;
   }
   /// The frame from which on our players play.
   Frame opens() const { return opens_; }
-  /// False: it cannot be from there on; `most`: [frames] beyond what we know.
+  /// Opens our seats from `first` on. Returns false if that cannot be; `most`: [frames] beyond known inputs.
   bool open(Frame first, Frame most);
-  /// From a frame on that we have come to already.
+  /// Opens our seats from a frame that we have reached already.
   void go_on_from(Frame first);
 
   Frame accepted(int player) const { return accepted_[player]; }
   void accept_until(int player, Frame end) { accepted_[player] = end; }
   void hear_acks();
-  /// What counts as our player's input of the first frame that is not accepted: its own, or the guess where that came
+  /// Takes what the host counts as our player's first input that is not accepted: our own, or the guess if ours came
   /// too late.
   void take(int player, const InputEntry& entry);
-  /// States up to here depend on accepted inputs alone.
+  /// Limits `most` to states that depend on accepted inputs alone.
   Frame limit(Frame most) const;
 
  private:
-  /// The host went on without us: from the first frames on that it has not accepted.
+  /// The host went on without us: cuts the inputs that it has not accepted, and closes the seats.
   void cut_out();
 
   enum class Stage : std::uint8_t { closed, asked, open };

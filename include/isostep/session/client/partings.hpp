@@ -9,17 +9,17 @@
 
 namespace isostep {
 
-/// In: peers. Out: each with its last message, which is empty where the connection ends. Keeps: who is left.
+/// In: peers to leave. Out: each with its last message; an empty one ends the connection. Keeps: those that are left.
 class Partings {
  public:
   Partings() = default;
   explicit Partings(std::vector<PeerId> told) : told_(std::move(told)) {}
 
   void hang_up(PeerId peer) { untold_.push_back(peer); }
-  /// Whose host we were, or who was ours: it is told, and then hung up on.
+  /// Says farewell to our host or our guest, then ends the connection.
   void bid_farewell(PeerId peer) { told_.push_back(peer); }
-  /// `is_known`: our host is told that we do not leave the match, for it would count us among those who did; and so is
-  /// a candidate that we may have made the host.
+  /// Leaves the host. `is_known`: says farewell, for a host would count us among those who left the match, and a
+  /// candidate may have become the host by our support.
   void leave(PeerLink& host, bool is_known) {
     if (host.is_connected && is_known) bid_farewell(host.peer);
     else if (host.is_connected) hang_up(host.peer);

@@ -6,10 +6,10 @@
 
 namespace isostep {
 
-/// Towards its host a spectator as any other; towards its leaves what the host is to spectators: it passes on inputs
-/// that are final, its hash chain, and its own state for who comes late. Relays may stand under relays. With a
-/// broadcast delay the relay itself steps so much later, and nobody learns of it what it has not stepped or could not
-/// have.
+/// To its host it is an ordinary spectator, to its leaves it is what the host is to
+/// spectators: it passes on final inputs, its hash chain, and its own state for late
+/// joiners. Relays may connect to relays. With a broadcast delay the relay itself steps
+/// so much later, and sends only inputs that it has stepped or could have stepped.
 class RelayCore : public ClientCore {
  public:
   RelayCore(const SessionConfig& config, const InputRules& rules);
@@ -34,8 +34,8 @@ class RelayCore : public ClientCore {
     HashReport have;          // as it greets
     std::uint64_t match = 0;  // for which it was let in
     HashReport start;         // the state from which it goes on
-    /// What it acknowledges of inputs that it was sent before may still be under way, and must not count for those that
-    /// follow its next state: that is not older than they are.
+    /// The leaf's next state is of this frame or later. Acknowledgements of inputs that it was sent before may still be
+    /// under way, and must not count for inputs after that state.
     Frame state_from = 0;
     SnapshotTransfer transfer;
     Refusal refusal{};
@@ -52,7 +52,7 @@ class RelayCore : public ClientCore {
   void greet(Leaf& leaf, Bytes message);
   void refuse_leaf(Leaf& leaf, std::string_view key, std::string_view theirs, std::string_view ours);
   void ask_for_state(Leaf& leaf);
-  /// Our newest final state may be shown.
+  /// Returns true if our newest final state may be shown to leaves.
   bool may_show() const;
   void let_in(Leaf& leaf);
   void go_live(Leaf& leaf);
@@ -60,11 +60,11 @@ class RelayCore : public ClientCore {
   void take_packet(Leaf& leaf, const Packet& packet, Time now);
   void tend(Leaf& leaf, Time now);
   void serve_snapshots();
-  /// Can the one that we have be sent to one more?
+  /// Returns true if the snapshot that we have can be sent to one more.
   bool may_share_snapshot() const;
-  /// What `capture` wrote, which is not for us.
+  /// Moves what `capture` wrote out of portable(): it is for the leaves, not for us.
   void collect_snapshot();
-  /// To any leaf.
+  /// The ends of the inputs that a leaf is sent.
   SendEnds shown_ends() const;
   bool lacks_inputs(const Leaf& leaf) const;
   bool acknowledges(const Leaf& leaf, Time now) const;

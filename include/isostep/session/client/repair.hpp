@@ -12,24 +12,24 @@
 
 namespace isostep {
 
-/// In: the wish for a state, the host's offer, and its questions after our hash chain. Out: messages to the host, and
-/// when the game restores the state. Keeps: the stage, the offer, and where the match is by now. The client plays on in
-/// its own states until the whole of the host's has arrived. From then on it steps the frames since as fast as it can,
-/// while its player's inputs go on at the pace of the match: nobody else notices.
+/// In: the wish for a state, the host's offer, and its inquiries. Out: messages to the host, and when the game restores
+/// the state. Keeps: the stage, the offer, and the present frame of the match. The client plays on in its own states
+/// until all of the host's has arrived. From then on it steps the frames since as fast as it can, while its players'
+/// inputs go on at the pace of the match: nobody else notices.
 class Repair {
  public:
-  /// `present`: the frame that would be next by now; above the current one frames are stepped again.
+  /// `present`: the frame that would be next by now. If it is above the current one, frames are stepped again.
   Repair(SnapshotArrival& arrival, const HashLog& hashes, Frame& present)
       : arrival_(arrival), hashes_(hashes), present_(present) {}
 
   bool is_under_way() const { return stage_ != Stage::none; }
-  /// Or it steps the frames since.
+  /// Returns true if a repair is under way, or the frames since are still stepped.
   bool is_busy(Frame current) const { return is_under_way() || present_ > current; }
   bool receives() const { return stage_ == Stage::receives; }
   bool restores() const { return stage_ == Stage::restores; }
   bool awaits_offer() const { return stage_ == Stage::waits || receives(); }
   const RepairOffer& offer() const { return offer_; }
-  /// The newest state that was final before.
+  /// The newest state that was final before the repair.
   Frame after() const { return after_; }
 
   void ask() { stage_ = Stage::asks; }
@@ -38,9 +38,9 @@ class Repair {
     offer_ = offer;
     arrival_.begin(HashReport{}, offer.snapshot_size, 0);
   }
-  /// There is no such state.
+  /// The host has no such state.
   void is_refused() { stage_ = Stage::none; }
-  /// There is another beginning.
+  /// Drops the repair: the client begins anew.
   void leave() {
     is_refused();
     offer_ = RepairOffer{};
@@ -48,7 +48,7 @@ class Repair {
     present_ = 0;
     due_.drop(MessageKind::repaired);
   }
-  /// Once a turn, true: the game restores the state of the offer.
+  /// Call it once per turn. Returns true if the game must restore the state of the offer.
   bool tend(const std::vector<InputStream>& streams, Frame current, FrameClock& clock, Time now) {
     for (; present_ > current && clock.is_due(now); ++present_) clock.stepped(now);
     if (receives() && arrival_.is_whole() && current >= offer_.start.frame) {
@@ -63,14 +63,14 @@ class Repair {
     // Which it still is where the requests of the last turn were not carried out.
     return restores();
   }
-  /// False: its hash is not the host's.
+  /// Takes the hash of the restored state. Returns false if it is not the host's.
   bool has_hash(std::uint64_t hash) {
     if (hash != offer_.hash) return false;
     stage_ = Stage::none;
     due_.add(MessageKind::repaired);
     return true;
   }
-  /// The host asks for our hash chain of this state; kNoFrame: of none.
+  /// The host asks for our hash chain of this state; kNoFrame: it asks for none.
   void inquire(Frame state) { inquired_ = state; }
   bool write_next(std::vector<std::uint8_t>& message) {
     if (inquired_ != kNoFrame && hashes_.settled().frame >= inquired_) {

@@ -8,8 +8,8 @@
 
 namespace isostep {
 
-/// Raft's voter. In: what the candidate asks. Out: our roster, a call to come here instead, inputs that it lacks, and
-/// our support. Keeps: its call, and which answers are due.
+/// Raft's voter. In: the candidate's request. Out: our roster, a redirect to us, inputs that the candidate lacks, and
+/// our support. Keeps: the request, and which answers are due.
 class Supporter {
  public:
   Supporter(const Roster& roster, Election& election, const std::vector<InputStream>& streams, const FollowerLog& log)
@@ -46,7 +46,7 @@ class Supporter {
   }
 
  private:
-  /// It lacks nothing that we know to be final, or only what we still have.
+  /// Returns true if we can send all final inputs that the candidate lacks.
   bool can_complete() const {
     for (std::size_t p = 0; p < streams_.size(); ++p) {
       const Frame end = candidate_.ends[p];
@@ -54,7 +54,7 @@ class Supporter {
     }
     return true;
   }
-  /// False: it has all that we have.
+  /// Writes inputs that the candidate lacks. Returns false if it has all that we have.
   bool write_missing(Frame current, std::vector<std::uint8_t>& message) {
     PacketHeader header;
     header.frame = current;

@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// In: wishes. Out: messages to the host. Keeps: of each kind the last that it has not been told.
+/// In: wishes. Out: messages to the host. Keeps: the last wish of each kind that the host has not been told.
 class Wishes : public MatchControl {
  public:
   Wishes(const OwnSeats& own, const PeerLink& host, const Ballot& ballot) : own_(own), host_(host), ballot_(ballot) {}
@@ -33,7 +33,7 @@ class Wishes : public MatchControl {
     due_.add(MessageKind::vote);
     return true;
   }
-  /// The host is another, or the connection to it: nobody waits for what was asked.
+  /// The host or the connection has changed: drops what was asked, for nobody waits for it.
   void forget() {
     due_ = Outbox<MessageKind>{};
     votes_ = Votes{};

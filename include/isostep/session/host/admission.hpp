@@ -8,11 +8,11 @@
 
 namespace isostep {
 
-/// In: hellos, and the game's decisions. Out: guests in seats, on board or refused, and refusals as events. Keeps: how
-/// many have applied, and until when refusals are told.
+/// In: hellos, and the game's decisions. Out: guests that are seated, boarded or refused, and refusals as events.
+/// Keeps: the number of applicants, and until when refusals are reported.
 class Admission : public AdmissionControl {
  public:
-  /// `resumed`: where a saved match goes on; kNoFrame: it is none.
+  /// `resumed`: the state from which a saved match goes on; kNoFrame: there is none.
   Admission(const HostParts& parts, SecretNumbers& numbers, Leadership& leadership, const HashLog& hashes,
             const HashReport& resumed, const Boarding& boarding, Departures& departures)
       : host_(parts),
@@ -34,9 +34,9 @@ class Admission : public AdmissionControl {
   void refuse(Guest& guest, const Refusal& refusal);
 
  private:
-  /// Why it cannot take part at all; of no key: it can.
+  /// Returns why the client cannot take part at all. Its key is empty if it can.
   Refusal mismatch_of(const Hello& hello) const;
-  /// As a spectator or to a seat, if there is room; else it is refused.
+  /// Lets the guest in, as a spectator or to a seat. If there is no room, refuses it and returns false.
   bool let_in(Guest& guest);
   void seat(Guest& guest, std::uint32_t wanted);
 

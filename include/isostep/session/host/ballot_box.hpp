@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// Proposals, votes and time come in; what they do to the ballot goes out. Whoever gets `changed` tells its game, and
-/// does what has passed.
+/// In: proposals, votes and time. Out: what they do to the ballot. On `changed` the caller tells its game, and carries
+/// out what has passed.
 class BallotBox {
  public:
   enum class Effect : std::uint8_t { refused, same, changed };
@@ -16,11 +16,11 @@ class BallotBox {
   BallotBox(const SessionConfig& config, const Seats& seats, Ballot& ballot)
       : config_(config), seats_(seats), ballot_(ballot) {}
   Effect open(int player, const Proposal& proposal, Time now);
-  /// From a machine with these players, a bit each.
+  /// Counts the votes of a machine with these players, a bit each.
   Effect count(const Votes& votes, std::uint32_t players, Time now);
-  /// Who is gone does not count, and no vote takes for ever.
+  /// Removes voters who are gone, and ends a vote after its time.
   Effect tend(Time now);
-  /// True once: all hear now how it stands.
+  /// Returns true, once, if all must be told how the vote stands.
   bool must_tell(Time now);
 
  private:

@@ -12,7 +12,7 @@
 namespace isostep {
 
 /// In: guests that are let in, have their snapshot, or may play. Out: the stage of each, and absent inputs until its
-/// players play. It keeps nothing: that stands in Guest and Seats.
+/// players play. It keeps nothing: Guest and Seats do.
 class Boarding {
  public:
   Boarding(const HostParts& parts, const InputFlow& flow, const HashLog& hashes, std::vector<InputStream>& streams,
@@ -24,10 +24,10 @@ class Boarding {
         clock_(clock),
         roster_(roster),
         ballot_(ballot) {}
-  /// It is let in: goes on from the state that it has, or needs a snapshot.
+  /// Lets the guest go on from the state that it has, or marks that it needs a snapshot.
   void enter(Guest& guest) const;
   void go_live(Guest& guest, Frame start) const;
-  /// It has caught up and asked to play.
+  /// Opens the seats of a guest that has caught up and asked to play.
   void open_seats(Guest& guest, Time now) const;
 
  private:
@@ -42,7 +42,7 @@ class Boarding {
   const Ballot& ballot_;
 };
 
-/// In: guests that go. Out: their seats are nobody's, and what they said of their states is forgotten.
+/// In: guests that go. Out: their seats are vacated, and what they said of their states is forgotten.
 class Departures {
  public:
   Departures(Seats& seats, Inquiry& inquiry, MachineViews& views) : seats_(seats), inquiry_(inquiry), views_(views) {}
@@ -53,7 +53,7 @@ class Departures {
     }
     seats_.leave(guest);
   }
-  /// What it says is heard no more; it is told why, and its connection ends.
+  /// Ignores the guest from now on, tells it why, and ends its connection.
   void send_away(Guest& guest, const Refusal& refusal) {
     unseat(guest);
     guest.stage = Guest::Stage::refused;

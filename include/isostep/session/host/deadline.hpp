@@ -9,8 +9,8 @@
 
 namespace isostep {
 
-/// Frames that are due and guesses come in; final inputs go out, and who is left out. Who holds the match up spends its
-/// patience of a minute, whether at once or bit by bit, and then watches.
+/// In: due frames, and guesses. Out: final inputs, and players who are left out. A player who holds the match up may
+/// spend `patience` within a minute, at once or bit by bit; then it watches.
 class Deadline {
  public:
   Deadline(const SessionConfig& config, Seats& seats, const Guests& guests, std::vector<InputStream>& streams,
@@ -23,21 +23,21 @@ class Deadline {
         clock_(clock),
         stats_(stats) {}
   void begin(Time now) { began_ = now; }
-  /// A pause of ours: for a while nobody is late.
+  /// This machine paused: for a while nobody is late.
   void excuse(Time now) { due_from_ = now + static_cast<Time>(config_.deadline) * clock_.period(); }
 
   bool applies(Time now) const { return config_.deadline > 0 && now >= due_from_; }
-  /// The next input of this player is too late, while the frame `due` is. Of whom one input was replaced, and nothing
-  /// came since, the next is waited for as long as nobody stands: what a rollback affords in every frame.
+  /// Returns true if the player's next input is too late when the frame `due` is. If the last one was replaced and
+  /// nothing came since, it may be late by half a window, a rollback that every frame affords.
   bool is_over(int player, Frame due, Frame window) const;
-  /// With what is guessed: that is final.
+  /// Replaces the player's next input by the guess, which is final.
   void replace(int player, Bytes guess, Frame due, Time now);
-  /// True once: the game hears now which inputs of this player were replaced.
+  /// Returns true, once, if the game must hear now that inputs of this player were replaced.
   bool must_tell(int player, Time now);
 
-  /// Inputs before `end` came after they were replaced: false, when that is known.
+  /// Notes inputs before `end` that came after they were replaced. Returns false if that is known.
   bool is_news(int player, Frame end);
-  /// The match stands, and for so long that it is worth telling.
+  /// Notes that the match stalls. Returns true if it has done so for `worth_telling` [us].
   bool stands(Time now, Time worth_telling);
   void charge(Frame current, bool may_leave_out, Time now);
   void goes_on() { blocked_since_ = 0; }

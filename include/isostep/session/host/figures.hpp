@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// Guests' lines and what seats cost come in; stats.players goes out, and to whom it is due.
+/// In: the guests' lines, and what seats cost. Out: stats.players, and which guests are due to hear them.
 class Figures {
  public:
   Figures(Seats& seats, Guests& guests, const InputFlow& flow, SessionStats& stats)

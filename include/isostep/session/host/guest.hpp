@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// The most urgent first. What they say is written when they are sent: as it is then.
+/// Messages that are due to a guest, the most urgent first. Each is written when it is sent, from the state of then.
 enum class Due : std::uint8_t {
   close,       // its connection ends
   welcome,     // it is in the match, or gets a snapshot
@@ -25,7 +25,7 @@ enum class Due : std::uint8_t {
   open         // from when on its players play
 };
 
-/// A client's repair, see Repair.
+/// The host's part in a client's repair, see Repair.
 struct RepairService {
   enum class Stage : std::uint8_t {
     none,
@@ -39,9 +39,9 @@ struct RepairService {
   std::uint32_t tells = 0;  // players of whom this client must hear that they are repaired, a bit each
 };
 
-/// A client, on its way in.
+/// The host's view of one connection, from its first message on.
 struct Guest : PeerLink {
-  /// For who comes next in its place.
+  /// Resets it for the next connection in its place.
   void clear() {
     const PeerId its_peer = peer;
     const Time its_probe_every = probe_every;
@@ -52,18 +52,18 @@ struct Guest : PeerLink {
   bool has(int its_player) const { return (players >> its_player & 1) != 0; }
   bool applies() const { return is_connected && stage == Stage::applies; }
   bool is_live() const { return stage == Stage::live; }
-  /// It is let in: it is in the match, or on the way.
+  /// Returns true if it is let in: it is in the match, or on the way.
   bool is_served() const {
     return is_connected && stage != Stage::connected && stage != Stage::applies && stage != Stage::refused;
   }
-  /// Anybody may come and watch, so a spectator has to show first that it takes what it is sent; a player has a seat.
+  /// Returns true for a spectator that has not shown yet that it takes what it is sent. Anybody may come and watch.
   bool is_unproven() const { return player < 0 && acked_at == 0; }
-  /// Waits for the next snapshot, or is on the way to have this one: into the match, or in it.
+  /// It waits for the next snapshot, or receives this one: to join the match, or for a repair.
   bool needs_snapshot() const { return stage == Stage::needs_snapshot || repair.stage == RepairService::Stage::needs; }
   bool receives_snapshot() const {
     return stage == Stage::receives_snapshot || repair.stage == RepairService::Stage::receives;
   }
-  /// It needs a snapshot: inputs that it lacks are gone.
+  /// Sends it back to a snapshot, because inputs that it lacks are gone.
   void fall_behind() {
     stage = Stage::needs_snapshot;
     due.add(Due::welcome);
@@ -72,12 +72,12 @@ struct Guest : PeerLink {
     repair = RepairService{.next = repair.next};
     opens = kNoFrame;
   }
-  /// While a snapshot is under way datagrams only measure the line.
+  /// Measures the line for the transfer of a snapshot.
   void measure(const PacketHeader& header, Time now) {
     const std::uint16_t trip = static_cast<std::uint16_t>(static_cast<std::uint16_t>(now / 1000) - header.echo);
     if (header.has_echo) transfer.measured(Time{trip} * 1000, now);
   }
-  /// It echoes when it heard us: it waits for us for a lease from then on.
+  /// Renews the lease: the guest waits for us for a lease from the time when we sent what it echoes.
   void renew_lease(const PacketHeader& header, Time now) {
     if (!header.has_echo || header.waited == 255) return;
     const auto said = static_cast<std::uint16_t>(header.echo - header.waited);

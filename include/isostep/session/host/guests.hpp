@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// Goes through those that a connection ever had: few, of many places.
+/// Iterates over the places that a connection ever had: few of many.
 class Guests {
  public:
   explicit Guests(std::size_t most) : all_(most) {
@@ -21,18 +21,18 @@ class Guests {
   const Guest* end() const { return all_.data() + used_; }
   std::size_t size() const { return used_; }
 
-  /// Those in the places that were ever used.
+  /// `place` is below size().
   Guest& operator[](std::size_t place) { return all_[place]; }
   const Guest& operator[](std::size_t place) const { return all_[place]; }
-  /// Null: it has no connection.
+  /// Returns null if the peer has no connection.
   Guest* find(PeerId peer) { return peer < used_ && all_[peer].is_connected ? &all_[peer] : nullptr; }
   const Guest* find(PeerId peer) const { return peer < used_ && all_[peer].is_connected ? &all_[peer] : nullptr; }
-  /// Null: nobody is there.
+  /// Returns null if nobody is there.
   Guest* on(const Seat& seat) { return seat.link < 0 ? nullptr : &all_[static_cast<std::size_t>(seat.link)]; }
   const Guest* on(const Seat& seat) const {
     return seat.link < 0 ? nullptr : &all_[static_cast<std::size_t>(seat.link)];
   }
-  /// Null: it is decided, or gone.
+  /// Returns null if the applicant is decided on, or gone.
   Guest* applicant(std::uint64_t number) {
     for (Guest& guest : *this) {
       if (guest.applies() && guest.applicant == number) return &guest;
@@ -44,7 +44,7 @@ class Guests {
     for (const Guest& guest : *this) count += guest.is_served() && guest.player < 0 ? 1 : 0;
     return count;
   }
-  /// Null: there are not so many places.
+  /// Returns null if there are not so many places.
   Guest* place(PeerId peer) {
     if (peer >= all_.size()) return nullptr;
     if (used_ <= peer) used_ = peer + std::size_t{1};
@@ -55,7 +55,7 @@ class Guests {
     next_ = (next_ + 1) % used_;
     return guest;
   }
-  /// It is its turn once more.
+  /// Gives the guest the next turn again.
   void stay_with(const Guest& guest) { next_ = guest.peer; }
 
  private:

@@ -9,11 +9,11 @@
 
 namespace isostep {
 
-/// In: wishes and votes of this machine and of guests. Out: the tempo to be announced, the vote as it stands, and what
-/// has passed, done. Keeps: the two desks.
+/// In: wishes and votes of this machine and of guests. Out: the tempo to announce, the vote as it stands, and the
+/// effects of a vote that passed. Keeps: the two desks.
 class HostControl : public MatchControl {
  public:
-  /// `announced`: the newest tempo.
+  /// `announced`: the newest announced tempo.
   HostControl(const HostParts& parts, Ballot& ballot, const Tempo& announced, Admission& admission)
       : host_(parts),
         ballot_(ballot),
@@ -26,16 +26,16 @@ class HostControl : public MatchControl {
   bool propose(int player, const Proposal& proposal) override;
   bool vote(int player, bool yes) override;
 
-  /// Of a guest; false: it is malformed, or not to be said now.
+  /// Takes a guest's message. Returns false if it is malformed, or not allowed now.
   bool receive(Guest& guest, MessageKind kind, Bytes message);
-  /// The host answers a guest once a second.
+  /// Answers a guest's requests, once a second.
   void answer_asks(Guest& guest, Time now);
   void tend(Time now);
   TempoDesk& tempo_desk() { return tempo_desk_; }
 
  private:
   void answer(std::uint8_t player, const Ask& ask);
-  /// Does what has passed. False: it was not to be said.
+  /// Carries out what has passed. Returns false if the vote or proposal was refused.
   bool voted(BallotBox::Effect effect);
 
   HostParts host_;

@@ -14,14 +14,14 @@
 
 namespace isostep {
 
-/// Every input becomes final here: when it arrives, or when the host goes on without its player. Because all inputs
-/// pass through one machine, nobody can tell two peers two things, and who is in the match is never in dispute.
+/// Every input becomes final here: when it arrives, or when the host goes on without its player. All inputs pass
+/// through one machine, so nobody can tell two peers different things, and who is in the match is never in dispute.
 class HostCore : public PeerCore {
  public:
   HostCore(const SessionConfig& config, const InputRules& rules);
-  /// A match that was saved.
+  /// Continues a saved match.
   HostCore(const SessionConfig& config, const InputRules& rules, SavedMatch&& saved);
-  /// A client that follows its host: with the same inputs, frames and seats.
+  /// Turns an elected client into the host, with the same inputs, frames and seats.
   HostCore(PeerCore&& client, Succession&& succession, Time now);
 
   void connected(PeerId peer, Time now) override;
@@ -49,7 +49,7 @@ class HostCore : public PeerCore {
   void after_steps() override;
   void capture_lost() override { snapshots_.lost(guests_); }
   void observe_delay() override;
-  /// A frame that no majority has may be otherwise in the match that goes on without us.
+  /// With `migration`, a frame that no majority has may differ in the match that goes on without us.
   Frame final_limit() const override {
     const Frame limit = PeerCore::final_limit();
     const Frame end = leadership_.tenure().final_end();
@@ -61,19 +61,19 @@ class HostCore : public PeerCore {
 
  private:
   void begin(Time now);
-  /// Draws its own token and life.
+  /// Draws the host's own token and life.
   void know_ourselves();
-  /// It goes on with a match that was saved.
+  /// Returns true if it continues a saved match.
   bool is_resumed() const { return resumed_.frame != kNoFrame; }
   bool all_are_here() const;
-  /// Once a frame of time, for what changes no faster: who is silent, lags, or is far away.
+  /// Looks for guests that are silent, lag or are far away. Called once per frame of time, since it changes no faster.
   void tend(Time now);
   void tend(Guest& guest, Time now);
   void tend_inquiry(Time now);
 
   void take_datagram(Guest& guest, Bytes bytes, Time now);
   void take_inputs(Guest& guest, const InputSlice& slice, Time now);
-  /// False: it is malformed, or not to be said now.
+  /// Takes a message. Returns false if it is malformed, or not allowed now.
   bool take_message(Guest& guest, Bytes bytes, Time now);
   bool take_progress(Guest& guest, Bytes message, Time now);
   std::optional<Outgoing> next_message(Guest& guest, Time now);

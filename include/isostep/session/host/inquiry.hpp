@@ -8,16 +8,16 @@
 
 namespace isostep {
 
-/// Who differs and what each says comes in; the statements of all go out. It asks when the machines that differ from
-/// it, or those that could judge them, are not those of the last time. Machines are a bit each.
+/// In: machines that differ, and their statements. Out: the statements of all. It asks when other machines differ than
+/// the last time, or others could judge them. Machines are a bit each.
 class Inquiry {
  public:
   explicit Inquiry(const Seats& seats) : seats_(seats) {}
-  /// True: it is over, and statements() are complete. `own`: the newest final state, and its chain.
+  /// Returns true when an inquiry is over and statements() are complete. `own`: the newest final state and its chain.
   bool tend(Guests& guests, std::uint64_t differing, const HashReport& own, Time now);
-  /// False: nobody asked that. `difference`: how the machine was found to differ; of kNoFrame: not.
+  /// Returns false if nobody asked for it. `difference`: how the machine was found to differ; kNoFrame: it was not.
   bool take(int player, const Statement& statement, const HashReport& difference);
-  /// Its states are others from now on.
+  /// Forgets that the player differed, because its states are others from now on.
   void forget(int player) { differing_ &= ~(std::uint64_t{1} << player); }
   const Statements& statements() const { return statements_; }
 

@@ -11,38 +11,38 @@
 
 namespace isostep {
 
-/// Guests and seats come in as they are in a turn; rosters go out to the guests, and whether we go on as the host.
-/// Groups of machines are a bit for each place in the roster. See AGREEMENT.md.
+/// In: guests and seats, as they are in a turn. Out: rosters for the guests, and whether we go on as the host. Groups
+/// of machines are a bit for each index in the roster. See AGREEMENT.md.
 class Leadership {
  public:
   static constexpr std::uint32_t kFirstTerm = 1;  // of a match that begins
 
-  /// `scratch` is written over; stats.machines is kept.
+  /// Overwrites `scratch`, and updates stats.machines.
   Leadership(const SessionConfig& config, Seats& seats, Guests& guests, const std::vector<InputStream>& streams,
              SessionStats& stats, std::vector<std::uint8_t>& scratch)
       : config_(config), seats_(seats), guests_(guests), streams_(streams), stats_(stats), scratch_(scratch) {}
-  /// With `token` our players come back to who follows us; `life` is of our process.
+  /// `token`: our players come back with it to the next host. `life`: the number of our process.
   void know_ourselves(std::uint64_t token, std::uint64_t life) { own_token_ = token, own_life_ = life; }
-  /// A match that was saved has had other hosts.
+  /// Sets the first term of a saved match, which has had other hosts.
   void resume(std::uint32_t term) { first_term_ = term; }
   void begin(Frame final_end, Time now) { tenure_.begin(first_term_, config_.migration, 0, final_end, now); }
-  /// As the one that was elected. Then the guests come that have connected to us.
+  /// Takes over as the elected host. The guests that have connected to us come after that.
   void take_over(const Succession& succession, Frame known_end, Frame final_end, Time now);
   void reform_with(const Election& election);
 
-  /// Before all else in a turn. `known_end`: of the inputs that we have. False: we are the host no more.
+  /// Call it first in a turn. `known_end`: the end of the inputs that we have. False: we are no longer the host.
   bool turn(Frame known_end, Time now);
-  /// One roster after the other: the next when a majority has this one.
+  /// Replaces the roster by the next one, once a majority has this one.
   void keep_roster();
-  /// Without those who are not here, although they may go on without us.
+  /// Goes on without the machines that are not here, although they may go on without us.
   bool go_on(Time now);
-  /// A guest may know of a host that came after us.
+  /// Hears from a guest whether there is a host after us.
   void hear(const Application& wish);
-  /// It was let in by the host before us.
+  /// Returns true if it was let in by the host before us.
   bool is_member(const Application& wish) const { return inherited_.voter_of(wish.token, wish.life) >= 0; }
-  /// Can the others go on without us, at one that is not among these (machines as in a Verdict)?
+  /// Returns true if the others can go on without us, at a machine that is not in `unfit` (bits as in a Verdict).
   bool could_others(std::uint64_t unfit) const;
-  /// What a client takes over that was this host.
+  /// Returns what the client takes over that this host becomes.
   Retreat retreat(bool is_outvoted) const;
 
   const Roster& roster() const { return roster_; }
@@ -54,15 +54,15 @@ class Leadership {
   bool has_begun() const { return tenure_.term() != 0; }
   Roster drafted() const;
   void replace(const Roster& next);
-  /// Those who are with us are all of the match from now on.
+  /// Makes the machines that are with us the whole match from now on.
   void reform(std::uint64_t group);
-  /// Its place in the roster, as a voter; -1: none.
+  /// The guest's index in the roster, as a voter; -1: it has no vote.
   int voter_of(const Guest& guest) const;
-  /// Inputs before this frame are there.
+  /// The guest has all inputs before this frame.
   Frame end_at(const Guest& guest) const;
   /// Fills followers_ for each machine of the roster.
   void look_at_followers(Time now);
-  /// Us and those voters that `is_counted`.
+  /// We, and the voters for which `is_counted` is true.
   template <class Predicate> std::uint64_t group(const Predicate& is_counted) const;
   std::uint64_t here(Time now) const;
 

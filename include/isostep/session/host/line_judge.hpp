@@ -10,25 +10,25 @@
 
 namespace isostep {
 
-/// Round trips and what guests report come in; by how much inputs are early goes out, as far as that is the affair of
-/// their players' delays.
+/// In: round trips, and the guests' reports. Out: how early inputs are, as far as the delays of their players are to
+/// cover it.
 class LineJudge {
  public:
-  /// `slack`: by which inputs were early here. `delay`, `thrift`: our own.
+  /// `slack`: how early inputs came here. `delay`, `thrift`: our own.
   LineJudge(const SessionConfig& config, const Seats& seats, Guests& guests, const FrameClock& clock,
             const RecentLeast (&slack)[kMaxPlayers], const InputDelay& delay, const RollbackThrift& thrift)
       : config_(config), seats_(seats), guests_(guests), clock_(clock), slack_(slack), delay_(delay), thrift_(thrift) {}
-  /// A pause of ours: what passed through us was late for everybody, whoever said it.
+  /// This machine paused: all inputs passed through us late, so reports on them do not count for a while.
   void excuse(Time now) { reports_from_ = now + InputDelay::kSettling * clock_.period(); }
   void begin_turn(Time now) { reports_count_ = now >= reports_from_; }
   void judge();
-  /// True, once: it is farther than any delay covers.
+  /// Returns true, once, if no delay covers the guest's line.
   static bool loses(Guest& guest, bool is_covered, Time now);
-  /// How early `player`'s inputs reach all others. `is_slow`: machines are at their limit.
+  /// [frames] How early `player`'s inputs reach all others. `is_slow`: machines are at their limit.
   Frame slack_of(int player, Frame current, bool is_slow) const;
-  /// The same, as its own guest should know it.
+  /// [frames] The same, as the player's own guest is told it.
   Frame told_slack(const Guest& guest, int player, Frame current, bool is_slow) const;
-  /// [us] of the guest in the match that is farthest away.
+  /// [us] The round trip of the guest in the match that is farthest away.
   Time longest_round_trip() const;
 
  private:
@@ -39,7 +39,7 @@ class LineJudge {
   const RecentLeast* slack_;
   const InputDelay& delay_;
   const RollbackThrift& thrift_;
-  /// [us] round trips beyond this are their players' own affair: who has a worse line runs later, and nobody waits.
+  /// [us] Nobody waits for a line with a longer round trip: its player runs later.
   Time farthest_ = 0;
   Time reports_from_ = 0;       // [us]
   bool reports_count_ = false;  // in this turn

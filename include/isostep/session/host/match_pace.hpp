@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// Turns of ours and what guests need come in; the pace goes out, and who is to be the host instead.
+/// In: our turns, and the pace that guests need. Out: the pace of all, and who is to be the host instead.
 class MatchPace {
  public:
   struct Choice {
@@ -17,15 +17,15 @@ class MatchPace {
     int stretch;  // [1/256 period] by which frames last longer
   };
 
-  /// `most`: [1/256 period] who needs more does not play.
+  /// `most`: [1/256 period] A machine that needs more does not play.
   MatchPace(Seats& seats, Guests& guests, const StepPace& steps, int most)
       : seats_(seats), guests_(guests), steps_(steps), most_(most) {}
   void turn(Time now, int most_steps, Time period) { turns_.turn(now, most_steps, period); }
-  /// `present`: as it is. Who is too slow for long leaves its seats.
+  /// `present`: the choice in force. A guest that is too slow for long leaves its seats.
   Choice choose(const Choice& present, Time now);
-  /// We are too slow to be a guest, and so to be the host, where another can be.
+  /// Returns true if we are too slow to be a guest, and so to be the host where another can be.
   bool is_too_slow(Time now);
-  /// Whose machines are no better, or not there, a bit each.
+  /// Players, a bit each, whose machines are no better than ours, or not there.
   std::uint64_t unfit(const InputFlow& flow, Time now) const;
 
  private:

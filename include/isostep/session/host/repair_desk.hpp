@@ -9,13 +9,13 @@
 
 namespace isostep {
 
-/// In: what guests say of their states. Out: the stage of each repair, and who is told of it. It keeps nothing: that
-/// stands in Guest, in the Inquiry and in MachineViews.
+/// In: what guests say of their states. Out: the stage of each repair, and who is told of it. It keeps nothing: Guest,
+/// Inquiry and MachineViews do.
 class RepairDesk {
  public:
   RepairDesk(const HostParts& parts, Inquiry& inquiry, MachineViews& views, const std::vector<InputStream>& streams)
       : host_(parts), inquiry_(inquiry), views_(views), streams_(streams) {}
-  /// False: it is malformed, or not to be said now.
+  /// Takes a guest's message. Returns false if it is malformed, or not allowed now.
   bool receive(Guest& guest, MessageKind kind, Bytes message);
   /// The guest has the whole snapshot.
   static void has_arrived(Guest& guest, Time now);

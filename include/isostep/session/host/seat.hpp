@@ -13,7 +13,7 @@ struct Seat {
   std::uint64_t proof = 0;
   std::uint64_t life = 0;  // of its player's process: see Roster
   Time left_at = 0;        // [us] when it hung up; 0: it did not, or was cut off
-  /// Of what its player came back with, while it may not have read the new one: the connection may end before.
+  /// The proof of the token with which its player came back. It may not have read the new one: the connection may end.
   std::uint64_t former_proof = 0;
   bool is_kept = false;                  // it was played on, and its player knows a token: it is reserved for that
   Time idle = 0;                         // [us] since it was open, or else taken, in turns of ours

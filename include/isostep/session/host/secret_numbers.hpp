@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// Never 0. Numbers of one purpose or term tell nothing of another's: a machine that is the host again, or goes on with
-/// a saved match, gives out no number twice.
+/// Numbers are never 0. Those of one purpose or term tell nothing of another's. So a machine that is the host again, or
+/// goes on with a saved match, gives out no number twice.
 class SecretNumbers {
  public:
   SecretNumbers(std::uint64_t seed, std::uint32_t term) : seed_(seed), term_(term) {}

@@ -10,32 +10,32 @@
 
 namespace isostep {
 
-/// Guests that need a snapshot come in; which state is to be captured goes out, and pieces of its bytes. Whoever needs
-/// another one waits until nobody needs this one.
+/// In: guests that need a snapshot. Out: the state to capture, and pieces of its bytes. A guest that needs another one
+/// waits until nobody needs this one.
 class SnapshotDesk {
  public:
-  /// `bytes`: where the game writes it.
+  /// `bytes`: the game writes the snapshot there.
   SnapshotDesk(const SessionConfig& config, const HashLog& hashes, const std::vector<std::uint8_t>& bytes)
       : config_(config), hashes_(hashes), bytes_(bytes) {}
-  /// True: state().frame is to be captured, for these guests.
+  /// Returns true if state().frame must be captured for these guests.
   bool serve(Guests& guests, Frame current);
-  /// It was not: they need another.
+  /// The capture was not carried out: its guests need another.
   void lost(Guests& guests);
-  /// Who was cut off while it arrived may come back for the rest.
+  /// Holds the snapshot for a guest that was cut off while it arrived, and may come back for the rest.
   void hold_until(Frame frame) { held_until_ = frame; }
-  /// For one who joins; who gets a repair, or none, has shown for long that it takes what it is sent.
+  /// begin: for a guest that joins. begin_repair: for one that has shown for long that it takes what it is sent.
   void begin(Guest& guest);
   void begin_repair(Guest& guest);
-  /// Into `message`; false: none is due.
+  /// Writes the next piece into `message`. Returns false if none is due.
   bool next_piece(Guest& guest, Time now, std::vector<std::uint8_t>& message);
 
   const HashReport& state() const { return state_; }
   std::uint64_t hash() const { return hash_; }
 
  private:
-  /// Can the snapshot that we have be sent to one more? Makes room for a newer one where that is fair.
+  /// Returns true if this snapshot can be sent to one more. Makes room for a newer one where that is fair.
   bool may_share(Guests& guests, Frame current);
-  /// Of the same snapshot, from before it was cut off.
+  /// Returns true if it has a part of this snapshot, from before it was cut off.
   bool has_part(const Guest& guest) const {
     return guest.partial.frame == state_.frame && guest.partial.chain == state_.chain;
   }

@@ -7,24 +7,24 @@
 
 namespace isostep {
 
-/// Wishes come in, each of which changes the one before; what is to be announced goes out.
+/// In: wishes, each of which changes the one before. Out: the tempo to announce.
 class TempoDesk {
  public:
-  /// `announced`: the newest that was.
+  /// `announced`: the newest announced tempo.
   TempoDesk(const SessionConfig& config, const Tempo& announced) : config_(config), announced_(announced) {}
-  /// A match that was saved goes on with this speed once it begins.
+  /// Makes a saved match go on with this speed once it begins.
   void resume_with(std::uint8_t speed) { wished_.speed = speed; }
   void begin() { has_wish_ = wished_.speed != Tempo::kNormal; }
   bool wish_pause(bool is_paused, std::uint8_t by) {
     const Tempo& latest = has_wish_ ? wished_ : announced_;
     return wish(latest.speed, is_paused, by);
   }
-  /// False: the match cannot go so fast.
+  /// Returns false if the match cannot go so fast.
   bool wish_speed(int speed, std::uint8_t by) {
     const Tempo& latest = has_wish_ ? wished_ : announced_;
     return wish(speed, latest.is_paused, by);
   }
-  /// To be announced now; null: nothing. One after the other: what was announced is in force first, here.
+  /// Returns the tempo to announce now; null: none. The last announced one must first be in force here.
   const Tempo* next(const Tempo& in_force) {
     if (!has_wish_ || announced_.number != in_force.number) return nullptr;
     has_wish_ = false;

@@ -15,8 +15,8 @@
 
 namespace isostep {
 
-/// `==` says that two are the same happening: {what, who}. What a mispredicted input would change a little, a strength
-/// or a place, belongs into the event but not into its `==`.
+/// An event of the game. `==` is true for the same happening: {what, who}. What a misprediction changes a little, such
+/// as a strength or a place, belongs into the event but not into its `==`.
 template <class E>
 concept LoggedEvent = std::is_trivially_copyable_v<E> && std::equality_comparable<E>;
 
@@ -26,8 +26,8 @@ enum class NoticeKind : std::uint8_t {
   retracted   // it was predicted and has not happened
 };
 
-/// Each happening is reported as `predicted`, then `confirmed` or `retracted`; or, if its frame was confirmed before
-/// anyone polled (in lockstep on the host), as `confirmed` alone.
+/// Each happening is reported as `predicted`, then as `confirmed` or `retracted`. If its frame was confirmed before
+/// anyone polled (in lockstep on the host), it is reported as `confirmed` alone.
 ///
 ///     sounds, sparks                 if (notice.first) play(notice.event)
 ///     long ones, to be cut short     if (notice.kind == retracted) fade_out(playing[notice.happening])
@@ -46,27 +46,27 @@ struct EventLogConfig {
   Frame reach = 4;            // [frames] an event may move in a rollback and still be the same happening
 };
 
-/// What was not reported. Both zero: all of it was.
+/// Counts events that were not reported. Both are zero if all were reported.
 struct EventLoss {
   std::uint64_t crowded = 0;   // past the `events` of a confirmed frame: equal on every peer
   std::uint64_t homeless = 0;  // told between frames, or while `frames` full ones wait: this machine's own
 };
 
-/// An observer of `drive` into which the game, while it steps, tells what others should hear of.
+/// An observer of `drive`. While the game steps, it tells the log of events that others should hear of.
 ///
-/// The confirmed notices are, frame for frame and in order, what a run that never rolled back tells: equal on every
-/// peer. Predictions and retractions are this machine's. Nothing is decided during a rollback: `poll` compares what was
-/// reported with what stands when it is called, so poll after `drive`, until nothing is left. An event of a frame that
-/// was stepped again is, if equal, the one that was reported there; failing that, the nearest equal one within `reach`
-/// frames; equal ones count one by one. So a retraction waits until `reach` frames past the event were stepped without
-/// it.
+/// The confirmed notices are those of a run without rollbacks, frame for frame and in order, and equal on every peer.
+/// Predictions and retractions are this machine's own. Nothing is decided during a rollback: `poll` compares the
+/// reported events with those that exist when it is called, so poll after `drive` until nothing is left. When a frame
+/// is stepped again, a reported event is matched with an equal one of that frame, else with the nearest equal one
+/// within `reach` frames; each event is matched once. So a retraction waits until `reach` frames after the event were
+/// stepped without it.
 ///
 ///     for (const auto& touch : world.events().contact_begin) log->tell({touch.a, touch.b});  // after world.step()
 ///     drive(session, game, now, log);
 ///     while (const auto notice = log.poll()) if (notice->first) play(notice->event);
 ///
-/// Who joins late hears of the frames that are caught up with as well: a sound is worth playing only while its frame
-/// is near the present. Never part of the state: games hold a pointer to the log. Allocates when it is made, not later.
+/// A late joiner also hears of the frames that it catches up with; play a sound only if its frame is near the present.
+/// The log is never part of the state: games hold a pointer to it. It allocates when it is made, not later.
 template <LoggedEvent E> class EventLog {
  public:
   using Event = E;
@@ -80,7 +80,7 @@ template <LoggedEvent E> class EventLog {
   EventLog(const EventLog&) = delete;
   EventLog& operator=(const EventLog&) = delete;
 
-  /// In a frame that is being stepped. False: lost, see `lost`.
+  /// Tells an event of the frame that is being stepped. Returns false if it is lost, see `lost`.
   ISO_INLINE bool tell(const E& event) {
     if (frame_ != kNoFrame && frame_ <= confirmed_) return true;  // reported or waiting to be, and final
     if (frame_ != kNoFrame && in_frame_ == events_) {
@@ -96,7 +96,7 @@ template <LoggedEvent E> class EventLog {
     return true;
   }
 
-  /// Returns what is new: retractions, then confirmed and predicted ones by frame and in the order of `tell`.
+  /// Returns the next notice: retractions, then confirmed and predicted events by frame, in the order of `tell`.
   ISO_INLINE std::optional<Notice<E>> poll() {
     if (changed_) settle();
     for (std::size_t i = 0; i < missing_.size(); ++i) {
@@ -151,12 +151,12 @@ template <LoggedEvent E> class EventLog {
     changed_ = true;
     if (frame > confirmed_) confirmed_ = frame;
   }
-  /// What is predicted and does not come again soon after `frame` is retracted: nobody here knows.
+  /// Predicted events that are not told again soon after `frame` are retracted, since this machine cannot know.
   ISO_INLINE void restarted(Frame frame) {
     rolled_back(confirmed_ + 1);
     next_ = frame;
   }
-  /// No frame follows: what is predicted still is retracted.
+  /// Call it when no frame follows: retracts the events that are still predicted.
   ISO_INLINE void finish() {
     rolled_back(confirmed_ + 1);
     next_ = std::numeric_limits<Frame>::max();
@@ -171,7 +171,7 @@ template <LoggedEvent E> class EventLog {
     bool reported;
   };
 
-  /// What is missing and has come again is the same happening: in its own frame, else in the nearest.
+  /// Matches missing events with equal ones that were told again, in their own frame or else in the nearest.
   ISO_INLINE void settle() {
     for (Frame distance = 0; distance <= reach_ && !missing_.empty(); ++distance) {
       std::size_t left = 0;

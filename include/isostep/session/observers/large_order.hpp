@@ -14,7 +14,7 @@ namespace isostep {
 
 inline constexpr std::size_t kLargeOrderCap = 16 << 10;  // [bytes] twice what an order to 1000 units takes
 
-/// A part of an order, or none. What is not there of `sequence` was lost with its frame: then nobody takes the rest.
+/// A piece of an order, or none. A gap in `sequence` is a piece that was lost with its frame; the rest is ignored.
 struct OrderPiece {
   std::uint8_t sequence = 0;            // mod 256, of all pieces of this player so far, this one included
   std::uint16_t offset = 0, total = 0;  // [bytes] where in the order, and its size
@@ -24,7 +24,7 @@ struct OrderPiece {
 /// A player's input with a piece beside it. Pieces make inputs longer: 192 bytes a frame bring 8 KB in 43 frames.
 template <class Small, std::size_t kPiece = 192> struct WithOrders {
   static_assert(kPiece > 0 && kPiece < 256, "a piece's size is one byte");
-  /// [bytes] of an order: pieces are counted modulo 256, and half of that are of the order under way.
+  /// [bytes] The longest order. Pieces are counted modulo 256, and an order has less than half of that.
   static constexpr std::size_t kOrderCap = kPiece * 120 < kLargeOrderCap ? kPiece * 120 : kLargeOrderCap;
   Small brief{};
   std::uint8_t sequence = 0, size = 0;
@@ -84,7 +84,7 @@ template <class Small, std::size_t kPiece> struct InputCodec<WithOrders<Small, k
   }
 };
 
-/// Nobody guesses pieces.
+/// Predicts the input without a piece.
 template <class Predictor> struct PredictNoPiece {
   template <class Input> static Input predict(const Input& last, Frame ahead) {
     Input guess;
@@ -97,17 +97,17 @@ template <class Small, std::size_t kPiece> struct DefaultPredictor<WithOrders<Sm
   using Type = PredictNoPiece<typename DefaultPredictor<Small>::Type>;
 };
 
-/// The orders that are under way: a part of the game's state, as the user's part of a Composite or beside it. Saving
-/// allocates when an order is longer than all before.
+/// Holds the orders in transit. It is a part of the game's state, as the user's part of a Composite or beside it.
+/// Saving allocates when an order is longer than all before.
 class OrderAssembly {
  public:
-  /// In `step`, once for every player: the order that its input of this frame completes, until the next call; empty:
-  /// none. An order of which a frame is missing, for its player was away or late, is never completed.
+  /// Call it in `step`, once for every player. Returns the order that the input of this frame completes, valid until
+  /// the next call, or nothing. An order with a missing frame, whose player was away or late, never completes.
   template <class Input> Bytes take(InputView<Input> inputs, std::size_t player) {
     return take(player, inputs.status(player) == InputStatus::disconnected, inputs[player].piece());
   }
   Bytes take(std::size_t player, bool is_absent, const OrderPiece& piece);
-  /// Orders that were completed since the match began.
+  /// The number of orders that were completed since the match began.
   std::uint32_t completed(int player) const { return parts_[player].completed; }
 
   struct Part {
@@ -130,27 +130,27 @@ class OrderAssembly {
   std::vector<std::uint8_t> whole_;  // the newest that was completed: output, no state
 };
 
-/// The orders of one machine's player on their way, one after the other, each exactly once: what was lost with a frame
-/// that the player missed is sent anew. An observer of drive().
+/// Sends the orders of a local player one after the other, each exactly once. An order that lost a piece with a frame
+/// that the player missed is sent again. It is an observer of drive().
 template <class Game, class Predictor = typename DefaultPredictor<typename Game::Input>::Type> class OrderSender {
  public:
   using Input = typename Game::Input;
   static constexpr std::size_t kMostWaiting = 16;  // orders: more are a player who says more than the line takes
 
-  /// Session and game's assembly outlive the sender. `player`: one of this machine's; -1: the first.
+  /// `session` and the game's `assembly` must outlive the sender. `player`: one of this machine's; -1: the first.
   OrderSender(const Session<Game, Predictor>& session, const OrderAssembly& assembly, int player = -1)
       : session_(session), assembly_(assembly), fixed_player_(player) {}
 
-  /// False: longer than Input::kOrderCap, empty, or kMostWaiting wait.
+  /// Queues an order. Returns false if it is empty, longer than Input::kOrderCap, or if kMostWaiting wait.
   bool give(Bytes order) {
     if (order.empty() || order.size() > Input::kOrderCap || orders_.size() >= kMostWaiting) return false;
     orders_.emplace_back(order.begin(), order.end());
     return true;
   }
-  /// Orders that are not completed everywhere yet.
+  /// The number of orders that are not completed everywhere yet.
   std::size_t waiting() const { return orders_.size(); }
 
-  /// Puts the next piece into an input that add_local_input is given next; only when wants_input says so.
+  /// Puts the next piece into the input for the next add_local_input. Call it only if wants_input() is true.
   void fill(Input& input) {
     input.sequence = sequence_;
     input.size = 0;
@@ -184,7 +184,7 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
     ++arrived_;
     if (input.offset + input.size == input.total) complete();
   }
-  /// What became of our frames since, only the state tells.
+  /// Only the new state tells if the order in front was completed.
   void restarted(Frame) {
     const bool is_same = sent_ > 0 && player() == player_;
     if (is_same && assembly_.completed(player_) != completed_) complete();

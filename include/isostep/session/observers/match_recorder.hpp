@@ -8,17 +8,17 @@
 
 namespace isostep {
 
-/// An observer of drive(). A match is a state, the inputs since and every frame's hash: 49 kB a minute of two players,
-/// 51 of four and 55 of eight who change inputs of four bytes three times a second; 43 of them are hashes and lengths.
-/// Whoever has the game plays it again. (SessionRecorder records the world's commands instead, for whoever has not.)
+/// An observer of drive() that records a state, the inputs since and every frame's hash: 49 kB a minute for two
+/// players, 51 for four and 55 for eight who change inputs of four bytes three times a second; hashes and lengths take
+/// 43 of them. The game can play it again. (SessionRecorder records the world's commands, for whoever has no game.)
 ///
-/// The recording begins with the state before the first frame that is stepped: that of a late joiner is the snapshot
-/// which it was sent, and the header's `first_frame` its number. Where the session restarts from another snapshot the
-/// recording ends, whole; what follows wants a recorder of its own. Errors stay, and `finish` returns them.
+/// The recording begins with the state before the first stepped frame. For a late joiner this is the snapshot that it
+/// received, and the header's `first_frame` is its number. If the session restarts from another snapshot, the recording
+/// ends as a whole file; the rest needs another recorder. Errors stay, and `finish` returns them.
 template <class Game, class Predictor = typename DefaultPredictor<typename Game::Input>::Type> class MatchRecorder {
  public:
-  /// Session and game outlive the recorder. `block_frames`: 1 to kReplayBlockFrames, so many final ones a crash may
-  /// cost; 0: a second.
+  /// `session` and `game` must outlive the recorder. `block_frames`: 1 to kReplayBlockFrames, the most final frames
+  /// that a crash may cost; 0: a second.
   MatchRecorder(const Session<Game, Predictor>& session, const Game& game, ReplaySink sink,
                 std::uint32_t block_frames = 0)
       : session_(session),
@@ -52,29 +52,29 @@ template <class Game, class Predictor = typename DefaultPredictor<typename Game:
     if (phase_ == Phase::open) end();
   }
 
-  /// All final frames so far are with the sink: a crash costs nothing of them.
+  /// Passes all final frames so far to the sink, so that a crash loses none of them.
   const Result<void>& flush() {
     if (phase_ == Phase::open) keep(recorder_.flush());
     return result_;
   }
-  /// Ends the file with the last confirmed frame.
+  /// Ends the file after the last confirmed frame.
   Result<void> finish() {
     if (phase_ == Phase::waiting) fail("no frame was stepped");
     if (phase_ == Phase::open) end();
     return result_;
   }
-  /// The first error of all so far.
+  /// The first error so far.
   const Result<void>& result() const { return result_; }
-  /// The first that is recorded, and how many are written.
+  /// The first recorded frame, and the number of written ones.
   Frame first() const { return first_; }
   Frame frames() const { return next_ - first_; }
-  /// False once the session restarted, or after an error.
+  /// Returns false after `finish`, after the session restarted, or after an error.
   bool recording() const { return phase_ == Phase::waiting || phase_ == Phase::open; }
 
  private:
   enum class Phase : std::uint8_t { waiting, open, ended };
 
-  /// The rate is the session's: a game without a world has none in its header.
+  /// The rate is the session's, because a game without a world has none in its header.
   static std::uint32_t a_second(const Session<Game, Predictor>& session) {
     return second_of_frames(static_cast<std::uint64_t>(session.config().hz));
   }

@@ -6,8 +6,8 @@
 
 namespace isostep {
 
-/// The host's clock runs free at the match's rate. A client's period is stretched or shortened until both step the same
-/// frame at the same time: so neither sees the other's inputs later than the network makes it.
+/// The host's clock runs freely at the match's rate. A client's period is stretched or shortened until both step the
+/// same frame at the same time. Then no input is seen later than the network makes it.
 class FrameClock {
  public:
   explicit FrameClock(int hz)
@@ -17,32 +17,32 @@ class FrameClock {
   bool is_due(Time now) const { return now >= due_; }
   Time until_due(Time now) const { return now >= due_ ? 0 : due_ - now; }
   Time period() const { return period_; }
-  /// [us] a frame at the match's speed, before it is stretched.
+  /// [us] The length of a frame at the match's speed, without stretch.
   Time nominal() const { return nominal_; }
-  /// [1/8 of the match's rate]
+  /// Sets the speed [1/8 of the match's rate].
   void set_speed(int eighths) {
     nominal_ = kSecond * 8 / (hz_ * static_cast<Time>(eighths));
     stretch(parts_);
   }
-  /// [1/256 of the match's period] by which frames are longer: the whole match goes at the pace of its slowest machine.
+  /// Lengthens frames by `parts` [1/256 of the match's period]: the match runs at the pace of its slowest machine.
   void stretch(int parts) {
     parts_ = parts;
     period_ = nominal_ + nominal_ * static_cast<Time>(parts) / 256;
     set_interval();
   }
 
-  /// A frame was stepped. A caller that comes a little late is not late twice; one that comes much later starts anew
-  /// instead of running after the time.
+  /// Notes that a frame was stepped. Small delays of the caller do not add up. A caller that is late by more than
+  /// kForgiven frames starts anew and does not catch up.
   void stepped(Time now) {
     due_ += interval_;
     if (now > due_ + kForgiven * period_) due_ = now;
     // Who caught up by stepping before it was due does not wait for that afterwards.
     if (due_ > now + interval_) due_ = now + interval_;
   }
-  /// Frames that a caller in time would have stepped by now.
+  /// Returns how many frames a punctual caller would have stepped in the meantime.
   Frame overdue(Time now) const { return now <= due_ ? 0 : static_cast<Frame>((now - due_) / period_); }
 
-  /// `ahead`: by how much we are ahead of the host [1/256 frame], negative when behind.
+  /// `ahead`: how far this machine is ahead of the host [1/256 frame], negative if behind.
   void lean(std::int32_t ahead) {
     smoothed_ += (ahead - smoothed_) / kSmoothing;
     set_interval();

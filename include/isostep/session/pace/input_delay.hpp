@@ -6,9 +6,9 @@
 
 namespace isostep {
 
-/// What the others say about how early our inputs come decides: late ones raise the delay at once, early ones lower it
-/// slowly. A longer delay is felt by one player; a late input costs everybody a rollback or a wait. Up to `most` inputs
-/// come when they are wanted; beyond it, up to `limit`, no later than they still count.
+/// Adapts the input delay to how early our inputs reach the others: late ones raise it at once, early ones lower it
+/// slowly. A longer delay is felt by one player; a late input costs everybody a rollback or a wait. Up to `most` the
+/// delay gives inputs the wanted slack. Beyond it, up to `limit`, inputs come just early enough to count.
 class InputDelay {
  public:
   struct Settings {
@@ -20,32 +20,32 @@ class InputDelay {
   explicit InputDelay(const Settings& settings) : settings_(settings), delay_(settings.start) {}
 
   Frame frames() const { return delay_; }
-  /// An input will be on its way for so many frames: before anything was observed.
+  /// Raises the delay for inputs that travel for `way` frames, before anything is observed.
   void expect(Frame way) { raise(way + settings_.wanted_slack, way + settings_.latest_slack); }
-  /// Inputs will come so much later from now on.
+  /// Raises the delay by `by`, because inputs will come so much later from now on.
   void grow(Frame by) {
     raise(delay_ + by, 0);
     disregard();
   }
-  /// A frame takes `before` / `after` of the time that it took.
+  /// The speed changes from `before` to `after`: a frame takes `before` / `after` of its time. Rescales the delay.
   void rescale(int before, int after) {
     const Frame same = (delay_ * after + before - 1) / before;
     delay_ = same < settings_.least ? settings_.least : same > settings_.limit ? settings_.limit : same;
     disregard();
   }
-  /// Somebody who may have needed the delay is gone: what is to spare soon is given up at once.
+  /// A player who may have needed the delay is gone: the next decision gives up all spare delay at once.
   void reconsider() {
     disregard();
     reconsiders_ = true;
   }
   bool is_at_most() const { return delay_ >= settings_.most; }
-  /// No longer than `most` from now on: nobody replaces our inputs.
+  /// Limits the delay to `most` from now on, because nobody replaces our inputs.
   void keep_to_most() {
     settings_.limit = settings_.most;
     settings_.latest_slack = settings_.wanted_slack;
     if (delay_ > settings_.most) delay_ = settings_.most;
   }
-  /// By how much the latest of our inputs within a second came early, over all peers; once a frame of time.
+  /// Takes how early the latest of our inputs of a second came, over all peers. Call it once per frame of time.
   void observe(Frame slack) {
     if (++observed_ <= 0) return;
     if (slack < worst_) worst_ = slack;
@@ -63,7 +63,7 @@ class InputDelay {
     if (delay_ != before) calm_ = 0;
     worst_ = kNothing;
   }
-  /// What is reported now and for some time speaks of something that is over.
+  /// Ignores reports for some time, because they describe the past.
   void disregard() {
     observed_ = -kSettling;
     worst_ = kNothing;
@@ -77,7 +77,7 @@ class InputDelay {
   static constexpr Frame kCalm = 4;     // periods in a row with spare before the delay shrinks
   static constexpr Frame kNothing = 1 << 20;
 
-  /// To what is wanted, as far as `most`; to what is needed, as far as `limit`.
+  /// Raises the delay to `wanted`, at most to `most`, and to `needed`, at most to `limit`.
   void raise(Frame wanted, Frame needed) {
     if (wanted > settings_.most) wanted = settings_.most;
     if (needed > settings_.limit) needed = settings_.limit;
@@ -93,7 +93,7 @@ class InputDelay {
   int calm_ = 0;  // periods in a row with spare
 };
 
-/// The least of a quantity over the last one or two buckets of time, and how far that is from the usual.
+/// The minimum of a quantity over the last one or two buckets of time, and how far it is below the smoothed value.
 class RecentLeast {
  public:
   void add(Frame value) {
@@ -102,14 +102,14 @@ class RecentLeast {
     has_usual_ = true;
   }
   Frame spread() const { return value() == kNothing ? 0 : usual_ / kFine - value(); }
-  /// Once a frame of time.
+  /// Call it once per frame of time.
   void tick(Frame bucket_frames) {
     if (++age_ < bucket_frames) return;
     age_ = 0;
     previous_ = current_;
     current_ = kNothing;
   }
-  /// kNothing when nothing was added.
+  /// Returns the minimum; kNothing if nothing was added.
   Frame value() const { return current_ < previous_ ? current_ : previous_; }
   static constexpr Frame kNothing = 127;
 

@@ -8,24 +8,24 @@
 
 namespace isostep {
 
-/// Over the last minute, kept in parts of a twelfth. Copies count once, and what is overtaken by at most 63 others is
-/// not lost. Source: RFC 3550, sec. 6.4.1 and appendix A; the mean over a minute takes the place of its filter.
+/// Measures a line over the last minute, in twelve parts. Copies count once, and a datagram that at most 63 others
+/// overtake is not lost. Source: RFC 3550, sec. 6.4.1 and appendix A; the mean over a minute replaces its filter.
 class LineMeter {
  public:
-  /// `number` counts the datagrams that the peer sent us.
+  /// Notes a datagram. `number` counts the datagrams that the peer sent us, mod 2^16.
   void arrived(std::uint16_t number, Time now);
-  /// Likewise, when its time is known: the peer's clock [ms] when it was sent.
+  /// Notes a datagram whose time is known. `sent`: the peer's clock [ms] when it was sent, mod 2^16.
   void measured(std::uint16_t sent, Time now);
 
-  /// [permille] of what was sent.
+  /// Returns the lost part [permille] of what was sent.
   std::uint32_t loss(Time now);
-  /// [us] the mean difference between the ways of two datagrams that arrive one after the other.
+  /// Returns the mean difference [us] between the travel times of two datagrams that arrive one after the other.
   std::uint32_t jitter(Time now);
 
  private:
   static constexpr std::uint64_t kParts = 12;
   static constexpr Time kPart = 60 * kSecond / kParts;  // [us]
-  /// More are not lost but somebody's invention, or the connection would have ended: it takes ten seconds.
+  /// A larger gap is forged: it takes ten seconds, and the connection would have ended before.
   static constexpr int kMostLost = 600;
   struct Part {
     std::uint32_t sent = 0, received = 0;  // datagrams

@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// The middle one of the last values: what is far off, and comes less often than what is true, does not move it.
+/// The median of the last values. Values that are far off do not move it while they are fewer than true ones.
 template <class T> class RecentMedian {
  public:
   void add(T value) {
@@ -16,8 +16,8 @@ template <class T> class RecentMedian {
     if (count_ < kValues) ++count_;
   }
   int count() const { return count_; }
-  /// The one in the middle by key(value), a number of 64 bits without sign; count() > 0. Of an even number the upper
-  /// one.
+  /// Returns the median by key(value), an unsigned number of 64 bits. Of an even number of values it is the upper one.
+  /// count() must be above 0.
   template <class Key> T median(const Key& key) const {
     T sorted[kValues] = {};
     for (int n = 0; n < count_; ++n) sorted[n] = values_[n];
@@ -42,15 +42,15 @@ class RemotePosition {
     });
   }
   bool is_known() const { return said_.count() > 0; }
-  /// [1/256 frame] the peer's next frame, as a datagram that came now would say. A silent peer has probably stopped.
+  /// [1/256 frame] The peer's next frame, extrapolated by at most a second: a silent peer has probably stopped.
   std::int64_t at(Time now, Time period) const {
     if (!is_known()) return 0;
     const Time since = now > middle_.at ? now - middle_.at : 0;
     return std::int64_t{middle_.frame} * 256 +
            static_cast<std::int64_t>((since < kSecond ? since : kSecond) * 256 / period);
   }
-  /// Could a datagram that comes now say this? While little is known, anything could. A peer that steps more slowly
-  /// than it should is behind where it is supposed, but not behind where it was.
+  /// Returns true if a datagram of now may plausibly say `frame`; always, while little is known. A slow peer may be
+  /// behind the extrapolated frame, but not behind the frame that it said.
   bool is_near(Frame frame, Time now, Time period) const {
     if (said_.count() < RecentMedian<Said>::kValues) return true;
     const std::int64_t off = std::int64_t{frame} * 256 - at(now, period);

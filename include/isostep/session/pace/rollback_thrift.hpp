@@ -6,17 +6,17 @@
 
 namespace isostep {
 
-/// What comes in is how many frames were stepped, and whether the machine is too slow; what goes out asks the others'
-/// inputs to come earlier. All at once, for meanwhile the whole match is slow; then a frame less after the other, and
-/// where that was too little, later each time.
+/// In: how many frames were stepped, and whether the machine is too slow. Out: by how many frames the others' inputs
+/// have to come earlier. It asks for the most at once, because the whole match is slow meanwhile. Then it asks for a
+/// frame less at a time, and where that was too little, it waits longer before the next attempt.
 class RollbackThrift {
  public:
-  /// [frames] that may be spared: of 0 it asks nothing.
+  /// `most`: [frames] that it may ask for; with 0 it asks for nothing.
   explicit RollbackThrift(Frame most) : most_(most) {}
 
-  /// [frames]
+  /// [frames] by which rollbacks have to be shorter now.
   Frame frames() const { return frames_; }
-  /// Once a frame of time: frames that were stepped so far, and those of them that were for the first time.
+  /// Call it once per frame of time. `steps`: frames stepped so far. `fresh`: those stepped for the first time.
   void observe(std::uint64_t steps, std::uint64_t fresh, bool is_too_slow, Time now) {
     was_slow_ = was_slow_ || is_too_slow;
     if (++observed_ < kPeriod) return;

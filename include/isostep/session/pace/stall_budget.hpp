@@ -6,15 +6,15 @@
 
 namespace isostep {
 
-/// A sum over the last minute of time, kept in parts of a twelfth: what is older is forgotten part by part. Who stalls
-/// again and again spends as much as who stalls once.
+/// Sums stalls over the last minute, in twelve parts; old parts are forgotten one by one. Many short stalls cost a
+/// player as much as a long one.
 class StallBudget {
  public:
   void spend(Time time, Time now) {
     forget(now);
     parts_[newest_ % kParts] += time;
   }
-  /// [us] of the last 55 to 60 s.
+  /// [us] The stalls of the last 55 to 60 s.
   Time spent(Time now) {
     forget(now);
     Time sum = 0;

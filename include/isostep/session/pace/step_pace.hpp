@@ -6,13 +6,13 @@
 
 namespace isostep {
 
-/// A turn that begins late after every step belongs to a machine that cannot do more, unless a turn of two steps takes
-/// no longer than one of one step: then its loop is slow and not its steps, and two steps a turn are the answer.
+/// If every turn with a step makes the next turn late, the machine is at its limit. But if two steps in a turn take no
+/// longer than one, the loop is slow and not the step: then the machine takes two steps per turn.
 class StepPace {
  public:
   explicit StepPace(Time period) : period_(period) {}
 
-  /// A turn begins. `is_due`: a frame was to be stepped by now. `is_interrupted`: a pause, or a wait for others.
+  /// Begins a turn. `is_due`: a frame is due by now. `is_interrupted`: there was a pause, or a wait for others.
   void begin(Time now, bool is_due, bool is_interrupted) {
     if (has_turned_ && !is_interrupted) note_turn(now);
     has_turned_ = true;
@@ -28,23 +28,23 @@ class StepPace {
     }
     relax(now);
   }
-  /// It ends after so many steps.
+  /// Ends the turn after so many steps.
   void end(int steps) {
     steps_ = steps;
     run_steps_ += steps;
     if (steps >= 2) probes_ = false;
   }
 
-  /// In one turn: where each costs its time, two of them only make a longer gap.
+  /// Returns the most steps of one turn. If each step is dear, a second one only makes the gap longer.
   int most_steps(int wanted) const {
     const int most = cost_ == Cost::dear ? 1 : cost_ == Cost::unknown ? 2 : wanted;
     return most < wanted ? most : wanted;
   }
-  /// Of the last turn.
+  /// The number of steps of the last turn.
   int steps() const { return steps_; }
-  /// The next turn should step twice, to find out what that costs.
+  /// Returns true if the next turn should step twice, to find out what that costs.
   bool probes() const { return probes_; }
-  /// A step takes most of a period.
+  /// Returns true if a step takes most of a period.
   bool is_dear() const { return cost_ == Cost::dear; }
   /// [1/256 period] by which a frame takes this machine longer than a period; 0: it keeps up.
   int stretch() const { return stretch_; }
@@ -95,7 +95,7 @@ class StepPace {
     run_steps_ = 0;
     is_measured_ = false;
   }
-  /// A little faster, to see whether it can; if so, more and more.
+  /// Lowers the stretch a little, to see if the machine keeps up. If it does, lowers it more and more.
   void relax(Time now) {
     if (stretch_ == 0 || now < relaxes_at_) return;
     stretch_ -= relaxes_by_;

@@ -6,7 +6,7 @@
 
 namespace isostep {
 
-/// The host announces it in its datagrams, from a frame on that nobody can have stepped who has not heard of it.
+/// A pause or speed. The host announces it in its datagrams, for a frame that nobody reaches without hearing of it.
 struct Tempo {
   static constexpr int kNormal = 8, kSlowest = 4, kFastest = 16;  // [1/8 of the match's rate]
 

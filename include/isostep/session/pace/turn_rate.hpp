@@ -6,12 +6,12 @@
 
 namespace isostep {
 
-/// StepPace measures a machine whose steps are dear; this one a loop that comes round too seldom to make up for it by
-/// stepping more in a turn: a browser tab in the background, a server that is asked for too much. One long turn is a
-/// hitch and not a rate.
+/// Measures a loop that turns too seldom to make up for it with more steps per turn: a browser tab in the background,
+/// an overloaded server. (StepPace measures a machine whose steps are dear.) One long turn is a hitch and does not
+/// count.
 class TurnRate {
  public:
-  /// A turn begins, in which at most so many frames of `period` are stepped.
+  /// Begins a turn, in which at most `most_steps` frames of `period` [us] are stepped.
   void turn(Time now, int most_steps, Time period) {
     const Time gap = now - last_;
     last_ = now;
@@ -37,9 +37,9 @@ class TurnRate {
     if (!is_slow) slow_since_ = now;
     begin_window(now);
   }
-  /// [1/256 period] by which frames last longer here at the least; 0: it keeps up.
+  /// [1/256 period] by which frames last longer here, at the least; 0: it keeps up.
   int stretch() const { return stretch_; }
-  /// [us] since when.
+  /// [us] The time since which the loop is slow.
   Time slow_since() const { return slow_since_; }
 
  private:

@@ -10,8 +10,8 @@
 namespace isostep {
 
 struct Applicant {
-  /// Of this attempt, and of no other in the match: an answer that comes late is never another's, as it could be by the
-  /// peer alone, whose number the transport gives to the next connection.
+  /// The number of this attempt, unique in the match, so a late answer never reaches another applicant. `peer` is not
+  /// enough: the transport gives its number to the next connection.
   std::uint64_t id = 0;
   PeerId peer = 0;
   bool spectator = false;

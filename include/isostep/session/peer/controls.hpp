@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// What a host's game decides about who plays: see Session, where the functions have the same names.
+/// The decisions of a host's game about who plays. Session has functions of the same names.
 class AdmissionControl {
  public:
   virtual ~AdmissionControl() = default;
@@ -22,7 +22,7 @@ class AdmissionControl {
   virtual std::optional<PeerId> peer_of(int player) const = 0;
 };
 
-/// What the players of a machine ask for while they play: likewise.
+/// The requests of the players of a machine while they play. Session has the same functions.
 class MatchControl {
  public:
   virtual ~MatchControl() = default;

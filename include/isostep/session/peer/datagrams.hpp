@@ -9,12 +9,12 @@
 
 namespace isostep {
 
-/// Inputs of each player travel to a peer before this frame; 0: none.
+/// The ends of the inputs that a peer is sent, by player; 0: none are sent.
 struct SendEnds {
   Frame of[kMaxPlayers] = {};
 };
 
-/// In: bytes of a peer, and a header for it. Out: packets that were read, datagrams, and the peer's link, as it is now.
+/// In: bytes of a peer, and a header for it. Out: packets that were read, datagrams, and the updated link of the peer.
 /// Keeps: the bytes of the last datagram.
 class Datagrams {
  public:
@@ -22,13 +22,13 @@ class Datagrams {
             const FrameClock& clock, SessionStats& stats)
       : config_(config), streams_(streams), hashes_(hashes), clock_(clock), stats_(stats) {}
 
-  /// Counts, guards against floods, reads; false: to be ignored.
+  /// Counts a datagram, guards against floods, and reads it. Returns false if it is to be ignored.
   bool accept(PeerLink& link, Bytes bytes, Time now, Packet& packet);
   bool accept_message(PeerLink& link, Bytes bytes, Time now);
-  /// `is_after_pause`: of ours, so nobody knows when it arrived.
+  /// `is_after_pause`: this machine paused, so the time of arrival is unknown.
   void take_header(PeerLink& link, const PacketHeader& header, const SendEnds& ends, bool is_after_pause,
                    Time now) const;
-  /// With at most `most` frames of a player; valid until the next. `present`: our next frame.
+  /// Writes a datagram with at most `most` frames of a player, valid until the next call. `present`: our next frame.
   Bytes compose(PeerLink& link, PacketHeader header, const SendEnds& ends, Frame present, Frame most, Time now);
 
  private:

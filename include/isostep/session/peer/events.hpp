@@ -55,7 +55,7 @@ struct SessionEvent {
   Refusal field{};
 };
 
-/// In: events. Out: the same, in order. Keeps: those that the caller has not taken, the newest kCapacity.
+/// In: events. Out: the same, in order. Keeps: the newest kCapacity that the caller has not taken.
 class EventQueue {
  public:
   void tell(const SessionEvent& event) { queue_.push(event); }
@@ -72,9 +72,9 @@ class EventQueue {
   BoundedQueue<SessionEvent> queue_{kCapacity};
 };
 
-/// How the vote stands in the frame `current`.
+/// Returns the event that tells how the vote stands in the frame `current`.
 SessionEvent event_of(const Ballot& ballot, Frame current);
-/// Nobody counts it any more: it has failed, if it was open.
+/// Ends a ballot that nobody counts any more. If it was open, it has failed.
 void end_ballot(Ballot& ballot, Frame current, EventQueue& events);
 
 }  // namespace isostep

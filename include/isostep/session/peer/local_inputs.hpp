@@ -9,15 +9,15 @@
 
 namespace isostep {
 
-/// What is taken for the input after the stream's newest; valid until `buffer` is written to.
+/// Predicts the input after the stream's newest. The result is valid until `buffer` is written to.
 inline Bytes guess_next(const InputRules& rules, const InputStream& stream, std::uint8_t (&buffer)[kInputCap]) {
   const InputEntry last = stream.last();
   const Bytes before = last.absent ? Bytes(rules.neutral, rules.neutral_size) : last.bytes;
   return {buffer, rules.predict(before, 1, buffer)};
 }
 
-/// In: an input of a player, at any time. Out: their streams, as far as the delay asks. Keeps: of each player the last,
-/// until a frame has taken it.
+/// In: inputs of local players, at any time. Out: their streams, as far as the delay asks. Keeps: the last input of
+/// each player, until a frame has taken it.
 class LocalInputs {
  public:
   bool has(int player) const { return pending_[player].is_set; }
@@ -27,7 +27,7 @@ class LocalInputs {
     pending.size = static_cast<std::uint16_t>(input.size());
     if (!input.empty()) std::memcpy(pending.bytes, input.data(), input.size());
   }
-  /// Up to frame `end`: the newest frame takes what was given, those before it are guesses.
+  /// Fills the stream up to frame `end`: the newest frame takes the given input, those before it take predictions.
   void fill(int player, InputStream& stream, Frame end, const InputRules& rules) {
     if (stream.end() >= end) return;
     Pending& pending = pending_[player];

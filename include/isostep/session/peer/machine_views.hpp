@@ -8,8 +8,8 @@
 
 namespace isostep {
 
-/// In: hash chains of others, repairs, and verdicts on all. Out: who differs, as an event once. Keeps: of each machine
-/// what it said until we are there, since when it agrees, and whether it is outvoted.
+/// In: hash chains of others, repairs, and verdicts. Out: an event, once, for a machine that differs. Keeps for each
+/// machine: its report until we reach that state, the newest state that agreed, and whether it is outvoted.
 class MachineViews {
  public:
   struct View {
@@ -26,20 +26,20 @@ class MachineViews {
     const bool is_earlier = view.pending.frame == kNoFrame || report.frame < view.pending.frame;
     if (is_earlier && report.frame > view.agreed && report.frame > view.after) view.pending = report;
   }
-  /// Its states are others from now on.
+  /// Forgets what the machine said: its reports on states up to `after` predate its repair.
   void was_repaired(std::size_t machine, Frame after) {
     views_[machine] = View{};
     views_[machine].after = after;
     outvoted_ &= ~(std::uint64_t{1} << machine);
   }
-  /// What it said, with our states: an event where they differ now.
+  /// Compares the machine's report with our states. Returns an event if they differ for the first time.
   std::optional<SessionEvent> compare(std::size_t machine, const HashLog& hashes);
-  /// Machines, a bit each: who differs, and who has agreed since a state of this frame.
+  /// Machines, a bit each: those that differ, and those that agreed in a state of frame `base` or later.
   std::uint64_t differing() const;
   std::uint64_t agreeing_since(Frame base) const;
-  /// Whom a majority finds wrong, as last heard.
+  /// Returns true if the last verdict put the machine in the minority.
   bool is_outvoted(std::size_t machine) const { return (outvoted_ >> machine & 1) != 0; }
-  /// Judges what all say; tells whom a majority finds wrong, each once.
+  /// Judges what all say. Reports each machine that a majority finds wrong, once.
   Verdict judge(const Statements& statements, EventQueue& events);
 
  private:

@@ -8,16 +8,16 @@
 
 namespace isostep {
 
-/// In: how things are in the frame `current`. Out: an event where they are otherwise than told. Keeps: what was told.
+/// In: the situation in the frame `current`. Out: an event if it differs from what was told. Keeps: what was told.
 class News {
  public:
-  /// The match runs: once, whoever hosts it and however often we come back to it.
+  /// Reports that the match runs: once, whoever hosts it and however often we come back to it.
   std::optional<SessionEvent> started(Frame current) {
     if (is_start_told_) return std::nullopt;
     is_start_told_ = true;
     return SessionEvent{.kind = SessionEvent::Kind::started, .frame = current};
   }
-  /// All frames last longer for `player`'s machine, or not.
+  /// Reports that all frames last longer for `player`'s machine, or no longer do.
   std::optional<SessionEvent> pace(bool was_slow, bool is_slow, int player, Frame current) {
     if (was_slow == is_slow && (!is_slow || player == slowest_)) return std::nullopt;
     slowest_ = player;
@@ -26,7 +26,7 @@ class News {
         .kind = SessionEvent::Kind::slowed_by, .player = static_cast<std::uint8_t>(player), .frame = current};
   }
   int slowest() const { return slowest_; }
-  /// The match stands, for these players (a bit each) or for the host's machine.
+  /// Reports that the match waits for these players (a bit each), or for the host's machine.
   std::optional<SessionEvent> stands_for(std::uint32_t players, Frame current) {
     if (stands_ && players == waits_for_) return std::nullopt;
     stands_ = true;
@@ -38,9 +38,9 @@ class News {
     stands_ = false;
     return SessionEvent{.kind = SessionEvent::Kind::resumed, .frame = current};
   }
-  /// As last told; 0: nobody.
+  /// The players for whom the match waits, as last told; 0: nobody.
   std::uint32_t waits_for() const { return stands_ ? waits_for_ : 0; }
-  /// Does the player have a part in this final frame?
+  /// Reports that the player joined or left, if its presence in this final frame has changed.
   std::optional<SessionEvent> plays(int player, bool is_present, Frame frame) {
     const std::uint32_t bit = 1u << player;
     if (((present_ & bit) != 0) == is_present) return std::nullopt;

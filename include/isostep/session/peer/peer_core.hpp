@@ -18,8 +18,8 @@
 
 namespace isostep {
 
-/// In: time, inputs as they are known, and hashes of states. Out: the frames to be stepped, and events. Keeps: all that
-/// a host takes over from the client that it was, and the other way round.
+/// In: time, known inputs, and hashes of states. Out: the frames to step, and events. Keeps: all that a host takes over
+/// from the client that it was, and the other way round.
 class PeerCore : public SessionCore, protected PeerRole {
  public:
   PeerCore(const SessionConfig& config, const InputRules& rules);
@@ -39,22 +39,22 @@ class PeerCore : public SessionCore, protected PeerRole {
   void plan(Time now) override;
   void hash_known(Frame state, std::uint64_t hash) override;
 
-  /// An event of now; 0xff: of no player.
+  /// Reports an event of the current frame. 0xff: of no player.
   void tell_of(SessionEvent::Kind kind, int player = 0xff);
-  /// The frame that would be next, but for frames that are stepped again on the way there.
+  /// The frame that would be next if no frames were stepped again on the way there.
   Frame present() const { return catches_up_to_ > current() ? catches_up_to_ : current(); }
   bool is_paused() const { return tempos_.in_force().is_paused; }
-  /// Everything up to here; goes on from there with the same state.
+  /// Goes back to a kept state, and continues from there.
   void go_back(Frame state);
-  /// How early the input of the frame before `end` came, the newest of `player`.
+  /// Notes how early the player's newest input came, which is that of the frame before `end`.
   void note_arrival(int player, Frame end, Time now);
   bool is_after_pause(Time now) const { return turns_.is_after_pause(clock_, pace_, now); }
-  /// All frames take longer by `stretch`, for `player`'s machine: tells the caller when that changes.
+  /// Makes all frames longer by `stretch`, for `player`'s machine, and reports when that changes.
   void go_at_pace_of(int player, int stretch);
 
   static constexpr int kDueSteps = 2;                // in one advance: a caller that comes late is forgiven one frame
   static constexpr Time kTellBlocked = kSecond / 5;  // [us] before a wait is worth an event
-  /// [1/256 period] 40 frames a second where there should be 60: who cannot do so many does not play.
+  /// [1/256 period] 40 frames a second instead of 60: a slower machine does not play.
   static constexpr int kMostStretch = 128;
 
   std::vector<InputStream> streams_;
@@ -78,11 +78,11 @@ class PeerCore : public SessionCore, protected PeerRole {
   void roll_back(Frame to);
   void follow_tempo(Time now);
   void take_up(const Tempo& tempo, Time now);
-  /// Once a frame of time: how early inputs come, and whether rollbacks are too dear.
+  /// Observes how early inputs come, and whether rollbacks are too dear. Called once per frame of time.
   void observe(Time now);
   void step_due(Time now);
   void settle();
-  /// Players who come and go do so in a frame, the same one on all peers.
+  /// Reports players who join or leave in this frame, which is the same one on all peers.
   void tell_who_plays(Frame frame);
 
   TurnWatch turns_;
@@ -94,9 +94,9 @@ class PeerCore : public SessionCore, protected PeerRole {
   bool is_misused_ = false;  // states are missing: from the newest final one once more
 };
 
-/// The client was elected.
+/// Turns the elected client into the host.
 std::unique_ptr<SessionCore> become_host(PeerCore&& client, Succession&& succession, Time now);
-/// The host has been left behind, or gives way.
+/// Turns a host that was left behind, or that gives way, into a client.
 std::unique_ptr<SessionCore> become_client(PeerCore&& host, Retreat&& retreat, Time now);
 
 }  // namespace isostep

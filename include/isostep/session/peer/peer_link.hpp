@@ -49,18 +49,18 @@ struct PeerLink {
     datagrams.start(now);
     messages.start(now);
   }
-  /// A period's first datagram begins with what is not acknowledged; what does not fit goes into up to three more, but
-  /// only to who acknowledges: who is far behind gets the same again no sooner than it can have it. Who plays waits for
-  /// the others' inputs, so what all of them say in a round trip is to reach it: seven of 480 bytes in 60 ms.
+  /// A period's first datagram begins with the unacknowledged inputs. What does not fit goes into up to three more, but
+  /// only if the peer acknowledges: one that is far behind gets the same again no sooner than it can have it. A player
+  /// waits for the others' inputs, so up to seven bring all of a round trip: seven of 480 bytes in 60 ms.
   static constexpr int kBurst = 4, kPlayersBurst = 7;
   bool continues_burst(Time now) const {
     return has_more && burst < most_burst && now < next_send && (burst > 1 || may_burst);
   }
-  /// Once a period, and right after a frame; but never within half a period: who catches up steps many at once.
+  /// Returns true once a period and right after a frame, but not within half a period: catching up steps many at once.
   bool may_send(Frame current, Time period, Time now) const {
     return now >= next_send || continues_burst(now) || (sent_frame != current && now + period / 2 >= next_send);
   }
-  /// Said after all that was heard before? Of a frame that stands many datagrams come.
+  /// Returns true if the header is newer than all that was heard. A peer that stalls sends many of one frame.
   bool is_newest(const PacketHeader& header) const {
     if (header.frame != newest_frame) return header.frame > newest_frame;
     return static_cast<std::uint16_t>(header.time - newest_time) < 0x8000;

@@ -10,8 +10,8 @@ namespace isostep {
 /// [frames] that may be stepped on guesses.
 Frame window_of(const SessionConfig& config);
 InputDelay::Settings delay_settings(const SessionConfig& config);
-/// No delay covers such a line: a player's inputs come after the deadline whatever its machine does. `was`: that was
-/// said of it, and a sixteenth less does not change it again.
+/// Returns true if no delay covers such a line: its player's inputs come after the deadline whatever its machine does.
+/// `was`: the last result, which a round trip that is shorter by a sixteenth does not change.
 bool is_out_of_reach(const SessionConfig& config, Time period, Time round_trip, bool was);
 
 }  // namespace isostep

@@ -21,7 +21,7 @@
 
 namespace isostep {
 
-/// What the game is to do next, in order.
+/// A request to the game: the next thing that it must do.
 enum class RequestKind : std::uint8_t {
   save,     // keep the state `frame`, which is the present one, and report its hash
   load,     // go back to the state `frame`
@@ -81,25 +81,25 @@ class SessionCore {
   SessionCore& operator=(const SessionCore&) = delete;
 
   virtual void connected(PeerId, Time) {}
-  /// It connected to us.
+  /// The peer opened the connection.
   virtual void accepted(PeerId peer, Time now) { connected(peer, now); }
   virtual void disconnected(PeerId, Time) {}
   virtual void receive(PeerId, Channel, Bytes, Time) {}
   virtual std::optional<Outgoing> poll_send(Time) { return std::nullopt; }
-  /// For the next frame that is stepped. False: not a player of ours, not valid, or not playing now.
+  /// Sets the input for the next frame. Returns false if the player is not local, not in the match, or it is invalid.
   virtual bool add_local_input(int player, Bytes input) = 0;
-  /// Where the transport is to connect to: each once.
+  /// Returns the next address to which the transport must connect, each once.
   virtual std::optional<Address> poll_connect() { return std::nullopt; }
-  /// Another part in the same match: the host's, or a client's. Null: none.
+  /// Returns the core that takes over in the same match, a host's or a client's; null: none.
   virtual std::unique_ptr<SessionCore> succeed(Time) { return nullptr; }
-  /// What to do now; all of it, in order, before the next call. Valid until then.
+  /// Returns what to do now: all of it, in order, before the next call. It is valid until then.
   std::span<const SessionAction> advance(Time now);
-  /// The hash of a state that was to be saved.
+  /// Reports the hash of a state after its `save`.
   void saved(Frame state, std::uint64_t hash);
   /// [us] until `advance` has something to do, as far as is known now.
   virtual Time wait(Time now) const = 0;
 
-  /// Of a stepped frame that is at most `kept` frames old; else nobody's.
+  /// Returns the input of a stepped frame that is at most `kept` frames old; else that of an absent player.
   Timeline::Used input(Frame frame, int player) const {
     const bool is_kept = frame >= 0 && frame < current() && frame >= current() - config_.kept;
     if (is_kept && player >= 0 && player < players()) return timeline_.used(frame, player);
@@ -107,38 +107,38 @@ class SessionCore {
   }
   /// `capture` writes here, `restore` reads here.
   std::vector<std::uint8_t>& portable() { return portable_; }
-  /// `capture` was carried out; portable() is empty where the game has no such form.
+  /// Reports that `capture` was carried out. portable() is empty if the game has no such form.
   void captured() { undone_ -= undone_ > 0 ? 1 : 0; }
-  /// The outcome of `restore`.
+  /// Reports the outcome of `restore`.
   virtual void restored(bool) {}
-  /// The outcome of `probe`: the hash does not see this byte of the portable state `state`.
+  /// Reports the outcome of `probe`: the hash does not cover this byte of the portable state `state`.
   virtual void unhashed(Frame, std::size_t) {}
   virtual bool resync() { return false; }
-  /// Host: begins although seats are empty; their players are absent until somebody joins.
+  /// Host: starts the match although seats are empty. Their players are absent until somebody joins.
   virtual void start(Time) {}
   virtual bool go_on(Time) { return false; }
 
-  /// Host of a match that has begun: all of it but the state `start.frame`.
+  /// Host of a match that has begun: returns it without the bytes of the state `start.frame`.
   virtual std::optional<SavedMatch> save_match() const { return std::nullopt; }
-  /// Null: there is none.
+  /// Returns null if there is none.
   virtual MatchControl* control() { return nullptr; }
-  /// Null: it is no host.
+  /// Returns null if it is no host.
   virtual AdmissionControl* admission() { return nullptr; }
 
-  /// The next frame takes the input that is added now: a game of orders keeps them until then.
+  /// Returns true if the next frame takes an input that is added now. A game of orders keeps them until then.
   virtual bool wants_input(int player) const = 0;
 
   struct Confirmed {
     Frame frame;
     std::uint64_t hash;  // of the state after it
   };
-  /// Frames whose inputs are final and that were stepped with them: each once, ascending.
+  /// Returns the next frame that is final and was stepped with its final inputs: each once, ascending.
   std::optional<Confirmed> poll_confirmed();
   std::optional<SessionEvent> poll_event();
 
   SessionPhase phase() const { return phase_; }
   virtual std::uint64_t token() const { return 0; }
-  /// Of the snapshot that is under way: to us, or on a host to `peer`.
+  /// The progress of the snapshot that we receive, or on a host of the one that `peer` is sent.
   virtual SnapshotProgress snapshot_progress(PeerId) const { return {}; }
   /// The players of this machine, a bit each; none yet: 0.
   virtual std::uint32_t local_players() const { return 0; }
@@ -155,9 +155,9 @@ class SessionCore {
   SessionCore(SessionCore&&) = default;
 
   virtual void plan(Time now) = 0;
-  /// Requests were not carried out: states that were to be saved are missing.
+  /// Requests were not carried out: states that should be saved are missing.
   virtual void misused() {}
-  /// Among them a `capture`: there is no such snapshot.
+  /// Requests with a `capture` were not carried out: there is no such snapshot.
   virtual void capture_lost() {}
   /// A state's hash is known.
   virtual void hash_known(Frame state, std::uint64_t hash) = 0;
@@ -170,7 +170,7 @@ class SessionCore {
     portable_.clear();
     is_capturing_ = true;
   }
-  /// The `capture` of this turn was not carried out yet: whoever waits for the snapshot goes on waiting.
+  /// Returns true if the `capture` of this turn is not carried out yet. Peers go on waiting for the snapshot.
   bool awaits_capture() const { return is_capturing_ && portable_.empty(); }
   void tell(const SessionEvent& event) { events_.tell(event); }
   void tell(const std::optional<SessionEvent>& event) {

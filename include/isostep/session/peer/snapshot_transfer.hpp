@@ -8,41 +8,41 @@
 
 namespace isostep {
 
-/// How far a snapshot has come; of size 0 when none is under way.
+/// The progress of a snapshot. `size` is 0 when none is under way.
 struct SnapshotProgress {
   std::uint32_t arrived = 0, size = 0;  // [bytes]
 };
 
-/// At most this is under way: what has not arrived waits in the transport's memory.
+/// The most that is under way. What has not arrived waits in the transport's memory.
 inline constexpr std::uint32_t kSnapshotFlight = 256 << 10;  // [bytes]
 
-/// Congestion control by delay: a transfer takes what the line has, and what else travels there waits for it by kQueue
-/// and not more. Round trips are those of datagrams, for a lost piece holds up the pieces behind it, which says nothing
-/// of the line.
+/// Congestion control by delay: a transfer takes what the line has, and delays other traffic by no more than kQueue. It
+/// uses the round trips of datagrams, for a lost piece holds up the pieces behind it, and their delay says nothing of
+/// the line.
 class SnapshotTransfer {
  public:
-  /// `from` bytes are there already.
+  /// `from`: so many bytes are there already.
   void begin(std::uint32_t from, std::uint32_t size);
-  /// To who has shown for long that it takes what it is sent.
+  /// Begins with a larger window: the client has shown for long that it takes what it is sent.
   void begin_at_once(std::uint32_t size);
-  /// [bytes] of the next piece; 0: not now.
+  /// [bytes] of the next piece; 0: none now.
   std::uint32_t next_piece(Time now) const;
   void was_sent(std::uint32_t bytes, Time now);
-  /// So many bytes have arrived; false when that cannot be, or is known.
+  /// Notes that so many bytes have arrived. Returns false if that cannot be, or is known.
   bool has_arrived(std::uint32_t bytes);
-  /// What a datagram took to the client and back.
+  /// Notes the round trip of a datagram to the client.
   void measured(Time trip, Time now);
 
   std::uint32_t sent() const { return sent_; }
   SnapshotProgress progress() const { return {arrived_, size_}; }
   bool is_complete() const { return arrived_ == size_; }
-  /// The client has said that a piece came.
+  /// Returns true if the client has said that a piece came.
   bool is_answered() const { return window_ > kFirst; }
 
  private:
   static constexpr std::uint32_t kFirst = 256;      // [bytes] a first piece: who never answers costs no more
   static constexpr std::uint32_t kLeast = 4 << 10;  // [bytes] a window, of who has answered: a few packets
-  /// [bytes] a first window for who is known: ten packets (RFC 6928), and they wait 80 ms on a line of 200 kB/s.
+  /// [bytes] The first window of a known client: ten packets (RFC 6928), which take 80 ms on a line of 200 kB/s.
   static constexpr std::uint32_t kKnown = 16 << 10;
   static constexpr Time kQueue = kSecond / 10;  // [us] as LEDBAT (RFC 6817) allows
   static constexpr int kSamples = 4;            // the least of so many trips is without most of the jitter

@@ -9,21 +9,21 @@
 
 namespace isostep {
 
-/// In: what the host announces. Out: what is to be taken up now. Keeps: the newest word, and what is in force.
+/// In: the host's announcements. Out: the one to take up now. Keeps: the newest, and the one in force.
 class TempoTrack {
  public:
   const Tempo& announced() const { return announced_; }
   const Tempo& in_force() const { return in_force_; }
-  /// Of later ones the newest counts; and the first of a host that is new to us.
+  /// Takes an announcement if it is newer than the last, or the first one of a new host.
   void hear(const Tempo& tempo) {
     if (is_known_ && tempo.number <= announced_.number) return;
     is_known_ = true;
     announced_ = tempo;
   }
   void forget() { is_known_ = false; }
-  /// We are the host: what was announced before counts on.
+  /// We are the host now: our announcements continue the earlier numbers.
   void take_over() { is_known_ = true; }
-  /// The host: from the first frame on that nobody can have stepped when it hears of it.
+  /// Host: announces a tempo for the first frame that nobody can have stepped before hearing of it.
   void announce(Tempo tempo, Frame current, const std::vector<InputStream>& streams, Frame window) {
     Frame from = current;
     // Who has not heard of it lacks the inputs that are not here yet, and steps no more than the window beyond them.

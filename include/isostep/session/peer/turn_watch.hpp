@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// In: turns, and the frames that are stepped again in them. Out: was there a pause, and is it forgiven? Keeps: the
-/// last turn, and when a pause was forgiven.
+/// In: turns, and the frames that are stepped again in them. Out: whether there was a pause, and whether it is
+/// forgiven. Keeps: the last turn, and when a pause was forgiven.
 class TurnWatch {
  public:
   void begin(Time now) {
@@ -17,14 +17,14 @@ class TurnWatch {
     stepped_again_ = 0;
   }
   void step_again(Frame frames) { stepped_again_ = frames; }
-  /// Since the last turn. Then nobody knows when what is read now arrived.
+  /// Returns true if there was a pause since the last turn. Then it is unknown when the bytes read now arrived.
   bool is_after_pause(const FrameClock& clock, const StepPace& pace, Time now) const {
     const Time periods = kPausePeriods * clock.nominal();
     const Time steps = pace.steps() > 1 ? static_cast<Time>(pace.steps()) : 1;  // a turn of many takes its time
     const Time again = static_cast<Time>(stepped_again_) * clock.period();      // and so does a rollback
     return has_turned_ && now - last_ > steps * (periods > kPause ? periods : kPause) + again;
   }
-  /// Reports speak of our being late and not of the line: false, where the last pause was a moment ago.
+  /// Returns true if reports speak of our pause and not of the line; false if the last pause was a moment ago.
   bool forgives(Time now) {
     if (now < forgiven_until_) return false;
     forgiven_until_ = now + kForgiven;

@@ -8,12 +8,12 @@
 
 namespace isostep {
 
-/// [characters] printable ASCII; the longest of IPv6 with a port has 53.
+/// [characters] of printable ASCII. The longest IPv6 address with a port has 53.
 inline constexpr std::size_t kAddressCap = 64;
 using Address = ShortText<kAddressCap>;
 
 class Reader;
-/// Fails where it is not printable ASCII: it is shown to people.
+/// Reads an address. Fails if it is not printable ASCII, because it is shown to people.
 Address read_address(Reader& reader);
 
 }  // namespace isostep

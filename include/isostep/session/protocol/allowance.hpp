@@ -8,13 +8,13 @@
 
 namespace isostep {
 
-/// So many in a second, in bursts of at most a quarter of that.
+/// Allows `most` messages per second, in bursts of at most a quarter of that.
 struct Allowance {
   std::int64_t credit = 0;  // [1/kSecond]
   Time since = 0;           // [us] when it was last added to
 
   void start(Time now) { *this = {kFirst, now}; }
-  /// One more?
+  /// Returns true, and counts one more, if it is allowed.
   bool spend(std::uint32_t most, Time now) {
     constexpr auto kOne = static_cast<std::int64_t>(kSecond);
     const std::int64_t quarter = std::int64_t{most} * kOne / 4;

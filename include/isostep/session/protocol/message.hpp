@@ -38,13 +38,13 @@ enum class MessageKind : std::uint8_t {
   farewell
 };
 
-/// What a player asks the host for: a pause or its end, or else a speed.
+/// A player's request to the host: a pause, its end, or a speed.
 struct Ask {
   bool is_paused = false;
   std::uint8_t speed = 0;  // [1/8 of the match's rate] 0: none
 };
 
-/// As what a client comes.
+/// A client's application for a part in the match.
 struct Application {
   bool spectator = false;
   int seat = -1;                   // this one and those after it, or none; -1: any
@@ -59,7 +59,7 @@ struct Application {
 
 inline constexpr std::size_t kCredentialCap = 256;  // [bytes] a signature of 64 and what it signs
 
-/// A client's first word.
+/// A client's first message.
 struct Hello : Application {
   Bytes credential;    // for the host's game
   Address address;     // where the others reach it, when there is no host
@@ -67,7 +67,7 @@ struct Hello : Application {
   ReplayHeader identity;
 };
 
-/// The host's answer. With a snapshot, pieces of it follow; without, the client goes on from `start`, which it has.
+/// The host's answer. If there is a snapshot, its pieces follow. Else the client goes on from `start`, which it has.
 struct Welcome {
   std::uint64_t match = 0;
   std::uint8_t players = 0;    // of the match
@@ -88,7 +88,7 @@ struct Welcome {
   std::uint32_t seated() const { return player == 0xff ? 0 : others | 1u << player; }
 };
 
-/// Why not: the first field that differs, or a key of the session's own ("protocol", "seats", "admission", "kicked").
+/// The reason: the first field that differs, or a key of the session ("protocol", "seats", "admission", "kicked").
 using Refusal = HeaderMismatch;
 
 struct Piece {
@@ -96,20 +96,20 @@ struct Piece {
   Bytes bytes;
 };
 
-/// Each replaces what `out` held.
+/// These functions replace the content of `out`.
 void write_hello(const Hello& hello, std::vector<std::uint8_t>& out);
 void write_welcome(const Welcome& welcome, std::vector<std::uint8_t>& out);
 void write_refusal(const Refusal& refusal, std::vector<std::uint8_t>& out);
 void write_piece(const Piece& piece, std::vector<std::uint8_t>& out);
-/// So many bytes of the snapshot have arrived.
+/// From a client: so many bytes of the snapshot have arrived.
 void write_progress(std::uint32_t arrived, std::vector<std::uint8_t>& out);
-/// The client has caught up, and at least two peers agree with its states: it may play.
+/// From a client: it has caught up, and enough machines have its states (see OwnSeats). It asks to play.
 void write_ready(std::vector<std::uint8_t>& out);
-/// The client's players play from this frame on.
+/// From the host: the client's players play from frame `first` on.
 void write_open(Frame first, std::vector<std::uint8_t>& out);
-/// The client has this version of the roster.
+/// From a client: it has this version of the roster.
 void write_enrolled(std::uint32_t version, std::vector<std::uint8_t>& out);
-/// Of a machine that would follow the host.
+/// From a machine that wants to be the next host.
 struct Candidate {
   std::uint32_t term = 0;                      // for which it asks
   std::uint32_t log_term = 0;                  // of the host whose inputs it has
@@ -117,17 +117,17 @@ struct Candidate {
   Frame ends[kMaxPlayers] = {};                // the first final input of each player that it lacks
 };
 void write_candidate(const Candidate& candidate, std::vector<std::uint8_t>& out);
-/// Some of the inputs that a candidate lacks, as a datagram carries them.
+/// To a candidate: some of the inputs that it lacks, in the form of a datagram.
 void write_known(Bytes packet, std::vector<std::uint8_t>& out);
-/// It may be the host of this term, and no other: if it has all inputs that we know to be final, which end here.
+/// To a candidate: it alone may be the host of this term, if it has all inputs that we know to be final, up to `ends`.
 struct Support {
   std::uint32_t term = 0;
   Frame ends[kMaxPlayers] = {};
 };
 void write_support(const Support& support, std::vector<std::uint8_t>& out);
-/// The host is elsewhere.
+/// Sends the other side to the host, which is at this address.
 void write_redirect(const Address& address, std::vector<std::uint8_t>& out);
-/// From a host: it is none any more, and another is to follow it. From a client: it looks for another host.
+/// From a host: it stops being the host, and another follows it. From a client: it looks for another host.
 void write_farewell(std::vector<std::uint8_t>& out);
 void write_ask(const Ask& ask, std::vector<std::uint8_t>& out);
 

@@ -10,8 +10,8 @@
 
 namespace isostep {
 
-/// In: a kind of message becomes due. Out: it is taken by who writes it, from what is so by then. Keeps: a bit a kind.
-/// `Kind`: an enumeration of at most 32; where the order counts, the most urgent is first.
+/// In: kinds of messages that become due. Out: each to the code that writes it, from the state of that moment. Keeps: a
+/// bit per kind. `Kind`: an enumeration of at most 32 values, the most urgent first where the order counts.
 template <class Kind> class Outbox {
  public:
   void add(Kind kind) { bits_ |= bit(kind); }

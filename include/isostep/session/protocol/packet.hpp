@@ -12,9 +12,9 @@
 
 namespace isostep {
 
-/// Of the wire format of datagrams and messages; a peer of another is refused by name.
+/// The version of the wire format of datagrams and messages. A peer with another one is refused by name.
 inline constexpr std::uint16_t kSessionProtocol = 5;
-/// Of one player in one datagram.
+/// The most frames of one player in one datagram.
 inline constexpr Frame kSliceFrames = 128;
 
 struct PacketHeader {
@@ -31,8 +31,8 @@ struct PacketHeader {
   std::uint8_t spares = 0;      // [frames] client: its rollbacks have to be shorter by so many, for it is too slow
   std::uint32_t waits_for = 0;  // host: players, a bit each, who hold the match up
   Tempo tempo;                  // host: as last announced
-  /// Host of a match that goes on without it: inputs before this frame cannot be otherwise any more, whoever is the
-  /// host; kNoFrame: of another match, where all that it says is final.
+  /// Host of a match that can migrate: inputs before this frame are final, whoever becomes the host. kNoFrame: the
+  /// match cannot migrate, and all that its host says is final.
   Frame final_end = kNoFrame;
   Frame frame = 0;               // the sender's next to step
   HashReport report;             // the sender's newest confirmed
@@ -45,10 +45,10 @@ struct PacketHeader {
   std::int8_t slack[kMaxPlayers] = {};  // [frames] by which the latest of a second's inputs came before it was needed
 };
 
-/// True if the players that a header names are of a match of so many.
+/// Returns true if `slowest`, `tempo.by` and `waits_for` name only players of a match of so many.
 bool is_of(const PacketHeader& header, int players);
 
-/// A run of one player's inputs: first .. first + count - 1.
+/// A run of one player's inputs: frames first .. first + count - 1.
 struct InputSlice {
   std::uint8_t player;
   Frame first, count;
@@ -61,11 +61,11 @@ struct Packet {
   InputSlice slices[kMaxPlayers];
 };
 
-/// Writes into `buffer`, kDatagramCap bytes.
+/// Writes a datagram into `buffer`, which has kDatagramCap bytes.
 class PacketWriter {
  public:
   PacketWriter(const PacketHeader& header, std::uint8_t* buffer);
-  /// As many frames from `first` on as the stream has and the datagram takes, at most `most`; how many that was.
+  /// Adds the inputs from `first` on that the stream has and that fit, at most `most`. Returns how many it added.
   Frame add_slice(std::uint8_t player, const InputStream& stream, Frame first, Frame most = kSliceFrames);
   Bytes bytes() const { return {buffer_, size_}; }
 
@@ -75,14 +75,14 @@ class PacketWriter {
   Frame frame_;  // of the header
 };
 
-/// Views into `bytes`. Every number is checked; the tokens of the slices are read by SliceReader.
+/// Reads a datagram and checks every number. The result points into `bytes`. SliceReader reads the slices' tokens.
 Result<Packet> read_packet(Bytes bytes);
 
-/// The entries of a slice, in order.
+/// Reads the entries of a slice, in order.
 class SliceReader {
  public:
   explicit SliceReader(const InputSlice& slice);
-  /// False at the end, or where the tokens are damaged. The entry's bytes hold until the next call.
+  /// Returns false at the end, or at damaged tokens. The bytes of the entry are valid until the next call.
   bool next(InputEntry& entry);
   bool failed() const { return failed_; }
 

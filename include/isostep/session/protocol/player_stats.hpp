@@ -8,8 +8,8 @@
 
 namespace isostep {
 
-/// Every machine knows them all: what the host measures comes to the others once a second, `early` each sees for
-/// itself. Of the host's own players the line's figures are 0.
+/// The figures of one player, which every machine knows. The host measures them and sends them once a second; `early`
+/// is measured by each machine itself. The host's own players have no line: its figures are 0.
 struct PlayerStats {
   Frame early = 0;             // [frames] by which the latest of a second came before it was needed; negative: late
   std::uint32_t replaced = 0;  // inputs that came after the deadline

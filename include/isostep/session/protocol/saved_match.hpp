@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// Of the format; one of another is refused by name.
+/// The version of the format. A match of another version is refused by name.
 inline constexpr std::uint16_t kSavedMatchVersion = 3;
 
 struct SavedMatch {
@@ -23,14 +23,14 @@ struct SavedMatch {
   std::uint8_t speed = 0;    // [1/8 of the match's rate]
   std::uint32_t term = 0;    // of its host: see AGREEMENT.md. Who goes on with it has the next
   std::uint8_t players = 0;
-  /// What the player of each seat can show, and nobody computes from this; 0: the seat is free, or the host's.
+  /// The proof of each seat's player, see proof_of: it does not reveal the token. 0: a free seat, or the host's.
   std::uint64_t proofs[kMaxPlayers] = {};
   std::vector<std::uint8_t> state;  // portable
 };
 
-/// Little-endian, with a hash of all bytes at the end. Replaces what `out` held.
+/// Writes little-endian, with a hash of all bytes at the end. Replaces the content of `out`.
 void write_saved_match(const SavedMatch& match, std::vector<std::uint8_t>& out);
-/// Of damaged bytes the error names what does not fit.
+/// Reads a saved match. If the bytes are damaged, the error names what does not fit.
 Result<SavedMatch> read_saved_match(Bytes bytes);
 
 }  // namespace isostep

@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// Writes until the buffer is full; then `full()` and nothing more.
+/// Writes until the buffer is full. Then full() is true, and nothing more is written.
 class WireWriter {
  public:
   WireWriter(std::uint8_t* buffer, std::size_t capacity) : buffer_(buffer), capacity_(capacity) {}
@@ -43,7 +43,7 @@ class WireWriter {
   bool full_ = false;
 };
 
-/// The first failure sticks: every later read gives zero.
+/// Reads untrusted bytes. After the first failure every read returns zero.
 class WireReader {
  public:
   explicit WireReader(Bytes bytes) : bytes_(bytes) {}
@@ -58,7 +58,7 @@ class WireReader {
     for (std::size_t i = 0; i < sizeof(U); ++i) value |= std::uint64_t{byte()} << (8 * i);
     return static_cast<U>(value);
   }
-  /// At most 32 bits, in as few bytes as they need: so a number has one form.
+  /// Reads a number of at most 32 bits. It must have the fewest bytes possible, so that each number has one form.
   std::uint32_t number() {
     const Leb128 read = load_leb128(bytes_.subspan(at_), 0xffffffffu);
     failed_ = failed_ || read.flaw != Leb128Flaw::none;

@@ -8,15 +8,15 @@
 
 namespace isostep {
 
-/// The newest frame of all players, as a match recording holds it after the frame before: nothing where no input
-/// changed; else a mask of whose did, and of each of those its size and 1, or 0 for who is absent, and the bytes.
+/// Writes the newest inputs as a frame of a match recording: nothing if none changed; else a mask of those that did,
+/// and for each its size + 1 and its bytes, or 0 for an absent player.
 void write_match_frame(std::span<const InputStream> inputs, std::vector<std::uint8_t>& out);
-/// Appends it to every player's inputs; false when the bytes are not such a frame: then some may be appended.
+/// Appends such a frame to all players' inputs. Returns false if the bytes are none; then some may be appended.
 bool read_match_frame(Bytes bytes, std::span<InputStream> inputs);
 
 class ReplayCore : public SessionCore {
  public:
-  /// `file` must outlive the session. What is wrong with it is reported as an event; then the session is over.
+  /// `file` must outlive the session. A fault in it is reported as an event, and ends the session.
   ReplayCore(const SessionConfig& config, const InputRules& rules, Bytes file);
 
   bool add_local_input(int, Bytes) override { return false; }
@@ -29,7 +29,7 @@ class ReplayCore : public SessionCore {
   void hash_known(Frame state, std::uint64_t hash) override;
 
  private:
-  /// What is wrong with the file, as an event; false: something is.
+  /// Opens the file. Returns false, and reports an event, if something is wrong with it.
   bool open_file();
   bool read_frame(Frame frame);
   void refuse_file(std::string_view key, std::string_view in_file, std::string_view here);

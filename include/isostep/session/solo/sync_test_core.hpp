@@ -7,11 +7,11 @@
 
 namespace isostep {
 
-/// Every input is known to the session `window` frames late, so the frames in between are first stepped on guesses, as
-/// in a match; then the newest `window` frames are stepped once more with the same inputs, and must give the same
-/// hashes, although all inputs are now shown as confirmed. A difference means that something shapes the future and is
-/// not saved, or is no function of state and inputs, or that the game looks at which inputs are guesses. And of games
-/// that can be written down some bytes of every new state are changed: the hash must be another one.
+/// The session learns every input `window` frames late, so it first steps the frames in between on guesses, as in a
+/// match. Then it steps the newest `window` frames again with the same inputs, shown as confirmed: the hashes must be
+/// the same. A difference means that something shapes the future and is not saved, that a step is no function of state
+/// and inputs, or that the game looks at which inputs are guesses. For games with a portable form it also flips bits of
+/// every new state: the hash must change.
 class SyncTestCore : public SessionCore {
  public:
   SyncTestCore(const SessionConfig& config, const InputRules& rules);

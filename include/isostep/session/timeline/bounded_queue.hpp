@@ -16,7 +16,7 @@ template <class T> class BoundedQueue {
 
   bool empty() const { return size_ == 0; }
   std::size_t size() const { return size_; }
-  /// How many gave way so far.
+  /// The number of items that were dropped so far.
   std::uint64_t lost() const { return lost_; }
   void push(const T& item) {
     if (size_ == items_.size()) {
@@ -25,7 +25,7 @@ template <class T> class BoundedQueue {
     }
     items_[(first_ + size_++) % items_.size()] = item;
   }
-  /// Not empty.
+  /// Removes and returns the oldest item. The queue must not be empty.
   T pop() {
     const T item = items_[first_];
     first_ = (first_ + 1) % items_.size();

@@ -9,15 +9,15 @@
 
 namespace isostep {
 
-/// Since any moment of the caller's choice [us]; never runs backwards. Sessions have no clock of their own.
+/// [us] since any moment that the caller chooses. It never runs backwards. Sessions have no clock of their own.
 using Time = std::uint64_t;
 inline constexpr Time kSecond = 1000000;  // [us]
 
-/// Sets of players are words of 32 bits.
+/// A set of players is a word of 32 bits.
 inline constexpr std::size_t kMaxPlayers = 32;
 
-/// The transport's number of a connection: below SessionConfig::max_peers + max_strangers, free to be used
-/// again once it is closed.
+/// The transport's number of a connection, below SessionConfig::max_peers + max_strangers. It may be used again once
+/// the connection is closed.
 using PeerId = std::uint16_t;
 
 enum class Channel : std::uint8_t {

@@ -9,34 +9,34 @@
 
 namespace isostep {
 
-/// A state's place in a player's history: `chain` is the hash chain of all states up to `frame`, so a divergence that
-/// heals is still seen.
+/// A state and its history: `chain` is the hash chain of all states up to `frame`, so a divergence that heals is still
+/// detected.
 struct HashReport {
   Frame frame = kNoFrame;
   std::uint64_t chain = 0;
 };
 
-/// A ring over states. Hashes arrive as states are saved, are forgotten when a rollback makes the state anew, and are
-/// chained once final: chain f combines chain f - 1 and hash f, so one chain vouches for all states before it.
+/// A ring of state hashes. A hash arrives when its state is saved, is forgotten when a rollback makes the state again,
+/// and is chained once final: chain f combines chain f - 1 and hash f, so one chain covers all states before it.
 class HashLog {
  public:
   explicit HashLog(Frame capacity);
 
-  /// State `start.frame` is final, with this hash; what was before is known by the hash chain alone.
+  /// Begins with the final state `start.frame` and its hash. Earlier states are known by the hash chain alone.
   void restart(const HashReport& start, std::uint64_t hash);
   void report(Frame state, std::uint64_t hash);
   void forget_from(Frame state);
-  /// Chains one state more, up to `limit`; false when its hash is not there yet.
+  /// Chains the next state, if it is not beyond `limit`. Returns false if it is, or if its hash is not there yet.
   bool settle_next(Frame limit);
 
   /// The newest final state; kNoFrame before the first.
   HashReport settled() const { return settled_; }
-  /// A final state that is kept: newer hashes, final or not, take the places of the oldest.
+  /// Returns true if the final state is kept. Newer hashes, final or not, take the places of the oldest.
   bool has_chain(Frame state) const {
     return state >= oldest_ && state <= settled_.frame && entries_[slot(state)].state == state;
   }
   std::uint64_t chain(Frame state) const { return entries_[slot(state)].chain; }
-  /// Of a final state that is kept.
+  /// Returns the hash of a final state that is kept.
   std::uint64_t hash(Frame state) const { return entries_[slot(state)].hash; }
 
  private:

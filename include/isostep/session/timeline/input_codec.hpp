@@ -14,18 +14,18 @@
 
 namespace isostep {
 
-/// Of one player's input for one frame [bytes]. What is not acknowledged travels with every frame, to players in at
-/// most seven datagrams: inputs of more than 8 KB, of all others in a round trip, do not keep up with 60 Hz. What is
-/// large and comes now and then is for WithOrders of large_order.hpp.
+/// [bytes] The largest input of one player in one frame. Unacknowledged inputs are sent again with every frame, to
+/// players in at most seven datagrams. If all others' inputs of a round trip exceed 8 KB, they do not keep up with 60
+/// Hz. For large and rare orders use WithOrders of large_order.hpp.
 inline constexpr std::size_t kInputCap = 512;
 
-/// Up to N commands in one frame, for games whose players give orders (RTS). Only `count` of them travel.
+/// A list of up to N commands in one frame, for games of orders (RTS). Only `count` of them are sent.
 template <class Command, std::size_t N> struct CommandList {
   static_assert(N <= 255, "the count is one byte");
   std::uint8_t count = 0;
   Command items[N] = {};
 
-  /// False when the list is full.
+  /// Returns false if the list is full.
   ISO_INLINE bool add(const Command& command) {
     if (count >= N) return false;
     items[count++] = command;
@@ -43,7 +43,7 @@ template <class Command, std::size_t N> struct CommandList {
 };
 
 namespace detail {
-/// What a field's bits mean.
+/// Returns a number for the meaning of a field's bits.
 template <class T> constexpr std::uint32_t field_form() {
   if constexpr (std::is_same_v<T, bool>) return 1;
   else if constexpr (std::is_enum_v<T>) return 2;
@@ -51,7 +51,7 @@ template <class T> constexpr std::uint32_t field_form() {
   else return ScalarTraits<T>::kId;
 }
 template <class T> inline constexpr std::uint32_t kFieldForm = field_form<T>();
-/// Of names and widths in order: two builds whose inputs are laid out otherwise do not meet.
+/// Hashes names and widths of fields in order, so that builds with different input layouts do not connect.
 struct SchemaVisitor {
   HashStream* stream;
   template <class T> void operator()(const char* name, const T& value) const {
@@ -85,7 +85,7 @@ struct FiniteVisitor {
     }
   }
 };
-/// From bytes nobody vouches for: whole, finite, and what the game itself calls valid.
+/// Reads an untrusted input. Returns true if it is complete, finite, and valid by the game's own `valid()`.
 template <class T> bool read_input(Reader& reader, T& value) {
   if (!reader.read(value)) return false;
   bool finite = true;
@@ -98,9 +98,9 @@ template <class T> bool read_input(Reader& reader, T& value) {
 }
 }  // namespace detail
 
-/// What a codec must offer. `encode` is canonical: equal inputs give equal bytes, at most kCap of them. `decode`
-/// refuses by false, and never gives a value that other bytes would give as well. A game specialises it for inputs that
-/// fit neither form below.
+/// The codec of an input. `encode` is canonical: equal inputs give equal bytes, at most kCap of them. `decode` returns
+/// false for invalid bytes, and never gives the same value for different bytes. A game specialises InputCodec for
+/// inputs that fit neither form below.
 template <class Input> struct InputCodec {
   static_assert(HasFields<Input>, "an input has `fields`, is a CommandList, or brings an InputCodec of its own");
   static constexpr std::size_t kCap = kPackedSize<Input>;
@@ -150,11 +150,11 @@ template <class Command, std::size_t N> struct InputCodec<CommandList<Command, N
   }
 };
 
-/// A held stick stays held: the guess for games whose input is a state.
+/// Predicts that the last input repeats, like a held stick: for games whose input is a state.
 struct RepeatLast {
   template <class Input> static Input predict(const Input& last, Frame) { return last; }
 };
-/// Nobody gives the same order twice: the guess for command lists.
+/// Predicts Input{}: for command lists, since nobody gives the same order twice.
 struct PredictNeutral {
   template <class Input> static Input predict(const Input&, Frame) { return Input{}; }
 };
@@ -163,7 +163,7 @@ template <class Command, std::size_t N> struct DefaultPredictor<CommandList<Comm
   using Type = PredictNeutral;
 };
 
-/// A codec and a predictor as the session's core, which knows no types, calls them.
+/// A codec and a predictor without types, as the session's core calls them.
 struct InputRules {
   std::size_t cap;       // [bytes]
   std::uint64_t schema;  // digest of the layout
@@ -174,7 +174,7 @@ struct InputRules {
   const void* user;                 // of those two functions
 
   bool valid(Bytes input) const { return is_valid(*this, input); }
-  /// The guess for the frame `ahead` frames after `last`; writes at most `cap` bytes and returns how many.
+  /// Predicts the input `ahead` frames after `last`. Writes at most `cap` bytes and returns how many.
   std::size_t predict(Bytes last, Frame ahead, std::uint8_t* to) const { return guess(*this, last, ahead, to); }
 };
 

@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// One player in one frame.
+/// The input of one player in one frame.
 struct InputEntry {
   bool absent;  // nobody plays: the game sees InputStatus::disconnected and a neutral input
   Bytes bytes;  // empty when absent
@@ -26,27 +26,27 @@ ISO_INLINE bool same_input(const InputEntry& a, const InputEntry& b) {
 /// Frames begin() .. end() - 1 are known; end() is the first that is missing. Allocates only when constructed.
 class InputStream {
  public:
-  /// Keeps so many frames of at most so many bytes each.
+  /// Keeps the newest `capacity` frames, with inputs of at most `input_cap` bytes.
   InputStream(Frame capacity, std::size_t input_cap);
 
-  /// Forgets all; the next to come is frame `first`.
+  /// Forgets all inputs. The next one is that of frame `first`.
   void reset(Frame first);
   Frame begin() const { return begin_; }
   Frame end() const { return end_; }
   bool contains(Frame frame) const { return frame >= begin_ && frame < end_; }
 
-  /// Becomes the input of frame end(); the oldest may fall out. False and nothing happens when it is too long.
+  /// Appends the input of frame end() and may drop the oldest. Returns false and does nothing if it is too long.
   bool append(const InputEntry& entry);
   void append_absent_until(Frame end);
-  /// Forgets `end` and what follows.
+  /// Forgets the inputs from frame `end` on.
   void truncate(Frame end);
-  /// contains(frame): becomes its input. False and nothing happens when it is too long.
+  /// Replaces the input of a contained frame. Returns false and does nothing if it is too long.
   bool replace(Frame frame, const InputEntry& entry);
-  /// contains(frame).
+  /// Returns the input of a contained frame.
   InputEntry at(Frame frame) const;
-  /// contains(frame): is it the same as that of the frame before, which is contained as well?
+  /// Returns true if a contained frame has the same input as the frame before, which is contained as well.
   bool repeats(Frame frame) const { return frame > begin_ && repeats_[slot(frame)] != 0; }
-  /// The newest entry; absent when there is none.
+  /// Returns the newest input; absent if there is none.
   InputEntry last() const;
 
  private:
@@ -60,7 +60,7 @@ class InputStream {
   std::vector<std::uint8_t> bytes_, repeats_;
 };
 
-/// First frame of which some player's input is missing.
+/// Returns the first frame of which some player's input is missing.
 inline Frame known_end(const std::vector<InputStream>& streams) {
   Frame end = streams[0].end();
   for (const InputStream& stream : streams) end = stream.end() < end ? stream.end() : end;

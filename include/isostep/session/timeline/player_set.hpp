@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// for (const int player : EachPlayer(players)) ...
+/// Iterates over a set of players: for (const int player : EachPlayer(players)) ...
 struct EachPlayer {
   std::uint32_t left;
 
@@ -21,7 +21,7 @@ struct EachPlayer {
   friend bool operator==(const EachPlayer&, const EachPlayer&) = default;
 };
 
-/// -1: it is empty.
+/// Returns the first player of the set; -1: it is empty.
 inline int first_of(std::uint32_t players) { return players == 0 ? -1 : std::countr_zero(players); }
 
 }  // namespace isostep

@@ -11,27 +11,27 @@
 
 namespace isostep {
 
-/// Frames before current() have been stepped. What is not known is predicted; when it becomes known and is otherwise,
-/// first_wrong() says from where to step again.
+/// Holds the inputs with which the frames before current() were stepped. Unknown inputs are predicted. When an input
+/// becomes known and differs, first_wrong() returns the frame from which to step again.
 class Timeline {
  public:
-  /// Remembers so many frames.
+  /// Keeps the newest `kept` frames.
   Timeline(int players, Frame kept, const InputRules& rules);
 
   Frame current() const { return current_; }
-  /// Nothing is stepped yet; the next frame is `current`.
+  /// Begins anew: nothing is stepped yet, and the next frame is `current`.
   void restart(Frame current);
-  /// Compares what has become known since the last call. At most current(): then all is well so far.
+  /// Compares inputs that became known since the last call. Returns the first mispredicted frame, or current().
   Frame first_wrong(const std::vector<InputStream>& streams);
-  /// The stream was cut at `end`: what was compared from there on must be compared again.
+  /// The player's stream was cut at `end`: its inputs from there on are compared again.
   void recheck(int player, Frame end);
 
   /// Fixes the inputs of frame current() and goes on to the next.
   void step(const std::vector<InputStream>& streams);
-  /// The inputs of past frames from `frame` on are taken anew, up to current().
+  /// Takes the inputs of the past frames from `frame` on from the streams again.
   void step_again(Frame frame, const std::vector<InputStream>& streams);
 
-  /// With what a frame was stepped; the bytes are Input{} for who was absent.
+  /// The input with which a frame was stepped. `bytes` is Input{} if the player was absent.
   struct Used {
     InputStatus status;
     Bytes bytes;

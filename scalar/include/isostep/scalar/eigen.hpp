@@ -84,9 +84,9 @@ template <class T> ISO_INLINE std::ostream& operator<<(std::ostream& out, Exact<
 
 }  // namespace isostep
 
-/// These limits are those of an integer: min is the lowest number in `lowest`, but Eigen's algorithms take `min` for
-/// "too small to divide by", so it is the smallest positive number, one raw unit. There is no infinity; the highest
-/// number stands for it.
+/// Limits as of an integer type, except `min`: Eigen's algorithms use it as "too small to divide by", so it is the
+/// smallest positive number, one raw unit. The lowest number is in `lowest`. There is no infinity; the highest number
+/// stands for it.
 template <class Rep, int F, isostep::Overflow P> class std::numeric_limits<isostep::Fixed<Rep, F, P>> {
   using Number = isostep::Fixed<Rep, F, P>;
 
@@ -145,16 +145,16 @@ template <class T> struct NumTraits<isostep::Exact<T>> : GenericNumTraits<isoste
 
 namespace internal {
 
-/// No operator of Eigen's takes a floating-point number beside fixed point: it would become a Fixed at run time.
+/// Eigen's operators take no floating-point number beside fixed point: it would become a Fixed at run time.
 template <class Rep, int F, isostep::Overflow P> struct promote_scalar_arg<isostep::Fixed<Rep, F, P>, float, false> {};
 template <class Rep, int F, isostep::Overflow P> struct promote_scalar_arg<isostep::Fixed<Rep, F, P>, double, false> {};
 
-/// m.cast<double>() and m.cast<Exact<double>>(): for people and tests, as to_double.
+/// m.cast<double>() and m.cast<Exact<double>>() convert as to_double does, for people and tests.
 template <class Rep, int F, isostep::Overflow P, class To>
 requires(std::floating_point<To> || isostep::detail::kIsExactType<To>) struct cast_impl<isostep::Fixed<Rep, F, P>, To> {
   static ISO_INLINE To run(isostep::Fixed<Rep, F, P> x) { return static_cast<To>(isostep::to_double(x)); }
 };
-/// Another format of the same width, rounded to nearest.
+/// Converts to another format of the same width, rounded to nearest.
 template <class Rep, int F, int G, isostep::Overflow P>
 struct cast_impl<isostep::Fixed<Rep, F, P>, isostep::Fixed<Rep, G, P>> {
   static ISO_INLINE isostep::Fixed<Rep, G, P> run(isostep::Fixed<Rep, F, P> x) {
@@ -162,7 +162,7 @@ struct cast_impl<isostep::Fixed<Rep, F, P>, isostep::Fixed<Rep, G, P>> {
   }
 };
 
-/// Random(): in [-1, 1]. Eigen's own would scale by RAND_MAX, which few formats hold.
+/// Random() is in [-1, 1]. Eigen's own would scale by RAND_MAX, which few formats hold.
 template <class Rep, int F, isostep::Overflow P> struct random_default_impl<isostep::Fixed<Rep, F, P>, false, false> {
   using Number = isostep::Fixed<Rep, F, P>;
   static ISO_INLINE Number run() {

@@ -14,12 +14,12 @@
 
 namespace isostep::detail {
 
-/// Cosine and sine as the direction of (x, y): no square or cotangent that could leave the format.
+/// Returns the rotation whose cosine and sine are the direction of (x, y). No square or cotangent leaves the format.
 template <class S> ISO_INLINE Eigen::JacobiRotation<S> rotation_along(S x, S y) {
   const Direction<S> d = direction_of(x, y, S(0));
   return {convert<S>(d.x), convert<S>(d.y)};
 }
-/// J that makes J* [x y; y z] J diagonal, turning by at most 45 degrees.
+/// Returns J that makes J* [x y; y z] J diagonal, and turns by at most 45 degrees.
 /// Source: Golub, Van Loan 2013, Matrix Computations, sec. 8.5.2. Differs: tan = y / (|h| + sqrt(h^2 + y^2)) with
 ///         h = (x - z) / 2, which divides nothing.
 template <class S> ISO_INLINE Eigen::JacobiRotation<S> diagonalising(S x, S y, S z) {

@@ -144,9 +144,9 @@ struct FloatState {
 }  // namespace detail
 
 namespace detail {
-/// A guard: while it lives, this thread computes as IEEE 754 starts out: to nearest, denormals kept, no traps. The
-/// caller's state, sticky flags included, returns bit for bit. It costs a read or two when nothing is amiss, for a
-/// write stalls the pipeline. Only pin_floats() holds one: compilers know nothing of it, and move arithmetic over it.
+/// A guard: while it lives, this thread computes in IEEE 754's default state: to nearest, denormals kept, no traps.
+/// Then the caller's state, sticky flags included, returns bit for bit. It costs a read or two if nothing is amiss, for
+/// a write stalls the pipeline. Only pin_floats() holds one: compilers know nothing of it, and move arithmetic over it.
 class FloatEnvironment {
  public:
   ISO_INLINE FloatEnvironment() : caller_(FloatState::read()) {
@@ -163,7 +163,7 @@ class FloatEnvironment {
   std::uint64_t caller_;
 };
 
-/// What `of` refers to is read or written on the other side of this line, not moved over it.
+/// A barrier for the compiler: no read or write of what `of` refers to moves across this line.
 template <class T> ISO_INLINE void hold_in_memory(const T& of) {
 #if defined(__GNUC__)
   __asm__ volatile("" : : "r"(&of) : "memory");
@@ -174,10 +174,10 @@ template <class T> ISO_INLINE void hold_in_memory(const T& of) {
 template <class Work> ISO_NOINLINE void run_alone(const Work& work) { work(); }
 }  // namespace detail
 
-/// Runs work() while this thread computes as IEEE 754 starts out, and returns its result: to nearest, denormals kept,
-/// no traps. A library linked with -ffast-math, a driver or a game may have left it otherwise; the caller's state
-/// returns afterwards. `work` takes numbers by reference: then its operands are read from memory after the environment
-/// is set, its result is there before the caller's returns, and none of its arithmetic lies outside.
+/// Runs work() in IEEE 754's default state (to nearest, denormals kept, no traps) and returns its result. A library
+/// linked with -ffast-math, a driver or a game may have changed the state; the caller's returns afterwards. `work`
+/// takes numbers by reference: then its operands are read from memory after the environment is set, its result is there
+/// before the caller's state returns, and none of its arithmetic lies outside.
 template <class Work> ISO_INLINE auto pin_floats(const Work& work) -> decltype(work()) {
   if constexpr (std::is_void_v<decltype(work())>) {
     const detail::FloatEnvironment environment;
@@ -197,8 +197,8 @@ template <class Work> ISO_INLINE auto pin_floats(const Work& work) -> decltype(w
 }
 
 namespace detail {
-/// The number that a call returns, taken through memory. For functions that call several: on i386 a number comes back
-/// in an x87 register, and a compiler may keep it there, 80 bits wide, over the calls that follow.
+/// Returns the number that a call returns, taken through memory. For functions that call several: on i386 a number
+/// comes back in an x87 register, and a compiler may keep it there, 80 bits wide, over the calls that follow.
 template <class Call> ISO_INLINE auto stored(const Call& call) -> decltype(call()) {
   decltype(call()) result = {};
   run_alone([&] { result = call(); });
@@ -206,7 +206,7 @@ template <class Call> ISO_INLINE auto stored(const Call& call) -> decltype(call(
 }
 }  // namespace detail
 
-/// The findings of the probe; bit n of its result is the n-th of these. One cause may set several: rounding upwards
+/// The findings of the probe: bit n of its result is the n-th of these. One cause may set several: rounding upwards
 /// looks like contraction too.
 enum class Deviation : std::uint8_t {
   flush_float,  // a denormal result became zero

@@ -17,8 +17,8 @@
 namespace isostep {
 
 namespace detail {
-/// Returns x, but the compiler may not know that: what was multiplied is a rounded number before it is added. Costs no
-/// instruction where there is a constraint for the register file; wasm has no scalar fma to form.
+/// Returns x, but hides that from the compiler, so a product is rounded before it is added. It costs no instruction
+/// where there is a constraint for the register file; wasm has no scalar fma to form.
 template <std::floating_point T> ISO_INLINE constexpr T opaque(T x) {
   if (__builtin_is_constant_evaluated()) return x;
 #if defined(__GNUC__) && (defined(__x86_64__) || defined(__SSE2__))
@@ -37,13 +37,13 @@ template <std::floating_point T> ISO_INLINE constexpr T opaque(T x) {
 }
 }  // namespace detail
 
-/// One IEEE operation per operator, each rounded by itself, whatever -mfma, -ffp-contract=fast or the vectoriser would
-/// like. Laid out as a bare T and allowed to alias it, so an array of T can be mapped as one of Exact<T>.
+/// Each operator is one IEEE operation, rounded by itself, whatever -mfma, -ffp-contract=fast or the vectoriser would
+/// do. Laid out as a bare T and allowed to alias it, so an array of T can be mapped as one of Exact<T>.
 template <std::floating_point T> class ISO_MAY_ALIAS Exact {
  public:
   Exact() = default;
-  /// Whole numbers and T implicitly, so that 2 * x and x * 0.5f are what they look like; for Exact<float> a double
-  /// is rounded once, as `float y = 0.1;` would.
+  /// Converts whole numbers and T implicitly, so that 2 * x and x * 0.5f are what they look like; for Exact<float> a
+  /// double is rounded once, as `float y = 0.1;` would.
   template <class N>
   requires(std::integral<N> || std::floating_point<N>) ISO_INLINE constexpr Exact(N value)
       : value_(static_cast<T>(value)) {}

@@ -23,7 +23,7 @@ template <class Out, int F, Overflow P> ISO_INLINE Out finer(Fixed<std::int64_t,
 template <class Out, int F, Overflow P> ISO_INLINE Out finer(Fixed<std::int32_t, F, P> a) {
   return Out::from_raw(std::int64_t{a.raw()} << (Out::kFracBits - F));
 }
-/// Converts back, to nearest, held at the format's ends.
+/// Converts back, to nearest. What does not fit becomes the end of the format.
 template <class Out, class In> ISO_INLINE Out coarser(In a) {
   if constexpr (std::same_as<Out, In>) {
     return a;

@@ -76,7 +76,7 @@ template <class Rep, int FracBits, Overflow Policy> class Fixed {
   static constexpr Overflow kPolicy = Policy;
 
   Fixed() = default;
-  /// Whole numbers, exact while they fit and the nearest end of the format beyond. Implicit, so that {0, 2, 0} is a
+  /// Converts a whole number: exact if it fits, else to the nearest end of the format. Implicit, so that {0, 2, 0} is a
   /// vector of any scalar.
   template <std::integral I> ISO_INLINE constexpr Fixed(I whole) : raw_(from_whole(whole)) {}
   /// A literal, rounded to nearest, ties away from zero. Only the compiler may call this: no run-time floating point
@@ -126,7 +126,7 @@ template <class Rep, int FracBits, Overflow Policy> class Fixed {
   friend ISO_INLINE constexpr bool operator<=(Fixed a, Fixed b) { return a.raw_ <= b.raw_; }
   friend ISO_INLINE constexpr bool operator>=(Fixed a, Fixed b) { return a.raw_ >= b.raw_; }
 
-  /// The wide integer as a raw value: wraps or traps by policy.
+  /// Converts the wide integer to a raw value: wraps or traps by policy.
   static ISO_INLINE constexpr Rep narrow(Wide<Rep> wide) {
     const Rep result = static_cast<Rep>(static_cast<std::int64_t>(wide));
     if constexpr (Policy == Overflow::trap) {
@@ -163,7 +163,7 @@ template <class Rep, int F, int G, Overflow P>
 ISO_INLINE constexpr FixedSum<Rep, F + G, P> product(Fixed<Rep, F, P> a, Fixed<Rep, G, P> b) {
   return {Wide<Rep>(a.raw()) * Wide<Rep>(b.raw())};
 }
-/// A number as a sum of products with `Sum`'s fraction bits, exact: `widen<Sum<S>>(x) + product(a, b)`.
+/// Converts a number to a sum of products with `Sum`'s fraction bits, exact: `widen<Sum<S>>(x) + product(a, b)`.
 template <class Sum, class Rep, int F, Overflow P> ISO_INLINE constexpr Sum widen(Fixed<Rep, F, P> a);
 
 namespace detail {
@@ -175,7 +175,7 @@ template <class Sum, class Rep, int F, Overflow P> ISO_INLINE constexpr Sum wide
   return {detail::shift_left_wide<P>(Wide<Rep>(a.raw()), detail::SumFormat<Sum>::kFracBits - F)};
 }
 
-/// An exact sum as a number of format Out: to nearest, ties towards plus infinity (one add and one shift).
+/// Rounds an exact sum to a number of format Out: to nearest, ties towards plus infinity (one add and one shift).
 template <class Out, class Rep, int F, Overflow P> ISO_INLINE constexpr Out round_to(FixedSum<Rep, F, P> sum) {
   constexpr int shift = F - Out::kFracBits;
   if constexpr (shift > 0) {

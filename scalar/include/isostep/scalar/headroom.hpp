@@ -14,7 +14,7 @@ template <class S> ISO_INLINE constexpr S half_of_range() {
 }
 }  // namespace detail
 
-/// x, or the end of the half: of a fixed-point format. Floating point does not wrap.
+/// Returns x, or the nearer end of that half of a fixed-point format. Floating point does not wrap.
 template <class S> ISO_INLINE constexpr S with_headroom(S x) {
   if constexpr (kIsFixed<S>) {
     return clamp(x, -detail::half_of_range<S>(), detail::half_of_range<S>());
@@ -22,11 +22,11 @@ template <class S> ISO_INLINE constexpr S with_headroom(S x) {
     return x;
   }
 }
-/// An exact sum as a number, held between -most and most.
+/// Converts an exact sum to a number, held between -most and most.
 template <class Out, class Sum> ISO_INLINE constexpr Out round_within(Sum sum, Out most) {
   return round_to<Out>(clamp(sum, -widen<Sum>(most), widen<Sum>(most)));
 }
-/// An exact sum as a number within half of its format.
+/// Converts an exact sum to a number within half of its format.
 template <class Out, class Sum> ISO_INLINE constexpr Out round_with_headroom(Sum sum) {
   if constexpr (kIsFixed<Out>) {
     return round_within<Out>(sum, detail::half_of_range<Out>());

@@ -35,15 +35,15 @@ struct WasmSimd;
 
 namespace detail {
 /// The type by which registers and masks know a scalar. Formats of one width share their masks: compare Unit<S>, select
-/// S. Fixed point is its Rep where it wraps, as registers do.
+/// S. Wrapping fixed point is known as its Rep, because registers wrap too.
 template <class S> struct LaneKeyOf { using Type = S; };
 template <class Rep, int F, Overflow P> struct LaneKeyOf<Fixed<Rep, F, P>> {
   using Type = std::conditional_t<P == Overflow::wrap, Rep, Fixed<Rep, 1, P>>;
 };
 template <class S> using LaneKey = typename LaneKeyOf<S>::Type;
 
-/// One result of a comparison in memory. clang 14 for WebAssembly passes a struct of one bool as one bit, and what is
-/// folded of a true one reads 255.
+/// One result of a comparison in memory. clang 14 for WebAssembly passes a struct of one bool as one bit, and folds
+/// constants so that a true one reads 255.
 #if defined(__wasm__)
 using LaneAnswer = std::uint8_t;
 #else
@@ -57,7 +57,7 @@ constexpr std::size_t lane_alignment(std::size_t bytes) {
   return alignment;
 }
 
-/// The IEEE root by the processor's instruction: a library call could set errno, and belongs to somebody else.
+/// Computes the IEEE root by the processor's instruction: a library call could set errno, and is not ours.
 template <class S> ISO_INLINE S sqrt_lane(S a) {
 #if defined(__SSE2__) || defined(_M_X64)
   if constexpr (sizeof(S) == 4) return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(a)));
@@ -299,7 +299,7 @@ ISO_INLINE Out divide_to(Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
 template <class S, int W, class Isa> ISO_INLINE Lanes<S, W, Isa> divide(Lanes<S, W, Isa> a, Lanes<S, W, Isa> b) {
   return a / b;
 }
-/// Lanes of one format in another of the same width.
+/// Converts lanes of one format to another of the same width.
 template <class Out, class S, int W, class Isa> ISO_INLINE Out convert(Lanes<S, W, Isa> a) {
   if constexpr (std::same_as<Out, Lanes<S, W, Isa>>) {
     return a;

@@ -17,7 +17,7 @@ struct Avx2 {};
 }  // namespace isa
 
 namespace detail {
-/// All ones or all zeros in each of W lanes.
+/// Masks of W lanes, each lane all ones or all zeros.
 template <int W> struct Avx2Masks {
   using Mask = __m256i;
   static constexpr int kWidth = W;
@@ -198,7 +198,7 @@ template <> struct Registers<std::int64_t, isa::Avx2> : detail::Avx2Masks<4> {
         _mm256_add_epi64(_mm256_mul_epu32(_mm256_srli_epi64(a, 32), b), _mm256_mul_epu32(a, _mm256_srli_epi64(b, 32)));
     return _mm256_add_epi64(_mm256_mul_epu32(a, b), _mm256_slli_epi64(cross, 32));
   }
-  /// An integer next to n / a, for a and it in [0, 2^52): to and from doubles by the mantissa of 2^52 plus the number.
+  /// Returns an integer next to n / a, for a and it in [0, 2^52), by doubles whose mantissa is 2^52 plus the number.
   static ISO_INLINE Type quotient_near(double n, Type a) {
     const __m256d shift = _mm256_set1_pd(0x1p52);
     const __m256d divisor = _mm256_sub_pd(_mm256_castsi256_pd(_mm256_or_si256(a, _mm256_castpd_si256(shift))), shift);
@@ -209,7 +209,7 @@ template <> struct Registers<std::int64_t, isa::Avx2> : detail::Avx2Masks<4> {
   static ISO_INLINE Type flip(Type a, std::uint64_t bits) {
     return _mm256_xor_si256(a, _mm256_set1_epi64x(static_cast<std::int64_t>(bits)));
   }
-  /// b where a is negative, else zero.
+  /// Returns b where a is negative, else zero.
   static ISO_INLINE Type where_negative(Type a, Type b) {
     return _mm256_and_si256(_mm256_cmpgt_epi64(_mm256_setzero_si256(), a), b);
   }

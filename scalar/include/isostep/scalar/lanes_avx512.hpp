@@ -24,7 +24,7 @@ struct Avx512 {};
 }  // namespace isa
 
 namespace detail {
-/// Lane i is bit i, in a register of its own kind.
+/// Masks in registers of their own kind: lane i is bit i.
 template <int W> struct Avx512Masks {
   using Mask = std::conditional_t<W == 16, __mmask16, __mmask8>;
   static constexpr int kWidth = W;
@@ -47,7 +47,7 @@ ISO_INLINE void transpose_quarters(const __m512* in, __m512* out) {
   out[2] = _mm512_shuffle_ps(b, d, 0x44);
   out[3] = _mm512_shuffle_ps(b, d, 0xee);
 }
-/// The index is a constant once loops are unrolled, but not to the compiler's checks of an immediate.
+/// `index` is a constant once loops are unrolled, but the compiler's check of an immediate does not see that.
 ISO_INLINE __m128 quarter(__m512 a, int index) {
   if (index == 0) return _mm512_castps512_ps128(a);
   if (index == 1) return _mm512_extractf32x4_ps(a, 1);
@@ -209,7 +209,7 @@ template <> struct Registers<std::int64_t, isa::Avx512> : detail::Avx512Masks<8>
 
   static ISO_INLINE Type multiply_low_words(Type a, Type b) { return _mm512_mul_epu32(a, b); }
   static ISO_INLINE Type multiply_low(Type a, Type b) { return multiply(a, b); }
-  /// An integer next to n / a, for a and it in [0, 2^52).
+  /// Returns an integer next to n / a, for a and it in [0, 2^52).
   static ISO_INLINE Type quotient_near(double n, Type a) {
     return _mm512_cvtpd_epi64(_mm512_div_pd(_mm512_set1_pd(n), _mm512_cvtepi64_pd(a)));
   }

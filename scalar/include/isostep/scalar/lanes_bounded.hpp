@@ -8,7 +8,7 @@
 namespace isostep {
 
 namespace detail {
-/// The plain version keeps its sums one by one.
+/// A sum of the plain version, which keeps its sums one by one.
 template <class SumL>
 concept PlainSum = requires(SumL sum) {
   sum.v[0];
@@ -20,8 +20,8 @@ requires PlainSum<LaneSum<SumS, W, Isa>> ISO_INLINE Out bounded_sum(LaneSum<SumS
   ISO_UNROLL for (int i = 0; i < W; ++i) sum.v[i] = clamp(sum.v[i], -limit, limit);
   return round_to<Out>(sum);
 }
-/// Registers cannot compare sums, but can compare what is left of them in a format of one fraction bit, which has room
-/// for every sum. Within the bound the rounded number has room too, and rounding keeps order: it is clamped afterwards.
+/// Registers cannot compare sums, but can compare them rounded to a format of one fraction bit, which has room for
+/// every sum. Within the bound the rounded number has room too, and rounding keeps order, so it is clamped afterwards.
 template <class Out, class SumS, int W, class Isa>
 requires(!PlainSum<LaneSum<SumS, W, Isa>>) ISO_INLINE Out
     bounded_sum(LaneSum<SumS, W, Isa> sum, typename Out::Scalar most) {
@@ -51,7 +51,7 @@ template <class Out, class SumS, int W, class Isa> ISO_INLINE Out round_saturate
   return detail::bounded_sum<Out>(sum, detail::highest_whole<typename Out::Scalar>());
 }
 template <class Out, class S, int W, class Isa> ISO_INLINE Out round_saturated(Lanes<S, W, Isa> sum) { return sum; }
-/// These are with_headroom() and round_with_headroom(), lane by lane.
+/// with_headroom() and round_with_headroom(), lane by lane.
 template <class S, int W, class Isa> ISO_INLINE Lanes<S, W, Isa> with_headroom(Lanes<S, W, Isa> x) {
   if constexpr (kIsFixed<S>) {
     const auto half = Lanes<S, W, Isa>::broadcast(detail::half_of_range<S>());

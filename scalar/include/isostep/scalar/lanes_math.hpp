@@ -18,7 +18,7 @@ ISO_INLINE int first_bit(std::uint64_t bits) {
 #endif
 }
 
-/// Square roots. Fixed point takes them one by one.
+/// Computes square roots. Fixed point takes them one by one.
 template <class S, int W, class Isa> ISO_INLINE Lanes<S, W, Isa> root(Lanes<S, W, Isa> a) {
   if constexpr (kIsFixed<S>) {
     alignas(kLaneAlignment<S, W>) S x[W];
@@ -56,7 +56,7 @@ ISO_INLINE void normalise4(Lanes<U, W, Isa>& x, Lanes<U, W, Isa>& y, Lanes<U, W,
   }
 }
 
-/// a / b where the mask says so, zero elsewhere. Fixed point divides those lanes alone, for its divisions are dear.
+/// Returns a / b where the mask says so, zero elsewhere. Fixed point divides only those lanes: its divisions are dear.
 template <class Out, class Mask, class A, class B, int W, class Isa>
 ISO_INLINE Out quotient_where(Mask mask, Lanes<A, W, Isa> a, Lanes<B, W, Isa> b) {
   if constexpr (kIsFixed<A>) {
@@ -105,7 +105,7 @@ ISO_INLINE typename Lanes<S, W, Isa>::Mask is_longer(Lanes<S, W, Isa> x, Lanes<S
   }
 }
 
-/// direction_of the vectors that the mask names, of the others anything. Fixed point takes them one by one.
+/// Computes direction_of the vectors that the mask names; the others get any value. Fixed point takes them one by one.
 template <class Mask, class S, int W, class Isa>
 ISO_INLINE Direction<Lanes<S, W, Isa>> direction_where(Mask mask, Lanes<S, W, Isa> x, Lanes<S, W, Isa> y,
                                                        Lanes<S, W, Isa> z) {
@@ -144,7 +144,7 @@ ISO_INLINE Direction<Lanes<S, W, Isa>> direction_where(Mask mask, Lanes<S, W, Is
             select(none, zero, length * down)};
   }
 }
-/// Their lengths alone: the same bits, and less work while no square leaves the range.
+/// Computes their lengths alone: the same bits, with less work while no square leaves the range.
 template <class Mask, class S, int W, class Isa>
 ISO_INLINE Lanes<S, W, Isa> length_where(Mask mask, Lanes<S, W, Isa> x, Lanes<S, W, Isa> y, Lanes<S, W, Isa> z) {
   if constexpr (kIsFixed<S>) {

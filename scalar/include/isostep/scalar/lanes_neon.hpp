@@ -17,7 +17,7 @@ struct Neon {};
 }  // namespace isa
 
 namespace detail {
-/// All ones or all zeros in each of W lanes.
+/// Masks of W lanes, each lane all ones or all zeros.
 template <int W> struct NeonMasks;
 template <> struct NeonMasks<4> {
   using Mask = uint32x4_t;
@@ -193,13 +193,13 @@ template <> struct Registers<std::int64_t, isa::Neon> : detail::NeonMasks<2> {
     const Type cross = add(multiply_low_words(shift_in_zeros<32>(a), b), multiply_low_words(a, shift_in_zeros<32>(b)));
     return add(multiply_low_words(a, b), shift_left<32>(cross));
   }
-  /// An integer next to n / a, for a in [0, 2^52) and it in [0, 2^63).
+  /// Returns an integer next to n / a, for a in [0, 2^52) and it in [0, 2^63).
   static ISO_INLINE Type quotient_near(double n, Type a) {
     return vcvtq_s64_f64(vdivq_f64(vdupq_n_f64(n), vcvtq_f64_s64(a)));
   }
   static ISO_INLINE Type low_word(Type a) { return vandq_s64(a, vdupq_n_s64(0xffffffff)); }
   static ISO_INLINE Type flip(Type a, std::uint64_t mask) { return number(veorq_u64(bits(a), vdupq_n_u64(mask))); }
-  /// b where a is negative, else zero.
+  /// Returns b where a is negative, else zero.
   static ISO_INLINE Type where_negative(Type a, Type b) { return vandq_s64(vshrq_n_s64(a, 63), b); }
   template <int N> static ISO_INLINE Type shift_left(Type a) {
     if constexpr (N < 64) return vshlq_n_s64(a, N);

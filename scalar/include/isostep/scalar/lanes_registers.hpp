@@ -8,14 +8,14 @@
 namespace isostep {
 
 /// The registers of Isa that hold lanes of Key (detail::LaneKey): `Type`, `kWidth`, a mask's type `Mask`, and the
-/// instructions under one name each, as lanes_avx2.hpp lists them. Exists where an instruction set has something better
-/// than the plain version. Of 32-bit and 64-bit integers a set has both or neither.
+/// instructions under one name each, as lanes_avx2.hpp lists them. It exists where an instruction set has something
+/// better than the plain version. A set has both 32-bit and 64-bit integers, or neither.
 template <class Key, class Isa> struct Registers;
 
-/// Scalars S that a register of Isa holds.
+/// The number of scalars S that a register of Isa holds.
 template <class S, class Isa> inline constexpr int kRegisterLanes = Registers<detail::LaneKey<S>, Isa>::kWidth;
 
-/// W scalars S fill a register of Isa.
+/// True if W scalars S fill a register of Isa.
 template <class S, int W, class Isa>
 concept InRegister = Registers<detail::LaneKey<S>, Isa>::kWidth == W;
 
@@ -94,7 +94,7 @@ struct Lanes<S, W, Isa> {
   }
 };
 
-/// Exact sums as 64-bit integers, of the even and of the odd lanes.
+/// Exact sums as 64-bit integers: those of the even lanes, and those of the odd lanes.
 template <int F, int W, class Isa>
 requires InRegister<std::int32_t, W, Isa>
 struct LaneSum<FixedSum<std::int32_t, F>, W, Isa> {
@@ -113,8 +113,8 @@ struct LaneSum<FixedSum<std::int32_t, F>, W, Isa> {
     return {R64::template shift_left<shift>(R::multiply_even(a.v, one)),
             R64::template shift_left<shift>(R::multiply_even(R::odd_to_even(a.v), one))};
   }
-  /// Takes of every 64-bit sum the 32 bits from bit `shift` on, in the even lanes moved down and in the odd ones up. A
-  /// shift beyond 32 must bring in the sign: it shifts the upper words alone.
+  /// Takes 32 bits of every 64-bit sum, from bit `shift` on: of the even lanes moved down, of the odd ones up. A shift
+  /// beyond 32 must bring in the sign, so it shifts the upper words alone.
   template <class Out> ISO_INLINE Lanes<Out, W, Isa> round() const {
     constexpr int shift = F - Out::kFracBits;
     if constexpr (shift <= 0) {
@@ -143,8 +143,8 @@ struct LaneSum<FixedSum<std::int32_t, F>, W, Isa> {
   friend ISO_INLINE LaneSum operator-(LaneSum a) { return zero() - a; }
 };
 
-/// Exact sums X of 64-bit products, twice: `far` modulo 2^128 and `near` modulo 2^96, which is all that a rounding by
-/// up to 32 bits reads and takes half the work. What is not read the compiler removes.
+/// Exact sums X of 64-bit products, twice: `distant` modulo 2^128, and `nearby` modulo 2^96, which is all that a
+/// rounding by up to 32 bits reads, at half the work. The compiler removes what is not read.
 template <int F, int W, class Isa>
 requires InRegister<std::int64_t, W, Isa>
 struct LaneSum<FixedSum<std::int64_t, F>, W, Isa> {

@@ -16,7 +16,7 @@ namespace isa {
 struct Sse2 {};
 }  // namespace isa
 
-/// All ones or all zeros in each lane, as every mask before AVX-512.
+/// Masks are all ones or all zeros in each lane, as everywhere before AVX-512.
 template <> struct Registers<float, isa::Sse2> {
   using Type = __m128;
   using Mask = __m128;

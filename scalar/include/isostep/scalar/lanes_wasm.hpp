@@ -17,7 +17,7 @@ struct WasmSimd {};
 }  // namespace isa
 
 namespace detail {
-/// All ones or all zeros in each of W lanes.
+/// Masks of W lanes, each lane all ones or all zeros.
 template <int W> struct WasmMasks {
   using Mask = v128_t;
   static constexpr int kWidth = W;
@@ -177,7 +177,7 @@ template <> struct Registers<std::int64_t, isa::WasmSimd> : detail::WasmMasks<2>
     return wasm_u64x2_extmul_low_u32x4(wasm_i32x4_shuffle(a, a, 0, 2, 0, 2), wasm_i32x4_shuffle(b, b, 0, 2, 0, 2));
   }
   static ISO_INLINE Type multiply_low(Type a, Type b) { return wasm_i64x2_mul(a, b); }
-  /// An integer next to n / a, for a and it in [0, 2^52): to and from doubles by the mantissa of 2^52 plus the number.
+  /// Returns an integer next to n / a, for a and it in [0, 2^52), by doubles whose mantissa is 2^52 plus the number.
   static ISO_INLINE Type quotient_near(double n, Type a) {
     const v128_t shift = wasm_f64x2_splat(0x1p52);
     const v128_t divisor = wasm_f64x2_sub(wasm_v128_or(a, shift), shift);
@@ -187,7 +187,7 @@ template <> struct Registers<std::int64_t, isa::WasmSimd> : detail::WasmMasks<2>
   static ISO_INLINE Type flip(Type a, std::uint64_t mask) {
     return wasm_v128_xor(a, wasm_i64x2_splat(static_cast<std::int64_t>(mask)));
   }
-  /// b where a is negative, else zero.
+  /// Returns b where a is negative, else zero.
   static ISO_INLINE Type where_negative(Type a, Type b) { return wasm_v128_and(wasm_i64x2_shr(a, 63), b); }
   // Instructions take the shift modulo 64.
   template <int N> static ISO_INLINE Type shift_left(Type a) {

@@ -95,7 +95,7 @@ template <class R> struct FlippedSum {
     const Type z = R::broadcast(0);
     return {R::low_word(low), z, R::template shift_in_zeros<32>(low), high, z};
   }
-  /// One product is not negative below bit 64: it rounds without a carry of its own.
+  /// A single product is not negative below bit 64, so it rounds without a carry of its own.
   template <int shift> static ISO_INLINE Type round_product(Type a, Type b) {
     const FlippedSum p = of_product(a, b);
     const Type half = R::broadcast(std::int64_t{1} << (shift - 1));

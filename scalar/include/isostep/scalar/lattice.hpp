@@ -9,8 +9,8 @@
 
 namespace isostep {
 
-/// An n with |a| < 2^n: the least, but for zero and subnormal numbers, which get that of the least normal one.
-/// a must be finite.
+/// Returns the least n with |a| < 2^n, but for zero and subnormal numbers, which get that of the least normal one. a
+/// must be finite.
 template <class S> ISO_INLINE constexpr int exponent_above(S a) {
   if constexpr (kIsFixed<S>) return static_cast<int>(std::bit_width(detail::magnitude(a.raw()))) - S::kFracBits;
   if constexpr (std::same_as<S, float>) {
@@ -46,8 +46,8 @@ template <class S> ISO_INLINE constexpr std::int64_t floor_scaled(S a, int expon
 template <class S> ISO_INLINE constexpr std::int64_t nearest_scaled(S a, int exponent) {
   return (floor_scaled(a, exponent + 1) + 1) >> 1;
 }
-/// The largest exponent up to `finest` at which magnitudes up to `most` are below `limit` steps of 2^-exponent; -1
-/// where they are not at 0.
+/// Returns the largest exponent up to `finest` at which magnitudes up to `most` are below `limit` steps of 2^-exponent;
+/// -1 if they are not at 0.
 template <class S> ISO_INLINE constexpr int finest_lattice(S most, std::int64_t limit, int finest) {
   int exponent = finest;
   while (exponent >= 0 && floor_scaled(most, exponent) + 1 >= limit) --exponent;

@@ -10,15 +10,15 @@ namespace isostep {
 
 template <class U> struct LatticeDirection { U x, y, z; };
 
-/// The direction of unit length, rounded once, by way of the finest unit format; of floating scalars too. A vector of
-/// zeros has none. Components are below 2^51.
+/// Returns the direction, of unit length, rounded once by way of the finest unit format, also for floating scalars. A
+/// vector of zeros has none. Components are below 2^51.
 template <class U>
 ISO_INLINE LatticeDirection<U> exact_lattice_direction(std::int64_t x, std::int64_t y, std::int64_t z) {
   const auto d = direction_of(Q32_32::from_raw(x), Q32_32::from_raw(y), Q32_32::from_raw(z));
   constexpr int kBits = decltype(d.x)::kFracBits;
   return {from_lattice<U>(d.x.raw(), kBits), from_lattice<U>(d.y.raw(), kBits), from_lattice<U>(d.z.raw(), kBits)};
 }
-/// The direction to the last digits of U, by the shortest way: for what is found in every step.
+/// Returns the direction to the last digits of U, by the shortest way: for what every step computes.
 template <class U> ISO_INLINE LatticeDirection<U> lattice_direction(std::int64_t x, std::int64_t y, std::int64_t z) {
   if constexpr (kIsFixed<U>) {
     return exact_lattice_direction<U>(x, y, z);

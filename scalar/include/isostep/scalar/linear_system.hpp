@@ -11,10 +11,10 @@
 
 namespace isostep {
 
-/// A system is scaled on both sides by powers of two until no entry of it exceeds one. Its entries are Number, and so
-/// are those of its Cholesky factor, which are no larger. Right-hand side and solution share an exponent each.
+/// A system is scaled on both sides by powers of two until no entry of it exceeds one. Its entries are Numbers, and so
+/// are those of its Cholesky factor, which are no larger. Right-hand side and solution have an exponent each.
 ///   Number    an entry: Q2.62 for every fixed-point format, Exact<double> for float and double
-///   Value     a quantity of any size, for what has to be known before an exponent is
+///   Value     a quantity of any size, for what must be known before an exponent is chosen
 /// Wider than S on purpose: a stiff system of condition 2^17 would leave seven bits of a float, none of a Q16.16.
 /// Floating point carries exponents of its own, so every exponent here is 0.
 template <class S> struct LinearSystem;
@@ -67,7 +67,7 @@ template <class Rep, int F, Overflow P> struct LinearSystem<Fixed<Rep, F, P>> {
     const std::uint64_t less = distance < 63 ? b.mantissa >> (distance + 1) : 0;
     return detail::normalised(Value{(a.mantissa >> 1) + less, a.exponent + 1, false});
   }
-  /// The least e for which |x| < 2^e; of zero a very low one.
+  /// Returns the least e for which |x| < 2^e; for zero a very low one.
   static ISO_INLINE int exponent(Value x) { return x.mantissa == 0 ? kLowest : x.exponent + 64; }
   /// x 2^-exponent to nearest, for |x| < 2^(exponent + 1).
   static ISO_INLINE Number number(Value x, int exponent) {
@@ -75,7 +75,7 @@ template <class Rep, int F, Overflow P> struct LinearSystem<Fixed<Rep, F, P>> {
     const auto size = static_cast<std::int64_t>(detail::magnitude_in_units(scaled, Number::kFracBits) & kMagnitude);
     return Number::from_raw(x.negative ? -size : size);
   }
-  /// v + x, rounded once; beyond the format its end.
+  /// Returns v + x, rounded once; beyond the format, the format's end.
   template <int G> static ISO_INLINE Fixed<Rep, G, P> add(Fixed<Rep, G, P> v, Value x) {
     constexpr Int128 lowest = std::int64_t{Fixed<Rep, G, P>::lowest().raw()};
     constexpr Int128 highest = std::int64_t{Fixed<Rep, G, P>::highest().raw()};

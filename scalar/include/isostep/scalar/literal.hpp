@@ -16,7 +16,7 @@ struct Literal {
   template <std::integral I> consteval Literal(I v) : value(static_cast<double>(v)) {}
 };
 
-/// Shapes name their numbers' types by their scalar: of literals all are.
+/// Shapes name the types of their numbers by their scalar; with literals all of them are Literal.
 template <> struct ScalarTraits<Literal> { using Unit = Literal; };
 
 template <class S> ISO_INLINE constexpr S from_literal(Literal literal) { return from_double<S>(literal.value); }

@@ -77,7 +77,7 @@ template <class Rep, int F, Overflow P> ISO_INLINE constexpr Fixed<Rep, F, P> rs
 
 // ---- directions
 
-/// A vector as its direction and its length. The zero vector is all zero.
+/// The direction and the length of a vector. For the zero vector all are zero.
 template <class S> struct Direction {
   Unit<S> x, y, z;  // [1]
   S length;         // in the vector's unit
@@ -222,7 +222,7 @@ template <std::floating_point U> ISO_INLINE void normalise4(U& x, U& y, U& z, U&
 
 template <class S> struct SinCos { S sin, cos; };
 
-/// Any argument, however large. float, double: not finite gives NaN.
+/// Takes any argument, however large. float, double: not finite gives NaN.
 float sin(float x);
 double sin(double x);
 template <class Rep, int F, Overflow P> Fixed<Rep, F, P> sin(Fixed<Rep, F, P> x);
@@ -230,7 +230,7 @@ float cos(float x);
 double cos(double x);
 template <class Rep, int F, Overflow P> Fixed<Rep, F, P> cos(Fixed<Rep, F, P> x);
 
-/// Both from one reduction. The `_to` form chooses the result's format: a quaternion from an angle is
+/// Computes both from one reduction. The `_to` form chooses the result's format: a quaternion from an angle is
 /// sin_cos_to<Unit<S>>(angle), not a rounding to S and a widening.
 SinCos<float> sin_cos(float x);
 SinCos<double> sin_cos(double x);
@@ -291,7 +291,7 @@ template <class Out, std::floating_point S> ISO_INLINE Out power_to(S base, S ex
   return power(base, exponent);
 }
 
-/// The formats that the library holds; for a format of your own include math.inl as well.
+/// The functions in the formats that the library holds; for a format of your own include math.inl as well.
 #define ISO_SCALAR_MATH_OF(KEYWORD, S)         \
   KEYWORD template S sin(S);                   \
   KEYWORD template S cos(S);                   \
@@ -301,7 +301,7 @@ template <class Out, std::floating_point S> ISO_INLINE Out power_to(S base, S ex
   KEYWORD template S acos(S);                  \
   KEYWORD template S exp_to<S>(S);             \
   KEYWORD template S log_to<S>(S);
-/// These lead from one format to another.
+/// The functions that lead from one format to another.
 #define ISO_SCALAR_MATH_BETWEEN(KEYWORD, S)                \
   KEYWORD template SinCos<Unit<S>> sin_cos_to<Unit<S>>(S); \
   KEYWORD template S atan2_to<S>(Unit<S>, Unit<S>);        \

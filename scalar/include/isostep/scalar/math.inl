@@ -50,7 +50,7 @@ ISO_INLINE constexpr std::uint64_t quarter_wave(unsigned row, std::uint64_t t) {
   return sum;
 }
 
-/// The sine of `turns` quarter turns after `quadrant` more, folded at an eighth of a turn.
+/// Returns the sine of `turns` plus `more` quarter turns, folded at an eighth of a turn.
 ISO_INLINE constexpr Soft sine(QuarterTurns turns, unsigned more, bool negative) {
   const unsigned quadrant = turns.quadrant + more;
   const bool fold = (turns.fraction.high >> 63) != 0;
@@ -81,7 +81,7 @@ template <class Out> ISO_INLINE constexpr Out sine_fixed(QuarterTurns turns, uns
   return Out::from_raw(below ? static_cast<typename Out::Raw>(-raw) : raw);
 }
 
-/// |x| is below 2^-27, where sin(x) = x and cos(x) = 1 to within a tenth of an ulp of double.
+/// Returns true if |x| is below 2^-27, where sin(x) = x and cos(x) = 1 to within a tenth of an ulp of double.
 template <class S> ISO_INLINE constexpr bool is_tiny(S x) {
   constexpr int field = FloatFormat<S>::kBias - 27;
   return (to_bits(x) << 1 >> 1) < (static_cast<RawBits<S>>(field) << FloatFormat<S>::kMantissa);
@@ -142,7 +142,7 @@ ISO_INLINE constexpr Soft atan_of_ratio(std::uint64_t a, std::uint64_t b, int ga
   return {kAtan64ths[i] + ((atan_r ^ sign) - sign), octave - 69, false};
 }
 
-/// The angle of (x, y) from the x axis, in [-pi, pi], with the sign of y.
+/// Returns the angle of (x, y) from the x axis, in [-pi, pi], with the sign of y.
 ISO_INLINE constexpr Soft soft_atan2(Soft y, Soft x) {
   if (y.mantissa == 0) return x.negative ? Soft{kPiQ62, -62, y.negative} : Soft{0, 0, y.negative};
   if (x.mantissa == 0) return {kHalfPiQ62, -62, y.negative};

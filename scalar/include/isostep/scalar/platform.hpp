@@ -39,9 +39,9 @@
 static_assert(sizeof(1.0) == sizeof(double), "isostep: compile without -fsingle-precision-constant");
 
 /// A function that touches a scalar must never leave a weak copy of itself in a user's object: that copy may have been
-/// compiled with -mfma and the linker may keep it for the whole program. Always inlining leaves nothing to keep.
-/// ISOSTEP_OUR_FLAGS: this file is compiled with our flags, as the library is, and for no instruction set that another
-/// lacks: its copies are as good as any. Then the compiler chooses, which is sooner and smaller.
+/// compiled with -mfma, and the linker may keep it for the whole program. Always inlining leaves nothing to keep. With
+/// ISOSTEP_OUR_FLAGS this file is compiled with our flags, as the library is, and for no instruction set that another
+/// lacks: its copies are as good as any. Then the compiler chooses, which builds sooner and smaller.
 #if defined(ISOSTEP_OUR_FLAGS)
 #define ISO_INLINE inline
 #define ISO_INLINE_LAMBDA
@@ -50,7 +50,7 @@ static_assert(sizeof(1.0) == sizeof(double), "isostep: compile without -fsingle-
 #define ISO_INLINE_LAMBDA
 #else
 #define ISO_INLINE inline __attribute__((always_inline))
-/// It marks a lambda in such a function, whose call operator is a function too: `[&](S x) ISO_INLINE_LAMBDA { ... }`.
+/// Marks a lambda in such a function, whose call operator is a function too: `[&](S x) ISO_INLINE_LAMBDA { ... }`.
 #define ISO_INLINE_LAMBDA __attribute__((always_inline))
 #endif
 
@@ -67,7 +67,7 @@ static_assert(sizeof(1.0) == sizeof(double), "isostep: compile without -fsingle-
 #define ISO_TRAP() __builtin_trap()
 #endif
 
-/// Caller's bug: checked in builds that define ISOSTEP_ASSERTS, free elsewhere.
+/// Checks for a caller's bug in builds that define ISOSTEP_ASSERTS; free elsewhere.
 #if defined(ISOSTEP_ASSERTS)
 #define ISO_ASSERT(condition) ((condition) ? void(0) : ISO_TRAP())
 #else

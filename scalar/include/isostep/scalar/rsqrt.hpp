@@ -18,7 +18,7 @@ ISO_INLINE constexpr UInt128Parts add(UInt128Parts a, UInt128Parts b) {
 ISO_INLINE constexpr UInt128Parts subtract(UInt128Parts a, UInt128Parts b) {
   return {a.high - b.high - (a.low < b.low ? 1u : 0u), a.low - b.low};
 }
-/// 0 <= n < 128.
+/// Shifts by n, for 0 <= n < 128.
 ISO_INLINE constexpr UInt128Parts shift_left(UInt128Parts a, int n) {
   if (n >= 64) return {a.low << (n - 64), 0};
   return {(a.high << n) | ((a.low >> 1) >> (63 - n)), a.low << n};

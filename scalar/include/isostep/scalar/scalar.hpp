@@ -101,9 +101,9 @@ concept Scalar = requires(S a, Unit<S> u, Step<S> h) {
 };
 
 namespace detail {
-/// A comparison that the compiler cannot see behind. clang before 17 makes IEEE 754's maximum of `x < 0 ? 0 : x`, for
-/// which +0 is above -0, where the target has one (64-bit Arm, WebAssembly) and one side is known to be no NaN. What
-/// x86 has decides as the comparison does.
+/// A comparison that the compiler cannot see behind. clang before 17 turns `x < 0 ? 0 : x` into IEEE 754's maximum, for
+/// which +0 is above -0, where the target has one (64-bit Arm, WebAssembly) and one side is known to be no NaN. The
+/// maximum of x86 decides as the comparison does.
 template <class S> ISO_INLINE constexpr bool decided(bool less) {
 #if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
   if constexpr (std::floating_point<S>) {
@@ -120,10 +120,10 @@ template <class S> ISO_INLINE constexpr S min(S a, S b) { return detail::decided
 template <class S> ISO_INLINE constexpr S max(S a, S b) { return detail::decided<S>(a < b) ? b : a; }
 template <class S> ISO_INLINE constexpr S clamp(S x, S low, S high) { return min(max(x, low), high); }
 template <class S> ISO_INLINE constexpr S abs(S a) { return a < S(0) ? -a : a; }
-/// Gives the bits of the generic one (-0.0 and NaN keep their signs) as a maximum, which compilers turn into no branch.
+/// Gives the bits of the generic one (-0.0 and NaN keep their signs), as a maximum that compiles to no branch.
 template <std::floating_point S> ISO_INLINE constexpr S abs(S a) { return a < -a ? -a : a; }
 
-/// a in the format of Out: exact when Out is finer and has room, else rounded to nearest.
+/// Converts a to the format of Out: exact if Out is finer and has room, else rounded to nearest.
 template <class Out, class S> ISO_INLINE constexpr Out convert(S a) {
   if constexpr (std::same_as<Out, S>) {
     return a;
@@ -132,7 +132,7 @@ template <class Out, class S> ISO_INLINE constexpr Out convert(S a) {
   }
 }
 
-/// An exact sum as an Out: round_to, but what lies beyond the format ends at its end. float and double go to infinity.
+/// Converts an exact sum by round_to, but what lies beyond the format becomes its end; float and double go to infinity.
 template <class Out, class Total> ISO_INLINE constexpr Out saturate_to(Total sum) {
   if constexpr (kIsFixed<Out>) {
     const Total most = widen<Total>(Out::highest());
@@ -141,7 +141,7 @@ template <class Out, class Total> ISO_INLINE constexpr Out saturate_to(Total sum
     return sum;
   }
 }
-/// a + b, held at the ends of a fixed-point format instead of wrapping.
+/// Returns a + b, held at the ends of a fixed-point format instead of wrapping.
 template <class S> ISO_INLINE constexpr S saturating_add(S a, S b) {
   if constexpr (kIsFixed<S>) {
     using Unsigned = RawBits<S>;
@@ -152,7 +152,7 @@ template <class S> ISO_INLINE constexpr S saturating_add(S a, S b) {
     return a + b;
   }
 }
-/// a - b in the same way, for any b: the lowest number has no negative.
+/// Returns a - b in the same way, for any b: the lowest number has no negative.
 template <class S> ISO_INLINE constexpr S saturating_subtract(S a, S b) {
   if constexpr (kIsFixed<S>) {
     using Unsigned = RawBits<S>;
@@ -164,7 +164,7 @@ template <class S> ISO_INLINE constexpr S saturating_subtract(S a, S b) {
   }
 }
 
-/// The bits of a, for hashes, files and exact comparison.
+/// Returns the bits of a, for hashes, files and exact comparison.
 template <class S> ISO_INLINE constexpr RawBits<S> to_bits(S a) {
   if constexpr (kIsFixed<S>) return static_cast<RawBits<S>>(a.raw());
   if constexpr (!kIsFixed<S>) return __builtin_bit_cast(RawBits<S>, a);
@@ -174,7 +174,7 @@ template <class S> ISO_INLINE constexpr S from_bits(RawBits<S> bits) {
   if constexpr (!kIsFixed<S>) return __builtin_bit_cast(S, bits);  // std::bit_cast would be a weak symbol at -O0
 }
 
-/// Neither NaN nor infinite; a fixed-point number always is. By bits, so that no compiler option changes it.
+/// Returns true if a is neither NaN nor infinite; fixed point always is. By bits, so no compiler option changes it.
 template <class S> ISO_INLINE constexpr bool is_finite(S a) {
   if constexpr (std::same_as<S, float>) return (to_bits(a) & 0x7f800000u) != 0x7f800000u;
   if constexpr (std::same_as<S, double>) return (to_bits(a) & 0x7ff0000000000000u) != 0x7ff0000000000000u;
@@ -182,7 +182,7 @@ template <class S> ISO_INLINE constexpr bool is_finite(S a) {
 }
 
 namespace detail {
-/// 2^exponent, for constants: as code, a frame's poses in Q32.32 took forty times as long to read.
+/// Returns 2^exponent, for constants: as code, it made reading a frame's poses in Q32.32 forty times slower.
 ISO_INLINE constexpr double power_of_two(int exponent) {
   double power = 1;
   for (int i = 0; i < exponent; ++i) power *= 2;
@@ -191,7 +191,7 @@ ISO_INLINE constexpr double power_of_two(int exponent) {
 }
 }  // namespace detail
 
-/// Converts for people, files of measurements and pictures: never fed back into a simulation.
+/// Converts for people, files of measurements and pictures. Never feed the result back into a simulation.
 template <class S> ISO_INLINE constexpr double to_double(S a) {
   if constexpr (kIsFixed<S>) {
     constexpr double unit = detail::power_of_two(-S::kFracBits);
@@ -200,8 +200,8 @@ template <class S> ISO_INLINE constexpr double to_double(S a) {
     return static_cast<double>(a);
   }
 }
-/// Nearest S to a run-time double, ties away from zero; outside the range the nearest end, NaN is 0. A door for tools
-/// and tests: two machines that computed different doubles get different simulations.
+/// Returns the S nearest to a run-time double, ties away from zero; outside the range the nearest end, 0 for a NaN. It
+/// is for tools and tests: two machines that computed different doubles get different simulations.
 template <class S> ISO_INLINE constexpr S from_double(double value) {
   if constexpr (kIsFixed<S>) {
     constexpr double units = detail::power_of_two(S::kFracBits), limit = S::kBits == 32 ? 0x1p31 : 0x1p63;
@@ -234,12 +234,12 @@ template <class S> ISO_INLINE constexpr S resolution() {
   }
 }
 
-/// The greatest distance of neighbouring numbers of this size; of sizes below one as of one.
+/// Returns the greatest distance of neighbouring numbers of this size; sizes below one count as one.
 template <class S> ISO_INLINE constexpr S spacing_at(S size) {
   if constexpr (kIsFixed<S>) return resolution<S>();
   if constexpr (!kIsFixed<S>) return resolution<S>() * max(size, S(1));
 }
-/// The error that one rounding of a number of this size may leave, of sizes below one too.
+/// Returns the error that one rounding of a number of this size may leave, also for sizes below one.
 template <class S> ISO_INLINE constexpr S rounding_at(S size) {
   if constexpr (kIsFixed<S>) return resolution<S>();
   if constexpr (!kIsFixed<S>) return resolution<S>() * size;

@@ -17,14 +17,14 @@ struct Soft {
   bool negative;
 };
 
-/// Mantissa's top bit at bit 63. Zero stays as it is.
+/// Moves the mantissa's top bit to bit 63. Zero stays as it is.
 ISO_INLINE constexpr Soft normalised(Soft a) {
   if (a.mantissa == 0) return a;
   const int zeros = leading_zeros(a.mantissa);
   return {a.mantissa << zeros, a.exponent - zeros, a.negative};
 }
 
-/// a as an integer count of 2^-bits, to nearest; what does not fit becomes the largest.
+/// Returns |a| as an integer count of 2^-bits, to nearest; what does not fit becomes the largest.
 ISO_INLINE constexpr std::uint64_t magnitude_in_units(Soft a, int bits) {
   const int left = a.exponent + bits;
   if (left <= 0) return shift_right_rounded(a.mantissa, -left);
@@ -36,7 +36,7 @@ template <class F> struct FloatFormat;
 template <> struct FloatFormat<float> { static constexpr int kMantissa = 23, kBias = 127, kTop = 255; };
 template <> struct FloatFormat<double> { static constexpr int kMantissa = 52, kBias = 1023, kTop = 2047; };
 
-/// Infinity becomes a number so large that its ratio to any finite one is as good as infinite.
+/// Converts a. Infinity becomes a number so large that its ratio to any finite one is as good as infinite.
 template <class S> ISO_INLINE constexpr Soft to_soft(S a) {
   if constexpr (kIsFixed<S>) {
     return {magnitude(a.raw()), -S::kFracBits, a.raw() < 0};
@@ -59,7 +59,7 @@ template <class S> ISO_INLINE constexpr bool is_nan(S a) {
   return !is_finite(a) && (to_bits(a) << (sizeof(S) * 8 - FloatFormat<S>::kMantissa)) != 0;
 }
 
-/// Nearest S, ties to even for float and double; outside the range infinity, or the format's end for fixed point.
+/// Returns the nearest S, ties to even for float and double; outside the range infinity, or a fixed-point format's end.
 template <class S> ISO_INLINE constexpr S from_soft(Soft a) {
   if constexpr (kIsFixed<S>) {
     constexpr auto highest = static_cast<std::uint64_t>(std::numeric_limits<typename S::Raw>::max());
@@ -88,7 +88,7 @@ template <class S> ISO_INLINE constexpr S from_soft(Soft a) {
   }
 }
 
-/// A Soft whose mantissa has 128 bits: what a function computes that is rounded only once, at the last bit of a format.
+/// A Soft whose mantissa has 128 bits, for results that are rounded only once, at the last bit of a format.
 struct WideSoft {
   UInt128Parts mantissa;
   int exponent;
@@ -99,8 +99,8 @@ ISO_INLINE constexpr WideSoft normalised(WideSoft a) {
   const int zeros = leading_zeros(a.mantissa);
   return {shift_left(a.mantissa, zeros), a.exponent - zeros, a.negative};
 }
-/// Rounds as from_soft does. Fixed point rounds on one bit, and a format's largest magnitude leaves it within the upper
-/// 64; float and double must also know whether anything stands below.
+/// Rounds as from_soft does. Fixed point rounds on one bit, which is within the upper 64 even for a format's largest
+/// magnitude. Float and double must also know if any bit below is set.
 template <class S> ISO_INLINE constexpr S from_wide(WideSoft a) {
   const WideSoft n = normalised(a);
   const std::uint64_t rest = !kIsFixed<S> && n.mantissa.low != 0 ? 1 : 0;

@@ -22,7 +22,7 @@ ISO_INLINE constexpr const char* describe(TextError error) {
 }
 
 namespace detail {
-/// The numbers of an IEEE format for reading and writing: bits of the significand with the hidden one, exponent of the
+/// The layout of an IEEE format, for reading and writing: bits of the significand with the hidden one, exponent of the
 /// smallest subnormal, exponent of the last place of the largest number.
 struct FloatLayout {
   int significand;
@@ -38,13 +38,13 @@ std::string text_of_fixed(std::uint64_t magnitude, bool negative, int frac_bits)
 std::string text_of_float(std::uint64_t bits, FloatLayout format);
 TextError read_fixed(std::string_view text, int bits, int frac_bits, std::int64_t& raw);
 TextError read_float(std::string_view text, FloatLayout format, std::uint64_t& bits);
-/// Writes to a stream, its width and fill obeyed; it is apart, so that this header needs no <ostream>.
+/// Writes to a stream and obeys its width and fill. It is apart, so that this header needs no <ostream>.
 void write_text(std::ostream& out, std::string_view text);
 }  // namespace detail
 
-/// The decimal of fewest digits that `from_text` reads back as `value`, bit for bit; of those the nearest. Always JSON,
-/// but for "inf", "-inf" and "nan", which `from_text` refuses. Fixed point is written without an exponent, float and
-/// double without one from 1e-6 up to 1e21.
+/// Returns the shortest decimal that `from_text` reads back as `value`, bit for bit; of equal ones the nearest. It is
+/// JSON, except "inf", "-inf" and "nan", which `from_text` refuses. Fixed point has no exponent; float and double have
+/// none from 1e-6 up to 1e21.
 template <class S> ISO_INLINE std::string to_text(S value) {
   if constexpr (kIsFixed<S>) {
     return detail::text_of_fixed(detail::magnitude(value.raw()), value.raw() < 0, S::kFracBits);
@@ -53,7 +53,7 @@ template <class S> ISO_INLINE std::string to_text(S value) {
   }
 }
 
-/// The scalar nearest to a JSON number: any count of digits, any exponent, one rounding of the exact decimal.
+/// Reads the scalar nearest to a JSON number: any count of digits, any exponent, one rounding of the exact decimal.
 /// Ties: fixed point away from zero, as literals; float and double to even, as IEEE 754. What lies below half the
 /// smallest number is zero, no error. On an error `out` keeps its value.
 template <class S> ISO_INLINE bool from_text(std::string_view text, S& out, TextError& error) {

@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// The full 128-bit product of two unsigned 64-bit integers, by four 32-bit partial products.
+/// A 128-bit product of unsigned 64-bit integers. multiply_portable() makes it of four 32-bit partial products.
 struct UInt128Parts {
   std::uint64_t high;
   std::uint64_t low;
@@ -81,7 +81,7 @@ class PortableInt128 {
   std::uint64_t low_;
 };
 
-/// floor(numerator / divisor) and the remainder, for numerator.high < divisor: bit by bit, so slow and obviously right.
+/// A quotient and remainder. divide_portable(), for numerator.high < divisor, works bit by bit: slow, obviously right.
 struct Division {
   std::uint64_t quotient;
   std::uint64_t remainder;
@@ -139,7 +139,7 @@ ISO_INLINE constexpr UInt128Parts parts(Int128 value) { return {value.high(), va
 ISO_INLINE constexpr Int128 int128_from(UInt128Parts value) { return {value.high, value.low}; }
 #endif
 
-/// Sums modulo 2^64 and 2^128: a built-in signed sum that overflows has no meaning at all.
+/// Sums modulo 2^64 and 2^128: a built-in signed sum that overflows is undefined.
 ISO_INLINE constexpr std::int64_t wrapping_add(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }
