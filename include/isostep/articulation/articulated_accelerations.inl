@@ -6,7 +6,7 @@
 
 namespace isostep::detail {
 
-/// A force less some products, held.
+/// Returns a less b . c and d . e, held.
 template <class S> S less_dots(S a, Vec3<S> b, Vec3<S> c, Vec3<S> d, Vec3<S> e) {
   return round_with_headroom<S>(widen<Sum<S>>(a) - dot_sum(b, c) - dot_sum(d, e));
 }

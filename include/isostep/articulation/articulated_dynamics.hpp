@@ -69,17 +69,17 @@ template <class S> class ArticulatedDynamics {
 
   /// Prepares a step: drives and loads.
   void prepare(const ArticulatedTree<S>& tree, const ArticulationState<S>& state);
-  /// Begins a sub-step, after `place`: joints are measured, and no stop holds.
+  /// Begins a sub-step, after `place`: measures joints, releases all stops.
   void begin(const ArticulatedTree<S>& tree, const ArticulationState<S>& state);
   /// Finds inertias under the laws and stops of joints.
   void factor(const ArticulatedTree<S>& tree);
   /// Finds accelerations, after `spin`.
   void accelerate(const ArticulatedTree<S>& tree, const std::vector<S>& speeds);
-  /// Stops or drives changed: then `factor` has to come again.
+  /// Chooses stops and drives anew. Returns true if any changed: `factor` has to follow.
   bool choose(const ArticulatedTree<S>& tree, bool may_release);
-  /// Computes to = from + share h acceleration. False: a joint would be faster than any may, and was held.
+  /// Computes to = from + share h acceleration. Returns false if a joint would be too fast, and was held.
   bool quicken(const ArticulatedTree<S>& tree, const std::vector<S>& from, S share, std::vector<S>& to) const;
-  /// Brings speeds of hinges and sliders that limits do not allow to what they do.
+  /// Holds the speeds of hinges and sliders to what limits allow.
   void hold_limits(const ArticulatedTree<S>& tree, std::vector<S>& speeds) const;
 
  private:

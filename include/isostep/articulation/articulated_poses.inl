@@ -42,7 +42,7 @@ void ArticulatedDynamics<S>::place(const ArticulatedTree<S>& tree, const Articul
   for (std::size_t i = 0; i < tree.links.size(); ++i) place_link(tree, state, i);
 }
 
-/// Computes spins. Returns the share of all speeds at which every one keeps its limit, at most 1.
+/// Computes spins. Returns the share of all speeds at which every spin keeps its limit, at most 1.
 template <class S> S ArticulatedDynamics<S>::spin_links(const ArticulatedTree<S>& tree, const std::vector<S>& speeds) {
   S share = S(1);
   fastest_ = S(0);

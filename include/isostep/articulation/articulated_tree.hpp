@@ -55,7 +55,7 @@ template <class S> struct ArticulatedTree {
   S coefficient(S x, ArticulationJoint type, int times) const;
 };
 
-/// The unit of a joint's coordinates: the power of the unit of length in its inertia.
+/// Returns the power of the unit of length in the inertia of a joint's coordinates.
 ISO_INLINE constexpr int lengths_of(ArticulationJoint type) { return type == ArticulationJoint::slider ? 0 : 2; }
 ISO_INLINE constexpr bool is_scalar(ArticulationJoint type) {
   return type == ArticulationJoint::hinge || type == ArticulationJoint::slider;
@@ -64,13 +64,13 @@ ISO_INLINE constexpr bool has_rotation(ArticulationJoint type) {
   return type == ArticulationJoint::ball || type == ArticulationJoint::free;
 }
 
-/// The quaternion has length 1, as poses of shapes have.
+/// Returns true if the quaternion has length 1, as poses of shapes have.
 template <class S> ISO_INLINE bool is_rotation(const Quat<Unit<S>>& q) {
   const Pose<S> pose = {Vec3<S>::zero(), q};
   return validate(pose) == ShapeFault::none;
 }
 
-/// The tree, or what is wrong with the definition, by field: "links[3].mass.mass".
+/// Makes the tree, or returns the wrong field of the definition: "links[3].mass.mass".
 template <class S>
 Result<std::shared_ptr<const ArticulatedTree<S>>> make_tree(const ArticulationDefinition<S>& definition);
 /// Checks one drive of a link of that type; `place` is empty.

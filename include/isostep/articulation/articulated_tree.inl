@@ -10,11 +10,11 @@
 
 namespace isostep::detail {
 
-/// The first field that is not as it must be; `ok` while there is none.
+/// Finds the first field that is not as it must be; `ok` if there is none.
 class DefinitionCheck {
  public:
   void link(std::uint32_t index) { link_ = index; }
-  /// Keeps the error unless it holds. Returns whether all was well so far.
+  /// Keeps the error unless `holds`. Returns true if all was well so far.
   bool ask(bool holds, const char* field, const char* expected, ErrorCode code = ErrorCode::invalid) {
     if (holds || !ok_) return ok_;
     also({code, expected, field});
@@ -152,7 +152,7 @@ Result<void> check_drive(const ArticulatedTree<S>& tree, std::uint32_t link, con
   return checks.result();
 }
 
-/// [m] The greatest distance of a mass from the anchors of the links before it.
+/// [m] Returns the greatest distance of a mass from the anchors of the links before it.
 template <class S> S reach_of(const ArticulationDefinition<S>& d) {
   std::vector<S> ways(d.links.size());
   S reach = S(0);
@@ -229,7 +229,7 @@ template <class S> PreparedLink<S> prepared(const ArticulatedTree<S>& tree, cons
   return p;
 }
 
-/// The next link, with its places among the state's numbers.
+/// Adds the next link, with its places among the state's numbers.
 template <class S> void add_link(ArticulatedTree<S>& tree, std::uint32_t index, DefinitionCheck& checks) {
   const ArticulationLink<S>& l = tree.definition.links[index];
   PreparedLink<S> p = prepared(tree, l);

@@ -94,7 +94,7 @@ template <class S> void Articulation<S>::Engine::find_accelerations() {
   }
 }
 
-/// Half a sub-step of coordinates.
+/// Advances coordinates by half a sub-step.
 template <class S> void Articulation<S>::Engine::drift() {
   const Step<S> h = tree->h;
   for (const detail::PreparedLink<S>& l : tree->links) {
@@ -137,7 +137,7 @@ template <class S> bool Articulation<S>::Engine::is_finite_now() const {
   return true;
 }
 
-/// Poses and speeds for who asks, after anything that changed them.
+/// Updates poses and speeds for getters, after any change.
 template <class S> void Articulation<S>::Engine::refresh() {
   pin_floats([&] {
     links.place(*tree, state);

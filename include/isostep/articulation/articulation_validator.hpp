@@ -12,13 +12,13 @@ namespace isostep::detail {
 
 inline constexpr char kMostLoadText[] = "a size up to 2^29 along each axis";
 
-/// The position is one that the joint may have.
+/// Returns true if a joint may have the position.
 template <class S> bool fits_position(const ArticulationLink<S>& l, Vec3<S> position) {
   if (!is_finite(position)) return false;
   if (l.type == ArticulationJoint::hinge) return within(position.x, S(0x1p15));
   return within(position, l.type == ArticulationJoint::slider ? Limits<S>::extent() * S(2) : Limits<S>::position());
 }
-/// The velocity is one that a joint may have: within a step the tree as a whole is held within its limits.
+/// Returns true if a joint may have the velocity: within a step the tree as a whole is held within its limits.
 template <class S> bool fits_velocity(const JointCoordinates<S>& m) {
   return is_finite(m.velocity) && is_finite(m.angular_velocity) && within(m.velocity, Limits<S>::speed()) &&
          within(m.angular_velocity, S(1024));
@@ -29,7 +29,7 @@ template <class S> class ArticulationValidator {
   ArticulationValidator(const ArticulatedTree<S>& tree, const ArticulationState<S>& state)
       : tree_(tree), state_(state) {}
 
-  /// The first rule that does not hold, as a literal; null: all hold.
+  /// Returns the first rule that does not hold, as a literal, or null.
   const char* broken_rule() const {
     if (state_.coordinates.size() != tree_.coordinates) return "coordinates are not those of the links";
     if (state_.rotations.size() != tree_.rotations) return "rotations are not those of the links";

@@ -14,7 +14,7 @@ template <class S> class FreeMotion {
  public:
   /// Begins a step, after the dynamics' place, spin and follow.
   void begin(const ArticulatedTree<S>& tree, const ArticulatedDynamics<S>& links, const ArticulationState<S>& state);
-  /// Adds what acts within a sub-step, where its middle is.
+  /// Adds what acts within a sub-step, at its middle.
   void push(const ArticulatedTree<S>& tree, const ArticulatedDynamics<S>& links);
   /// Sets the free link's motion at the end of a sub-step, after place, spin and follow.
   void finish(const ArticulatedTree<S>& tree, const ArticulatedDynamics<S>& links, ArticulationState<S>& state);

@@ -50,14 +50,14 @@ template <class S> struct JointWork {
 
   /// Prepares a step: the drive's coefficients.
   void prepare(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, const ArticulationDrive<S>& drive_of_it);
-  /// Begins a sub-step: the joint's position and velocity are measured, and no stop holds.
+  /// Begins a sub-step: measures the joint's position and velocity, releases all stops.
   void begin(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, const ArticulationState<S>& state,
              const ArticulationDrive<S>& drive_of_it);
   /// Linearises the joint under inertia D of the tree at it, armature included.
   void linearise(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, S inertia);
-  /// Another stop holds or the drive changes, after `answer`. `may_release`: else what holds, holds on.
+  /// Chooses stop and drive by `answer`. Returns true if they changed. Unless `may_release`, what holds stays held.
   bool choose(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, bool may_release);
-  /// The speed nearest to `v` that the limits allow; of a cone, along its axis.
+  /// Returns the speed nearest to `v` that the limits allow; for a cone, along its axis.
   S allowed(const ArticulatedTree<S>& tree, const PreparedLink<S>& l, S v) const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace isostep::detail {
 
-/// A turn between -pi and pi, of one between -4 pi and 4 pi.
+/// Returns a turn within -pi..pi, equal to one within -4 pi..4 pi.
 template <class S> S wrapped(S angle) {
   const S pi = kHalfTurn<S>;
   const S whole = pi + pi;
@@ -14,7 +14,7 @@ template <class S> S wrapped(S angle) {
   for (int i = 0; i < 2 && angle < -pi; ++i) angle += whole;
   return angle;
 }
-/// Twice the vector of a rotation: its axis times its angle, for small ones.
+/// Returns twice the vector of a rotation: for small ones axis times angle.
 template <class S> Vec3<S> twice_vector(Quat<Unit<S>> q) {
   const bool other = q.w < Unit<S>(0);
   const auto part = [other](Unit<S> x) {
@@ -71,7 +71,7 @@ void JointWork<S>::measure_ball(const PreparedLink<S>& l, Quat<Unit<S>> rotation
   room_up = l.upper - atan2_to<S>(out.length, dot(l.axis, turned));
 }
 
-/// k way + d speed, of h^2 k and h d.
+/// Returns k way + d speed, for h^2 k and h d.
 template <class S>
 Vec3<S> JointWork<S>::spring(const ArticulatedTree<S>& tree, Vec3<S> way, S stiffness_of_it, Vec3<S> speed_of_it,
                              S damping_of_it) const {

@@ -9,7 +9,7 @@ namespace isostep::detail {
 
 /// A force at a point and the torque about it.
 template <class S> struct Wrench { Vec3<S> torque, force; };
-/// The accelerations of a body: its turning's, and that of its point which is at the place of reference.
+/// The accelerations of a body: its angular one, and that of its point at the place of reference.
 template <class S> struct PointAcceleration { Vec3<S> angular, linear; };
 
 /// Wrench = inertia * acceleration:  torque = angular a + coupling l,  force = coupling^T a + linear l.
@@ -23,7 +23,7 @@ template <class S> struct ArticulatedInertia {
 
 template <class S> ISO_INLINE constexpr Mat3<S> zero_matrix() { return Mat3<S>::diagonal(Vec3<S>::zero()); }
 
-/// Sums of products, held within half of the format.
+/// Returns sums of products, held within half of the format.
 template <class A, class S> ISO_INLINE S held_dot(Vec3<A> a, Vec3<S> b) {
   return round_with_headroom<S>(dot_sum(a, b));
 }
@@ -46,7 +46,7 @@ template <class S> ISO_INLINE Vec3<S> held_sum(Vec3<S> a, Vec3<S> b) { return wi
 template <class S> ISO_INLINE Wrench<S> operator+(const Wrench<S>& a, const Wrench<S>& b) {
   return {held_sum(a.torque, b.torque), held_sum(a.force, b.force)};
 }
-/// The wrench about a point from which its own is `arm` away.
+/// Returns the wrench about a point, to which its own is `arm` away.
 template <class S> ISO_INLINE Wrench<S> shifted(const Wrench<S>& w, Vec3<S> arm) {
   return {held_sum(w.torque, held_cross(arm, w.force)), w.force};
 }
@@ -64,14 +64,14 @@ template <class S> ISO_INLINE Wrench<S> operator*(const ArticulatedInertia<S>& i
   return {torque_of(i, a), {part(0), part(1), part(2)}};
 }
 
-/// The upper half of a matrix, mirrored: rounding leaves nothing lopsided.
+/// Mirrors the upper half of a matrix, so that rounding leaves no asymmetry.
 template <class S> ISO_INLINE Mat3<S> mirrored(Mat3<S> m) {
   m.rows[1].x = m.rows[0].y;
   m.rows[2].x = m.rows[0].z;
   m.rows[2].y = m.rows[1].z;
   return m;
 }
-/// m - a b^T.
+/// Returns m - a b^T.
 template <class S> ISO_INLINE Mat3<S> minus_outer(const Mat3<S>& m, Vec3<S> a, Vec3<S> b) {
   return {{m.rows[0] - b * a.x, m.rows[1] - b * a.y, m.rows[2] - b * a.z}};
 }
@@ -106,7 +106,7 @@ template <class S> ISO_INLINE void add(ArticulatedInertia<S>& to, const Articula
   to.linear = to.linear + i.linear;
 }
 
-/// The inertia of one body: `inertia` is about its centre of mass, which is `centre` away from the place of reference.
+/// Returns the inertia of one body. `inertia` is about its centre of mass, which is `centre` away from the reference.
 template <class S> ISO_INLINE ArticulatedInertia<S> inertia_of_body(S m, Vec3<S> centre, const Mat3<S>& inertia) {
   return shifted(ArticulatedInertia<S>{inertia, zero_matrix<S>(), Mat3<S>::diagonal({m, m, m})}, centre);
 }

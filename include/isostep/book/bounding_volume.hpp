@@ -47,7 +47,7 @@ template <class S> ISO_INLINE bool contains(const BoundingSphere<S>& outer, cons
   if (apart == S(0)) return inner.radius <= outer.radius;  // exact: of equal spheres each holds the other
   return saturating_add(BoundingSphere<S>::padded(apart), inner.radius) <= outer.radius;
 }
-/// One of the two if it holds the other; else the least sphere around both, but for rounding.
+/// Returns one of the two if it holds the other; otherwise the smallest sphere around both, up to rounding.
 template <class S> ISO_INLINE BoundingSphere<S> merge(const BoundingSphere<S>& a, const BoundingSphere<S>& b) {
   if (contains(a, b)) return a;
   if (contains(b, a)) return b;
@@ -68,15 +68,15 @@ template <class S> ISO_INLINE std::uint32_t overlap_flag(const BoundingSphere<S>
   return overlap(a, b) ? 1u : 0u;
 }
 
-/// Surface but for a factor [m^2], which hierarchies keep small.
+/// Returns the surface up to a constant factor [m^2], which hierarchies keep small.
 template <class S> ISO_INLINE Sum<S> surface(const BoundingSphere<S>& a) { return product(a.radius, a.radius); }
 template <class S> ISO_INLINE Sum<S> surface(const Aabb<S>& a) { return half_area(a); }
 
-/// [m] Twice the centre.
+/// [m] Returns twice the centre.
 template <class S> ISO_INLINE Vec3<S> twice_centre(const BoundingSphere<S>& a) { return a.centre + a.centre; }
 template <class S> ISO_INLINE Vec3<S> twice_centre(const Aabb<S>& a) { return a.low + a.high; }
 
-/// A box around the volume's part of the world, for sweeps.
+/// Returns a box around the volume's part of the world, for sweeps.
 template <class S> ISO_INLINE Aabb<S> box_around(const BoundingSphere<S>& a) {
   const S edge = Limits<S>::position() * S(4);
   const Vec3<S> half = {a.radius, a.radius, a.radius};

@@ -19,7 +19,7 @@ namespace isostep {
 /// away from the borders of cells of every level, so what rests on a floor at height 0 lies across none of the coarse.
 template <class S> struct BoxCells {
   static constexpr int kFineness = 8;
-  /// Cells of this level hold the whole world.
+  /// Returns the level whose cells hold the whole world.
   static ISO_INLINE constexpr int top_level() { return exponent_above(edge()) + kFineness + 1; }
 
   std::uint64_t low[3], high[3];
@@ -28,13 +28,13 @@ template <class S> struct BoxCells {
     return {{number(box.low.x), number(box.low.y), number(box.low.z)},
             {number(box.high.x), number(box.high.y), number(box.high.z)}};
   }
-  /// The number of a cell of the finest level.
+  /// Returns the number of a cell of the finest level.
   static ISO_INLINE constexpr std::uint64_t number(S x) {
     const int top = top_level();
     const std::uint64_t origin = 0x5555555555555555u & ((std::uint64_t{1} << top) - 1u);
     return origin + static_cast<std::uint64_t>(floor_scaled(clamp(x, -edge(), edge()), kFineness));
   }
-  /// The least level whose cells are wider than the box by number: along each axis it lies in two of them at most.
+  /// Returns the least level whose cells are wider than the box: along each axis it lies in at most two of them.
   ISO_INLINE constexpr int size_class() const {
     std::uint64_t differing = 0;
     for (int axis = 0; axis < 3; ++axis) differing |= high[axis] - low[axis];

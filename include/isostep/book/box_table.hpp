@@ -40,9 +40,9 @@ template <class S> class BoxTable {
   ISO_INLINE bool contains(std::uint32_t slot) const { return present_.test(slot); }
   ISO_INLINE const Aabb<S>& box(std::uint32_t slot) const { return boxes_[slot]; }
   ISO_INLINE const Aabb<S>& operator[](std::uint32_t slot) const { return boxes_[slot]; }
-  /// The least taken slot from `from` on, or Bitset::kNone.
+  /// Returns the least taken slot from `from` on, or Bitset::kNone.
   ISO_INLINE std::uint32_t next(std::uint32_t from) const { return present_.find_next(from); }
-  /// Around the origin and every box since the table was empty or cleared: how large a SweepTest's numbers get.
+  /// Returns the box around the origin and all boxes since the table was empty, which bounds a SweepTest's numbers.
   ISO_INLINE const Aabb<S>& reach() const { return reach_; }
 
  private:
@@ -54,7 +54,7 @@ template <class S> class BoxTable {
 
 namespace detail {
 
-/// overlapping_pairs_of by a query for every box.
+/// Computes overlapping_pairs_of by a query for every box.
 template <class Structure, class Visit>
 ISO_INLINE bool query_pairs_of(const Structure& structure, std::span<const std::uint32_t> slot_list, std::uint64_t most,
                                const Visit& visit) {

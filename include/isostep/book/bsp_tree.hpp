@@ -41,7 +41,7 @@ template <class S> class BspTree {
   ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches, std::uint64_t most,
                                        Visit&& visit) const;
 
-  /// Planes that divide space.
+  /// Returns the number of planes that divide space.
   std::uint32_t planes() const { return static_cast<std::uint32_t>(nodes_.size()) / 2u; }
   bool validate() const;
 
@@ -79,7 +79,7 @@ template <class S> class BspTree {
   std::vector<Range> ranges_;
 };
 
-/// Boxes with high < plane are behind a plane; one of them overlaps only what begins before the plane.
+/// Boxes with high < plane are behind a plane. One of them overlaps only boxes that begin before the plane.
 template <class S> template <class Visit> ISO_INLINE void BspTree<S>::query(const Aabb<S>& box, Visit&& visit) const {
   if (size() == 0) return;
   std::uint32_t stack[kMaxDepth + 1u];

@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// The leaf that the box lies in, or the plane that it lies across.
+/// Returns the leaf that contains the box, or the node of the plane that it lies across.
 template <class S> std::uint32_t BspTree<S>::place_of(const Aabb<S>& box) const {
   std::uint32_t at = kRoot;
   while (nodes_[at].child != kNone) {
@@ -20,7 +20,7 @@ template <class S> std::uint32_t BspTree<S>::place_of(const Aabb<S>& box) const 
   return at;
 }
 
-/// One leaf, which is all of space.
+/// Begins with one leaf, which is all of space.
 template <class S> void BspTree<S>::start() {
   hierarchies_.clear();
   nodes_.clear();
@@ -82,8 +82,8 @@ template <class S> void BspTree<S>::rebuild() {
   }
 }
 
-/// Puts a plane across the longest side of the range's centres, in the middle; those behind it to the front of the
-/// range and those across it to its end. False: one side would be empty, or most boxes would lie across.
+/// Divides a range by a plane across the longest side of its centres, in the middle. Moves boxes behind it to the front
+/// and those across it to the end. Returns false if one side would be empty or most boxes would lie across.
 template <class S> bool BspTree<S>::divide(const Range& range) {
   Vec3<S> low = detail::twice_centre(boxes_[slots_[range.begin]]), high = low;
   for (std::uint32_t i = range.begin + 1u; i < range.end; ++i) {

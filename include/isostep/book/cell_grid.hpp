@@ -45,7 +45,7 @@ template <class S, bool kManySizes> class CellGrid {
   ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches, std::uint64_t most,
                                        Visit&& visit) const;
 
-  /// Sizes of cells that are in use.
+  /// Returns how many sizes of cells are in use.
   std::uint32_t levels() const { return static_cast<std::uint32_t>(std::popcount(levels_)); }
   bool validate() const;
 
@@ -75,14 +75,14 @@ template <class S, bool kManySizes> class CellGrid {
   struct Block {
     std::int64_t low[3], high[3];
 
-    /// The cells in which boxes that overlap this one have their low corners.
+    /// The cells in which boxes that overlap this box have their low corners.
     ISO_INLINE Block(const Cells& cells, std::uint32_t level) {
       for (int axis = 0; axis < 3; ++axis) {
         low[axis] = static_cast<std::int64_t>(cells.low[axis] >> level) - 1;
         high[axis] = static_cast<std::int64_t>(cells.high[axis] >> level);
       }
     }
-    /// The block has no more than `most` cells.
+    /// Returns true if the block has at most `most` cells.
     ISO_INLINE bool is_within(std::uint64_t most) const {
       for (int axis = 0; axis < 3; ++axis) {
         const auto side = static_cast<std::uint64_t>(high[axis] - low[axis]) + 1u;
@@ -106,12 +106,12 @@ template <class S, bool kManySizes> class CellGrid {
     return static_cast<std::uint32_t>(both * 0x94d049bb133111ebu >> 32) &
            (static_cast<std::uint32_t>(buckets_.size()) - 1u);
   }
-  /// visit(slot) -> bool for the boxes of a cell; false ends it, and is returned.
+  /// Calls visit(slot) -> bool for the boxes of a cell. Stops at false and returns it.
   template <class Visit> ISO_INLINE bool look_into(const Cell& cell, const Visit& visit) const;
   template <class Visit> ISO_INLINE bool look_into(const Block& block, std::uint32_t level, const Visit& visit) const;
   /// Visits the boxes of all levels in `levels`.
   template <class Visit> ISO_INLINE bool look_at_all(std::uint64_t levels, const Visit& visit) const;
-  /// The boxes in cells that follow the box's own, and in its own those of higher slots.
+  /// Visits the boxes in cells that follow the box's own, and in its own cell those of higher slots.
   template <class Visit> ISO_INLINE bool look_ahead(std::uint32_t slot, const Cells& cells, const Visit& visit) const;
 
   template <class Visit>
@@ -183,7 +183,7 @@ ISO_INLINE void CellGrid<S, kManySizes>::query(const Aabb<S>& box, Visit&& visit
   look_at_all(whole, take);
 }
 
-/// The sweep in pieces of a cell's width, 2^halvings of them. Both ends of the pieces' blocks move one way along each
+/// Sweeps in pieces of a cell's width, 2^halvings of them. Both ends of the pieces' blocks move one way along each
 /// axis, so a cell that an earlier piece had is one of the last piece.
 template <class S, bool kManySizes>
 template <class Visit>
@@ -235,8 +235,8 @@ ISO_INLINE void CellGrid<S, kManySizes>::sweep(const Sweep<S>& sweep, Visit&& vi
   look_at_all(whole, take);
 }
 
-/// Two boxes of one level that overlap have cells next to each other: of the two, the one whose cell comes first by z,
-/// y and x finds the pair.
+/// Two overlapping boxes of one level have neighbouring cells: the box whose cell comes first by z, y and x finds the
+/// pair.
 template <class S, bool kManySizes>
 template <class Visit>
 ISO_INLINE bool CellGrid<S, kManySizes>::look_ahead(std::uint32_t slot, const Cells& cells, const Visit& visit) const {

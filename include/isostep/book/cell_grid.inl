@@ -44,7 +44,7 @@ template <class S, bool kManySizes> void CellGrid<S, kManySizes>::unlink(std::ui
   if (--in_level_[gone.cell.level] == 0) levels_ &= ~(std::uint64_t{1} << gone.cell.level);
 }
 
-/// Puts all boxes where they belong by now.
+/// Puts all boxes where they belong.
 template <class S, bool kManySizes> void CellGrid<S, kManySizes>::spread(std::size_t buckets) {
   buckets_.resize(buckets);
   for (std::uint32_t& first : buckets_) first = kNone;
@@ -80,8 +80,8 @@ template <class S, bool kManySizes> void CellGrid<S, kManySizes>::clear() {
   spread(buckets_.size());
 }
 
-/// Cells that seven of eight boxes fit. They may be twice as wide as that before they are made smaller, so that a few
-/// boxes that come and go do not spread all of them anew. True: others than before.
+/// Chooses cells that seven of eight boxes fit. Cells shrink only if they are more than twice as wide, so that a few
+/// boxes that come and go do not move all. Returns true if the level changed.
 template <class S, bool kManySizes> bool CellGrid<S, kManySizes>::choose_level() {
   if (kManySizes || size() == 0) return false;
   std::uint32_t fitting = in_class_[0], wanted = 0;

@@ -28,7 +28,7 @@ template <class S, int kAxes> class CellTree {
   void insert(std::uint32_t slot, const Aabb<S>& box);
   void update(std::uint32_t slot, const Aabb<S>& box);
   void remove(std::uint32_t slot);
-  /// Shrinks the boxes around cells' contents to what is there.
+  /// Shrinks the boxes around cells' contents to fit these.
   void optimise();
   void clear();
 
@@ -43,7 +43,7 @@ template <class S, int kAxes> class CellTree {
   ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches, std::uint64_t most,
                                        Visit&& visit) const;
 
-  /// Cells that are divided.
+  /// Returns the number of cells that are divided.
   std::uint32_t divided() const { return divided_; }
   bool validate() const;
 
@@ -72,7 +72,7 @@ template <class S, int kAxes> class CellTree {
 
   template <class Visit> ISO_INLINE bool query_list(std::uint32_t first, const Aabb<S>& box, const Visit& visit) const;
   template <class Visit> ISO_INLINE bool query_below(std::uint32_t top, const Aabb<S>& box, const Visit& visit) const;
-  /// The axes that are divided: x and z, which lie level, or all three.
+  /// Returns an axis that is divided: x and z, which lie level, or all three.
   static ISO_INLINE constexpr int axis(int i) { return kAxes == 2 ? 2 * i : i; }
   static bool fits(const Cells& cells, int level);
   static std::uint32_t child_of(const Cells& cells, int level);
@@ -163,8 +163,8 @@ ISO_INLINE void CellTree<S, kAxes>::sweep(const Sweep<S>& sweep, Visit&& visit) 
   }
 }
 
-/// Visits each box with what stands behind it: in its cell's list, in cells below, in later siblings of its cell and of
-/// those above it.
+/// Visits each box with the boxes that follow it: in its cell's list, in cells below, in later siblings of its cell and
+/// of those above it.
 template <class S, int kAxes>
 template <class Visit>
 ISO_INLINE bool CellTree<S, kAxes>::overlapping_pairs(Matches&, std::uint64_t most, Visit&& visit) const {

@@ -6,13 +6,13 @@
 
 namespace isostep {
 
-/// The box is narrow enough to lie in no more than two cells of a level along each axis.
+/// Returns true if the box lies in at most two cells of a level along each axis.
 template <class S, int kAxes> bool CellTree<S, kAxes>::fits(const Cells& cells, int level) {
   bool fits = level >= 0;
   for (int i = 0; i < kAxes && fits; ++i) fits = (cells.high[axis(i)] - cells.low[axis(i)]) >> level == 0;
   return fits;
 }
-/// The child, of a cell one level above, that holds the low corner.
+/// Returns the child of a cell one level above that contains the low corner.
 template <class S, int kAxes> std::uint32_t CellTree<S, kAxes>::child_of(const Cells& cells, int level) {
   std::uint32_t number = 0;
   for (int i = 0; i < kAxes; ++i) number |= static_cast<std::uint32_t>(cells.low[axis(i)] >> level & 1u) << i;
@@ -25,8 +25,8 @@ template <class S, int kAxes> bool CellTree<S, kAxes>::in_root(const Cells& cell
   return in;
 }
 
-/// The root becomes a child of a cell twice as wide, until that holds the low corner. Where nothing is stored it
-/// becomes a cell that is as wide as the box.
+/// Grows the tree: the root becomes a child of a cell twice as wide, until it contains the low corner. An empty root
+/// becomes a cell as wide as the box.
 template <class S, int kAxes> void CellTree<S, kAxes>::reach_for(const Cells& cells) {
   if (size() == 0) {
     clear();
@@ -60,7 +60,7 @@ template <class S, int kAxes> std::uint32_t CellTree<S, kAxes>::place_of(const C
     at = nodes_[at].child + child_of(cells, nodes_[at].level - 1);
   return at;
 }
-/// The place of a box, for which cells that have become full are divided.
+/// Returns the place of a box, and divides full cells for it.
 template <class S, int kAxes> std::uint32_t CellTree<S, kAxes>::make_place(const Cells& cells) {
   std::uint32_t at = place_of(cells);
   while (nodes_[at].own >= kMost && nodes_[at].child == kNone && fits(cells, nodes_[at].level - 1)) {
@@ -124,7 +124,7 @@ template <class S, int kAxes> void CellTree<S, kAxes>::divide(std::uint32_t node
   }
 }
 
-/// Moves up the boxes left in the children. They are not divided: a node that is has more than kFew boxes below it.
+/// Moves up the boxes of the children. No child is divided: a divided node has more than kFew boxes below it.
 template <class S, int kAxes> void CellTree<S, kAxes>::join(std::uint32_t node) {
   for (std::uint32_t i = 0; i < kChildren; ++i) {
     const std::uint32_t child = nodes_[node].child + i;
@@ -137,7 +137,7 @@ template <class S, int kAxes> void CellTree<S, kAxes>::join(std::uint32_t node) 
   free_children(node);
 }
 
-/// Counts `more` boxes in a node and all above it, and has their contents hold the box.
+/// Adds `more` boxes to a node and all above it, and enlarges their contents to contain the box.
 template <class S, int kAxes>
 void CellTree<S, kAxes>::enclose(std::uint32_t node, const Aabb<S>& box, std::uint32_t more) {
   for (std::uint32_t at = node; at != kNone; at = nodes_[at].parent) {

@@ -31,36 +31,36 @@ template <class S, class Volume> class Hierarchy {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   using Matches = typename AabbTree<S>::Matches;
 
-  /// An empty tree.
+  /// Makes an empty tree.
   std::uint32_t make_root();
-  /// Forgets all trees, keeps the memory.
+  /// Forgets all trees, but keeps the memory.
   void clear();
 
-  /// The slot is in no tree.
+  /// Inserts a slot that is in no tree.
   void insert(std::uint32_t root, std::uint32_t slot, const Volume& volume);
-  /// The slot is in the tree of this root.
+  /// Moves a slot of the tree of this root.
   void move(std::uint32_t root, std::uint32_t slot, const Volume& volume);
   void remove(std::uint32_t slot);
-  /// These build an empty tree: slots[i] with volume_of(slots[i]) is staged before, for each of them.
+  /// These build an empty tree. stage() comes first, for every slot, with its volume.
   void stage(std::uint32_t slot, const Volume& volume);
   void build(std::uint32_t root, HierarchyBuild how);
 
-  /// Leaves of a tree; of a node, see `root_volume`.
+  /// Returns the number of leaves of a tree; root_volume() returns its volume.
   ISO_INLINE std::uint32_t leaves(std::uint32_t root) const { return nodes_[root].leaves; }
   ISO_INLINE const Volume& root_volume(std::uint32_t root) const { return nodes_[root].volume; }
   std::uint32_t height(std::uint32_t root) const;
   bool validate(std::uint32_t root) const;
 
-  /// visit(slot) -> bool for the leaves of a tree that enters(volume) -> bool reaches; false ends it, and is returned.
+  /// Calls visit(slot) -> bool for the leaves that enters(volume) -> bool admits. Stops at false and returns it.
   template <class Enters, class Visit>
   ISO_INLINE bool traverse(std::uint32_t root, const Enters& enters, const Visit& visit) const;
-  /// visit(slot) for the leaves whose volume the sweep of `test` touches, nearer ones first as a rule. It may shorten
-  /// the test.
+  /// Calls visit(slot) for the leaves whose volume the sweep of `test` touches, nearer ones first as a rule. `visit`
+  /// may shorten the test.
   template <class Visit>
   ISO_INLINE void sweep(std::uint32_t root, detail::SweepTest<S>& test, const Visit& visit) const;
 
-  /// A join: first the siblings of all trees, or none; then two trees or a leaf and a tree each; then visit(slot, slot)
-  /// for the leaves below them whose volumes overlap. False: there were more than `most` overlaps, of nodes too.
+  /// Joins trees: begins with the siblings of all trees, two trees, or a leaf and a tree; then calls visit(slot, slot)
+  /// for leaves below whose volumes overlap. Returns false for more than `most` overlaps, of nodes too.
   ISO_INLINE std::uint32_t match_siblings(Matches& matches) const;
   ISO_INLINE void match(Matches& matches, std::uint32_t& count, std::uint32_t node, std::uint32_t other) const;
   ISO_INLINE std::uint32_t leaf_of(std::uint32_t slot) const { return leaf_of_[slot]; }
@@ -79,7 +79,7 @@ template <class S, class Volume> class Hierarchy {
   struct Range {
     std::uint32_t begin, end, node, depth;
   };
-  /// The best subtree for a merge in the bottom-up build, and the surface of both.
+  /// The best partner of a subtree in the bottom-up build, and the surface of both.
   struct Partner {
     Sum<S> surface;
     std::uint32_t index;
@@ -135,8 +135,8 @@ ISO_INLINE std::uint32_t Hierarchy<S, Volume>::near_child(const Node& node, cons
   return node.child + (dot_sum(test.displacement, to_second) < product(S(0), S(0)) ? 1u : 0u);
 }
 
-/// Source:  Hapala et al. 2011, Efficient Stack-less BVH Traversal for Ray Tracing: the way back asks again which child
-///          was the near one.
+/// Source:  Hapala et al. 2011, Efficient Stack-less BVH Traversal for Ray Tracing. On the way back it finds again
+///          which child is the near one.
 template <class S, class Volume>
 template <class Visit>
 ISO_INLINE void Hierarchy<S, Volume>::sweep(std::uint32_t root, detail::SweepTest<S>& test, const Visit& visit) const {
@@ -175,7 +175,7 @@ ISO_INLINE void Hierarchy<S, Volume>::match(Matches& matches, std::uint32_t& cou
   matches.now[count++] = {node, other};
 }
 
-/// Level by level, both sides at once, as AabbTree does: the matches of a level do not wait for each other.
+/// Descends level by level on both sides at once, as AabbTree does: the matches of a level do not wait for each other.
 template <class S, class Volume>
 template <class Visit>
 ISO_INLINE bool Hierarchy<S, Volume>::resolve(Matches& matches, std::uint32_t count, std::uint64_t most,

@@ -38,7 +38,7 @@ template <class S, class Volume> void Hierarchy<S, Volume>::clear() {
   free_ = kNone;
 }
 
-/// Moves a subtree's top to `at`, whose parent stays; whatever pointed to the top points to `at`.
+/// Moves a subtree's top to `at`, which keeps its parent. Whatever pointed to the top points to `at`.
 template <class S, class Volume> void Hierarchy<S, Volume>::place(std::uint32_t at, const Node& node) {
   const std::uint32_t parent = nodes_[at].parent;
   nodes_[at] = node;
@@ -51,7 +51,7 @@ template <class S, class Volume> void Hierarchy<S, Volume>::place(std::uint32_t 
   }
 }
 
-/// Numbers of leaves from `at` to the root, and volumes as far as they change: each is what its children make it.
+/// Updates numbers of leaves from `at` to the root, and volumes as far as they change, from the children.
 template <class S, class Volume> void Hierarchy<S, Volume>::refit_from(std::uint32_t at) {
   for (bool changes = true; at != kNone; at = nodes_[at].parent) {
     Node& node = nodes_[at];
@@ -111,8 +111,8 @@ template <class S, class Volume> void Hierarchy<S, Volume>::remove(std::uint32_t
   refit_from(nodes_[parent].parent);
 }
 
-/// A leaf within its parent stays its child. Another is inserted anew below the next node above that holds it: a way of
-/// few nodes, and into no larger volume elsewhere that happens to hold it too.
+/// Moves a leaf. A leaf inside its parent stays its child. Another is inserted anew below the next node above that
+/// contains it: a way of few nodes, and not into a larger volume elsewhere that also contains it.
 template <class S, class Volume>
 void Hierarchy<S, Volume>::move(std::uint32_t root, std::uint32_t slot, const Volume& volume) {
   const std::uint32_t leaf = leaf_of_[slot];
@@ -167,7 +167,7 @@ template <class S, class Volume> void Hierarchy<S, Volume>::build_top_down(std::
   }
 }
 
-/// Splits a range at the middle of the longest side of its centres; in half where that leaves one part empty.
+/// Splits a range at the middle of the longest side of its centres, or in half if one part would be empty.
 template <class S, class Volume> std::uint32_t Hierarchy<S, Volume>::partition(std::uint32_t begin, std::uint32_t end) {
   Vec3<S> low = detail::twice_centre(items_[begin].volume);
   Vec3<S> high = low;
@@ -189,7 +189,7 @@ template <class S, class Volume> std::uint32_t Hierarchy<S, Volume>::partition(s
   return split == begin || split == end ? begin + (end - begin) / 2u : split;
 }
 
-/// The earlier one wins of two that are as good.
+/// Returns the best partner. Of two equally good ones the earlier wins.
 template <class S, class Volume>
 typename Hierarchy<S, Volume>::Partner Hierarchy<S, Volume>::best_partner(std::uint32_t of) const {
   Partner best = {Sum<S>{}, kNone};
@@ -208,8 +208,8 @@ template <class S, class Volume> std::uint32_t Hierarchy<S, Volume>::nearest_pai
   return nearest;
 }
 
-/// items_ are the tops of what is merged so far. Whoever had one of the two that were merged for a partner looks for
-/// another one; the rest only compare theirs with the new top.
+/// Merges items_, the tops of what is merged so far. An item whose partner was one of the two merged finds another one;
+/// the rest only compare theirs with the new top.
 template <class S, class Volume> void Hierarchy<S, Volume>::build_bottom_up(std::uint32_t root) {
   partners_.resize(items_.size());
   for (std::uint32_t i = 0; i < items_.size(); ++i) partners_[i] = best_partner(i);

@@ -8,12 +8,12 @@
 
 namespace isostep {
 
-/// A search that can stand for TournamentTree. Here `before` may leave some in any order, if it is transitive in that.
+/// A linear search, an alternative to TournamentTree. Here `before` may leave some unordered, if transitive in that.
 /// Source: Millington 2007, pp. 338-346.
 /// Cost:   O(n) when the first gives way, O(1) of any other change.
 class LinearSearch {
  public:
-  /// All are compared.
+  /// Compares all.
   template <class Before> ISO_INLINE void plant(std::uint32_t count, const Before& before) {
     count_ = count;
     first_ = 0;
@@ -21,12 +21,12 @@ class LinearSearch {
       if (before(i, first_)) first_ = i;
     }
   }
-  /// One has changed.
+  /// Handles a change of one.
   template <class Before> ISO_INLINE void replay(std::uint32_t index, const Before& before) {
     if (index == first_) plant(count_, before);
     else if (before(index, first_)) first_ = index;
   }
-  /// The index of the first. There is at least one.
+  /// Returns the index of the first. There is at least one.
   ISO_INLINE std::uint32_t first() const { return first_; }
 
  private:

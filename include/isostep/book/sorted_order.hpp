@@ -10,13 +10,13 @@
 
 namespace isostep {
 
-/// A sorted list that can stand for TournamentTree. Here `before` may leave some in any order, if it is transitive in
-/// that.
+/// A sorted list, as an alternative to TournamentTree. Here `before` may leave some in any order, if it is transitive
+/// in that.
 /// Source: Millington 2007, pp. 346-349: contacts kept in a sorted list, from which one that changes moves on.
 /// Cost:   O(n log n) to plant; of a change as many swaps as it passes others, O(n) at worst.
 class SortedOrder {
  public:
-  /// All are sorted anew, by merging.
+  /// Sorts all anew, by merging.
   template <class Before> ISO_INLINE void plant(std::uint32_t count, const Before& before) {
     order_.resize(count);
     other_.resize(count);
@@ -28,14 +28,14 @@ class SortedOrder {
     }
     for (std::uint32_t i = 0; i < count; ++i) place_[order_[i]] = i;
   }
-  /// One has changed.
+  /// Handles a change of one.
   template <class Before> ISO_INLINE void replay(std::uint32_t index, const Before& before) {
     std::size_t at = place_[index];
     for (; at > 0 && before(index, order_[at - 1]); --at) put(at, order_[at - 1]);
     for (; at + 1 < order_.size() && before(order_[at + 1], index); ++at) put(at, order_[at + 1]);
     put(at, index);
   }
-  /// The index of the first. There is at least one.
+  /// Returns the index of the first. There is at least one.
   ISO_INLINE std::uint32_t first() const { return order_[0]; }
 
  private:

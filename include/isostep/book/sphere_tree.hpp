@@ -23,7 +23,7 @@ template <class S> class SphereTree {
   void insert(std::uint32_t slot, const Aabb<S>& box);
   void update(std::uint32_t slot, const Aabb<S>& box);
   void remove(std::uint32_t slot);
-  /// Builds the tree anew, top down, once there were half as many changes as there are boxes.
+  /// Builds the tree anew, top down, after half as many changes as there are boxes.
   void optimise();
   /// Builds the tree anew.
   void build(HierarchyBuild how);

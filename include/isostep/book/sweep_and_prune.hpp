@@ -44,9 +44,9 @@ template <class S> class SweepAndPrune {
   ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches, std::uint64_t most,
                                        Visit&& visit) const;
 
-  /// 0, 1, 2 for x, y, z.
+  /// Returns 0, 1, 2 for x, y, z.
   int axis() const { return axis_; }
-  /// Boxes that have their places in the list.
+  /// Returns how many boxes have their places in the list.
   std::uint32_t sorted() const { return sorted_ - gaps_; }
   bool validate() const;
 
@@ -73,7 +73,7 @@ template <class S> class SweepAndPrune {
   std::uint32_t place_for(std::uint32_t at, std::uint64_t low) const;
   int spread_axis() const;
   void sort();
-  /// visit(item) -> bool for the boxes of the list, then for those that wait, that may meet low to high on the axis.
+  /// Calls visit(item) -> bool for boxes of the list, then for waiting ones, that may meet low..high on the axis.
   template <class Visit> ISO_INLINE bool look(std::uint64_t low, std::uint64_t high, const Visit& visit) const;
 
   BoxTable<S> boxes_;

@@ -47,7 +47,7 @@ template <class S> void SweepAndPrune<S>::remove(std::uint32_t slot) {
   items_.pop_back();
 }
 
-/// The place of the item at `at` once it begins at `low`; kNone: farther than kMostPlaces away.
+/// Returns the place of the item at `at` if it begins at `low`; kNone if that is more than kMostPlaces away.
 template <class S> std::uint32_t SweepAndPrune<S>::place_for(std::uint32_t at, std::uint64_t low) const {
   std::uint32_t to = at, left = kMostPlaces;
   if (at > 0 && low < items_[at - 1u].low) {
@@ -94,8 +94,8 @@ template <class S> void SweepAndPrune<S>::clear() {
   moved_ = false;
 }
 
-/// The axis with the greatest sum of distances from the mean. In units of 2^-BoxCells::kFineness m, so sums of 2^20
-/// boxes fit 64 bits.
+/// Returns the axis with the greatest sum of distances from the mean. In units of 2^-BoxCells::kFineness m, sums of
+/// 2^20 boxes fit 64 bits.
 template <class S> int SweepAndPrune<S>::spread_axis() const {
   int widest = 0;
   std::uint64_t greatest = 0;

@@ -8,7 +8,7 @@
 namespace isostep {
 namespace detail {
 
-/// One of the planes that bound a feature's Voronoi region, and the neighbour that is beyond it.
+/// A plane that bounds a feature's Voronoi region, and the neighbour beyond it.
 template <class S> struct VoronoiPlane {
   Vec3<Unit<S>> inward;  // [1]
   Vec3<S> point;         // [m]
@@ -76,7 +76,7 @@ template <class S> struct FurthestBeyond {
   }
 };
 
-/// An edge of one solid, in the other's frame, cut to the region of one of its features.
+/// An edge of one solid, in the other's frame, clipped to the region of one of its features.
 template <class S> struct EdgeClip {
   using U = Unit<S>;
   Vec3<S> tail, head;  // [m]
@@ -147,7 +147,7 @@ template <class S> class VClip {
     features_[i] = to;
     return Walk::on;
   }
-  /// Vertex v of solid i, in the other's frame.
+  /// Returns vertex v of solid i in the other's frame.
   ISO_INLINE Vec3<S> across(int i, std::uint32_t v) const { return to_world(other_in_[1 - i], solid(i).vertices[v]); }
   ISO_INLINE EdgeClip<S> edge_across(int i) const {
     return {across(i, solid(i).origin(2 * index(i))), across(i, solid(i).origin(2 * index(i) + 1)), slack_};
@@ -185,7 +185,7 @@ template <class S> class VClip {
                  dot(direction_across(j), cut.at(cut.out) - v) < -slack_);
   }
 
-  /// Goes to the neighbour where the clipped edge comes in, if it is nearer there and before; or where it goes out.
+  /// Goes to the neighbour where the clipped edge comes in, if it is nearer there, or to the one where it goes out.
   ISO_INLINE Walk leave(int i, const EdgeClip<S>& cut, bool rises_at_in, bool falls_at_out) {
     if (cut.all_beyond) return go(i, cut.at_in);
     if (cut.has_in && rises_at_in) return go(i, cut.at_in);
@@ -214,7 +214,7 @@ template <class S> class VClip {
   ISO_INLINE S height(int i, std::uint32_t face, Vec3<S> p) const {
     return dot(solid(i).normals[face], p) - solid(i).offsets[face];
   }
-  /// [1] The rate at which a point that goes along d from p leaves the plane of a face of i.
+  /// [1] Returns the rate at which a point that moves along d from p leaves the plane of a face of i.
   ISO_INLINE U climb_over(int i, std::uint32_t face, Vec3<U> d, Vec3<S> p) const {
     return negate_if(height(i, face, p) < S(0), dot(solid(i).normals[face], d));
   }
@@ -232,7 +232,7 @@ template <class S> class VClip {
     }
     return below ? climb_out(p, j) : Walk::ended;
   }
-  /// Goes from a face of j, behind which p is, to the face that p is furthest above; where it is above none, the two
+  /// Goes from a face of j, behind which p is, to the face that p is furthest above. If p is above none, the solids
   /// overlap.
   ISO_INLINE Walk climb_out(Vec3<S> p, int j) {
     std::uint32_t best = 0;
@@ -253,7 +253,7 @@ template <class S> class VClip {
       return cut.has_in ? go(j, cut.at_in) : go(i, feature_of(Feature::vertex, solid(i).origin(2 * index(i))));
     return cut.has_out ? go(j, cut.at_out) : go(i, feature_of(Feature::vertex, solid(i).origin(2 * index(i) + 1)));
   }
-  /// The edge around j's face that is nearest to i's edge.
+  /// Returns the edge around j's face that is nearest to i's edge.
   ISO_INLINE std::uint32_t nearest_side(int i, int j) const {
     const Segment<S> edge = segment_across(i);
     std::uint32_t e = solid(j).faces[index(j)], nearest = e / 2;
@@ -272,7 +272,7 @@ template <class S> class VClip {
     return {to_world(other_in_[1 - i], own.centre), direction_across(i), own.half};
   }
 
-  /// The closest points of the two features, in a's frame.
+  /// Finds the closest points of the two features, in a's frame.
   ISO_INLINE void closest(VClipDistance<S>& result) const {
     const int low = features_[0].kind <= features_[1].kind ? 0 : 1, high = 1 - low;
     Vec3<S> of_low, of_high;  // in the frame of `high`

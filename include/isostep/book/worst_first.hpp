@@ -46,12 +46,12 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
   using V = Velocity<S>;
 
  public:
-  /// Rows resolved in a pass at most, of an island that has so many: as many as the book allows.
-  /// `turns` times it.
+  /// The most resolutions of an island's rows in a pass: as many as the book allows, times
+  /// `turns`.
   static ISO_INLINE std::uint32_t most_iterations(std::uint32_t rows, std::uint32_t turns = 1) {
     return rows > 0x7fffffffu / turns ? ~0u : 2u * turns * rows;
   }
-  /// Looks at an island's rows in a pass at most: 64 a row and a hundredth of a second of them. A falling wall (S2)
+  /// The most looks at an island's rows in a pass: 64 a row and a hundredth of a second of them. A falling wall (S2)
   /// takes 60 a row; a crowd in one place would take the cube of its number.
   static ISO_INLINE std::uint64_t most_looks(std::uint32_t rows, std::uint32_t turns = 1) {
     return (1u << 17) + std::uint64_t{64} * turns * rows;
@@ -61,7 +61,7 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
   void prepare(const StepContext<S>& context);
   void solve_substeps(const StepContext<S>& context);
   void store_impulses(const StepContext<S>& context);
-  /// The number of islands that passes of this step left unsolved, counted at every pass.
+  /// Returns the number of islands that passes of this step left unsolved, counted at every pass.
   ISO_INLINE std::uint32_t unsolved() const { return islands_left_; }
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context);
 
@@ -74,7 +74,7 @@ template <class S, class Queue = TournamentTree> class WorstFirstResolver {
     ISO_FIELDS(a, b)
   };
 
-  /// The masses of a contact's two bodies, with their inertia as the contact sees them turn.
+  /// The masses of a contact's two bodies, with the inertia that the contact sees.
   struct Masses {
     SolverMass<S> a, b;
   };

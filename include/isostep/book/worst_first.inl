@@ -94,7 +94,7 @@ typename WorstFirstResolver<S, Queue>::Masses WorstFirstResolver<S, Queue>::mass
   return {response.seen_a(a), response.seen_b(b)};
 }
 
-/// The last step's. A contact's friction was borne by its points as its weight was.
+/// Loads the impulses of the last step. A contact's friction was distributed over its points as its weight was.
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::load_impulses(const Contact<S>& contact, std::uint32_t point, Point& row) {
   row.impulse = min(contact.normal_impulse[point], most_beside(points_.size(), row));
@@ -109,7 +109,7 @@ void WorstFirstResolver<S, Queue>::load_impulses(const Contact<S>& contact, std:
   }
 }
 
-/// Rolling rows are those of soft step: their radius is the distance from the contact to the centre that rolls, which
+/// Adds rolling rows as in soft step: their radius is the distance from the contact to the centre that rolls, which
 /// keeps the coefficients near one.
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::add_rolling(const ContactGeometry<S>& g, std::uint32_t point, const SolverMass<S>& a,
@@ -135,7 +135,7 @@ void WorstFirstResolver<S, Queue>::add_rolling(const ContactGeometry<S>& g, std:
   rolling_.push_back(pair);
 }
 
-/// Spinning rows are those of soft step: friction at the radius of the least patch, in a row of the radius of gyration.
+/// Adds a spinning row as in soft step: friction at the radius of the least patch, in a row of the radius of gyration.
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::add_spinning(const ContactGeometry<S>& g, const SolverMass<S>& a,
                                                 const SolverMass<S>& b, Point& row) {
@@ -156,7 +156,7 @@ void WorstFirstResolver<S, Queue>::add_spinning(const ContactGeometry<S>& g, con
   rolling_.push_back(pair);
 }
 
-/// Renews rows of bodies whose turn contacts follow: contact_follow.hpp.
+/// Renews rows of bodies whose turning the contacts follow: contact_follow.hpp.
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::follow(const StepContext<S>& context) {
   for (Point& row : points_) {
     const bool by_a = bodies_.is_followed(context, row.a), by_b = bodies_.is_followed(context, row.b);
@@ -180,7 +180,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::follow(const 
   }
 }
 
-/// Lists only rows that a resolved one can change: a thousand contacts with one floor are no neighbours.
+/// Lists only rows that a resolved row can change: a thousand contacts with one floor are no neighbours.
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::list_neighbours() {
   const std::size_t bodies = bodies_.rows().mass.size();
   first_.assign(bodies + 2, 0);  // counted two places on: filling leaves each list's start where it is looked for
@@ -196,7 +196,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::list_neighbou
   each_end([&](std::uint32_t body, std::uint32_t i) ISO_INLINE_LAMBDA { neighbours_[first_[body + 1]++] = i; });
 }
 
-/// Those of `not_of` have been looked at already.
+/// Looks again at the rows of a body, except `index` and those of `not_of`, which were looked at already.
 template <class S, class Queue>
 template <class Look>
 void WorstFirstResolver<S, Queue>::look_again(const Look& look, std::uint32_t index, std::uint32_t body,
@@ -210,7 +210,7 @@ void WorstFirstResolver<S, Queue>::look_again(const Look& look, std::uint32_t in
   }
 }
 
-/// The row's island has spent its budget: none of its rows is resolved again.
+/// Ends an island whose budget is spent: none of its rows is resolved again.
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::leave_island(std::uint32_t row) {
   bool urgent = false;
   for (std::uint32_t i = budgets_.budget_of(row).first_row; i != IslandBudgets::kNobody; i = budgets_.next_of(i)) {

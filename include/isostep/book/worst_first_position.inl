@@ -10,25 +10,25 @@ namespace isostep {
 
 namespace detail {
 
-/// [m] Overlap that is left, so that what rests keeps touching.
+/// [m] The overlap that stays, so that resting bodies keep touching.
 template <class S> inline constexpr Velocity<S> kRestingOverlap = Velocity<S>(0x1p-11);
-/// [1] The part of an overlap that a sub-step takes away: all of it at once makes stacks jump (relaxation, pp.
+/// [1] The part of an overlap that a sub-step removes. All of it at once makes stacks jump (relaxation, pp.
 /// 324-325).
 template <class S> inline constexpr S kRelaxation = S(0.25);
-/// [1] The part of what a contact lacks that a resolution of `relaxed` takes away: two contacts that press on one body
-/// get an equal say.
+/// [1] The part of what a contact lacks that a resolution of `relaxed` removes: two contacts that press on one body
+/// count equally.
 template <class S> inline constexpr S kRelaxedPart = S(0.5);
-/// The number of turns of `relaxed`: halvings that bring what a sub-step takes at most, 3 m/s for 1/200 s, to the
+/// The number of turns of `relaxed`: halvings of the most that a sub-step removes, 3 m/s for 1/200 s, down to the
 /// tolerance.
 inline constexpr std::uint32_t kRelaxedTurns = 8;
-/// [m/s] A contact with less than that to what it bears gives way: half of what motion_tolerance() leaves.
+/// [m/s] A contact that has less than that left to bear gives way: half of what motion_tolerance() leaves.
 template <class S> inline constexpr Velocity<S> kLeftToBear = Velocity<S>(0x1p-15);
-/// [m] Errors of position that are left alone.
+/// [m] Position errors below this are left alone.
 template <class S> inline constexpr Velocity<S> kProjectionTolerance = Velocity<S>(0x1p-14);
-/// [rad] No projection turns a body further: the rest is moved instead (pp. 328-330).
+/// [rad] The most that a projection turns a body: the rest moves it instead (pp. 328-330).
 template <class S> inline constexpr Velocity<S> kMostProjectedTurn = Velocity<S>(0.2);
 
-/// [m] The distance of a drive's position from its limits; 0 within them.
+/// [m] Returns how far a drive's position is beyond its limits; 0 within them.
 template <class S> ISO_INLINE Velocity<S> shortfall(const JointDrive<S>& drive, Step<S> h) {
   if (drive.bounded_below && drive.position < drive.lower) return bounded_error(drive.lower - drive.position, h);
   if (drive.bounded_above && drive.upper < drive.position) return bounded_error(drive.upper - drive.position, h);
@@ -37,14 +37,14 @@ template <class S> ISO_INLINE Velocity<S> shortfall(const JointDrive<S>& drive, 
 
 }  // namespace detail
 
-/// The gap follows from the two displacements each time, so that it does not gather the roundings of every move.
+/// Returns the gap, from the two displacements each time, so that it does not gather the roundings of every move.
 template <class S, class Queue> Velocity<S> WorstFirstResolver<S, Queue>::gap(const Point& row) const {
   const SolverBodies<S>& bodies = bodies_.rows();
   return saturating_add(row.separation,
                         detail::along(row.normal, bodies.displacement[row.a], bodies.displacement[row.b]));
 }
 
-/// A contact that bears all that it may gives way: the body sinks in.
+/// Returns true if a contact bears all that it may and so gives way: the body sinks in.
 template <class S, class Queue> bool WorstFirstResolver<S, Queue>::gives_way(const Point& row) const {
   return row.most < highest<V>() && !(saturating_add(row.impulse, detail::kLeftToBear<S>) < most_of(row));
 }
@@ -86,7 +86,7 @@ void WorstFirstResolver<S, Queue>::end_overlap(const StepContext<S>& context, co
   }
 }
 
-/// Along the normal alone, by inverse mass (p. 322).
+/// Shifts bodies along the normal alone, by inverse mass (p. 322).
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::shift(const StepContext<S>& context, const Point& row, V missing) {
   const auto part = [&](S share, V way) {
@@ -98,8 +98,8 @@ void WorstFirstResolver<S, Queue>::shift(const StepContext<S>& context, const Po
   move(context, row.b, part(row.share.b, missing));
 }
 
-/// Linear and angular parts by inverse inertia (pp. 323-328). What turns fast is only moved: its angular velocity would
-/// stay while its axes turn from under it, and that is energy.
+/// Moves and turns bodies by inverse mass and inertia (pp. 323-328). Fast turning bodies are only moved: otherwise
+/// their angular velocity would stay while their axes turn, and energy would change.
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::project(const StepContext<S>& context, const Point& row, V missing) {
   const V amount = saturate_to<V>(product(row.mass, missing));
@@ -122,7 +122,7 @@ void WorstFirstResolver<S, Queue>::project(const StepContext<S>& context, const 
   move(context, row.b, part(row.b, row.share.b, row.normal.angular_b, row.normal.turn_b, amount));
 }
 
-/// Projects positions as solve_joint() solves velocities: a limit that is passed is a row, a drive within its limits
+/// Projects positions as solve_joint() solves velocities. A limit that is passed is a row; a drive within its limits is
 /// none.
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::project(const StepContext<S>& context, const JointConstraint<S>& joint,
@@ -154,7 +154,7 @@ void WorstFirstResolver<S, Queue>::project(const StepContext<S>& context, const 
   move(context, joint.row_b, m.b);
 }
 
-/// The centre follows the displacement, not the moves: where S is coarse, small moves add up before they round.
+/// Moves a body. Its centre follows the displacement, not each move: for coarse S small moves add up before rounding.
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::move(const StepContext<S>& context, std::uint32_t body, const Motion& asked) {
   SolverBodies<S>& bodies = bodies_.rows();

@@ -9,8 +9,8 @@ namespace isostep {
 
 namespace detail {
 
-/// [m/s] Errors of speed that are left alone, but for what rounding alone may make: the book's 0.01 lets a block creep
-/// down its slope by 0.1 m in ten seconds, this by 0.15 mm.
+/// [m/s] The speed errors that are left alone, apart from rounding. By the book's 0.01 a block creeps down its slope
+/// 0.1 m in ten seconds, by this 0.15 mm.
 template <class S> ISO_INLINE Velocity<S> motion_tolerance(const Motion<S>& a, const Motion<S>& b) {
   using V = Velocity<S>;
   const V fastest = max(max(max_abs(a.linear), max_abs(a.angular)), max(max_abs(b.linear), max_abs(b.angular)));
@@ -19,7 +19,7 @@ template <class S> ISO_INLINE Velocity<S> motion_tolerance(const Motion<S>& a, c
 
 }  // namespace detail
 
-/// Forces, then everything that holds while velocities are resolved, then the impulses of the sub-step before.
+/// Adds forces, then all that is fixed while velocities are resolved, then the impulses of the last sub-step.
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::begin_velocities(const StepContext<S>& context, const JointStep<S>& step) {
   SolverBodies<S>& bodies = bodies_.rows();
@@ -50,7 +50,7 @@ void WorstFirstResolver<S, Queue>::begin_velocities(const StepContext<S>& contex
   }
 }
 
-/// The points of a contact stand side by side, in its order.
+/// Carries bodies. The points of a contact lie side by side, in its order.
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::carry(const StepContext<S>& context) {
   std::size_t next = 0, first = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -84,7 +84,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::warm_start(co
   if (bodies.moves(row.b)) bodies.velocity[row.b] = b;
 }
 
-/// Joints saturate what they add, not what it adds up to in a pass of many turns.
+/// Holds impulses of a joint. Joints saturate what they add, but not the sums of a pass of many turns.
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::hold(JointConstraint<S>& joint) {
   SolverBodies<S>& bodies = bodies_.rows();
   const V most = convert<V>(Limits<S>::speed());
@@ -102,7 +102,7 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::hold(JointCon
   }
 }
 
-/// Those of before met other axes.
+/// Forgets impulses of a row, as they refer to former axes.
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::forget_impulses(Point& row) {
   row.impulse = row.friction.impulse[0] = row.friction.impulse[1] = V(0);
   for (const std::uint32_t i : {row.rolling, row.spinning}) {
@@ -110,8 +110,8 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::forget_impuls
   }
 }
 
-/// [m/s] The impulse that a point at a place of points_ may bear: as much as the others leave of what all of its
-/// contact may.
+/// [m/s] Returns the impulse that the point at a place of points_ may bear: the contact's limit less those of its other
+/// points.
 template <class S, class Queue>
 Velocity<S> WorstFirstResolver<S, Queue>::most_beside(std::size_t index, const Point& row) const {
   if (row.most == highest<V>()) return row.most;
@@ -163,7 +163,7 @@ Velocity<S> WorstFirstResolver<S, Queue>::motion_urgency(const JointConstraint<S
   return detail::motion_tolerance<S>(m.a, m.b) < most ? most : V(0);
 }
 
-/// The normal, then friction, rolling and spinning within the cone that this opens (pp. 359-361).
+/// Resolves the normal, then friction, rolling and spinning within the cone that this opens (pp. 359-361).
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::resolve_motion(Point& row) {
   SolverBodies<S>& bodies = bodies_.rows();
   Motion a = bodies.velocity[row.a], b = bodies.velocity[row.b];
@@ -189,7 +189,7 @@ void WorstFirstResolver<S, Queue>::resolve_motion(JointConstraint<S>& joint, con
   hold(joint);
 }
 
-/// An impulse that is more than enough gives way, down to none.
+/// Resolves the normal. An impulse that is too large is reduced, down to none.
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::resolve_normal(Point& row, Motion& a, Motion& b) {
   const V speed = detail::along(row.normal, a, b);
   const V change = saturate_to<V>(product(row.mass, saturating_subtract(row.least_speed, speed)));

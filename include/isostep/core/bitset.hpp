@@ -26,7 +26,7 @@ class Bitset {
   ISO_INLINE void reset(std::uint32_t i) {
     if ((i >> 6) < words_.size()) words_[i >> 6] &= ~bit(i);
   }
-  /// Sets i; says whether it was clear before.
+  /// Adds i. Returns true if it was not a member before.
   ISO_INLINE bool insert(std::uint32_t i) {
     grow(i);
     const bool fresh = (words_[i >> 6] & bit(i)) == 0;
@@ -36,7 +36,7 @@ class Bitset {
   ISO_INLINE void clear() {
     for (std::uint64_t& word : words_) word = 0;
   }
-  /// The smallest member not below `from`, or kNone.
+  /// Returns the smallest member not below `from`, or kNone.
   ISO_INLINE std::uint32_t find_next(std::uint32_t from) const {
     const std::uint32_t words = static_cast<std::uint32_t>(words_.size());
     std::uint32_t word = from >> 6;

@@ -13,7 +13,7 @@ namespace isostep {
 /// Disjoint sets of 0..n-1; every set is named by its least member, so the names depend on the sets alone.
 class DisjointSets {
  public:
-  /// Asks for the memory of so many: begin() asks for no more.
+  /// Allocates memory for that many, so that begin() allocates none.
   ISO_INLINE void make_room(std::size_t count) {
     if (parent_.size() < count) parent_.resize(count);
   }

@@ -41,9 +41,9 @@ class FaultLog {
     return report == Fault::none || refuse_call(name, report);
   }
 
-  /// The last refusal. Commands clear it.
+  /// Returns the last refusal. Commands clear it.
   ISO_INLINE const FaultReport& last() const { return last_; }
-  /// The first refusal since `forget`.
+  /// Returns the first refusal since `forget`.
   ISO_INLINE const FaultReport& first() const { return first_; }
   ISO_INLINE void set_handler(const FaultHandler& handler) { handler_ = handler; }
   ISO_INLINE void clear() { last_ = {}; }

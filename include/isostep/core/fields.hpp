@@ -48,8 +48,8 @@ template <class T> constexpr std::size_t packed_size() {
 }
 }  // namespace detail
 
-/// T holds its fields and nothing else: its bytes on a little-endian machine are its canonical form, and may be hashed,
-/// compared and copied whole. Put a static_assert of it behind every stored struct.
+/// True if T consists of its fields only, without padding: its bytes on a little-endian machine are its canonical form,
+/// and may be hashed, compared and copied whole. Put a static_assert of it behind every stored struct.
 template <class T> inline constexpr bool kHasNoPadding = detail::packed_size<T>() == sizeof(T);
 
 }  // namespace isostep

@@ -43,7 +43,7 @@
 
 namespace isostep {
 
-/// The library holds the engine of S, or the program says that it brings engines of its own.
+/// True if the library holds the engine of S, or the program says that it brings its own engines.
 #if defined(ISOSTEP_OWN_SCALARS)
 template <class S> inline constexpr bool kHasEngine = true;
 #else

@@ -10,8 +10,8 @@
 
 namespace isostep {
 
-/// Rows that share a member that moves make an island. A solver that stops at some limit must stop in each island where
-/// it would if there were no other: a world's order, and what else is in it, is no part of an island's future.
+/// Rows that share a moving member make an island. A solver with a limit must stop in each island where it would if
+/// there were no other: a world's order, and what else is in it, must not affect an island's future.
 class IslandBudgets {
  public:
   static constexpr std::uint32_t kNobody = 0xffffffffu;
@@ -25,7 +25,7 @@ class IslandBudgets {
     std::uint64_t looks;       // left
   };
 
-  /// `ends_of(row)`: whom the row moves. A row that moves nobody is an island by itself.
+  /// Finds the islands; `ends_of(row)` returns whom a row moves. A row that moves nobody is an island by itself.
   template <class EndsOf> ISO_INLINE void find(std::uint32_t members, std::uint32_t rows, const EndsOf& ends_of) {
     sets_.begin(members);
     of_member_.assign(members, kNobody);
@@ -52,13 +52,13 @@ class IslandBudgets {
       ++of.rows;
     }
   }
-  /// `put(budget)` says what may be spent on so many rows.
+  /// Fills the budgets; put(budget) sets what may be spent on the budget's rows.
   template <class Put> ISO_INLINE void fill(const Put& put) {
     for (Budget& budget : budgets_) put(budget);
   }
 
   ISO_INLINE Budget& budget_of(std::uint32_t row) { return budgets_[of_row_[row]]; }
-  /// The next row of its island, ascending; kNobody after the last.
+  /// Returns the next row of its island, ascending; kNobody after the last.
   ISO_INLINE std::uint32_t next_of(std::uint32_t row) const { return next_[row]; }
 
  private:

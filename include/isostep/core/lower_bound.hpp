@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// The first of 0..count-1 for which before(index) is false, or count. `before` is true for the indices below it.
+/// Returns the first of 0..count-1 for which before(index) is false, or count. `before` is true for the indices below.
 template <class Before> ISO_INLINE constexpr std::size_t lower_bound(std::size_t count, const Before& before) {
   std::size_t low = 0, high = count;
   while (low < high) {
@@ -21,11 +21,11 @@ template <class Before> ISO_INLINE constexpr std::size_t lower_bound(std::size_t
   return low;
 }
 
-/// The index at which the record of a slot stands or belongs. `records` ascend by their field `slot`.
+/// Returns the index at which the record of a slot stands or belongs. `records` ascend by their field `slot`.
 template <class Records> ISO_INLINE std::size_t place_of_slot(const Records& records, std::uint32_t slot) {
   return lower_bound(records.size(), [&](std::size_t i) ISO_INLINE_LAMBDA { return records[i].slot < slot; });
 }
-/// The record of the slot of `fresh`; where there is none yet, that is `fresh`, at its place.
+/// Returns the record of `fresh`'s slot. If there is none yet, inserts `fresh` at its place and returns that.
 template <class Record> ISO_INLINE Record& find_or_insert(std::vector<Record>& records, const Record& fresh) {
   const std::size_t at = place_of_slot(records, fresh.slot);
   if (at == records.size() || records[at].slot != fresh.slot)

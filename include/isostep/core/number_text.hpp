@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// Decimal digits and nothing else; false for what they are not, and from 2^64 - 6 on.
+/// Reads a number of decimal digits only. Returns false for anything else, and from 2^64 - 6 on.
 ISO_INLINE constexpr bool read_number(std::string_view text, std::uint64_t& number) {
   constexpr std::uint64_t kLargest = (~std::uint64_t{0} - 9) / 10;  // to which any digit may be added
   number = 0;

@@ -26,7 +26,7 @@ template <class T, std::uint32_t kPageSize> class PagedArray {
     other.size_ = 0;
   }
   ISO_INLINE ~PagedArray() { clear(); }
-  /// Costs a look at every page, and a count for those that differ. No allocation where the other was as long before.
+  /// Costs a look at every page, and a count for those that differ. Allocates nothing if the other was as long before.
   ISO_INLINE PagedArray& operator=(const PagedArray& other) {
     if (this == &other) return *this;
     while (pages_.size() > other.pages_.size()) drop_last_page();
@@ -51,7 +51,7 @@ template <class T, std::uint32_t kPageSize> class PagedArray {
   ISO_INLINE bool empty() const { return size_ == 0; }
   ISO_INLINE const T& operator[](std::size_t i) const { return pages_[i / kPageSize]->items[i % kPageSize]; }
 
-  /// The item, to be written; the reference holds until the next call of anything that writes or copies.
+  /// Returns an item to be written. The reference holds until the next call that writes or copies.
   ISO_INLINE T& change(std::size_t i) { return own(i / kPageSize).items[i % kPageSize]; }
   ISO_INLINE void push_back(T item) {
     if (size_ % kPageSize == 0) pages_.push_back(new Page);
@@ -68,7 +68,7 @@ template <class T, std::uint32_t kPageSize> class PagedArray {
     size_ = 0;
   }
 
-  /// visit(index) ascending, for every item that only one array has or that differs; pages that both have are skipped.
+  /// Calls visit(index) ascending, for every item that only one array has or that differs. Skips pages that both share.
   template <class Visit> ISO_INLINE void each_difference(const PagedArray& other, const Visit& visit) const {
     const std::size_t most = size_ < other.size_ ? other.size_ : size_;
     const std::size_t common = size_ < other.size_ ? size_ : other.size_;
@@ -82,11 +82,11 @@ template <class T, std::uint32_t kPageSize> class PagedArray {
   // Pages, for those who read them whole.
   ISO_INLINE std::size_t pages() const { return pages_.size(); }
   ISO_INLINE const T* page(std::size_t p) const { return pages_[p]->items; }
-  /// Items in it: kPageSize, but for the last.
+  /// Returns the number of items in a page: kPageSize, except for the last.
   ISO_INLINE std::size_t page_size(std::size_t p) const {
     return p + 1 < pages_.size() ? kPageSize : size_ - p * kPageSize;
   }
-  /// The number computed of a page's items.
+  /// Returns the number computed from a page's items.
   ISO_INLINE const Remembered& remembered(std::size_t p) const { return pages_[p]->remembered; }
   ISO_INLINE bool shares_page(std::size_t p, const PagedArray& other) const {
     return p < pages_.size() && p < other.pages_.size() && pages_[p] == other.pages_[p];

@@ -18,7 +18,7 @@ template <class Record, class IdType> class Registry {
   ISO_INLINE Registry(Registry&&) = default;
   ISO_INLINE Registry& operator=(const Registry&) = default;
   ISO_INLINE Registry& operator=(Registry&&) = default;
-  /// `space`: of a world's ids, see SlotMap.
+  /// Adds a record. `space` is the world's id space: see SlotMap.
   ISO_INLINE IdType add(const Record& record, std::uint32_t space = 0) {
     const IdType id = slots_.template take<IdType>(space);
     std::vector<Record>& all = records_.change();
@@ -39,19 +39,19 @@ template <class Record, class IdType> class Registry {
   ISO_INLINE bool holds(IdType id) const { return slots_.holds(id); }
   /// Returns null for a stale id.
   ISO_INLINE const Record* find(IdType id) const { return slots_.holds(id) ? &(*records_)[id.slot] : nullptr; }
-  /// The id of the first record, by slot, that matches; null where none does.
+  /// Returns the id of the first record, by slot, that matches; null if none does.
   template <class Match> ISO_INLINE IdType id_where(const Match& match) const {
     for (std::uint32_t slot = 0; slot < records_->size(); ++slot) {
       if (slots_.is_taken(slot) && match((*records_)[slot])) return slots_.template id_of<IdType>(slot);
     }
     return {};
   }
-  /// The record of an id that is held, to be written.
+  /// Returns the record of an id that is held, to be written.
   ISO_INLINE Record& change(IdType id) { return records_.change()[id.slot]; }
 
   ISO_INLINE const SlotMap& slot_map() const { return slots_; }
   ISO_INLINE SlotMap& slot_map() { return slots_; }
-  /// All records by slot, free slots included.
+  /// Returns all records by slot, free slots included.
   ISO_INLINE const std::vector<Record>& all() const { return *records_; }
   ISO_INLINE std::vector<Record>& change_all() { return records_.change(); }
   ISO_INLINE const Remembered& remembered() const { return records_.remembered(); }

@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// The names of the scalars of this build, in the order of ISOSTEP_SCALARS.
+/// Returns the names of the scalars of this build, in the order of ISOSTEP_SCALARS.
 ISO_INLINE std::vector<std::string> scalar_names() {
   std::vector<std::string> names;
   any_scalar([&](auto tag) ISO_INLINE_LAMBDA {
@@ -20,7 +20,7 @@ ISO_INLINE std::vector<std::string> scalar_names() {
   return names;
 }
 
-/// "float, double" where ", " is between them.
+/// Returns "float, double" where `between` is ", ".
 ISO_INLINE std::string joined_scalar_names(std::string_view between) {
   std::string names;
   any_scalar([&](auto tag) ISO_INLINE_LAMBDA {

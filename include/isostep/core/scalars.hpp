@@ -10,7 +10,7 @@ namespace isostep {
 
 template <class S> struct ScalarTag { using Type = S; };
 
-/// Calls visit(ScalarTag<S>{}) for each scalar until one call returns true; whether one did.
+/// Calls visit(ScalarTag<S>{}) for each scalar until one call returns true. Returns true if one did.
 template <class Visit> ISO_INLINE bool any_scalar(Visit&& visit) {
   bool found = false;
 #define ISO_VISIT(S) found = found || visit(ScalarTag<S>{});
@@ -19,7 +19,7 @@ template <class Visit> ISO_INLINE bool any_scalar(Visit&& visit) {
   return found;
 }
 
-/// visit(ScalarTag<S>{}) for the scalar of that name; false when the library has none.
+/// Calls visit(ScalarTag<S>{}) for the scalar of that name. Returns false if the library has none.
 template <class Visit> ISO_INLINE bool with_scalar(std::string_view name, Visit&& visit) {
   return any_scalar([&](auto tag) ISO_INLINE_LAMBDA {
     if (name != ScalarTraits<typename decltype(tag)::Type>::kName) return false;

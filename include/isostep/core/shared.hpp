@@ -26,14 +26,14 @@ template <class T> class Shared {
 
   ISO_INLINE const T& operator*() const { return node_->value; }
   ISO_INLINE const T* operator->() const { return &node_->value; }
-  /// The value to be written; the reference holds until the next copy.
+  /// Returns the value to be written. The reference holds until the next copy.
   ISO_INLINE T& change() {
     if (node_->owners.load(std::memory_order_acquire) != 1) release(std::exchange(node_, new Node(node_->value)));
     for (Remembered& remembered : node_->remembered) remembered.forget();
     return node_->value;
   }
   ISO_INLINE bool is_same(const Shared& other) const { return node_ == other.node_; }
-  /// A number computed of the value: there are three, 0 to 2. Hashes take 0 and 1.
+  /// Returns a number computed from the value. There are three, 0 to 2. Hashes use 0 and 1.
   ISO_INLINE const Remembered& remembered(int which = 0) const { return node_->remembered[which]; }
 
  private:

@@ -25,7 +25,7 @@ inline constexpr const char* kSimdNames[] = {"best", ISO_FOR_EACH_SIMD(ISO_NAME,
 #undef ISO_NAME
 inline constexpr std::uint32_t kSimds = sizeof kSimdNames / sizeof kSimdNames[0];
 
-/// The processor, as its operating system runs it, has the instructions that kernels for `simd` use.
+/// Returns true if the processor, as its operating system runs it, has the instructions that kernels for `simd` use.
 bool processor_has(Simd simd);
 
 namespace detail {
@@ -47,8 +47,8 @@ template <class Kernels> ISO_INLINE const Kernels* kernel_table_of(Simd simd) {
 }
 }  // namespace detail
 
-/// The kernels for `simd`: null where build or processor lack them. For `best` the widest there are; those of one lane
-/// always are.
+/// Returns the kernels for `simd`, or null if the build or the processor lacks them. For `best` the widest there are:
+/// those of one lane always are.
 template <class Kernels> ISO_INLINE const Kernels* choose_kernels(Simd simd) {
   if (simd != Simd::best) return processor_has(simd) ? detail::kernel_table_of<Kernels>(simd) : nullptr;
   for (const Simd wide : {Simd::avx512, Simd::avx2, Simd::sse2, Simd::neon, Simd::wasm}) {

@@ -17,7 +17,7 @@ ISO_INLINE std::optional<Simd> simd_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// These lanes, or the widest narrower ones that processor, build and scalar have. Some worlds have no choice.
+/// Uses these lanes, or the widest narrower ones that processor, build and scalar have. Some worlds have no choice.
 template <class W> ISO_INLINE void use_lanes(W& world, Simd simd) {
   if constexpr (requires { world.use_simd(simd); }) {
     if (world.use_simd(simd)) return;

@@ -76,7 +76,7 @@ class SlotMap {
   ISO_INLINE bool is_taken(std::uint32_t slot) const { return entries_[slot].next_free == SlotEntry::kTaken; }
   template <class AnyId> ISO_INLINE AnyId id_of(std::uint32_t slot) const { return {slot, entries_[slot].generation}; }
 
-  /// The ids of all taken slots, ascending by slot.
+  /// Returns the ids of all taken slots, ascending by slot.
   template <class AnyId> ISO_INLINE std::vector<AnyId> ids() const {
     std::vector<AnyId> ids;
     for (std::uint32_t slot = 0; slot < entries_.size(); ++slot) {
@@ -92,9 +92,9 @@ class SlotMap {
 
   ISO_INLINE const Entries& entries() const { return entries_; }
   ISO_INLINE std::uint32_t first_free() const { return first_free_; }
-  /// The hash computed of the whole table.
+  /// Returns the hash computed from the whole table.
   ISO_INLINE const Remembered& remembered_hash() const { return hash_; }
-  /// Takes the entries of a file. False: the free list is not one list of just the free slots.
+  /// Takes the entries of a file. Returns false if the free list is not one list of exactly the free slots.
   ISO_INLINE bool restore(const std::vector<SlotEntry>& entries, std::uint32_t first_free) {
     std::size_t free = 0, met = 0;
     for (const SlotEntry& entry : entries) {

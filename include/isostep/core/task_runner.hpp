@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// Pieces of a stage, at most.
+/// The most pieces of a stage.
 inline constexpr std::uint32_t kMaxPieces = 32;
 
 /// A function and its data; `threads` of 1, the default, calls no other.

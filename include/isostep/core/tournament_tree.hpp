@@ -14,7 +14,7 @@ namespace isostep {
 /// players, so the result depends on who plays, not on the order in which they changed.
 class TournamentTree {
  public:
-  /// All meet anew.
+  /// Lets all meet anew.
   template <class Before> ISO_INLINE void plant(std::uint32_t count, const Before& before) {
     count_ = count;
     if (winner_.size() < 2 * std::size_t{count}) winner_.resize(2 * std::size_t{count});
@@ -24,7 +24,7 @@ class TournamentTree {
       winner_[n] = before(left, right) ? left : right;
     }
   }
-  /// One has changed.
+  /// Handles a change of one player.
   template <class Before> ISO_INLINE void replay(std::uint32_t index, const Before& before) {
     for (std::size_t n = (std::size_t{count_} + index) / 2; n > 0; n /= 2) {
       const std::uint32_t left = winner_[2 * n], right = winner_[2 * n + 1];
@@ -33,7 +33,7 @@ class TournamentTree {
       winner_[n] = best;
     }
   }
-  /// The index of the winner. There is at least one.
+  /// Returns the index of the winner. There is at least one.
   ISO_INLINE std::uint32_t first() const { return winner_[1]; }
 
  private:

@@ -16,7 +16,7 @@ namespace isostep {
 
 namespace detail {
 
-/// The content of a blob that is drawn with a radius around it; 0: its own name.
+/// Returns the content id of a blob drawn with a radius around it; for 0 the id of the blob.
 ISO_INLINE ContentId drawn_content(ContentId blob, float radius) {
   constexpr std::uint64_t kSpread = 0x9e3779b97f4a7c15u;
   if (radius != 0) blob.low ^= std::bit_cast<std::uint32_t>(radius) * kSpread;
@@ -131,7 +131,7 @@ template <class S> class BodySketch {
     });
   }
 
-  /// kappa is mass times inverse inertia.
+  /// Draws a mass. kappa is mass times inverse inertia.
   ISO_INLINE void draw_mass(const BodyState<S>& state, const BodyProperties<S>& properties) const {
     DrawnMass mass = {};
     mass.body = id_of(state.slot);
@@ -158,7 +158,7 @@ template <class S> class BodySketch {
     to_.island(drawn);
   }
 
-  /// A part as the narrow phase wants it: from a's centre of mass.
+  /// Returns a part relative to a's centre of mass, as the narrow phase needs it.
   ISO_INLINE Transform<S> part_beside(const BodyView<S>& view, std::uint32_t child, Vec3<S> centre) const {
     const Child<S>& part = view.children[child];
     const Transform<S> origin = Transform<S>::of({view.pose.position - centre, view.pose.orientation});
@@ -207,7 +207,7 @@ template <class S> class BodySketch {
     to_.contact(drawn);
   }
 
-  /// [kg/s] The pair's reduced mass times the rate of integration: what makes a force of an impulse.
+  /// [kg/s] Returns the pair's reduced mass times the rate of integration, by which an impulse becomes a force.
   ISO_INLINE double newtons_of(const BodyProperties<S>& a, const BodyProperties<S>& b) const {
     const Settings<S>& settings = world_.settings();
     const double rate = integration_rate(settings.solver, settings.hz, settings.substeps);

@@ -9,7 +9,7 @@
 
 namespace isostep::detail {
 
-/// Wheels and the like, which move a body and are none: drawn from the records alone, as the last step or command left
+/// Draws wheels and the like, which move a body but are none, from the records alone, as the last step or command left
 /// them.
 template <class S> class MoverSketch {
   using D = Vec3<double>;
@@ -92,7 +92,7 @@ template <class S> class MoverSketch {
     const SinCos<double> half = sin_cos(0.5 * angle);
     return {axis.x * half.sin, axis.y * half.sin, axis.z * half.sin, half.cos};
   }
-  /// The shortest turn that leads y there.
+  /// Returns the shortest turn that leads y there.
   static ISO_INLINE Quat<double> from_y_to(D axis) {
     constexpr double kOpposite = -0.999999;
     if (axis.y < kOpposite) return {1, 0, 0, 0};

@@ -75,7 +75,7 @@ template <class S> class ParticleSketch {
   }
 
  private:
-  /// Returns what lies between: [m] of a spring or link, from its a.
+  /// Draws both ends of a spring or link. Returns the vector [m] from a to b.
   template <class Bond> ISO_INLINE Vec3<S> draw_ends(const Bond& bond, float (&from)[3], float (&to)[3]) const {
     const Vec3<S> a = state_.position[bond.a.slot], b = bond.b ? state_.position[bond.b.slot] : bond.anchor;
     sketch_.point(a, from);

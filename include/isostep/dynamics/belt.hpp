@@ -16,7 +16,7 @@
 
 namespace isostep {
 
-/// The place of a record's surface as a step begins.
+/// The surface of a record at the start of a step.
 template <class S> struct BeltPlace {
   Quat<Unit<S>> orientation;  // of the body
   Vec3<S> centre;             // [m] of mass, in its frame
@@ -24,7 +24,7 @@ template <class S> struct BeltPlace {
   std::uint32_t leaf_count;
 };
 
-/// A body's surface as a step begins, or a part's.
+/// A running surface of a body, or of a part, at the start of a step.
 template <class S> struct Belt {
   using V = Velocity<S>;
   std::uint32_t body;                    // slot
@@ -36,7 +36,7 @@ template <class S> struct Belt {
 
   ISO_INLINE std::uint64_t key() const { return std::uint64_t{body} << 32 | first_leaf; }
   ISO_INLINE bool turns() const { return !(angular == Vec3<S>::zero()); }
-  /// [m/s] The velocity at the end of an arm [m] from the centre of mass.
+  /// [m/s] Returns the velocity at the end of an arm [m] from the centre of mass.
   ISO_INLINE Vec3<S> velocity_at(Vec3<S> arm) const {
     const Vec3<S> at = arm + from_origin, w = angular;
     const auto part = [&](int i, int j)
@@ -46,10 +46,10 @@ template <class S> struct Belt {
   }
 };
 
-/// Belts ascend by slot of the body, then by part, the whole body's last. Nothing but memory stays from step to step.
+/// Holds the belts of a step, ascending by body slot, then by part, the whole body's last. Keeps only memory.
 template <class S> class Belts {
  public:
-  /// place_of(record): a BeltPlace. `fastest` [rad/s].
+  /// Lists the belts. place_of(record) returns a BeltPlace. `fastest` [rad/s] limits their rotation.
   template <class PlaceOf>
   ISO_INLINE void update(const Registry<SurfaceVelocity<S>, SurfaceVelocityId>& records, S fastest,
                          const PlaceOf& place_of) {
@@ -74,7 +74,7 @@ template <class S> class Belts {
     }
     return false;
   }
-  /// The belt of a leaf as a ContactKey has it: its part's own, else the body's. Null: the surface does not run there.
+  /// Returns the belt of a leaf, as in ContactKey: its part's, else the body's. Null if the surface does not run there.
   ISO_INLINE const Belt<S>* find(std::uint32_t body, std::uint32_t leaf) const {
     const std::uint64_t key = std::uint64_t{body} << 32 | leaf, whole = std::uint64_t{body} << 32 | kEveryPart;
     const std::size_t next = first_not([&](std::uint64_t other) ISO_INLINE_LAMBDA { return other <= key; });
@@ -88,7 +88,7 @@ template <class S> class Belts {
   struct ByPart {
     ISO_INLINE std::uint64_t operator()(const Belt<S>& belt) const { return belt.key(); }
   };
-  /// The first belt whose key is not before, for keys that ascend.
+  /// Returns the index of the first belt whose key is not before, for keys that ascend.
   template <class Before> ISO_INLINE std::size_t first_not(const Before& before) const {
     return lower_bound(all_.size(), [&](std::size_t i) ISO_INLINE_LAMBDA { return before(all_[i].key()); });
   }

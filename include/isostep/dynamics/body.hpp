@@ -71,7 +71,7 @@ template <class S> struct BodyProperties {
 template <class S> ISO_INLINE constexpr bool is_enabled(const BodyProperties<S>& body) {
   return (body.flags & body_flag::kDisabled) == 0;
 }
-/// Whether a body lies among the static ones: it does not move, nor does anything move it.
+/// Returns true if a body lies among the static ones: it does not move, and nothing moves it.
 template <class S> ISO_INLINE constexpr bool is_fixed(const BodyProperties<S>& body) {
   return body.type == BodyType::static_ || !is_enabled(body);
 }

@@ -10,20 +10,20 @@
 
 namespace isostep::detail {
 
-/// The rotation from a body's principal axes to the world. The principal axes of most shapes are the body's own.
+/// Returns the rotation from a body's principal axes to the world. For most shapes they are the body's own axes.
 template <class S> ISO_INLINE Mat3<Unit<S>> world_axes(Quat<Unit<S>> orientation, const BodyProperties<S>& body) {
   const bool own = body.principal == Quat<Unit<S>>::identity();
   return to_matrix(own ? orientation : orientation * body.principal);
 }
 
-/// Free turning changes the body's angular velocity. A body that may not turn about each axis is held by its locks: a
-/// change of the free body's angular velocity, cut down to the free axes, would drive it like a motor.
+/// Returns true if free rotation changes the body's angular velocity. Locks hold a body that may not turn about each
+/// axis: the change of a free body's angular velocity, cut down to the free axes, would drive it like a motor.
 template <class S> ISO_INLINE bool turns_freely(const BodyProperties<S>& body) {
   return (body.flags & (body_flag::kSpins | body_flag::kAngularLocks)) == body_flag::kSpins;
 }
 
-/// Mass times inverse inertia in the world's axes [1/m^2]. A locked axis gives whatever holds its angular velocity at
-/// zero: what is left is the inverse of the inertia about the free axes alone.
+/// Returns mass times inverse inertia in world axes [1/m^2]. A locked axis bears whatever torque keeps its angular
+/// velocity zero, so the result is the inverse of the inertia about the free axes alone.
 template <class S> ISO_INLINE Mat3<S> world_kappa(const BodyProperties<S>& body, const Mat3<Unit<S>>& axes) {
   Mat3<S> kappa =
       (body.flags & body_flag::kSpins) != 0 ? rotate_diagonal(axes, body.kappa) : Mat3<S>::diagonal(body.kappa);

@@ -14,9 +14,9 @@
 
 namespace isostep {
 
-/// Input:   the awake bodies, the geometry of the contacts, the rate at which the solver integrates [1/s]; where belts
-///          turn, them and the contacts.
-/// Output:  contacts on carriers and on turning belts, ascending.
+/// Input:   the awake bodies, the geometry of the contacts, the rate of the solver's integration [1/s]; if belts turn,
+///          these and the contacts.
+/// Output:  the contacts on carriers and on turning belts, ascending.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class Carriers {
  public:

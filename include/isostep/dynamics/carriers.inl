@@ -9,7 +9,7 @@
 namespace isostep {
 
 namespace detail {
-/// [1] the turn of a sub-step.
+/// [1] Returns the turn of a sub-step.
 template <class S> Vec3<Unit<S>> turn_at(Vec3<Velocity<S>> angular_velocity, std::int32_t rate) {
   using V = Velocity<S>;
   const V fastest = angular_speed_limit<S>(rate);
@@ -48,7 +48,7 @@ template <class S> bool Carriers<S>::add_on_carrier(std::uint32_t contact, const
   return false;
 }
 
-/// The first of two belts on each other leads along its arc.
+/// Adds a contact on a turning belt. Of two belts on each other the first carries along its arc.
 template <class S>
 void Carriers<S>::add_on_belt(std::uint32_t contact, const ContactKey& key, const ContactGeometry<S>& g,
                               std::int32_t rate) {

@@ -11,12 +11,12 @@
 
 namespace isostep {
 
-/// A kinematic body that turns. Friction brings a rider to the speed w x d that its place has as a step begins; kept
-/// up for the step, that leads off the circle, and its radius grows as exp(w^2 t / (2 hz)), sub-steps or not. In a
-/// sub-step of h the place under the rider itself goes to R (d + D): friction aims at (R - 1) (d + D) / h. What that
-/// adds to w x d acts as a belt on the platform's surface.
-/// Symbols: w = angular velocity [rad/s], d = from the platform's centre of mass to the rider's as the step begins [m],
-///          D = by how much that has changed since [m], R = 1 + 2 u [v]x + 2 [v]x^2 for the quaternion (v, u) of a
+/// A kinematic body that turns. Friction brings a rider to the speed w x d of its place at the start of a step. Kept
+/// for the whole step, that leads off the circle: its radius grows as exp(w^2 t / (2 hz)), sub-steps or not. In a
+/// sub-step of h the place under the rider itself moves to R (d + D), so friction aims at (R - 1) (d + D) / h. The
+/// difference from w x d acts as a belt on the platform's surface.
+/// Symbols: w = angular velocity [rad/s], d = from the platform's centre of mass to the rider's at the start of the
+///          step [m], D = the change of d since then [m], R = 1 + 2 u [v]x + 2 [v]x^2 for the quaternion (v, u) of a
 ///          sub-step's turn.
 template <class S> struct Carrier {
   using V = Velocity<S>;
@@ -24,7 +24,7 @@ template <class S> struct Carrier {
   Vec3<V> angular_velocity;  // [rad/s]
   Mat3<V> added;             // [1/s] (R - 1) / h - [w]x
 
-  /// Makes the carrier of a row; `turn` [rad] is that of BodyRows::integrate_positions at 1 / `rate` seconds.
+  /// Returns the carrier of a row. `turn` [rad] is the turn of BodyRows::integrate_positions over 1 / `rate` seconds.
   static ISO_INLINE Carrier of(std::uint32_t row, Vec3<V> angular_velocity, Vec3<Unit<S>> turn, std::int32_t rate) {
     const Quat<Unit<S>> q = integrate(Quat<Unit<S>>::identity(), turn);
     const auto part = [](Unit<S> a, S b) { return round_to<V>(product(a, b)); };
@@ -40,7 +40,7 @@ template <class S> struct Carrier {
 };
 
 /// A contact on a carrier, or on a turning belt: the surface of a SurfaceVelocity that turns while its body does not.
-/// Of a belt all of (R - 1) (d + D) / h acts on the surface: its w x d is in `belt`.
+/// For a belt the whole (R - 1) (d + D) / h acts on the surface: its w x d is in `belt`.
 template <class S> struct Carried {
   using V = Velocity<S>;
   std::uint32_t contact;
@@ -52,7 +52,7 @@ template <class S> struct Carried {
   Vec3<V> spin = Vec3<V>::zero();  // [rad/s] of b's surface against a's, besides the bodies' own
 
   ISO_INLINE bool spins() const { return !(spin == Vec3<V>::zero()); }
-  /// [m/s] The surface's speed `arm` [m] away from the middle of the contact, less that in the middle.
+  /// [m/s] Returns the surface's speed `arm` [m] away from the middle of the contact, less that in the middle.
   ISO_INLINE Vec3<V> spun(Vec3<S> arm) const {
     const auto part = [&](int i, int j) ISO_INLINE_LAMBDA {
       return saturate_to<V>(product(spin[i], arm[j]) - product(spin[j], arm[i]));
@@ -60,7 +60,7 @@ template <class S> struct Carried {
     return held_within(Vec3<V>{part(1, 2), part(2, 0), part(0, 1)}, convert<V>(Limits<S>::speed()));
   }
 
-  /// [m/s] speed of b's surface against a's in the sub-step that begins.
+  /// [m/s] Returns the speed of b's surface against a's in the sub-step that begins.
   ISO_INLINE Vec3<V> surface(const SolverBodies<S>& bodies) const {
     const Vec3<V> moved = bodies.displacement[rider].linear - bodies.displacement[carrier.row].linear;
     const Vec3<S> at = place + convert<S>(moved);

@@ -12,7 +12,7 @@
 
 namespace isostep::detail {
 
-/// [1] and [1] of critical: far beyond any pair of materials and any useful spring; products with them still fit.
+/// The most friction [1] and damping [1] of critical: far beyond real materials and useful springs. Products still fit.
 template <class S> inline constexpr S kMaxFriction = S(16);
 template <class S> inline constexpr S kMaxDampingRatio = S(64);
 template <class S> inline constexpr S kMaxAngle = S(6.28318530717958647692);  // [rad] a joint's
@@ -25,10 +25,10 @@ template <class S> ISO_INLINE bool is_direction(const Vec3<Unit<S>>& v) {
   return is_unit<S>(Quat<Unit<S>>{v.x, v.y, v.z, Unit<S>(0)});
 }
 
-/// By its length, not by axis.
+/// Returns true if the length of v, not each component, is within the limit.
 template <class S> bool no_longer(Vec3<S> v, S limit) { return !(limit < length(v)); }
 
-/// A shape that is refused.
+/// Reports the fault of a refused shape.
 ISO_INLINE FaultReport report_of(const ShapeFaultPlace& place) {
   if (place.fault == ShapeFault::none) return {};
   const Fault fault = place.fault == ShapeFault::not_finite ? Fault::not_finite : Fault::bad_shape;
@@ -37,7 +37,7 @@ ISO_INLINE FaultReport report_of(const ShapeFaultPlace& place) {
   return {fault, "", place.field, expected_of(place.fault), place.child};
 }
 
-/// What is required of a command's fields, in order; the first that is not met is the fault.
+/// Checks a command's fields in order. The first requirement that is not met is the fault.
 class Checklist {
  public:
   template <class T> ISO_INLINE Checklist& finite(const T& number, const char* field) {
@@ -69,7 +69,7 @@ inline constexpr char kWithinPosition[] = "coordinates up to Limits::position()"
 inline constexpr char kUnitLength[] = "a quaternion of length 1";
 inline constexpr char kZeroOfStatic[] = "0 of a static body";
 
-/// [1] A 64th, so that the squares of what divides by it fit every scalar.
+/// [1] Returns true if all factors are 1/64 to 1: the squares of quotients by them fit every scalar.
 template <class S> bool is_grain(Vec3<S> factors) {
   const auto good = [](S f) { return S(1.0 / 64) <= f && f <= S(1); };
   return good(factors.x) && good(factors.y) && good(factors.z);
@@ -98,7 +98,7 @@ template <class S> FaultReport fault_of(const Material<S>& m) {
       .proper(m.reserved == 0, "material.reserved", "0")
       .report();
 }
-/// Of a part of a shape. What no flag names is zeros or what a new record has.
+/// Checks the traits of a part. Fields that no flag names must be zero, or as in a new record.
 template <class S> FaultReport fault_of(const PartTraits<S>& t) {
   const PartTraits<S> none = {};
   const bool has_material = t.has(part_flag::kOwnMaterial), has_filter = t.has(part_flag::kOwnFilter);
@@ -111,7 +111,7 @@ template <class S> FaultReport fault_of(const PartTraits<S>& t) {
       .report();
 }
 
-/// A factor of gravity: the product of two numbers up to the speed limit fits.
+/// Checks gravity scale, damping and locks. The product of two numbers up to the speed limit fits.
 template <class S>
 FaultReport fault_of_motion(S gravity_scale, S linear_damping, S angular_damping, std::uint32_t locks) {
   const S most = S(kMaxRate);
@@ -128,7 +128,7 @@ FaultReport fault_of_motion(S gravity_scale, S linear_damping, S angular_damping
       .report();
 }
 
-/// Of any type of body: what a static one does not use is no less a mistake.
+/// Checks a mass for any type of body: a field that a static body does not use can still be wrong.
 template <class S> FaultReport fault_of_signs(S density, S mass, Vec3<S> inertia) {
   const S zero = S(0);
   const bool positive = zero < inertia.x && zero < inertia.y && zero < inertia.z;
@@ -140,8 +140,8 @@ template <class S> FaultReport fault_of_signs(S density, S mass, Vec3<S> inertia
       .report();
 }
 
-/// Kappa of a solid no smaller than a few of the least sizes: larger is inertia out of nowhere, and its products leave
-/// S.
+/// Checks mass and kappa. The limit is that of a solid of a few of the least sizes: a larger kappa is inertia out of
+/// nowhere, and its products do not fit S.
 template <class S> FaultReport fault_of_mass(S mass, Vec3<S> kappa) {
   const S most = S(3) / (Limits<S>::minimum_size() * Limits<S>::minimum_size());
   return Checklist()
@@ -153,8 +153,8 @@ template <class S> FaultReport fault_of_mass(S mass, Vec3<S> kappa) {
       .report();
 }
 
-/// Of what joints and AxisDrives have in common: where a limit and a spring's target are, up to `reach` [m] or [rad],
-/// and how fast a motor turns or slides.
+/// Checks what joints and AxisDrives have in common: that limits and a spring's target are within `reach` [m] or [rad],
+/// and the speed of a motor.
 template <class S, class Drive> FaultReport fault_of_drive(const Drive& d, bool length, S reach, const char* expected) {
   return Checklist()
       .finite(d.lower, "lower")
@@ -171,7 +171,7 @@ template <class S, class Drive> FaultReport fault_of_drive(const Drive& d, bool 
       .report();
 }
 
-/// An id that names nothing.
+/// Reports the fault of an id that names nothing.
 template <class AnyId>
 ISO_INLINE FaultReport fault_of_id(const SlotMap& slot_map, AnyId id, std::uint32_t space, const char* field) {
   if (slot_map.holds(id)) return {};
@@ -179,9 +179,9 @@ ISO_INLINE FaultReport fault_of_id(const SlotMap& slot_map, AnyId id, std::uint3
   return {SlotMap::space_of(id) != space ? Fault::foreign_id : Fault::stale_id, "", field, ""};
 }
 
-/// Whether a joint's arm is too long for its body: kappa arm^2 is how much faster the joint's end answers than the body
-/// as a whole, and rows multiply by it. About each principal axis only the arm's part across it counts, so that a long
-/// rod may hang by its end.
+/// Returns true if a joint's arm is too long for its body. kappa arm^2 tells how much faster the joint's end responds
+/// than the whole body, and rows multiply by it. About each principal axis only the arm's part across the axis counts,
+/// so that a long rod may hang by its end.
 template <class S> bool overreaches(Vec3<S> kappa, const Quat<Unit<S>>& principal, Vec3<S> arm) {
   const S most = Limits<S>::leverage();
   const Vec3<S> p = transposed_times(to_matrix(principal), arm);
@@ -192,20 +192,20 @@ template <class S> bool overreaches(Vec3<S> kappa, const Quat<Unit<S>>& principa
   return too_long(kappa.x, p.y, p.z) || too_long(kappa.y, p.z, p.x) || too_long(kappa.z, p.x, p.y);
 }
 
-/// Turning so fast that points of the body leave the range of velocities. `box` is the body's.
+/// Returns true if points of the body would leave the range of velocities. `box` is that of the body.
 template <class S> ISO_INLINE bool rotates_too_fast(Vec3<Velocity<S>> angular_velocity, const Aabb<S>& box) {
   const S reach = max_abs(box.high - box.low);  // twice the arm, roughly
   return product(convert<S>(Limits<S>::surface_speed()), S(1)) < product(reach, convert<S>(max_abs(angular_velocity)));
 }
 
-/// An exact sum as an S, held at the ends of the format instead of wrapping.
+/// Rounds an exact sum to S, clamped to the ends of the format instead of wrapping.
 template <class S, class Sum> ISO_INLINE S saturate_at(Sum sum, S highest) {
   const auto bound = product(highest, S(1));
   return bound < sum ? highest : sum < -bound ? -highest : round_to<S>(sum);
 }
 
-/// [1/s^2 of `limit`'s unit s] What forces may do: from rest to a limit in one step, and no more than half of the
-/// format, so that two add up.
+/// [1/s^2 of `limit`'s unit s] Returns the most that forces may accelerate: from rest to a limit in one step, and at
+/// most half of the format, so that two add up.
 template <class S> ISO_INLINE S most_acceleration(std::int32_t hz, S limit) {
   const S half = highest<S>() * S(0.5);
   return product(half, S(1)) < product(S(hz), limit) ? half : S(hz) * limit;
@@ -218,7 +218,7 @@ template <class S> ISO_INLINE FaultReport fault_of_place(Vec3<S> point, const ch
       .report();
 }
 
-/// The moment of a force that a user gave, whatever its size.
+/// Returns the moment of a force of any size that a user gave.
 template <class S> ISO_INLINE Vec3<S> saturated_cross(Vec3<S> arm, Vec3<S> force) {
   const auto part = [](S a, S b, S c, S d)
                         ISO_INLINE_LAMBDA { return saturate_at<S>(product(a, b) - product(c, d), highest<S>()); };

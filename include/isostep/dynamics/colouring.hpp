@@ -11,8 +11,8 @@
 
 namespace isostep {
 
-/// Colours greedily, in canonical order: a constraint gets the first colour that neither body has met. One that finds
-/// none is kUncoloured and is solved alone. The result depends on the constraints' order and bodies, nothing else.
+/// Colours greedily, in canonical order. A constraint gets the first colour that is free at both bodies. Without one it
+/// is kUncoloured and solved alone. The result depends only on the constraints' order and bodies.
 class Colouring {
  public:
   static constexpr std::uint32_t kColours = 32;
@@ -20,7 +20,7 @@ class Colouring {
 
   void begin(std::size_t body_rows) { used_.assign(body_rows, 0); }
 
-  /// A colour for a constraint between two rows of SolverBodies; a row that does not move limits nothing.
+  /// Returns a colour for a constraint between two rows of SolverBodies. A row that does not move sets no limit.
   std::uint32_t colour(std::uint32_t row_a, bool moves_a, std::uint32_t row_b, bool moves_b) {
     const std::uint32_t taken = (moves_a ? used_[row_a] : 0u) | (moves_b ? used_[row_b] : 0u);
     const auto free = static_cast<std::uint32_t>(std::countr_one(taken));

@@ -12,8 +12,8 @@
 
 namespace isostep {
 
-/// Orders contacts: body slots first (a < b), then the parts of each: leaves, see surface_pairs.hpp, and of bodies
-/// without surfaces simply the children of their shapes.
+/// The key that orders contacts: body slots first (a < b), then the parts of each. Parts are leaves, see
+/// surface_pairs.hpp, or in bodies without surfaces the children of their shapes.
 struct ContactKey {
   std::uint32_t body_a, body_b;
   std::uint32_t child_a, child_b;
@@ -36,7 +36,7 @@ inline constexpr std::uint32_t kTouching = 1u << 0;   // carried an impulse in t
 inline constexpr std::uint32_t kReported = 1u << 1;   // of a body or part with kReportContacts: events tell of it
 }
 
-/// State: a contact that has points. Impulses are velocity changes of the pair's reduced mass, m = ma mb / (ma + mb).
+/// State: a contact with points. Impulses are velocity changes of the pair's reduced mass, m = ma mb / (ma + mb).
 template <class S> struct Contact {
   ContactKey key;
   std::uint32_t count;  // points, 1..4
@@ -50,7 +50,7 @@ template <class S> struct Contact {
 };
 static_assert(kHasNoPadding<Contact<float>> && kHasNoPadding<Contact<double>>);
 
-/// Two materials met.
+/// The mixture of two materials.
 template <class S> struct MixedMaterial {
   S friction;                // [1]
   S restitution;             // [1]
@@ -61,17 +61,17 @@ template <class S> struct MixedMaterial {
   ISO_FIELDS(friction, restitution, rolling_resistance, spin_resistance, surface_velocity)
 };
 
-/// The root of the product.
+/// Returns the root of the product.
 template <class S> ISO_INLINE S mixed_friction(S a, S b) { return a == b ? a : sqrt(a * b); }
 
-/// Friction by the root of the product, of what slides, and its least radius so; the rest by the larger.
+/// Mixes two materials: sliding friction and spin resistance by the root of the product, the rest by the larger value.
 template <class S> ISO_INLINE MixedMaterial<S> mix(const Material<S>& a, const Material<S>& b) {
   return {mixed_friction(a.friction, b.friction), max(a.restitution, b.restitution),
           max(a.rolling_resistance, b.rolling_resistance), mixed_friction(a.spin_resistance, b.spin_resistance),
           b.surface_velocity - a.surface_velocity};
 }
 
-/// One step's view of a contact: where it is, what it is made of, which rows of SolverBodies it joins. Parallel to the
+/// Holds one step's geometry of a contact: its place, its mixed material, its rows of SolverBodies. Parallel to the
 /// contacts.
 template <class S> struct ContactGeometry {
   std::uint32_t row_a, row_b;
@@ -86,7 +86,7 @@ template <class S> struct ContactGeometry {
 };
 
 namespace detail {
-/// The arms from both bodies to the middle of a contact's points, where its friction acts, or to its first.
+/// Holds the arms from both bodies to the middle of a contact's points, where its friction acts, or to the first point.
 template <class S> struct ContactArms {
   Vec3<S> a, b;  // [m]
 
@@ -97,7 +97,7 @@ template <class S> struct ContactArms {
     return {sum.a * kShares[count - 1], sum.b * kShares[count - 1]};
   }
 };
-/// [m/s] Of a body at the end of an arm. Null: it does not move.
+/// [m/s] Returns the velocity of a body at the end of an arm. Null: it does not move.
 template <class S> ISO_INLINE Vec3<Velocity<S>> velocity_at(const BodyState<S>* body, Vec3<S> arm) {
   if (body == nullptr) return Vec3<Velocity<S>>::zero();
   const Vec3<Velocity<S>> w = body->angular_velocity;

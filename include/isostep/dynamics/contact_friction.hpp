@@ -7,15 +7,15 @@
 
 namespace isostep {
 
-/// The contacts of a material are what mix() makes of it, in every step.
+/// Returns true if mix() alone decides the friction of the material's contacts, in every step.
 template <class S> ISO_INLINE bool mixes_alone(const Material<S>& m) {
   return m.kind == 0 && !(m.friction < m.static_friction) && m.anisotropy == Vec3<S>{S(1), S(1), S(1)};
 }
 template <class S> ISO_INLINE S static_friction_of(const Material<S>& m) { return max(m.friction, m.static_friction); }
 
 namespace detail {
-/// [m/s] A contact that slips faster slides; slower is the trembling of what sticks, by which the friction basis of
-/// contact_prepare.inl tells the two apart as well. What gravity pulls loose passes it within a step or a few.
+/// [m/s] A contact that slips faster slides. A slower one sticks and jitters; the friction basis of contact_prepare.inl
+/// uses the same limit. A body that gravity pulls loose passes it within a step or a few.
 template <class S> inline constexpr Velocity<S> kSlidingSpeed = Velocity<S>(0.05);
 
 template <class S> ISO_INLINE Vec3<Velocity<S>> flattened(Vec3<Velocity<S>> v, Vec3<Unit<S>> n) {
@@ -25,13 +25,13 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> flattened(Vec3<Velocity<S>> v, V
 }
 }  // namespace detail
 
-/// Factors of friction along the axes of a body: Material::anisotropy.
+/// The factors of friction along the axes of a body: Material::anisotropy.
 template <class S> struct Grain {
   Vec3<S> factors;      // [1] f
   Mat3<Unit<S>> frame;  // body to world
 
   ISO_INLINE bool is_there() const { return !(factors == Vec3<S>{S(1), S(1), S(1)}); }
-  /// The radius of the ellipsoid sum (d_i / f_i)^2 = 1 along d: what of friction is left there. 1 for no direction.
+  /// Returns the radius of the ellipsoid sum (d_i / f_i)^2 = 1 along d: the factor of friction there. 1 without one.
   ISO_INLINE S factor_along(Vec3<Unit<S>> d) const {
     if (!is_there()) return S(1);
     const Vec3<S> local = convert<S>(transposed_times(frame, d));
@@ -39,14 +39,14 @@ template <class S> struct Grain {
     const S squared = dot(scaled, scaled);
     return S(0) < squared ? min(S(1), S(1) / sqrt(squared)) : S(1);
   }
-  /// The direction against which friction pushes what slips along `slip` on a surface with normal n. The forces that
-  /// a contact may bear fill an ellipse in its plane, and of those friction is the one that takes most of the power:
-  /// there the ellipse is at right angles to the slip. So what runs along its runners hardly slows, and what it has of
-  /// speed across them is gone at once. Of no grain: the slip.
+  /// Returns the direction in which friction acts against a slip along `slip`, on a surface with normal n. The forces
+  /// that a contact can bear fill an ellipse in its plane. Friction is the force among them that dissipates most power,
+  /// at the point where the ellipse is at right angles to the slip. So a body that slides along its runners hardly
+  /// slows, and loses speed across them at once. Without a grain: the slip.
   /// Source:  Moreau 1974 (maximal dissipation); Michalowski, Mroz 1978, Arch. Mech. 30(3).
-  /// Symbols: A = the ellipse's matrix in the plane, diag(1/f^2) seen there. The force is along A^-1 slip, and
-  ///          A^-1 = -[n]x A [n]x / det A in two dimensions. Even in n and odd in the slip, so bodies that trade places
-  ///          get mirrored forces, but for how halves are rounded.
+  /// Symbols: A = the ellipse's matrix in the plane, diag(1/f^2) projected on it. The force is along A^-1 slip, and
+  ///          A^-1 = -[n]x A [n]x / det A in two dimensions. Even in n and odd in the slip, so bodies that swap places
+  ///          get mirrored forces, except for how halves are rounded.
   ISO_INLINE Vec3<Unit<S>> line_of(Vec3<Unit<S>> n, Vec3<Unit<S>> slip) const {
     const Vec3<S> local = convert<S>(transposed_times(frame, cross(n, slip)));
     const Vec3<S>& f = factors;
@@ -55,8 +55,8 @@ template <class S> struct Grain {
   }
 };
 
-/// The lesser factor of two grains counts, so that the cone is the common part of two ellipses and convex. The root of
-/// the product would not be: it has dents for a grain of 1 : 6 or more on a plain surface.
+/// Returns the lesser factor of two grains, so that the cone is the intersection of two ellipses, and convex. The root
+/// of the product would not be: it has dents for a grain of 1 : 6 or more on a plain surface.
 template <class S> ISO_INLINE S factor_along(const Grain<S>& a, const Grain<S>& b, Vec3<Unit<S>> d) {
   return min(a.factor_along(d), b.factor_along(d));
 }
@@ -78,11 +78,11 @@ template <class S> struct SurfaceContact {
   Vec3<Velocity<S>> first_slip;  // [m/s] at its first point: what spins about the middle slides, too
 };
 
-/// Chooses g.material.friction. Contacts that did not slide hold up to the static coefficient; what slides has the
-/// dynamic one. Along a grain the solver's cone, a circle, has the radius of the ellipse where friction touches it: in
-/// the direction of friction_line while the contact slides, of the friction that it bore in the last step while it
-/// sticks. Solvers push against the slip, so the part of it that is across that direction goes into the surface
-/// velocity: it is let go on.
+/// Chooses g.material.friction. Contacts that did not slide have the static coefficient, sliding ones the dynamic one.
+/// With a grain, the solver's circular cone gets the radius of the ellipse along the friction force: in the direction
+/// of friction_line while the contact slides, of the last step's friction impulse while it sticks. Solvers push against
+/// the slip, so the part of the slip across that direction is added to the surface velocity: friction does not resist
+/// it.
 template <class S>
 ISO_INLINE void choose_friction(const SurfaceContact<S>& of, Vec3<Velocity<S>> borne, ContactGeometry<S>& g) {
   using V = Velocity<S>;

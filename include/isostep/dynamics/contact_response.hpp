@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// The response of one contact, its sides as the contact has them.
+/// The response of one contact, with the sides of the contact.
 template <class S> struct ContactResponse {
   std::uint32_t contact;   // of the step's
   S mass_a, mass_b;        // [1] scales of the inverse masses; one of them may be 0
@@ -20,8 +20,8 @@ template <class S> struct ContactResponse {
   S most_force;            // [N] 0: any
 
   ISO_FIELDS(contact, mass_a, mass_b, inertia_a, inertia_b, most_force)
-  /// mass_share() of masses over their scales. With u = m_b / (m_a + m_b) that is s_a u / (s_a u + s_b (1 - u)); as
-  /// none is between 0 and 2^-8, the sum is 2^-9 or more where neither is 0.
+  /// Returns mass_share() of masses over their scales. With u = m_b / (m_a + m_b) it is s_a u / (s_a u + s_b (1 - u)).
+  /// As none is between 0 and 2^-8, the sum is 2^-9 or more if neither is 0.
   ISO_INLINE MassShare<S> share(S of_a, S of_b) const {
     const MassShare<S> whole = mass_share(of_a, of_b);
     if (!(of_a > S(0)) || !(of_b > S(0)) || mass_a == mass_b) return whole;
@@ -31,14 +31,14 @@ template <class S> struct ContactResponse {
     const S a = divide_to<S>(scaled_a, scaled_a + scaled_b);
     return {a, S(1) - a};
   }
-  /// [kg] The mass whose velocity changes the contact's impulses are, for the side with the larger scale:
-  /// reduced_mass() of masses over their scales, times that scale.
+  /// [kg] Returns the mass to which the contact's impulses refer, on the side with the larger scale: reduced_mass() of
+  /// the masses over their scales, times that scale.
   ISO_INLINE S reduced(S of_a, S of_b) const {
     if (!(of_a > S(0)) || !(of_b > S(0)) || mass_a == mass_b) return reduced_mass(of_a, of_b);
     const MassShare<S> part = share(of_a, of_b);
     return mass_b < mass_a ? part.a * of_a : part.b * of_b;
   }
-  /// A body as the contact sees it turn.
+  /// Returns a body's mass with its inverse inertia scaled for the contact.
   ISO_INLINE SolverMass<S> seen_a(const SolverMass<S>& body) const {
     return {body.mass, scaled(body.kappa, inertia_a)};
   }
@@ -46,7 +46,7 @@ template <class S> struct ContactResponse {
     return {body.mass, scaled(body.kappa, inertia_b)};
   }
   ISO_INLINE bool is_limited() const { return S(0) < most_force; }
-  /// [m/s] Most that all points of the contact give together in h seconds; the highest of the format for any.
+  /// [m/s] Returns the most that all points of the contact give in h seconds; the highest of the format without limit.
   ISO_INLINE Velocity<S> most_impulse(S of_a, S of_b, Step<S> h) const {
     if (!is_limited()) return highest<Velocity<S>>();
     const S mass = reduced(of_a, of_b);
@@ -60,7 +60,7 @@ template <class S> struct ContactResponse {
   }
 };
 
-/// The response of a contact; null for one that answers as any.
+/// Returns the response of a contact, or null for an ordinary one.
 template <class S>
 ISO_INLINE const ContactResponse<S>* response_of(std::span<const ContactResponse<S>> all, std::size_t contact) {
   const std::size_t at =

@@ -6,8 +6,8 @@
 
 namespace isostep::detail {
 
-/// Forces and impulses have no range of their own: what they would do beyond the scalar's is cut, on exact products, so
-/// that nothing wraps, and remembered, so that the step reports it.
+/// Forces and impulses have no range of their own. A Bounder cuts their effect to the scalar's range, on exact
+/// products, so that nothing wraps, and remembers it for the report of the step.
 template <class S> struct Bounder {
   using V = Velocity<S>;
   bool cut = false;
@@ -48,14 +48,14 @@ template <class S> struct Bounder {
     };
     return {part(a.x, b.x), part(a.y, b.y), part(a.z, b.z)};
   }
-  /// Turning by a torque or an angular impulse: moments that no format holds end at its highest (saturated_cross()).
+  /// Returns the effect of a torque or an angular impulse. Moments beyond the format end at its highest value.
   ISO_INLINE Vec3<S> turning(const Mat3<S>& kappa, Vec3<S> torque, S mass, S limit) {
     cut = cut || max_abs(torque) == highest<S>();
     return times(kappa, quotient(torque, mass, Limits<S>::mass()), limit);
   }
 };
 
-/// [rad/s] Twice as fast points of the body leave the range of velocities: rotates_too_fast(). `box` is the body's.
+/// [rad/s] Returns half of the speed at which points of the body, with that box, leave the range of velocities.
 template <class S> ISO_INLINE S most_angular_speed(const Aabb<S>& box) {
   return min(Limits<S>::angular_speed(), S(0.5) * Limits<S>::surface_speed() / max(S(1), max_abs(box.high - box.low)));
 }

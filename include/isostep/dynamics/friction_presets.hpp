@@ -6,11 +6,11 @@
 
 namespace isostep {
 
-/// The coefficients of two surfaces together, not of one.
+/// The coefficients of a pair of surfaces, not of one.
 template <class S> struct FrictionPreset {
   S static_friction, friction;  // [1] of what rests; of what slides
 
-  /// The record for kinds that a game gives to its materials.
+  /// Returns the record for kinds that a game gives to its materials.
   ISO_INLINE constexpr MaterialPair<S> between(std::uint32_t kind_a, std::uint32_t kind_b) const {
     MaterialPair<S> pair;
     pair.kind_a = kind_a;
@@ -19,7 +19,7 @@ template <class S> struct FrictionPreset {
     pair.static_friction = static_friction;
     return pair;
   }
-  /// The material for both bodies: the mixture of two equal materials is the same.
+  /// Returns a material for both bodies: two equal materials mix to the same values.
   ISO_INLINE constexpr Material<S> material() const {
     Material<S> material;
     material.friction = friction;
@@ -28,8 +28,8 @@ template <class S> struct FrictionPreset {
   }
 };
 
-/// ISO_FOR_EACH_FRICTION_PRESET(X) expands X(name, static, dynamic).
-/// Source:  Millington 2010, Game Physics Engine Development, 2nd ed., p. 435. Velcro is what the book estimates.
+/// Expands ISO_FOR_EACH_FRICTION_PRESET(X) to X(name, static, dynamic). Source:  Millington 2010, Game Physics Engine
+/// Development, 2nd ed., p. 435. Velcro is an estimate of the book.
 #define ISO_FOR_EACH_FRICTION_PRESET(X) \
   X(crate_on_concrete, 0.5, 0.4)        \
   X(crate_on_ice, 0.2, 0.1)             \

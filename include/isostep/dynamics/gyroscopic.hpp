@@ -7,14 +7,14 @@
 
 namespace isostep {
 
-/// The pace of a body that is not slow: fast, by more than an eighth of a radian in a time step of integration.
+/// The pace of a body that is not slow. Fast: it turns by more than an eighth of a radian in an integration step.
 enum class Pace { brisk, fast };
 
-/// A slow solid after a free turn: its angular velocity, and that in the principal frame [rad/s].
+/// The angular velocity of a slow solid after a free turn, in the world and in the principal frame [rad/s].
 template <class V> struct SlowTurn { Vec3<V> angular_velocity, known; };
 
 namespace detail {
-/// The change of the angular velocity w by Euler's equations, in the principal frame, over h.
+/// Returns the change of the angular velocity w by Euler's equations, in the principal frame, over h.
 template <class S, class V, class H> ISO_INLINE Vec3<V> explicit_change(Vec3<S> euler, Vec3<V> w, H h) {
   const auto times = [](auto a, V b) ISO_INLINE_LAMBDA { return round_to<V>(product(a, b)); };
   const Vec3<V> hw = {times(h, w.x), times(h, w.y), times(h, w.z)};
@@ -22,8 +22,8 @@ template <class S, class V, class H> ISO_INLINE Vec3<V> explicit_change(Vec3<S> 
 }
 }  // namespace detail
 
-/// Turns a slow solid freely over h, by a sixteenth of a radian in a step of the world or less: FreeTurn says why in
-/// this form. It takes numbers or lanes; `half` is one half in each lane.
+/// Turns a slow solid freely over h, by at most a sixteenth of a radian in a step of the world. FreeTurn explains this
+/// form. Takes numbers or lanes; `half` is one half in each lane.
 template <class U, class S, class V, class H>
 ISO_INLINE SlowTurn<V> slow_turn(const Mat3<U>& axes, Vec3<S> euler, Vec3<V> angular_velocity, H h, S half) {
   const auto halved = [half](V x) ISO_INLINE_LAMBDA { return round_to<V>(product(half, x)); };
@@ -32,25 +32,25 @@ ISO_INLINE SlowTurn<V> slow_turn(const Mat3<U>& axes, Vec3<S> euler, Vec3<V> ang
   return {angular_velocity - axes * change, w - change};
 }
 
-/// Torque-free turning over time steps h, between which others push.
+/// Torque-free rotation over time steps h, between which other forces push.
 ///
-/// One step: I (w' - w) + h m x I m = 0, m = (w + w') / 2, in the principal frame. The rule keeps |I w| and w I w; with
-/// w' in place of m a box at 10 rad/s loses a third of its energy in ten seconds. A slow solid takes the explicit form,
-/// m at half of Euler's step: within a sixteenth of a radian about each axis of the world a box gains at most 1.2e-5 of
-/// its energy in a step, the flattest strip 1.3e-4. Others take one Newton step, which keeps both to third order: at a
-/// radian a sub-step, the most that a body turns, energy swings by 6 %. What is fast is brought back to its energy.
+/// One step: I (w' - w) + h m x I m = 0, m = (w + w') / 2, in the principal frame. The rule conserves |I w| and w I w;
+/// with w' in place of m a box at 10 rad/s loses a third of its energy in ten seconds. A slow solid takes the explicit
+/// form, m at half of Euler's step: within a sixteenth of a radian about each world axis a box gains at most 1.2e-5 of
+/// its energy in a step, the flattest strip 1.3e-4. Others take one Newton step, which conserves both to third order:
+/// at a radian a sub-step, the most that a body turns, energy swings by 6 %. A fast body is scaled back to its energy.
 ///
-/// Pushes: the orientation follows w' as if it were the angular velocity half a step later, so momentum is
-/// I w' + h/2 w' x I w'. A push of k after the step adds more to that than the torque h^-1 I k, and a fast top under
-/// torque would sink as under a brake: what is too much, h/2 (f(w' + k) - f(w')) with f(w) = w x I w, is taken back
-/// once k is known. Of what is fast that is no small change: it may not add energy.
+/// Pushes: the orientation follows w' as if it were the angular velocity half a step later, so momentum is I w' + h/2
+/// w' x I w'. A push of k after the step adds more to that than the torque h^-1 I k, and a fast top under torque would
+/// sink as if braked. So the excess, h/2 (f(w' + k) - f(w')) with f(w) = w x I w, is taken back once k is known. For a
+/// fast body that is no small change: it must not add energy.
 /// Source:  Catto 2015, Numerical Methods (GDC), implicit gyroscopic torque; Hairer, Lubich, Wanner 2006, Geometric
 ///          Numerical Integration, on quadratic invariants; Lee, Leok, McClamroch 2005, A Lie group variational
 ///          integrator for the attitude dynamics of a rigid body, on momentum between two orientations.
-/// Symbols: inertia = principal moments over the largest of them [1]; only ratios matter, so no unit is needed.
-///          euler = (I_y - I_z) / I_x and so on around [1]: Euler's equations are dw_x/dt = euler_x w_y w_z.
-/// Frames:  `axes` leads from the principal frame to the world; angular velocities in and out are in the world [rad/s],
-///          `known` is in the principal frame: what it was after the last step, all pushes since being new.
+/// Symbols: inertia = principal moments over the largest of them [1]; only ratios matter, so no unit is needed. euler =
+///          (I_y - I_z) / I_x and so on cyclically [1]: Euler's equations are dw_x/dt = euler_x w_y w_z.
+/// Frames:  `axes` leads from the principal frame to the world. Angular velocities in and out are in the world [rad/s].
+///          `known`, in the principal frame, is the value after the last step: the difference is the pushes since.
 template <class S> struct FreeTurn {
   using V = Velocity<S>;
   const Mat3<Unit<S>>& axes;
@@ -61,11 +61,11 @@ template <class S> struct FreeTurn {
     const auto ratio = [](S over, S under) { return S(0) < under ? divide_to<S>(over, under) : S(0); };
     return {ratio(i.y - i.z, i.x), ratio(i.z - i.x, i.y), ratio(i.x - i.y, i.z)};
   }
-  /// A solid's ratios are 1 at most, rounding aside. Moments that a user gives may be those of no solid.
+  /// Returns true if the ratios are those of a solid: at most 1, rounding aside. A user's moments may be of no solid.
   static ISO_INLINE bool is_solid(Vec3<S> euler) { return held_within(euler, S(2)) == euler; }
 
-  /// Turns a step. Pushes since the last step first lose what they did too much. Rounding by the axes is no push: taken
-  /// for one it feeds on itself.
+  /// Turns over a step. First takes back the excess of pushes since the last step. Rounding by the axes is no push:
+  /// taken for one it feeds on itself.
   ISO_INLINE Vec3<V> turn(Vec3<V> angular_velocity, Vec3<V>& known, Pace pace) const {
     const Vec3<V> w = local(angular_velocity);
     Vec3<V> change = implicit_change(w, known);
@@ -73,7 +73,7 @@ template <class S> struct FreeTurn {
     known = w - change;
     return angular_velocity - world(change);
   }
-  /// Takes back alone, when no step follows.
+  /// Only takes back the excess, when no step follows.
   ISO_INLINE Vec3<V> settle(Vec3<V> angular_velocity, Vec3<V> known, Pace pace) const {
     const Vec3<V> w = local(angular_velocity);
     Vec3<V> change = solve(w, half(bend(w) - bend(known)));
@@ -83,7 +83,7 @@ template <class S> struct FreeTurn {
   ISO_INLINE Vec3<V> local(Vec3<V> angular_velocity) const { return transposed_times(axes, angular_velocity); }
 
  private:
-  /// `w` scaled to the energy of `like`, rounding aside, unless it may have less.
+  /// Returns `w` scaled to the energy of `like`, rounding aside, unless it may have less.
   ISO_INLINE Vec3<V> with_energy_of(Vec3<V> like, Vec3<V> w, bool may_have_less) const {
     const Vec3<S> roots = {sqrt(inertia.x), sqrt(inertia.y), sqrt(inertia.z)};
     const auto root_of_energy = [&](Vec3<V> v) ISO_INLINE_LAMBDA {
@@ -102,7 +102,7 @@ template <class S> struct FreeTurn {
     return {times(inertia.x, w.x), times(inertia.y, w.y), times(inertia.z, w.z)};
   }
   ISO_INLINE Vec3<V> turned(Vec3<V> w) const { return {times(h, w.x), times(h, w.y), times(h, w.z)}; }  // [rad]
-  /// h f(w), held within half of the format: a pass may leave speeds beyond the limit, which are cut after the step.
+  /// Returns h f(w), within half of the format: a pass may leave speeds beyond the limit, which are cut after the step.
   ISO_INLINE Vec3<V> bend(Vec3<V> w) const {
     const Vec3<V> m = moment(w), hw = turned(w);
     return {round_with_headroom<V>(product(hw.y, m.z) - product(hw.z, m.y)),
@@ -114,7 +114,7 @@ template <class S> struct FreeTurn {
     const bool pushed = convert<V>(S(64) * resolution<S>()) < max_abs(w - known);
     return solve(w, pushed ? f + half(f - bend(known)) : f);
   }
-  /// J^-1 f, J = I + h/2 ([w]x I - [I w]x).
+  /// Returns J^-1 f, J = I + h/2 ([w]x I - [I w]x).
   ISO_INLINE Vec3<V> solve(Vec3<V> w, Vec3<V> f) const {
     const auto halved = [](V x) { return convert<S>(half(x)); };
     const Vec3<V> hw = turned(w), hm = turned(moment(w));
@@ -130,7 +130,7 @@ template <class S> struct FreeTurn {
     const auto part = [&](Vec3<S> n) { return divide_to<V>(round_to<V>(dot_sum(n, f)), convert<V>(determinant)); };
     return {part(n12), part(n20), part(n01)};
   }
-  /// The axes are not quite of unit length, so changes alone go through them: all of the velocity would grow with them.
+  /// Transforms changes only: the axes are not quite of unit length, and a whole velocity would grow with them.
   ISO_INLINE Vec3<V> world(Vec3<V> change) const { return axes * change; }
 };
 

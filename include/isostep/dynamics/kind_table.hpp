@@ -14,10 +14,10 @@
 
 namespace isostep {
 
-/// Kinds in ascending order, for one step. Keeps nothing from step to step but memory.
+/// A table of records by pairs of kinds, ascending, for one step. Keeps nothing from step to step but memory.
 template <class Record, class IdType> class KindTable {
  public:
-  /// The records stay where they are until the next call.
+  /// Builds the table. The records must stay where they are until the next call.
   ISO_INLINE void update(const Registry<Record, IdType>& pairs) {
     rows_.clear();
     records_ = pairs.all().data();
@@ -29,7 +29,7 @@ template <class Record, class IdType> class KindTable {
     stable_sort(rows_.data(), scratch_.data(), static_cast<std::uint32_t>(rows_.size()), Key{});
   }
   ISO_INLINE bool empty() const { return rows_.empty(); }
-  /// The record of two kinds. Null where there is none, and for kind 0.
+  /// Returns the record of two kinds. Null if there is none, and for kind 0.
   ISO_INLINE const Record* find(std::uint32_t kind_a, std::uint32_t kind_b) const {
     if (rows_.empty() || kind_a == 0 || kind_b == 0) return nullptr;
     const std::uint64_t key = kinds_key(kind_a, kind_b);

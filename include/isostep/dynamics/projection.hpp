@@ -6,12 +6,12 @@
 
 #include "isostep/scalar/platform.hpp"
 
-/// ISO_FOR_EACH_PROJECTION(X) expands X(name): in Projection, in scene files and on the command line. Millington 2007,
-/// pp. 322-328:
+/// Expands ISO_FOR_EACH_PROJECTION(X) to X(name): in Projection, in scene files and on the command line. Millington
+/// 2007, pp. 322-328:
 ///   nonlinear       moves and turns, each by its inverse inertia
-///   linear          moves along the normal alone
-///   relaxed         as nonlinear, by half of what a contact lacks each time that it is the worst
-///   velocity_based  takes bodies back along the motion that they came with, to where they touched
+///   linear          moves along the normal only
+///   relaxed         as nonlinear, but by half of the missing distance each time that a contact is the worst
+///   velocity_based  moves bodies back along the motion that they came with, to where they touched
 #define ISO_FOR_EACH_PROJECTION(X) X(nonlinear) X(linear) X(relaxed) X(velocity_based)
 
 namespace isostep {

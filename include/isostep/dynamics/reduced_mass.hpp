@@ -6,7 +6,7 @@
 
 namespace isostep {
 
-/// [kg] m_a m_b / (m_a + m_b), where 0 stands for what does not move; 0: neither does.
+/// [kg] Returns m_a m_b / (m_a + m_b), where 0 is an unmoved body. 0 if neither moves.
 template <class S> ISO_INLINE S reduced_mass(S mass_a, S mass_b) {
   return mass_b > S(0) ? mass_share(mass_a, mass_b).b * mass_b : mass_a;
 }

@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// Six numbers a body in two groups of four, so that W of them transpose into lanes by whole registers.
+/// The six numbers of a body in two groups of four, so that W bodies transpose into lanes by whole registers.
 template <class V> struct alignas(8 * sizeof(V)) MotionRow {
   Vec3<V> linear;
   V pad0;
@@ -22,7 +22,7 @@ template <class V> struct alignas(8 * sizeof(V)) MotionRow {
   ISO_FIELDS(linear, angular)
 };
 
-/// Acceleration asked for by forces, for this step alone.
+/// The acceleration by forces, for this step alone.
 template <class S> struct Acceleration {
   Vec3<S> linear;   // [m/s^2]
   Vec3<S> angular;  // [rad/s^2]
@@ -30,23 +30,23 @@ template <class S> struct Acceleration {
   ISO_FIELDS(linear, angular)
 };
 
-/// The angular speed [rad/s] above which a body spins about an axis: its orientation as a step begins does not do for
-/// the whole step. A sixteenth of a radian a step: less misdirects a torque by three hundredths on average.
+/// Returns the angular speed [rad/s] above which a body spins: its orientation at the start of a step does not hold for
+/// the whole step. A sixteenth of a radian a step: with less, a torque is misdirected by three hundredths on average.
 template <class S> ISO_INLINE Velocity<S> rapid_angular_speed(std::int32_t hz) {
   return convert<Velocity<S>>(S(hz) * S(1.0 / 16));
 }
 
-/// The angular speed [rad/s], an eighth of a radian a sub-step, above which a body that has contacts keeps the inertia
-/// about the world's axes that it has, and arms count as straight. Contacts are prepared once a step: beside joints
-/// that follow, a limb in a pinch is spun up to the limit of angular speeds. Light links of a rope under load whip so
-/// fast, and what bends their arms drives them.
+/// Returns the angular speed [rad/s], an eighth of a radian a sub-step, above which a body with contacts keeps its
+/// inertia about the world axes, and arms count as straight. Contacts are prepared once a step: beside joints that
+/// follow, a pinched limb is spun up to the limit of angular speeds. Light links of a loaded rope whip that fast, and
+/// bending arms would drive them.
 template <class S> ISO_INLINE Velocity<S> angular_speed_to_follow(std::int32_t rate) {
   return saturate_to<Velocity<S>>(product(S(rate), S(1.0 / 8)));
 }
 
-/// The angular speed [rad/s] above which a body's inertia is renewed in every sub-step, and contacts follow
-/// (contact_follow.hpp): seven eighths of a radian a step, and a quarter where one axis is sixteen times easier to turn
-/// about than another. Old inertia is wrong by the turn times that ratio; contacts take more energy from slower bodies.
+/// Returns the angular speed [rad/s] above which a body's inertia is renewed in every sub-step, and contacts follow
+/// (contact_follow.hpp): seven eighths of a radian a step, a quarter if one axis is sixteen times easier to turn about
+/// than another. Old inertia is wrong by the turn times that ratio; contacts take more energy from slower bodies.
 template <class S> ISO_INLINE Velocity<S> angular_speed_to_renew(std::int32_t hz, bool slender) {
   return convert<Velocity<S>>(min(Limits<S>::angular_speed(), S(hz)) * (slender ? S(0.25) : S(0.875)));
 }
@@ -59,7 +59,7 @@ template <class S> struct SolverMass {
   ISO_FIELDS(mass, kappa)
 };
 
-/// Row 0 stands for everything that does not move; the awake bodies follow in order.
+/// The rows of bodies. Row 0 is everything that does not move; the awake bodies follow in order.
 template <class S> struct SolverBodies {
   std::vector<MotionRow<Velocity<S>>> velocity;      // [m/s], [rad/s]
   std::vector<MotionRow<Velocity<S>>> displacement;  // [m], [rad] since the step began
@@ -68,8 +68,8 @@ template <class S> struct SolverBodies {
   ISO_INLINE bool moves(std::uint32_t row) const { return mass[row].mass > S(0); }
 };
 
-/// The shares of two bodies in a unit of impulse, counted as velocity change of the reduced mass: a + b = 1 unless
-/// neither moves. Ratios stand for inverse masses, so that grams and tons are equally exact in fixed point.
+/// The shares of two bodies in a unit of impulse, which is a velocity change of the reduced mass: a + b = 1 unless
+/// neither moves. Ratios replace inverse masses, so that grams and tons are equally exact in fixed point.
 template <class S> struct MassShare {
   S a, b;  // [1]
 

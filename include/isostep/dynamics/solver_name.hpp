@@ -9,13 +9,13 @@
 #include "isostep/core/book.hpp"
 #include "isostep/scalar/platform.hpp"
 
-/// ISO_FOR_EACH_SOLVER(X) expands X(name): in SolverName, in scene files and on the command line;
-/// ISO_FOR_EACH_BUILT_SOLVER(X) for those that this build holds: of the member of Solvers. What `substeps` means to
-/// each; h is the length of what it integrates at once:
-///   soft_step    so many sub-steps, in each one pass over contacts as springs; joints in trees, solved at once
-///   pgs          one step of h = 1 / hz, and so many passes: projected Gauss-Seidel, errors closed by Baumgarte's term
-///   worst_first  so many sub-steps, each resolved the worst contact first: velocities, then positions (Millington)
-///   direct       so many sub-steps, each island solved simultaneously by pivoting
+/// Expands ISO_FOR_EACH_SOLVER(X) to X(name): in SolverName, in scene files and on the command line;
+/// ISO_FOR_EACH_BUILT_SOLVER(X) for the solvers of this build: the members of Solvers. The meaning of `substeps` in
+/// each; h is the length of an integration step:
+///   soft_step    that many sub-steps, each with one pass over contacts as springs; joints in trees, solved at once
+///   pgs          one step of h = 1 / hz, and that many passes: projected Gauss-Seidel, Baumgarte's term closes errors
+///   worst_first  that many sub-steps, each resolves the worst contact first: velocities, then positions (Millington)
+///   direct       that many sub-steps, each island solved simultaneously by pivoting
 #define ISO_SOLVERS(X, BOOK) X(soft_step) X(pgs) BOOK(worst_first) X(direct)
 #define ISO_FOR_EACH_SOLVER(X) ISO_SOLVERS(X, X)
 #define ISO_FOR_EACH_BUILT_SOLVER(X) ISO_SOLVERS(X, ISO_BUILT_BOOK(X))
@@ -38,16 +38,16 @@ ISO_INLINE std::optional<SolverName> solver_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// The expectation of a fault, for a solver that the build leaves out; null for any other value: core/book.hpp.
+/// Returns what a fault expects instead of a solver that the build leaves out. Null for others: core/book.hpp.
 ISO_INLINE constexpr const char* expected_instead_of(SolverName solver) {
   constexpr const char* kExpected[] = {ISO_SOLVERS(ISO_NOT_LEFT_OUT, ISO_LEFT_OUT)};
   const auto index = static_cast<std::uint32_t>(solver);
   return index < kSolvers ? kExpected[index] : nullptr;
 }
 
-/// The solver's `substeps` are passes over one step of integration.
+/// Returns true if the solver's `substeps` are passes over one integration step.
 ISO_INLINE constexpr bool counts_passes(SolverName solver) { return solver == SolverName::pgs; }
-/// Steps of integration a second, for `substeps` of a world's `hz`.
+/// Returns the integration steps a second, for `substeps` of a world's `hz`.
 ISO_INLINE constexpr std::int32_t integration_rate(SolverName solver, std::int32_t hz, std::int32_t substeps) {
   return counts_passes(solver) ? hz : hz * substeps;
 }

@@ -16,7 +16,7 @@ template <class S> struct WheelRow {
   S share;                    // [1] the ground's change of velocity, to the body's
   S give;                     // [1] change of `speed` by a unit of impulse: 1 or more
 
-  /// Sets the row on a ground that stands still; its fields of the ground's motion are not read.
+  /// Sets the row for a ground that stands still. Its fields of the ground's motion are then not read.
   ISO_INLINE void set(Vec3<U> direction, const SolverMass<S>& body, Vec3<S> arm) {
     way = direction;
     turn = cross(arm, direction);
@@ -35,11 +35,11 @@ template <class S> struct WheelRow {
     const S ground_give = S(1) + saturate_to<S>(dot_sum(ground_turn, ground_spun));
     give = saturating_add(give, saturate_to<S>(product(share, ground_give)));
   }
-  /// [m/s] The speed of the body's point.
+  /// [m/s] Returns the speed of the body's point.
   ISO_INLINE V speed(const MotionRow<V>& body) const {
     return saturating_add(saturate_to<V>(dot_sum(body.linear, way)), saturate_to<V>(dot_sum(body.angular, turn)));
   }
-  /// [m/s] The speed of the body's point against the ground's.
+  /// [m/s] Returns the speed of the body's point relative to the ground's.
   ISO_INLINE V speed(const MotionRow<V>& body, const MotionRow<V>& ground) const {
     const V linear = saturate_to<V>(dot_sum(saturating_subtract(body.linear, ground.linear), way));
     const V turning = saturate_to<V>(dot_sum(body.angular, turn));
@@ -61,7 +61,7 @@ template <class S> struct WheelRow {
   }
 };
 
-/// The forces of spring, damper, bar and stop in a sub-step, as far as its motion does not change them.
+/// The forces of spring, damper, bar and stop in a sub-step, without what the sub-step's motion changes of them.
 template <class S> struct Strut {
   S spring;          // [m/s^2] of the body along the suspension
   S damping;         // [1/s] with what the spring gains in the sub-step
@@ -81,7 +81,7 @@ template <class S> struct SlipCurve {
     return peak_grip + (slide_grip - peak_grip) * divide_to<Unit<S>>(slip - peak_slip, slide_slip - peak_slip);
   }
 };
-/// [1] The speed with which a tyre slides, by that of its middle over the ground [m/s].
+/// [1] Returns the slip: a tyre's sliding speed by the speed of its middle over the ground [m/s].
 template <class V> ISO_INLINE V tyre_slip(V slide_along, V slide_across, V speed_along) {
   constexpr V kSlow = V(1);  // [m/s]
   constexpr V kMost = V(4);  // a spinning tyre on the spot; more is all the same
@@ -89,14 +89,14 @@ template <class V> ISO_INLINE V tyre_slip(V slide_along, V slide_across, V speed
   return slide * V(0.25) < speed ? divide_to<V>(slide, speed) : kMost;
 }
 
-/// The spin of a wheel that meets the ground or does not, or of its track, as speed of its rim [m/s].
+/// The spin of a wheel on or off the ground, or of its track, as the speed of its rim [m/s].
 template <class S> struct WheelSpin {
   using V = Velocity<S>;
   V rim;    // without tyre and brake
   S give;   // [1] rim_give()
   V brake;  // [m/s] the most that brakes change it by
 
-  /// [m/s] The rim's speed with brake and an impulse of the tyre on the body.
+  /// [m/s] Returns the rim's speed with the brake and with the impulse `along` of the tyre on the body.
   ISO_INLINE V after(V along) const {
     const V driven = saturating_subtract(rim, saturate_to<V>(product(give, along)));
     return driven - clamp(driven, -brake, brake);
@@ -110,7 +110,7 @@ template <class V> struct TyreImpulse {
   V along, across;  // [m/s]
 };
 
-/// The ellipse with those radii holds the impulse.
+/// Returns true if the ellipse with those radii contains the impulse.
 template <class V> ISO_INLINE bool is_within(const TyreImpulse<V>& impulse, V most_along, V most_across) {
   constexpr V kSurely = V(0.6875);  // of both radii: twice its square is below 1
   const V along = abs(impulse.along), across = abs(impulse.across);
@@ -120,16 +120,16 @@ template <class V> ISO_INLINE bool is_within(const TyreImpulse<V>& impulse, V mo
   return a * a + b * b <= V(1);
 }
 
-/// The slip of a tyre without its impulse, and how far it gives way to one.
+/// The slip of a tyre without its impulse, and how far it yields to one.
 template <class S> struct TyreSlip {
   Velocity<S> along, across;  // [m/s] of the body's point against the ground, less the rim's speed
   S give_along, give_across;  // [1]
 };
 
-/// The impulse on the ellipse with those radii, against the slip that it leaves; to end the slip takes more.
-/// Method:  scaled to a circle of radius R, the impulse is -s_i / (K_i + g), with s the slip, K what gives way and g
-///          such that its length is R: by steps of Hebden's formula, as of trust regions (More, Sorensen 1983, SIAM J.
-///          Sci. Stat. Comput. 4(3), eq. 3.5).
+/// Returns the impulse on the ellipse with those radii that opposes the slip it leaves: to end the slip takes more.
+/// Method:  scaled to a circle of radius R, the impulse is -s_i / (K_i + g), with s the slip, K the yield and g such
+///          that its length is R: by steps of Hebden's formula, as of trust regions (More, Sorensen 1983, SIAM J. Sci.
+///          Stat. Comput. 4(3), eq. 3.5).
 template <class S>
 TyreImpulse<Velocity<S>> sliding_impulse(const TyreSlip<S>& slip, Velocity<S> most_along, Velocity<S> most_across) {
   using V = Velocity<S>;
@@ -155,10 +155,10 @@ TyreImpulse<Velocity<S>> sliding_impulse(const TyreSlip<S>& slip, Velocity<S> mo
   return {round_to<V>(product(way.direction.x, most_along)), round_to<V>(product(way.direction.y, most_across))};
 }
 
-/// The impulse of a tyre that ends its slip, or that of the ellipse with radii most_along and most_across whose
-/// slip is left against it.
-/// Input:   `slip_along`, `slip_across` [m/s] of the body's point against the ground without that impulse.
-/// Method:  along the wheel brake and tyre are solved as one: the wheel is light, and would pass on little of either in
+/// Returns the impulse of a tyre that ends its slip. Beyond the ellipse with radii most_along and most_across returns
+/// that on the ellipse which opposes the slip that it leaves.
+/// Input:   `slip_along`, `slip_across` [m/s] of the body's point relative to the ground, without that impulse.
+/// Method:  brake and tyre are solved as one along the wheel: the wheel is light, and would pass on little of either in
 ///          an iteration. Beyond the ellipse: sliding_impulse().
 template <class S>
 ISO_INLINE TyreImpulse<Velocity<S>> tyre_impulse(const WheelSpin<S>& spin, S give_along, S give_across,

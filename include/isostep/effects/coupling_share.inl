@@ -9,15 +9,15 @@
 namespace isostep {
 
 namespace detail {
-/// Rounds over a body's touches.
+/// The rounds over a body's touches.
 inline constexpr int kShareRounds = 6;
-/// [m/s] errors below are left to the particles.
+/// [m/s] Errors below this are left to the particles.
 template <class S> inline constexpr S kGoodSpeed = S(0.001);
-/// [1] The part that counts of the number of touches on a body: see share.
+/// [1] The share that counts of the touches on a body: see share.
 template <class S> inline constexpr S kCrowdShare = S(0.6);
-/// [1] The share of gravity, at most, with which a touch is told that its body falls.
+/// [1] The most of gravity with which a touch is told that its body falls.
 template <class S> inline constexpr S kMostAhead = S(4);
-/// [1] The share of an overlap deeper than kOverlapSlop that a body leaves in a step, at no more than kLeaveSpeed:
+/// [1] The share of an overlap deeper than kOverlapSlop that a body leaves in a step, at kLeaveSpeed at most, which is
 /// slower than what bounces.
 template <class S> inline constexpr S kOverlapShare = S(0.125);
 template <class S> inline constexpr S kOverlapSlop = S(0.001);
@@ -79,13 +79,13 @@ template <class S> void ParticleCoupling<S>::weigh(const Met& met, Touching& tou
     touching.least_speed = leave <= times(touching.touch.restitution, closing) ? S(0) : leave * share;
   }
 }
-/// The speed that a push and a turning lever of another touch give at this one, in mass-scaled units.
+/// Returns the speed that a push and a turning lever of another touch give at this one, in mass-scaled units.
 template <class S> ISO_INLINE S ParticleCoupling<S>::response(const Along& along, Vec3<S> push, Vec3<S> lever) {
   return saturating_add(saturate_to<S>(dot_sum(along.push, push)), saturate_to<S>(dot_sum(along.turn, lever)));
 }
 
-/// One body's touches alone, particles as free points without springs: what comes about at once; then the body's
-/// gravity within the step, against particles that stay as they are, for what bears it is what is behind them.
+/// Solves one body's touches alone, with particles as free points without springs: first what happens at once, then the
+/// body's gravity within the step, against particles that keep their motion, as what bears it is behind them.
 template <class S> void ParticleCoupling<S>::foresee(Met& met) {
   Motion motion = {met.velocity, transposed_times(met.principal, met.angular_velocity)};
   solve(met, motion, true);
@@ -107,8 +107,8 @@ template <class S> ISO_INLINE void ParticleCoupling<S>::count(Met& met, const Al
   met.press.push = saturating_add(met.press.push, along.push);
   met.press.lever = saturating_add(met.press.lever, along.lever);
 }
-/// Gives all that meet at once an even start, for what bears a body is more than it takes, and who comes first would
-/// get all; then projected Gauss-Seidel.
+/// Gives all touches an even start, since what bears a body is more than it takes, and the first touch would get all.
+/// Then solves by projected Gauss-Seidel.
 template <class S> void ParticleCoupling<S>::solve(Met& met, Motion& motion, bool gives) {
   met.pressing = 0;
   met.press = {Vec3<S>::zero(), Vec3<S>::zero()};
@@ -143,7 +143,7 @@ template <class S> ISO_INLINE S ParticleCoupling<S>::missing_speed(const Touchin
   const S apart = saturating_add(speed_along(touching.along, motion), -touching.speed);
   return saturating_add(touching.least_speed, -apart);
 }
-/// Returns by how much the touch changed [m/s].
+/// Returns the change of the touch's speed [m/s].
 template <class S>
 ISO_INLINE S ParticleCoupling<S>::give(Touching& touching, Motion& motion, S missing, S answer, bool gives) {
   const S sum = gives ? saturating_add(answer, touching.own) : answer;
@@ -194,7 +194,7 @@ template <class S> void ParticleCoupling<S>::share(Met& met) {
     touch.surface_velocity = convert<V>(held_within(surface, ParticleLimits<S>::speed()));
   }
 }
-/// The part of gravity along the surface that goes with the part across it.
+/// Returns the part of gravity along the surface that goes with the part across it.
 template <class S> Vec3<S> ParticleCoupling<S>::gravity_told(const Met& met, Vec3<U> normal, S ahead) {
   const S across = -dot(normal, met.gravity);
   const Vec3<S> along = met.gravity + normal * across;

@@ -19,7 +19,7 @@ template <class S> struct CouplingSettings {
   S unfelt = S(0);
 };
 
-/// The counts of the last frame.
+/// Holds the counts of the last frame.
 struct CouplingReport {
   std::uint32_t touches = 0;  // handed to the particles
   std::uint32_t bodies = 0;   // near particles, whether these touch them or not
@@ -71,10 +71,10 @@ template <class S> class ParticleCoupling {
  public:
   explicit ParticleCoupling(const CouplingSettings<S>& settings = {});
 
-  /// Finds the coming step's touches. False, and nothing is done, where the worlds' rates differ.
+  /// Finds the coming step's touches. Does nothing and returns false if the worlds' rates differ.
   bool before_step(const World<S>& bodies, ParticleWorld<S>& particles);
-  /// Gives bodies what particles gave them in the step since `before_step`; false, and nothing is done, where there
-  /// was not exactly one.
+  /// Gives bodies what particles gave them in the step since `before_step`. Does nothing and returns false if there was
+  /// not exactly one step.
   bool after_step(World<S>& bodies, const ParticleWorld<S>& particles);
 
   const CouplingReport& report() const { return report_; }
@@ -85,11 +85,11 @@ template <class S> class ParticleCoupling {
 
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
-  /// Sums over touches, of their pushes and levers.
+  /// Holds sums over touches, of their pushes and levers.
   struct Press {
     Vec3<S> push, lever;
   };
-  /// A body near particles, and what it got from them.
+  /// A body near particles, with what it got from them.
   struct Met {
     BodyId body;
     bool collides, moves, rests;  // moves: pushes matter; rests: asleep, or slow in the step before

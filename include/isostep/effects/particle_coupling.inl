@@ -14,11 +14,11 @@
 namespace isostep {
 
 namespace detail {
-/// [m/s] The speed that forces may give a particle within a step, more or less; what it meets sooner is found before.
+/// [m/s] The speed that forces may give a particle within a step, more or less. What it meets sooner is found before.
 template <class S> inline constexpr S kStraySpeed = S(2);
-/// [1] The share of that way within which a particle is as good as touching.
+/// [1] The share of that way within which a particle counts as touching.
 template <class S> inline constexpr S kTouchShare = S(0.125);
-/// Steps of tracing a way to a surface; each ends at the nearest point's distance.
+/// The steps of tracing a way to a surface. Each ends at the distance of the nearest point.
 inline constexpr int kTraceSteps = 16;
 }  // namespace detail
 
@@ -77,7 +77,7 @@ template <class S> void ParticleCoupling<S>::find_touches(const World<S>& bodies
   report_.bodies = static_cast<std::uint32_t>(met_.size());
 }
 
-/// The way by which the boxes of the awake are too small for the coming step: their own and that of their corners.
+/// [m] Returns how far points of awake bodies may move in the coming step: by so much their boxes are too small.
 template <class S> S ParticleCoupling<S>::farthest_way(const World<S>& bodies) const {
   S most = S(0);
   for (const BodyState<S>& body : bodies.state().awake.states) {
@@ -104,7 +104,7 @@ template <class S> void ParticleCoupling<S>::find_bodies(const World<S>& bodies,
   }
 }
 
-/// The body's place in met_, looked at but once.
+/// Returns the body's place in met_, where each body is entered once.
 template <class S> std::uint32_t ParticleCoupling<S>::meet(const World<S>& bodies, BodyId body) {
   if (met_of_slot_.size() <= body.slot) met_of_slot_.resize(body.slot + 1, 0);
   if (met_of_slot_[body.slot] != 0) return met_of_slot_[body.slot] - 1;
@@ -138,8 +138,8 @@ template <class S> std::uint32_t ParticleCoupling<S>::meet(const World<S>& bodie
   return met_of_slot_[body.slot] - 1;
 }
 
-/// Near: the closest point. Farther: the way of the particle as the body sees it, in steps that no surface can lie
-/// within (Hart 1996, Sphere Tracing), so that what flies past meets no plane of what it passes.
+/// Finds a near part's closest point. For a farther one traces the particle's way relative to the body, in steps that
+/// no surface can lie within (Hart 1996, Sphere Tracing): a particle that flies past meets no plane of the part.
 template <class S>
 bool ParticleCoupling<S>::find_meeting(const Met& met, const Part& part, const Flier& flier, Meeting& meeting) const {
   const S radius = flier.material->radius;
@@ -166,7 +166,7 @@ bool ParticleCoupling<S>::find_meeting(const Met& met, const Part& part, const F
   return true;
 }
 
-/// [m/s] The velocity of the body's matter.
+/// [m/s] Returns the velocity of the body's matter.
 template <class S> ISO_INLINE Vec3<S> ParticleCoupling<S>::velocity_at(const Met& met, Vec3<S> arm) const {
   return saturating_add(met.velocity, detail::saturating_moment(met.angular_velocity, arm));
 }
@@ -237,7 +237,7 @@ template <class S> void ParticleCoupling<S>::push_bodies(World<S>& bodies, const
   }
 }
 
-/// [1] The share of a body's impulse that is its weight within a step, where the impulse is upwards.
+/// [1] Returns the share of a body's impulse that is its weight within a step, if the impulse is upwards.
 template <class S> Unit<S> ParticleCoupling<S>::bearing_share(const Met& met) const {
   if (!(dot(met.impulse, met.gravity) < S(0))) return U(0);
   const S weight = saturate_to<S>(product(max_abs(met.gravity) * step_, met.mass));
@@ -245,8 +245,8 @@ template <class S> Unit<S> ParticleCoupling<S>::bearing_share(const Met& met) co
   return got <= weight ? U(1) : divide_to<U>(weight, got);
 }
 
-/// The body rests and its impulse is below the share of its weight within a step: a body that particles bear gets all
-/// of that.
+/// Returns true if the body rests and its impulse is below the unfelt share of its weight within a step: a body that
+/// particles bear gets all of that.
 template <class S> bool ParticleCoupling<S>::is_unfelt(const World<S>& bodies, const Met& met) const {
   if (!met.rests || !(S(0) < settings_.unfelt)) return false;
   const S gained = max_abs(bodies.settings().gravity) * step_;  // [m/s]

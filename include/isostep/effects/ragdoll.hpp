@@ -37,8 +37,8 @@ template <class S> struct Ragdoll {
   std::vector<JointId> joints;  // one a bone; null for roots
 };
 
-/// Adds it to the world. Empty where a setting or a bone is refused: then nothing of it is left, and World::first_fault
-/// says why.
+/// Adds it to the world. If a setting or a bone is refused returns an empty one, of which nothing is left in the world;
+/// World::first_fault says why.
 /// Method: balls and hinges with limits; where joints have friction, servos or soft limits, six-axis joints whose axes
 ///         have them.
 /// Limits: servos and soft limits are made for what hangs on their joint at rest, as if the rest of the body stood

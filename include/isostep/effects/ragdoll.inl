@@ -15,7 +15,7 @@ template <class S> class RagdollBuilder {
   RagdollBuilder(World<S>& world, std::span<const RagdollBone<S>> bones, const RagdollSettings<S>& settings)
       : world_(world), bones_(bones), settings_(settings) {}
 
-  /// Returns false where a setting or a bone was refused.
+  /// Returns false if a setting or a bone was refused.
   bool build() {
     const FaultReport fault = fault_of_plan();
     if (fault != Fault::none) return world_.refuse("add_ragdoll", fault);
@@ -29,7 +29,7 @@ template <class S> class RagdollBuilder {
     return true;
   }
   Ragdoll<S> take() { return static_cast<Ragdoll<S>&&>(made_); }
-  /// Their joints end with them.
+  /// Destroys the bodies made so far. Their joints end with them.
   void take_back() {
     for (const BodyId body : made_.bodies) world_.destroy(body);
   }
@@ -85,7 +85,7 @@ template <class S> class RagdollBuilder {
     made_.joints.push_back(world_.create(joint));
     return static_cast<bool>(made_.joints.back());
   }
-  /// [kg m^2] The inertia of the bone and all that hangs on it, about an axis through its joint; at most
+  /// [kg m^2] Returns the inertia of the bone and all that hangs on it, about an axis through its joint; at most
   /// Limits<S>::mass().
   S inertia_behind(std::size_t index, Vec3<Unit<S>> axis) const {
     S sum = S(0);
@@ -133,7 +133,7 @@ template <class S> class RagdollBuilder {
     }
     return drive;
   }
-  /// Ghosts of bodies that overlap at rest: else they would be pushed against what their joints hold.
+  /// Adds a Ghost for bodies that overlap at rest: otherwise contacts would push them against their joints.
   void part_overlaps() {
     std::vector<BodyId> there;
     for (std::size_t i = 0; i < bones_.size(); ++i) {

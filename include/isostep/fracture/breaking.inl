@@ -15,11 +15,11 @@
 namespace isostep {
 namespace detail {
 
-/// A direction [1] as the grid has it, to 15 bits.
+/// Returns a direction [1] on the grid, to 15 bits.
 template <class U> GridVector grid_direction(const Vec3<U>& v) {
   return {nearest_scaled(v.x, 15), nearest_scaled(v.y, 15), nearest_scaled(v.z, 15)};
 }
-/// The pattern with as many pieces as the record allows, or a few less.
+/// Returns a pattern with as many pieces as the record allows, or a few less.
 template <class S> FracturePattern pattern_of(const Breakable<S>& b) {
   const std::uint32_t n = b.most_pieces;
   switch (b.pattern) {
@@ -30,7 +30,7 @@ template <class S> FracturePattern pattern_of(const Breakable<S>& b) {
   }
 }
 
-/// One marked body.
+/// Breaks one marked body.
 template <class S> class Breaking {
   using U = Unit<S>;
 
@@ -38,7 +38,7 @@ template <class S> class Breaking {
   Breaking(World<S>& world, const Breakable<S>& record, const Blow<S>& blow)
       : world_(world), record_(record), blow_(blow) {}
 
-  /// [1] The pieces, or 0: the body is as it was.
+  /// Returns the number of pieces [1], or 0 if the body is unchanged.
   std::uint32_t run() {
     const std::optional<Fracture> pieces = pieces_of_body();
     if (!pieces || pieces->pieces.size() < 2) return 0;
@@ -70,7 +70,7 @@ template <class S> class Breaking {
     if (!pieces.ok()) return {};
     return pieces.value();
   }
-  /// [1] The blow's direction as a vector of S, which has digits enough for a direction.
+  /// Returns the blow's direction [1] as a vector of S, which has digits enough for a direction.
   Vec3<S> blow_in(const Transform<S>& frame) const {
     return transposed_times(frame.rotation, convert<S>(blow_.direction));
   }

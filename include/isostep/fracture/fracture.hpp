@@ -62,16 +62,16 @@ struct Fracture {
 Result<Fracture> fracture(const GridHull& solid, const FracturePattern& pattern, const FractureImpact& impact,
                           std::uint64_t seed, const FractureLimits& limits = {});
 
-/// The hull of a box about the origin, of half extents [steps]. Errors: as below; ErrorCode::invalid, "exponent", for
-/// one that is not 0 to 16.
+/// Makes the hull of a box about the origin, of half extents [steps]. Errors: as below; ErrorCode::invalid, "exponent",
+/// for one that is not 0 to 16.
 Result<GridHull> grid_box(GridPoint half_extents, int exponent);
 
 namespace detail {
 Error bad_fracture_number(const char* place, const char* expected);
 }  // namespace detail
 
-/// A box as `fracture` takes it: its half extents [m], rounded to the finest grid that holds them (see hull_blob).
-/// Errors: ErrorCode::invalid, "half_extents", for one that is not finite, 0 or less, or beyond the grid; as
+/// Makes a box for `fracture`: its half extents [m], rounded to the finest grid that holds them (see hull_blob).
+/// Errors: ErrorCode::invalid, "half_extents", for one that is not finite, 0 or less, or beyond the grid; those of
 /// convex_hull for a box that is too flat.
 template <class S> ISO_INLINE Result<GridHull> grid_box(const Box<S>& box) {
   const Vec3<S>& half = box.half_extents;
@@ -82,8 +82,8 @@ template <class S> ISO_INLINE Result<GridHull> grid_box(const Box<S>& box) {
   return grid_box(GridPoint{steps(half.x), steps(half.y), steps(half.z)}, exponent);
 }
 
-/// An impact [m] in the frame of a solid as `fracture` takes it: the point to the nearest step, the direction to 15
-/// bits. Errors: ErrorCode::invalid for a number that is not finite, and for a point beyond the solid's grid.
+/// Makes an impact [m] in the frame of a solid, as `fracture` takes it: the point to the nearest step, the direction to
+/// 15 bits. Errors: ErrorCode::invalid for a number that is not finite, and for a point beyond the solid's grid.
 template <class S>
 ISO_INLINE Result<FractureImpact> grid_impact(const GridHull& solid, Vec3<S> point, Vec3<S> direction) {
   constexpr std::int64_t kLimit = GridPoint::kLimit;

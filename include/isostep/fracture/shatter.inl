@@ -57,7 +57,7 @@ template <class S> class Shattering {
     return child_.orientation == Quat<U>::identity() ? body_.state->orientation
                                                      : normalise(body_.state->orientation * child_.orientation);
   }
-  /// T'^-1 (T - T') w [rad/s], in the solid's frame.
+  /// Computes T'^-1 (T - T') w [rad/s], in the solid's frame.
   ISO_INLINE Vec3<S> change_of_turning(Vec3<S> w) const {
     const BodyProperties<S>& p = *body_.properties;
     const bool turns = S(0) < p.kappa.x && S(0) < p.kappa.y && S(0) < p.kappa.z;
@@ -113,7 +113,7 @@ template <class S> class Shattering {
     }
     centre_ = first + Vec3<S>{round_to<S>(x), round_to<S>(y), round_to<S>(z)};
   }
-  /// A length [m] against which all arms and gyration radii are below 1/2.
+  /// Finds a length [m] against which all arms and gyration radii are below 1/2.
   ISO_INLINE void find_scale() {
     S reach = S(0);
     for (const ShatterPiece<S>& piece : pieces_) {
@@ -123,7 +123,7 @@ template <class S> class Shattering {
     }
     scale_ = reach + reach;
   }
-  /// T' over scale^2, in the solid's frame: the parallel-axis theorem, as in mass_properties.inl, by these masses.
+  /// Computes T' over scale^2, in the solid's frame: parallel-axis theorem, as in mass_properties.inl, by these masses.
   ISO_INLINE void find_inertia() {
     find_scale();
     const Sum<U> zero = product(U(0), U(0));
@@ -146,7 +146,7 @@ template <class S> class Shattering {
     if (piece.content == nullptr) return Mat3<U>::diagonal(Box<S>::of(piece.primitive).relative_inertia(scale_));
     return Hull<S>::of(piece.primitive, static_cast<const HullContent<S>*>(piece.content)).relative_inertia(scale_);
   }
-  /// T over scale^2, in the solid's frame, as squares of the radii of gyration.
+  /// Returns T over scale^2, in the solid's frame, as squares of the radii of gyration.
   ISO_INLINE Mat3<U> body_inertia() const {
     Vec3<U> principal = Vec3<U>::zero();
     for (int i = 0; i < 3; ++i) {
@@ -167,7 +167,7 @@ template <class S> class Shattering {
   Error error_ = {};
 };
 
-/// All of a body of one part that does not depend on where it is.
+/// Returns all of a body of one part that does not depend on its place.
 template <class S> ISO_INLINE BodyDefinition<S> likeness_of(const BodyProperties<S>& p, const PartTraits<S>& part) {
   BodyDefinition<S> d;
   d.type = BodyType::dynamic;

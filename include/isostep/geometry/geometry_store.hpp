@@ -32,14 +32,14 @@ class GeometryStore {
   ISO_INLINE bool empty() const { return names_.empty(); }
   ISO_INLINE const std::vector<BlobName>& names() const { return names_; }
   ISO_INLINE bool is_taken(std::uint32_t place) const { return place < names_.size() && names_[place].uses != 0; }
-  /// The content of a place that is taken.
+  /// Returns the content of a place that is taken.
   ISO_INLINE const BlobRef& content(std::uint32_t place) const { return contents_[place]; }
-  /// All contents by place; null where none is taken.
+  /// Returns all contents by place; null where none is taken.
   ISO_INLINE std::span<const BlobRef> contents() const { return contents_; }
-  /// The place of a blob; kNone when the store does not have it.
+  /// Returns the place of a blob, or kNone if the store does not have it.
   std::uint32_t find(const ContentId& id) const;
-  /// The blob of that name: the store's own, so that one content stands in memory once and an asset stays one; else the
-  /// one that is carried; else the assets'. Null when none of them has it.
+  /// Returns the blob of that name: the store's own (so that each content is in memory once and an asset stays one), or
+  /// the carried one, or the asset. Null if none of them has it.
   BlobRef find(const BlobMention& mention, const AssetSource& assets) const;
 
   /// Adds a use of a blob and returns its place.

@@ -15,7 +15,7 @@ namespace detail {
 
 // ---- several children, everything relative to a scale so that it fits Unit<S>
 
-/// A child with what its shape says of it.
+/// The children, each with the values of its shape.
 template <class S> class Parts {
  public:
   ISO_INLINE Parts(std::span<const Child<S>> children, Contents<S> contents)
@@ -29,7 +29,7 @@ template <class S> class Parts {
   ISO_INLINE Aabb<S> box(std::size_t i, const Transform<S>& at) const {
     return bounds(contents_.view(children_[i].primitive), at);
   }
-  /// [m] in the body's frame.
+  /// [m] Returns the centre in the body's frame.
   ISO_INLINE Vec3<S> centre(std::size_t i) const {
     const Pose<S>& pose = children_[i].pose;
     return ask(i, [&](const auto& shape) ISO_INLINE_LAMBDA {
@@ -37,7 +37,7 @@ template <class S> class Parts {
       else return pose.position + rotate(pose.orientation, shape.centre_of_mass());
     });
   }
-  /// Inertia over mass and scale^2, about its centre, along the body's axes.
+  /// Returns the inertia over mass and scale^2, about its centre, along the body's axes.
   ISO_INLINE Mat3<Unit<S>> inertia(std::size_t i, S scale) const {
     const Mat3<Unit<S>> turn = to_matrix(children_[i].pose.orientation);
     return ask(i, [&](const auto& shape) ISO_INLINE_LAMBDA {
@@ -132,7 +132,7 @@ template <class U> ISO_INLINE Mat3<U> seen_from(const Mat3<U>& tensor, Quat<U> a
   return transpose(r) * (tensor * r);
 }
 
-/// The rotation to the eigenvectors of a symmetric tensor by cyclic Jacobi, each rotation at most 45 degrees.
+/// Returns the rotation to the eigenvectors of a symmetric tensor, by cyclic Jacobi with rotations up to 45 degrees.
 /// Source:  Golub, Van Loan, Matrix Computations, 4th ed., sec. 8.5.   Differs: the tensor is rotated afresh from the
 ///          accumulated quaternion, so rounding does not pile up, and the angle is halved twice by square roots.
 /// Symbols: e = off-diagonal entry (i, j), d = difference of the diagonal ones; tan(2 angle) = 2 e / d.
@@ -188,7 +188,7 @@ template <class S> ISO_INLINE MassProperties<S> combined(const Parts<S>& parts, 
           axes};
 }
 
-/// All of them, or in `solid` those that are no sensors.
+/// Returns all children, or only those that are no sensors, which it then stores in `solid`.
 template <class S>
 std::span<const Child<S>> what_weighs(std::span<const Child<S>> children, std::vector<Child<S>>& solid) {
   bool senses = false;

@@ -9,8 +9,8 @@
 
 namespace isostep {
 
-/// What a surface is like. Two surfaces mix: friction and spin resistance by the root of the product, the rest by the
-/// larger; two kinds that stand in the world's table of pairs (material_pair.hpp) have what the table says.
+/// A surface. A contact mixes two surfaces: friction and spin resistance are the root of the product, the rest the
+/// larger of both. Two kinds that the world's table of pairs (material_pair.hpp) lists have the values of the table.
 /// contact_friction.hpp: which coefficient of friction a contact has in a step.
 template <class S> struct Material {
   S friction = S(0.6);          // [1] Coulomb, of what slides: the dynamic coefficient
@@ -65,22 +65,22 @@ inline constexpr std::uint32_t kReportContacts = 1u << 3;  // the part's contact
 inline constexpr std::uint32_t kAll = kOwnMaterial | kOwnFilter | kSensor | kReportContacts;
 }  // namespace part_flag
 
-/// A part without flags is as its body is. What no flag makes its own is stored as zeros, so that equal parts hash
-/// alike.
+/// A part without flags has the values of its body. Values that no flag makes the part's own are stored as zeros, so
+/// that equal parts hash alike.
 template <class S> struct PartTraits {
   std::uint32_t flags = 0;  // part_flag
   Filter filter = {0, 0, 0};
   Material<S> material = {S(0), S(0), S(0), S(0), {S(0), S(0), S(0)}, S(0), {S(0), S(0), S(0)}, 0, 0};
 
   ISO_INLINE constexpr bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
-  /// The part's, where the body has `of_body`.
+  /// Returns the filter of the part, where the body has `of_body`.
   ISO_INLINE constexpr const Filter& filter_or(const Filter& of_body) const {
     return has(part_flag::kOwnFilter) ? filter : of_body;
   }
   ISO_INLINE constexpr const Material<S>& material_or(const Material<S>& of_body) const {
     return has(part_flag::kOwnMaterial) ? material : of_body;
   }
-  /// As stored.
+  /// Returns the traits as they are stored.
   ISO_INLINE constexpr PartTraits normalised() const {
     PartTraits stored = *this;
     if (!has(part_flag::kOwnFilter)) stored.filter = PartTraits{}.filter;
@@ -108,14 +108,14 @@ template <class S> struct PartTraits {
   ISO_FIELDS(flags, filter, material)
 };
 
-/// Whether two parts press on each other, of bodies with these filters.
+/// Returns true if two parts of bodies with these filters press on each other.
 template <class S>
 ISO_INLINE constexpr bool parts_collide(const PartTraits<S>& a, const Filter& of_a, const PartTraits<S>& b,
                                         const Filter& of_b) {
   return ((a.flags | b.flags) & part_flag::kSensor) == 0 && should_collide(a.filter_or(of_a), b.filter_or(of_b));
 }
 
-/// What all parts of a shape have in common: no less than any of them would allow.
+/// The union of the traits of a shape's parts: it allows no less than any of them.
 struct ShapeTraits {
   std::uint32_t flags = 0;     // part_flag, of any of them
   bool any_as_body = false;    // some part has the filter of the body
@@ -124,7 +124,7 @@ struct ShapeTraits {
   Filter filters = {0, 0, 0};  // of those that have one, together; group 0 where they differ
 
   ISO_INLINE constexpr bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
-  /// Of the whole body, where it has `of_body`.
+  /// Returns the filter of the whole body, where the body has `of_body`.
   ISO_INLINE constexpr Filter filter_or(const Filter& of_body) const {
     if (!has(part_flag::kOwnFilter)) return of_body;
     return any_as_body ? both(filters, of_body) : filters;

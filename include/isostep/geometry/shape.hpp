@@ -19,7 +19,7 @@
 
 namespace isostep {
 
-/// What a shape's file says of it. Transforms lead from the shape's frame to the one that results are in.
+/// The members that the file of a shape defines. Transforms lead from the shape's frame to the frame of the results.
 template <template <class> class Shape, class S>
 concept ShapeOf = requires(Shape<S> shape, Primitive<S> stored, Shape<Literal> literal, Transform<S> t, Vec3<S> v,
                            Pose<S> pose, S s) {
@@ -40,7 +40,7 @@ concept ShapeOf = requires(Shape<S> shape, Primitive<S> stored, Shape<Literal> l
   shape.visit_triangles(detail::NoTriangle{});                   // of its blob: triangle(a, b, c), see DrawnTriangle
   { shape.drawn_at(pose, pose) } -> std::same_as<Pose<S>>;  // of body's origin and shape's frame: its middle, world
 };
-/// What moves, and is swept: a convex solid. Its core is what ConvexCore has of it.
+/// A convex solid, which can move and be swept. Its core is the part of it that ConvexCore has.
 template <template <class> class Shape, class S>
 concept Solid = requires(Shape<S> shape, S s, Vec3<Unit<S>> n, Unit<S> u, SolidFace<S>& face) {
   { shape.inner_radius() } -> std::same_as<S>;  // [m] of a ball that it holds
@@ -51,8 +51,8 @@ concept Solid = requires(Shape<S> shape, S s, Vec3<Unit<S>> n, Unit<S> u, SolidF
   { shape.support(n) } -> std::same_as<Vec3<S>>;  // [m] the point of the core furthest along n; of equals any one
   shape.find_face(n, u, face);                    // of the core, along n: see SolidFace; a disc may lean by sine u
 };
-/// The inverse of primitive(). A Content is what a blob's bytes are in a scalar; fault_of tells what is wrong with it,
-/// memory() [bytes] what it takes.
+/// The inverse of primitive(). A Content is what a scalar makes of a blob's bytes. fault_of tells what is wrong with
+/// it, memory() how many bytes it takes.
 template <template <class> class Shape, class S>
 concept MadeOfPrimitive = requires(Primitive<S> stored) {
   { Shape<S>::of(stored) } -> std::same_as<Shape<S>>;
@@ -64,7 +64,7 @@ concept MadeOfBlob = requires(Primitive<S> stored, const typename Shape<S>::Cont
   { Shape<S>::fault_of(*content) } -> std::same_as<ShapeFault>;
   { content->memory() } -> std::same_as<std::size_t>;
 };
-/// Inertia over mass and s^2 [1] about the centre of mass, s as above.
+/// Inertia over mass and s^2 [1] about the centre of mass, with s as above.
 template <template <class> class Shape, class S>
 concept HasPrincipalInertia = requires(Shape<S> shape, S s) {
   { shape.kappa() } -> std::same_as<Vec3<S>>;  // [1/m^2] see MassProperties
@@ -90,7 +90,7 @@ ISO_FOR_EACH_SHAPE(ISO_COMPLETE)
 /// A class of shapes, before a scalar is chosen.
 template <template <class> class Shape> struct ShapeClass { template <class S> using Of = Shape<S>; };
 
-/// visit(ShapeClass<Sphere>{}) for spheres, and so on. No world takes a record of a type that is not in the list.
+/// Calls visit(ShapeClass<Sphere>{}) for spheres, and so on. A world refuses records of types that are not in the list.
 template <class Visit> ISO_INLINE constexpr decltype(auto) visit_shape_type(ShapeType type, Visit&& visit) {
   switch (type) {
 #define ISO_CASE(name, Shape) \
@@ -101,7 +101,7 @@ template <class Visit> ISO_INLINE constexpr decltype(auto) visit_shape_type(Shap
   ISO_TRAP();
 }
 
-/// What a valid record of this type holds.
+/// Returns the shape that a valid record of this type holds.
 template <template <class> class Shape, class S> ISO_INLINE constexpr Shape<S> shape_as(const ShapeView<S>& view) {
   if constexpr (Shape<S>::kHasBlob) {
     return Shape<S>::of(view.primitive, static_cast<const typename Shape<S>::Content*>(view.content));
@@ -110,7 +110,7 @@ template <template <class> class Shape, class S> ISO_INLINE constexpr Shape<S> s
   }
 }
 
-/// visit(Sphere<S>), visit(Box<S>) ...: the shape that a valid record holds, as its file declares it.
+/// Calls visit(Sphere<S>), visit(Box<S>) ... with the shape that a valid record holds, as its file declares it.
 template <class S, class Visit>
 ISO_INLINE constexpr decltype(auto) visit_shape(const ShapeView<S>& view, Visit&& visit) {
   return visit_shape_type(view.primitive.type, [&](auto tag) ISO_INLINE_LAMBDA -> decltype(auto) {
@@ -122,12 +122,12 @@ ISO_INLINE constexpr decltype(auto) visit_shape(const Primitive<S>& primitive, V
   return visit_shape(ShapeView<S>(primitive), visit);
 }
 
-/// Whether a dynamic body may have it.
+/// Returns true if a dynamic body may have it.
 ISO_INLINE constexpr bool is_bounded(ShapeType type) {
   return visit_shape_type(type, [](auto tag) ISO_INLINE_LAMBDA { return decltype(tag)::template Of<float>::kBounded; });
 }
 
-/// As stored.
+/// Returns a shape as it is stored.
 #define ISO_PRIMITIVE_OF(name, Shape) \
   template <class S> ISO_INLINE constexpr Primitive<S> primitive_of(const Shape<S>& shape) { return shape.primitive(); }
 ISO_FOR_EACH_SHAPE(ISO_PRIMITIVE_OF)
@@ -135,7 +135,7 @@ ISO_FOR_EACH_SHAPE(ISO_PRIMITIVE_OF)
 
 inline constexpr std::uint32_t kMaxChildren = 1u << 16;  // parts of one shape
 
-/// One part of a body's shape: a primitive at a pose in the body's frame, and what it has of its own.
+/// A part of a body's shape: a primitive at a pose in the body's frame, with traits and data of its own.
 template <class S> struct Child {
   Primitive<S> primitive;
   Pose<S> pose;

@@ -26,7 +26,7 @@ template <class S> struct ScaledPlane {
   }
 };
 
-/// A share of the volume and its middle, from the solid's.
+/// A share of the volume and the middle of the part, relative to the solid.
 template <class U> struct ScaledPart {
   U share;
   Vec3<U> middle;  // of flat faces in eighths of half widths, else in half widths

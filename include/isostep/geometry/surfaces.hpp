@@ -20,15 +20,15 @@ template <class S, class Visit> ISO_INLINE decltype(auto) visit_surface(ShapeVie
 }
 }  // namespace detail
 
-/// The number of parts that contacts name of a body's shape: a convex child is one leaf, a surface has one for each
+/// Returns how many parts contacts may name: a convex child is one leaf, a surface has one for each
 /// triangle.
 template <class S> ISO_INLINE std::uint32_t leaves_of(ShapeView<S> view) {
   if (!is_surface(view.primitive.type)) return 1;
   return detail::visit_surface(view, [](const auto& surface) ISO_INLINE_LAMBDA { return surface.triangle_count(); });
 }
 
-/// The material that a triangle's number stands for; null where it is the part's or the body's, as of a shape
-/// that is no surface.
+/// Returns the material that a triangle's number stands for, or null if that is the part's or the body's: so it is for
+/// a shape that is no surface.
 template <class S> ISO_INLINE const SurfaceMaterial* listed_material(ShapeView<S> view, std::uint32_t triangle) {
   if (!is_surface(view.primitive.type)) return nullptr;
   return detail::visit_surface(view, [&](const auto& surface) ISO_INLINE_LAMBDA -> const SurfaceMaterial* {
@@ -46,7 +46,7 @@ struct Leaf {
 struct LeafRange {
   std::uint32_t first, count;
 };
-/// The leaf of that number among all children of a body, `index` in range.
+/// Returns the leaf with that number among all children of a body. `index` must be in range.
 template <class S>
 ISO_INLINE Leaf leaf_at(std::span<const Child<S>> children, Contents<S> contents, std::uint32_t index) {
   for (std::uint32_t i = 0; i < children.size(); ++i) {

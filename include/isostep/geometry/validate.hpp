@@ -11,16 +11,16 @@
 
 namespace isostep {
 
-/// The first fault found, in a fixed order of checks.
+/// Returns the first fault found, in a fixed order of checks.
 template <class S> ShapeFault validate(const Primitive<S>& primitive);
 template <class S> ShapeFault validate(const Pose<S>& pose);
-/// `blobs`: what the children name, as Primitive::blob counts them.
+/// Returns it for children whose blobs are `blobs`, as Primitive::blob counts them.
 template <class S> ShapeFault validate(std::span<const Child<S>> children, std::span<const BlobRef> blobs = {});
-/// The same with its place.
+/// Returns that fault and its place.
 template <class S> ShapeFaultPlace find_fault(std::span<const Child<S>> children, std::span<const BlobRef> blobs = {});
 
-/// A valid child with its normal and orientation scaled to unit length, and nothing in traits that no flag names; what
-/// already is so stays bit for bit.
+/// Returns a valid child with its normal and orientation scaled to unit length, and its traits zeroed where no flag
+/// names them. What is so already stays bit for bit.
 template <class S> Child<S> normalised(const Child<S>& child);
 
 #define ISO_VALIDATE_OF(extern, S)                                                                    \

@@ -34,7 +34,7 @@ template <class S> Child<S> normalised_part(const Child<S>& child) {
   result.traits = child.traits.normalised();
   return result;
 }
-/// Of the blob that a valid primitive names, null where it names none.
+/// Returns the fault of the blob of a valid primitive, which is null if the primitive names none.
 template <class S> ShapeFault fault_of_blob(const Primitive<S>& p, const Blob* blob) {
   return visit_shape_type(p.type, [&](auto tag) {
     using Shape = typename decltype(tag)::template Of<S>;
@@ -44,7 +44,7 @@ template <class S> ShapeFault fault_of_blob(const Primitive<S>& p, const Blob* b
   });
 }
 
-/// Of a part with NaN or infinity.
+/// Returns the field that is NaN or infinite.
 template <class S> const char* field_not_finite(const Child<S>& child) {
   const Primitive<S>& p = child.primitive;
   return !is_finite(p.half)                ? "primitive.half"
@@ -54,7 +54,7 @@ template <class S> const char* field_not_finite(const Child<S>& child) {
          : !is_finite(child.pose.position) ? "pose.position"
                                            : "pose.orientation";
 }
-/// Of a part whose type does not use it.
+/// Returns the field that is set although the part's type does not use it.
 template <class S> const char* field_unused(const Primitive<S>& p) {
   const Primitive<S> used = visit_shape(p, [](const auto& shape) { return shape.primitive(); });
   return !(used.half == p.half)       ? "primitive.half"
@@ -63,7 +63,7 @@ template <class S> const char* field_unused(const Primitive<S>& p) {
          : !(used.offset == p.offset) ? "primitive.offset"
                                       : "primitive.blob";
 }
-/// Of a part with a wrong size: its radius, if it has one and would have another fault with a good one.
+/// Returns the field with the wrong size: the radius, if with a good radius the part would have another fault.
 template <class S> const char* field_of_size(const Primitive<S>& p, ShapeFault fault) {
   if (p.blob != 0) return "primitive.blob";
   Primitive<S> other = p;
@@ -92,7 +92,7 @@ template <class S> const char* field_of(const Child<S>& child, ShapeFault fault)
   }
   return "";
 }
-/// Of one part alone; `leaves` counts those of all.
+/// Checks one part alone. Adds its triangles to `leaves`, the number of those of all parts.
 template <class S> ShapeFault fault_of_child(const Child<S>& child, const Blob* blob, std::uint64_t& leaves) {
   ShapeFault fault = fault_of(child.primitive);
   if (fault == ShapeFault::none) fault = fault_of(child.pose);

@@ -17,7 +17,7 @@ template <class S> struct Affine {
   ISO_INLINE constexpr Vec3<S> point(Vec3<S> p) const { return position + linear * p; }
   ISO_INLINE constexpr Vec3<S> direction(Vec3<S> v) const { return linear * v; }
 };
-/// The map of `inner`, followed by that of `outer`.
+/// Returns the map of `inner`, followed by that of `outer`.
 template <class S> ISO_INLINE constexpr Affine<S> compose(const Affine<S>& outer, const Affine<S>& inner) {
   return {outer.linear * inner.linear, outer.point(inner.position)};
 }
@@ -26,7 +26,7 @@ template <class S> ISO_INLINE constexpr Affine<S> affine_of(const Transform<S>& 
   return {{{row(0), row(1), row(2)}}, t.position};
 }
 
-/// The determinant. In fixed point every product of three entries must fit S.
+/// Returns the determinant. In fixed point every product of three entries must fit S.
 template <class S> S determinant(const Mat3<S>& m);
 
 template <class M> struct Inverse {

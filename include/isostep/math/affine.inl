@@ -9,12 +9,12 @@
 namespace isostep {
 namespace detail {
 
-/// The smallest determinant of three unit rows whose inverse fits S: its entries are at most 1 / determinant.
+/// Returns the smallest determinant of three unit rows whose inverse fits S: its entries are at most 1 / determinant.
 template <class S> ISO_INLINE Unit<S> least_determinant() {
   using U = Unit<S>;
   return max(parallel_sine<U>(), divide_to<U>(S(1), highest<S>()) + resolution<U>());
 }
-/// a / b fits.
+/// Returns true if a / b fits.
 template <class S> ISO_INLINE bool divides(S a, S b) {
   return product(abs(a), S(1)) < product(abs(b), highest<S>()) && is_finite(a / b);
 }

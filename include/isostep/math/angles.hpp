@@ -10,11 +10,11 @@ namespace isostep {
 /// The angle [rad] of the same direction within [-pi, pi]; an angle there is not changed. float, double: not finite
 /// gives NaN.
 template <class S> S wrap_angle(S angle);
-/// The turn from one angle to another the short way, within [-pi, pi]. to - from must fit S.
+/// Returns the turn from one angle to another the short way, within [-pi, pi]. to - from must fit S.
 template <class S> S angle_difference(S from, S to);
-/// Leads from `from` (t = 0) the short way towards `to` (t = 1), within [-pi, pi].
+/// Interpolates from `from` (t = 0) the short way to `to` (t = 1), within [-pi, pi].
 template <class S> S lerp_angle(S from, S to, Unit<S> t);
-/// Leads at most `most` [rad] nearer to `to`, the short way; `to` itself once it is that near.
+/// Moves at most `most` [rad] nearer to `to`, the short way. Returns `to` itself once it is that near.
 template <class S> S turn_towards(S from, S to, S most);
 
 template <class S> S to_degrees(S radians);

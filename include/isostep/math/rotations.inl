@@ -21,7 +21,7 @@ template <class U> ISO_INLINE U parallel_sine() {
   for (int i = 0; i < 4; ++i) sine = sine + sine;
   return sine;
 }
-/// The unit vector along `across` less what it has of the unit vector z.
+/// Returns the unit vector along the part of `across` that is perpendicular to the unit vector z.
 template <class U> ISO_INLINE Vec3<U> perpendicular(Vec3<U> across, Vec3<U> z) {
   return normalise(across - z * dot(across, z));
 }

@@ -13,11 +13,11 @@ template <class S> struct Segment {
   S half;                   // [m]
 
   ISO_INLINE constexpr Vec3<S> at(S along) const { return centre + direction * along; }
-  /// The place on the segment that is nearest to p, as a distance along it from the centre [m].
+  /// Returns the place on the segment that is nearest to p, as a distance along it from the centre [m].
   ISO_INLINE constexpr S nearest(Vec3<S> p) const { return clamp(dot(p - centre, direction), -half, half); }
 };
 
-/// A segment of the frame that `t` leads from.
+/// Returns a segment in the frame that `t` leads to.
 template <class S> ISO_INLINE Segment<S> seen_by(const Transform<S>& t, const Segment<S>& s) {
   return {to_world(t, s.centre), t.rotation * s.direction, s.half};
 }

@@ -6,13 +6,13 @@
 
 namespace isostep::detail {
 
-/// x lies from -limit to limit. Both sides are compared: the lowest fixed-point number has no magnitude.
+/// Returns true if x is within -limit..limit. Both sides are compared: the lowest fixed-point number has no magnitude.
 template <class S> ISO_INLINE bool within(S x, S limit) { return -limit <= x && x <= limit; }
 template <class S> ISO_INLINE bool within(Vec3<S> v, S limit) {
   return within(v.x, limit) && within(v.y, limit) && within(v.z, limit);
 }
 
-/// Most are not half as long along any axis, and need no square root.
+/// Returns true if v is longer than `limit`. Most vectors are not half as long along any axis: no square root.
 template <class V> ISO_INLINE bool is_longer(Vec3<V> v, V limit) {
   return !within(v, limit * V(0.5)) && limit < length(v);
 }

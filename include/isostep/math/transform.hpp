@@ -36,11 +36,11 @@ template <class S> ISO_INLINE constexpr Vec3<S> to_world(const Transform<S>& t, 
 template <class S> ISO_INLINE constexpr Vec3<S> to_local(const Transform<S>& t, Vec3<S> world) {
   return transposed_times(t.rotation, world - t.position);
 }
-/// The motion `inner` followed by `outer`: a child's transform in the frame outside its parent.
+/// Returns the motion `inner` followed by `outer`: a child's transform in the frame outside its parent.
 template <class S> ISO_INLINE constexpr Transform<S> compose(const Transform<S>& outer, const Transform<S>& inner) {
   return {to_world(outer, inner.position), outer.rotation * inner.rotation};
 }
-/// `b` seen from `a`'s frame.
+/// Returns `b` in `a`'s frame.
 template <class S> ISO_INLINE constexpr Transform<S> relative(const Transform<S>& a, const Transform<S>& b) {
   return {transposed_times(a.rotation, b.position - a.position), transpose(a.rotation) * b.rotation};
 }

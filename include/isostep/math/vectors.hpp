@@ -7,22 +7,22 @@
 
 namespace isostep {
 
-/// v, or where that is longer than `most` what points the same way and is as long (the book's trim).
+/// Returns v, or if it is longer than `most` a vector of that length in the same direction (the book's trim).
 template <class S> Vec3<S> clamp_length(Vec3<S> v, S most);
 /// Clamps each component to those of low and high.
 template <class T> ISO_INLINE constexpr Vec3<T> clamp(Vec3<T> v, Vec3<T> low, Vec3<T> high) {
   return min(max(v, low), high);
 }
-/// Leads at most `most` nearer to `to`; `to` itself once it is that near.
+/// Moves at most `most` nearer to `to`. Returns `to` itself once it is that near.
 template <class S> Vec3<S> move_towards(Vec3<S> from, Vec3<S> to, S most);
-/// The parts of v along the unit vector n and across it: their sum is v, to one rounding.
+/// Return the parts of v along the unit vector n and across it. Their sum is v, to one rounding.
 template <class S> Vec3<S> project_on_line(Vec3<S> v, Vec3<Unit<S>> n);
 template <class S> Vec3<S> project_on_plane(Vec3<S> v, Vec3<Unit<S>> n);
-/// v after a mirror with the unit normal n.
+/// Returns v mirrored at a plane with the unit normal n.
 template <class S> Vec3<S> reflect(Vec3<S> v, Vec3<Unit<S>> n);
-/// The angle [rad] between two vectors of any lengths, 0 to pi, with all digits near 0 and pi; 0 where one is zero.
+/// Returns the angle [rad] of two vectors of any lengths, 0 to pi, with all digits near 0 and pi; 0 if one is zero.
 template <class S> S angle_between(Vec3<S> a, Vec3<S> b);
-/// The angle between them with the sign of the turn from a to b about `axis`: positive where (a x b) . axis is.
+/// Returns the angle with the sign of the turn from a to b about `axis`: positive if (a x b) . axis is.
 template <class S> S signed_angle(Vec3<S> a, Vec3<S> b, Vec3<S> axis);
 
 #define ISO_VECTORS_OF(KEYWORD, S)                                      \

@@ -84,7 +84,7 @@ template <class S> bool ParticleCommands<S>::execute(const PushParticle<S>& comm
   if (!detail::lies_within(more, most) || !detail::lies_within(asked, most)) push.cut = 1;
   return true;
 }
-/// The force and impulse that the game asks for on a particle until the next step.
+/// Returns the force and impulse that the game asked for on a particle since the last step.
 template <class S> ParticlePush<S>& ParticleCommands<S>::pending_push(std::uint32_t slot) {
   return find_or_insert(state_.pushes, ParticlePush<S>{slot, 0, Vec3<S>::zero()});
 }

@@ -43,17 +43,17 @@ template <class S> struct FlightRun {
 template <class S> struct FlightKernels {
   const char* name;
   std::int32_t width;
-  /// a = gravity - v (k1 + k2 |v|) / m, of what is not pinned. Drag stops a particle and never turns it round.
+  /// Computes a = gravity - v (k1 + k2 |v|) / m of particles that are not pinned. Drag stops but never reverses them.
   void (*accelerate)(const FlightRun<S>&);
-  /// v = (v + a h) keep, d += v h.
+  /// Computes v = (v + a h) keep, d += v h.
   void (*advance)(const FlightRun<S>&);
-  /// All sub-steps of both, from d = 0.
+  /// Computes all sub-steps of both, from d = 0.
   void (*fly)(const FlightRun<S>&);
-  /// now = position + d.
+  /// Computes now = position + d.
   void (*place)(const FlightRun<S>&);
-  /// position += d, up to the first block in which anything leaves the range or is no number: where it begins, or end.
+  /// Computes position += d. Stops before the first block with a particle out of range or NaN; returns its begin.
   std::uint32_t (*finish)(const FlightRun<S>&);
-  /// Adds what springs give their ends.
+  /// Adds the accelerations of springs to their ends.
   void (*pull)(const SpringRun<S>&);
 };
 

@@ -57,7 +57,7 @@ template <class S, int W, class Isa> struct FlightKernel {
     return load_loose<W, Isa>(from, i);
   }
 
-  /// (k1 + k2 |v|) / m [1/s], at most 1/h: what would turn a particle round stops it.
+  /// Returns (k1 + k2 |v|) / m [1/s], at most 1/h: drag that would reverse a particle stops it.
   static ISO_INLINE L drag_rate(const Rows& rows, Vec3<L> v, M w, S rate) {
     const L most = L::broadcast(rate);
     L drag = rows.linear_drag;
@@ -91,7 +91,7 @@ template <class S, int W, class Isa> struct FlightKernel {
     store_loose(acceleration(rows, load(run.velocity, i), load(run.inverse_mass + i), run.rate), run.acceleration, i);
   }
 
-  /// One axis. A pinned particle goes on as it was told.
+  /// Advances one axis. A pinned particle keeps its velocity.
   static ISO_INLINE void advance_axis(const FlightRun<S>& run, V& v, V& d, L a, Mask moves, H keep) {
     const H h = H::broadcast(run.h);
     const Velocity<S> speed = convert<Velocity<S>>(ParticleLimits<S>::speed());
@@ -162,7 +162,7 @@ template <class S, int W, class Isa> struct FlightKernel {
     store_loose(placed(run, i), run.now, i);
   }
 
-  /// NaN lies nowhere.
+  /// Returns true for lanes with |x| < limit. NaN lies nowhere.
   template <class T> static ISO_INLINE auto lies_inside(Lanes<T, W, Isa> x, T limit) {
     return less(Lanes<T, W, Isa>::broadcast(-limit), x) & less(x, Lanes<T, W, Isa>::broadcast(limit));
   }
@@ -179,7 +179,7 @@ template <class S, int W, class Isa> struct FlightKernel {
   }
 };
 
-/// Particles that fill no block go one by one.
+/// Particles that fill no block are done one by one.
 #define ISO_FLIGHT_LOOP(NAME)                                                        \
   template <class S, int W, class Isa> void NAME##_flight(const FlightRun<S>& run) { \
     std::uint32_t i = run.first;                                                     \

@@ -11,7 +11,7 @@
 namespace isostep {
 
 namespace detail {
-/// Memory that grows and is never given back.
+/// Grows memory, which never shrinks.
 template <class T> ISO_INLINE void grow(std::vector<T>& memory, std::size_t size) {
   if (memory.size() < size) memory.resize(size);
 }
@@ -44,7 +44,7 @@ template <class S> S ParticleGrid<S>::largest_reach(const Input& input, std::uin
   return reach;
 }
 
-/// Finds the pairs of the class of largest reach with itself and with what is finer; the finer ones are left.
+/// Finds the pairs of the class of largest reach with itself and with finer particles. The finer ones remain.
 template <class S> std::uint32_t ParticleGrid<S>::meet_coarsest(const Input& input, std::uint32_t left) {
   const S reach = largest_reach(input, left);
   place_lattice(input, left, reach);
@@ -112,8 +112,8 @@ template <class S> void ParticleGrid<S>::place_lattice(const Input& input, std::
   if (!number_cells(most)) rank_cells(input, left);
 }
 
-/// Numbers cells 1..most along each axis row by row, with an empty cell between rows and an empty row between layers:
-/// the neighbours of a cell are at fixed distances. False where the numbers would not fit 63 bits.
+/// Numbers cells 1..most along each axis row by row, with an empty cell between rows and an empty row between layers,
+/// so that the neighbours of a cell are at fixed distances. Returns false if the numbers would not fit 63 bits.
 template <class S> bool ParticleGrid<S>::number_cells(const std::uint64_t* most) {
   if (std::bit_width(most[0] + 1u) + std::bit_width(most[1] + 1u) + std::bit_width(most[2] + 2u) > 63) return false;
   lattice_.stride_y = most[0] + 1u;
@@ -121,8 +121,8 @@ template <class S> bool ParticleGrid<S>::number_cells(const std::uint64_t* most)
   return true;
 }
 
-/// A few particles far from a pile: only occupied coordinates get numbers, neighbours consecutive ones. Where particles
-/// are so many and so scattered that even these do not fit, cells are joined.
+/// Numbers only the occupied coordinates, for a few particles far from a pile; neighbours get consecutive numbers. If
+/// even these are too many, cells are joined.
 template <class S> void ParticleGrid<S>::rank_cells(const Input& input, std::uint32_t left) {
   lattice_.ranked = true;
   std::uint64_t most[3];
@@ -194,7 +194,7 @@ template <class S> ISO_INLINE void ParticleGrid<S>::advance(Row& row, const Cell
   while (cells[row.end].key <= first + 2u) ++row.end;
 }
 
-/// Pairs within the class: the rest of the own cell and the next one along x, then four rows of three.
+/// Finds pairs within the class: in the rest of the own cell and the next one along x, then in four rows of three.
 template <class S> void ParticleGrid<S>::meet_own() {
   const std::uint64_t y = lattice_.stride_y;
   const std::uint64_t z = lattice_.stride_z;
@@ -216,7 +216,7 @@ template <class S> void ParticleGrid<S>::meet_own() {
   }
 }
 
-/// Pairs of the class with finer particles: nine rows of three.
+/// Finds pairs of the class with finer particles: in nine rows of three.
 template <class S> void ParticleGrid<S>::meet_finer() {
   const std::uint64_t y = lattice_.stride_y;
   const std::uint64_t z = lattice_.stride_z;

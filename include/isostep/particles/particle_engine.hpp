@@ -55,7 +55,7 @@ template <class S> class ParticleEngine {
   ParticleFinish<S> finish_{state_, step_, flight_};
 
  private:
-  /// Impulses over sub-steps; else the book's ways, which time division always takes.
+  /// Returns true if impulses over sub-steps are used. Time division always takes the book's methods.
   bool is_soft() const {
     return state_.settings.solver == ParticleSolver::soft_step && state_.settings.stepping == Stepping::fixed;
   }

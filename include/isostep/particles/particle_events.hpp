@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// Its lifetime is over: it is gone, and this is what it was.
+/// The lifetime of a particle ended. The particle is gone; these were its values.
 template <class S> struct ParticleExpired {
   ParticleId particle;
   ParticleMaterialId material;
@@ -21,7 +21,7 @@ template <class S> struct ParticleExpired {
 
   ISO_FIELDS(particle, material, position, velocity)
 };
-/// A particle began to press on another, or on scenery. Ascending by slots.
+/// A particle began to press on another particle or on scenery. Ascending by slots.
 template <class S> struct ParticleContactBegin {
   ParticleId a, b;      // b null: the collider
   ColliderId collider;  // null: b

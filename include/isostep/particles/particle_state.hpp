@@ -31,7 +31,7 @@ template <class S> struct ParticleContact {
   Vec3<Velocity<S>> friction_impulse;  // [m/s] across it
 
   ISO_INLINE std::uint64_t key() const { return std::uint64_t{a} << 32 | b; }
-  /// b is a collider, or else a particle; other_slot() is its slot.
+  /// Returns true if b is a collider, not a particle. other_slot() is its slot.
   ISO_INLINE bool with_collider() const { return (b & kCollider) != 0; }
   ISO_INLINE std::uint32_t other_slot() const { return b & ~kCollider; }
   ISO_FIELDS(a, b, impulse, friction_impulse)
@@ -80,12 +80,12 @@ template <class S> struct ParticleState {
   std::vector<ParticleTouch<S>> touches;  // in the order in which they came
   std::vector<ParticleLifetime> lifetimes;
 
-  /// Belongs to the world from birth; a null id names it.
+  /// The material that the world has from the beginning. A null id names it.
   ISO_INLINE ParticleMaterialId first_material() const {
     return materials.slot_map().template id_of<ParticleMaterialId>(0);
   }
 
-  /// visit("name", registry) in a fixed order.
+  /// Calls visit("name", registry) in a fixed order.
   template <class Visitor, class Self> static ISO_INLINE void registries(Visitor&& visit, Self&& self) {
     visit("materials", self.materials);
     visit("springs", self.springs);
@@ -94,7 +94,7 @@ template <class S> struct ParticleState {
     visit("links", self.links);
     visit("colliders", self.colliders);
   }
-  /// All of it, in the order of the hash and of the portable form: see state/members.hpp.
+  /// Visits all of the state, in the order of the hash and of the portable form: see state/members.hpp.
   template <class Visitor, class Self> static ISO_INLINE void members(Visitor&& visit, Self&& self) {
     visit("settings", self.settings);
     visit("tick", self.tick);

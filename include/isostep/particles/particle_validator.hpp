@@ -12,7 +12,7 @@ template <class S> class ParticleValidator {
  public:
   explicit ParticleValidator(const ParticleState<S>& state) : state_(state) {}
 
-  /// The first rule that does not hold, as a literal; null: all hold.
+  /// Returns the first rule that does not hold, as a literal, or null.
   const char* broken_rule() const {
     if (!settings_hold()) return "settings are out of range";
     if (const char* rule = sizes()) return rule;
@@ -81,7 +81,7 @@ template <class S> class ParticleValidator {
   bool ends_hold(ParticleId a, ParticleId b) const {
     return state_.particles.holds(a) && (!b || state_.particles.holds(b));
   }
-  /// A record that is there obeys its own rules and names what is there; a free slot's is the empty one.
+  /// Returns true if records obey their own rules and name existing objects. A free slot holds the empty record.
   template <class Records, class Names> bool hold(const Records& registry, const Names& names) const {
     for (std::uint32_t slot = 0; slot < registry.all().size(); ++slot) {
       if (!registry.is_taken(slot)) continue;

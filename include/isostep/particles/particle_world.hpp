@@ -54,7 +54,7 @@ template <class S> class ParticleWorld final : public WorldBase<ParticleWorld<S>
   /// Settings out of range are brought into it, and that is a fault.
   explicit ParticleWorld(const ParticleSettings<S>& settings = {}) : Base(settings) {}
 
-  /// Lanes for this world. Never changes a bit; false and no change where this processor or build lacks them.
+  /// Selects the lanes of this world. Never changes a bit. Returns false and changes nothing if they are not available.
   bool use_simd(Simd simd);
   const char* simd_name() const;
 
@@ -66,15 +66,15 @@ template <class S> class ParticleWorld final : public WorldBase<ParticleWorld<S>
   const Record* find(Id id) const;
   ISO_FOR_EACH_PARTICLE_COMMAND(ISO_SKIP, ISO_RECORD, S)
 #undef ISO_RECORD
-  /// Materials are shared by the particles that name them. Every world has one from birth, which a null id names.
+  /// Returns the material that every world has from the beginning, and that a null id names. Particles share materials.
   ParticleMaterialId default_material() const;
 
   // Particles.
   ParticleId create(const ParticleDefinition<S>& definition);
-  /// Destroys the springs, forces and links that name it as well.
+  /// Destroys a particle, and the springs, forces and links that name it.
   bool destroy(ParticleId particle);
   bool place(ParticleId particle, Vec3<S> position, Vec3<S> velocity);
-  /// A pinned particle goes on at the velocity that it has, whatever acts on it, until `place` gives it another.
+  /// Sets the mass. A pinned particle keeps its velocity, whatever acts on it, until `place` gives it another.
   bool set_mass(ParticleId particle, S mass, bool pinned = false);
   bool set_material(ParticleId particle, ParticleMaterialId material);
   bool set_gravity(Vec3<S> gravity);
@@ -82,7 +82,7 @@ template <class S> class ParticleWorld final : public WorldBase<ParticleWorld<S>
   bool apply_impulse(ParticleId particle, Vec3<S> impulse);
   bool touch(const ParticleTouch<S>& touch);
 
-  /// Every mutator above is one of these with its fields as arguments: particle_command.hpp.
+  /// The mutators above are these commands, with their fields as arguments: particle_command.hpp.
 #define ISO_APPLY(name, Type, Result, S) Result apply(const Type& command);
 #define ISO_APPLY_RECORD(name, Record, Id, S)       \
   Id apply(const AddRecord<Record>& command);       \
@@ -96,7 +96,7 @@ template <class S> class ParticleWorld final : public WorldBase<ParticleWorld<S>
   bool contains(ParticleId particle) const;
   Vec3<S> position(ParticleId particle) const;
   Vec3<S> velocity(ParticleId particle) const;
-  /// 0 where pinned.
+  /// Returns 0 for a pinned particle.
   S mass(ParticleId particle) const;
   ParticleMaterialId material(ParticleId particle) const;
   std::vector<ParticleId> particles() const;

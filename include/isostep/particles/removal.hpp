@@ -15,12 +15,12 @@ template <class S> class ParticleRemoval {
  public:
   explicit ParticleRemoval(ParticleState<S>& state);
 
-  /// A particle that the world holds.
+  /// Removes a particle that the world holds.
   void remove(ParticleId particle);
-  /// Those whose lifetimes are over; events tell.
+  /// Removes the particles whose lifetime ended, and adds events.
   void expire(ParticleEvents<S>& events);
 
-  /// A record that the world holds.
+  /// Removes a record that the world holds.
   template <class Id> ISO_INLINE void remove_record(Id record) {
     forget(record);
     detail::registry_of(state_, record).remove(record);
@@ -31,7 +31,7 @@ template <class S> class ParticleRemoval {
 
   void remove_leaving();
   template <class Id, class Registry, class Names> void remove_naming(const Registry& registry, const Names& names);
-  /// Forgets what the state remembers of a record beside it.
+  /// Removes what the state stores about a record elsewhere.
   template <class Id> ISO_INLINE void forget(Id) {}
   void forget(LinkId link);
   void forget(ColliderId collider);

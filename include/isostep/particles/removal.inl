@@ -25,7 +25,7 @@ template <class S> void ParticleRemoval<S>::expire(ParticleEvents<S>& events) {
   if (!leaving_.empty()) remove_leaving();
 }
 
-/// All at once, for a crowd may expire in one step: a pass over each list.
+/// Removes all leaving particles at once, by a pass over each list: a crowd may expire in one step.
 template <class S> void ParticleRemoval<S>::remove_leaving() {
   is_leaving_.resize(state_.material.size(), 0);
   for (const std::uint32_t slot : leaving_) is_leaving_[slot] = 1;
@@ -49,7 +49,7 @@ void ParticleRemoval<S>::remove_naming(const Registry& registry, const Names& na
       remove_record(registry.slot_map().template id_of<Id>(slot));
   }
 }
-/// A free slot looks the same whatever lay there.
+/// Clears a free slot, so that it looks the same whatever was there.
 template <class S> void ParticleRemoval<S>::free_slot(std::uint32_t slot) {
   is_leaving_[slot] = 0;
   state_.position.set(slot, Vec3<S>::zero());

@@ -12,7 +12,7 @@ template <class S> struct SceneryDistance {
   Vec3<Unit<S>> normal;  // [1] out of the scenery
 };
 
-/// The axis of a line has up as its outward direction.
+/// Returns the distance of a point. For points on the axis of a line the outward direction is up.
 template <class S> ISO_INLINE SceneryDistance<S> distance_to(const Collider<S>& collider, Vec3<S> p) {
   if (collider.type == ColliderType::plane) return {dot(p, collider.normal) - collider.offset, collider.normal};
   const Vec3<S> span = collider.end - collider.start;

@@ -33,10 +33,10 @@ enum class Stepping : std::uint32_t { fixed, time_division };
 inline constexpr const char* kSteppingNames[] = {"fixed", "time_division"};
 inline constexpr std::uint32_t kSteppings = 2;
 
-/// Sub-steps a second that every scalar can count and divide by.
+/// The most sub-steps a second that every scalar can count and divide by.
 inline constexpr std::int32_t kMaxParticleRate = 16384;
 
-/// [1] that a search may find, whatever settings ask for: 4 GB of contacts.
+/// [1] The most pairs that a search may find, whatever the settings: 4 GB of contacts.
 inline constexpr std::uint32_t kMostParticlePairs = 1u << 24;
 
 /// Rates are whole numbers, so that the time step is exact and the same everywhere.

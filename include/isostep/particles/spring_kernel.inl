@@ -47,14 +47,14 @@ template <class S, int W, class Isa> struct SpringKernel {
     const auto va = load_vectors<W, Isa>(of_a), vb = load_vectors<W, Isa>(of_b);
     return {va.x - vb.x, va.y - vb.y, va.z - vb.z};
   }
-  /// Sums of many forces end at the format's ends.
+  /// Adds to sums, saturated at the format's ends.
   static ISO_INLINE void add(S* sum, const S* x, const S* y, const S* z) {
     sum[0] = saturating_add(sum[0], *x);
     sum[1] = saturating_add(sum[1], *y);
     sum[2] = saturating_add(sum[2], *z);
   }
 
-  /// The acceleration by a force; 0 where the particle is pinned.
+  /// Returns the acceleration by a force; 0 for a pinned particle.
   static ISO_INLINE L accelerated(L force, M inverse_mass) {
     return select(less(M::zero(), inverse_mass), round_saturated<L>(product(force, inverse_mass)), L::zero());
   }
@@ -92,7 +92,7 @@ template <class S, int W, class Isa> struct SpringKernel {
   }
 };
 
-/// Springs that fill no block go one by one.
+/// Springs that fill no block are done one by one.
 template <class S, int W, class Isa> void pull_springs(const SpringRun<S>& run) {
   using Wide = SpringKernel<S, W, Isa>;
   using Single = SpringKernel<S, 1, Isa>;

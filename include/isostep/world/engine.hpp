@@ -39,9 +39,9 @@
 
 namespace isostep {
 
-/// A step calls the systems in the order of its stages. Each system is a class that is read and tested alone; its
-/// header says what comes in, what goes out and what it keeps. Each but Proxies and Carriers knows the state; besides
-/// it a system knows those that it names in its constructor and no others, never the engine:
+/// The state of a world and its systems. A step calls the systems in the order of its stages. A system can be read and
+/// tested alone. Its header states its input, its output and what it keeps. A system knows the state, except Proxies
+/// and Carriers, and the systems that its constructor names. It never knows other systems or the engine:
 ///
 ///   BodyMap         -> no other (has a ShapeMap and a JointMap inside)
 ///   Proxies         -> no other (has a Crowd inside)
@@ -69,8 +69,8 @@ namespace isostep {
 ///   Characters      -> BodyMap, Proxies, IslandWake, CommandExecutor
 ///   StateLoader     -> BodyMap, Proxies
 ///
-/// BodyMap and Proxies are caches of the state: whoever moves bodies tells them. What else one system needs of another,
-/// the step passes from call to call.
+/// BodyMap and Proxies are caches of the state: a system that moves bodies updates them. The step passes all other data
+/// between systems from call to call.
 template <class S> class WorldEngine {
  public:
   explicit WorldEngine(const Settings<S>& settings);

@@ -14,8 +14,8 @@
 
 namespace isostep {
 
-/// Visits the pairs alone of the broad phase: its trees are functions of the state and of what came before, and differ
-/// between worlds that agree.
+/// Visits only the pairs of the broad phase. Its trees depend on the history too, and differ between worlds with equal
+/// states.
 template <class S> template <class Visit> void WorldEngine<S>::visit_scratch(const Visit& visit, Stage stage) {
   const auto solved = [&](SolverStage part) { solver_.visit_solver(visit, part, narrow_phase_.geometry()); };
   switch (stage) {

@@ -11,7 +11,7 @@
 namespace isostep {
 
 namespace detail {
-/// Brings every field to the nearest value that is in range.
+/// Clamps every field to its range. Replaces a solver that is unknown or left out by soft_step.
 template <class S> Settings<S> in_range(Settings<S> s) {
   s.hz = clamp(s.hz, 10, 1000);
   s.substeps = clamp(s.substeps, 1, min(64, kMaxRate / s.hz));
@@ -31,7 +31,7 @@ template <class S> Settings<S> in_range(Settings<S> s) {
 }
 }  // namespace detail
 
-/// Settings out of range are brought to the nearest that is in range, and that is a fault.
+/// Clamps settings to their ranges, and reports a fault for those out of range.
 template <class S> WorldEngine<S>::WorldEngine(const Settings<S>& settings) {
   tools_.use_simd(Simd::best);
   const Settings<S>& s = state_.settings = detail::in_range(settings);
@@ -72,7 +72,7 @@ template <class S> void WorldEngine<S>::write_portable(Writer& writer) const {
 }
 
 namespace detail {
-/// Completes shapes with what follows from the children, which the portable form leaves out.
+/// Computes the data of shapes that follow from their children and that the portable form leaves out.
 template <class S> void complete_shapes(WorldState<S>& state) {
   std::vector<const void*> contents;
   find_contents<S>(state.geometry->contents(), contents);

@@ -63,7 +63,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   return report_;
 }
 
-/// Finds pairs until nothing that moves touches a sleeping island.
+/// Finds pairs, and wakes touched islands, until no moving body touches a sleeping island.
 template <class S> void WorldEngine<S>::find_pairs() {
   const auto budget = static_cast<std::size_t>(state_.settings.most_pairs);
   do proxies_.update(state_.contacts, budget);
@@ -84,7 +84,7 @@ template <class S> void WorldEngine<S>::find_contacts() {
                    &belts_);
 }
 
-/// Reports what commands ended and woke since the last step, and what this one woke.
+/// Reports the ends and wakings that commands caused since the last step, and the wakings of this step.
 template <class S> void WorldEngine<S>::tell_untold() {
   events_.clear();
   events_.contact_end.swap(state_.untold.contact_end);
@@ -92,7 +92,7 @@ template <class S> void WorldEngine<S>::tell_untold() {
   tell_sleep();
 }
 
-/// A body whose sleep changed more than once is in the list as often: two changes are none.
+/// Reports each body once. The list has an entry for every change of a body's sleep, and two changes cancel out.
 template <class S> void WorldEngine<S>::tell_sleep() {
   std::vector<BodyId>& changed = state_.untold.woke;
   if (changed.empty()) return;
@@ -114,7 +114,7 @@ template <class S> void WorldEngine<S>::tell_sleep() {
   changed.clear();
 }
 
-/// Solves from colour_constraints to store_impulses: the calls of rigid_solver.hpp.
+/// Runs the stages from colour_constraints to store_impulses: the calls of rigid_solver.hpp.
 template <class S>
 template <class Solver, class After>
 void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
@@ -133,7 +133,7 @@ void WorldEngine<S>::solve(Solver& solver, const After& after, bool watched) {
 
 }  // namespace isostep
 
-/// Instantiates what a game calls every frame. The systems that it calls: *_systems.inl, acting_records.inl.
+/// Instantiates the part of the engine that a game calls every frame. Its systems: *_systems.inl, acting_records.inl.
 #define ISO_INSTANTIATE_WORLD_STEP(S) \
   ISO_STEP_SOLVER_OF(, S)             \
   ISO_ENGINE_OF(, S)

@@ -10,8 +10,8 @@
 
 namespace isostep {
 
-/// A joint with its drives, for World::create. Bodies: null is the world. Frames lie in the world, where the bodies are
-/// when the joint is made.
+/// A joint with its drives, for World::create. A null body is the world. The frames are in world space, with the bodies
+/// where they are when the joint is created.
 template <class S> struct JointDefinition {
   BodyId a = {}, b = {};
   Pose<S> frame_a = Pose<S>::identity();
@@ -45,7 +45,7 @@ template <class S> struct PlainJoint {
   Pose<S> frame = Pose<S>::identity();
   bool collide = false;  // a and b have contacts with each other
 };
-/// Hinges, sliders, cylindrical and planar joints: what is driven is the turn about z or the way along it.
+/// Hinges, sliders, cylindrical and planar joints. Limit, motor and spring act about z or along it.
 template <class S> struct OneAxisJoint {
   BodyId a = {}, b = {};
   Pose<S> frame = Pose<S>::identity();
@@ -70,8 +70,8 @@ template <class S> struct TwoPointJoint {
   std::optional<JointSpring<S>> spring = {};                       // its target is `length`
   bool collide = false;
 };
-/// A wheel b below a chassis a. The frame's y is the suspension, up; z the axle, to the left, and x to the rear: so
-/// that a positive speed rolls forwards, as a Wheel's does.
+/// A wheel b below a chassis a. The frame's y points up along the suspension, z along the axle to the left, x to the
+/// rear. A positive speed then rolls the car forwards, as it does for a Wheel.
 template <class S> struct WheelJoint {
   BodyId a = {}, b = {};
   Pose<S> frame = Pose<S>::identity();
@@ -81,7 +81,7 @@ template <class S> struct WheelJoint {
   std::optional<JointMotor<S>> drive = {};  // of the spin about z; a speed of 0 brakes
   bool collide = false;
 };
-/// Six servos that bring b's frame where a's is, as far as they are strong enough.
+/// Six servos that move b's frame to a's, as far as their forces allow.
 template <class S> struct MotorJoint {
   BodyId a = {}, b = {};
   Pose<S> frame_a = Pose<S>::identity(), frame_b = Pose<S>::identity();
@@ -89,7 +89,7 @@ template <class S> struct MotorJoint {
   JointServo<S> turn = {};
   bool collide = true;
 };
-/// Locks and drives of one's own.
+/// A six-axis joint with locks and drives of your choice.
 template <class S> struct SixAxisDefinition {
   BodyId a = {}, b = {};
   Pose<S> frame = Pose<S>::identity();
@@ -166,11 +166,11 @@ template <class S> ISO_INLINE void add_servo(JointDefinition<S>& to, JointAxis a
 }
 }  // namespace detail
 
-/// Origins coincide.
+/// The origins of the frames coincide.
 template <class S> ISO_INLINE JointDefinition<S> ball(const SwingJoint<S>& of) {
   return detail::swing(JointType::ball, of);
 }
-/// Origins coincide, and b does not twist against a: `twist` is not for it.
+/// The origins coincide, and b does not twist against a. `twist` has no meaning here.
 template <class S> ISO_INLINE JointDefinition<S> constant_velocity(const SwingJoint<S>& of) {
   return detail::swing(JointType::constant_velocity, of);
 }
@@ -180,7 +180,7 @@ template <class S> ISO_INLINE JointDefinition<S> fixed(const PlainJoint<S>& of) 
 template <class S> ISO_INLINE JointDefinition<S> universal(const PlainJoint<S>& of) {
   return detail::definition_of<S>(JointType::universal, of);
 }
-/// Holds the orientation alone.
+/// Holds the orientation only.
 template <class S> ISO_INLINE JointDefinition<S> angular(const PlainJoint<S>& of) {
   return detail::definition_of<S>(JointType::angular, of);
 }
@@ -196,11 +196,11 @@ template <class S> ISO_INLINE JointDefinition<S> cylindrical(const OneAxisJoint<
 template <class S> ISO_INLINE JointDefinition<S> planar(const OneAxisJoint<S>& of) {
   return detail::one_axis(JointType::planar, of);
 }
-/// Two points stay `length` apart.
+/// Keeps two points `length` apart.
 template <class S> ISO_INLINE JointDefinition<S> rod(const TwoPointJoint<S>& of) {
   return detail::two_points(of, of.length);
 }
-/// Two points are never farther than `length` apart.
+/// Keeps two points no further than `length` apart.
 template <class S> ISO_INLINE JointDefinition<S> rope(const TwoPointJoint<S>& of) {
   return detail::two_points(of, S(0));
 }

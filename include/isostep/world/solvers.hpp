@@ -1,4 +1,4 @@
-// The rigid solvers as a world has them: one of each, of which it uses the one that its settings name.
+// The rigid solvers of a world: one of each, of which it uses the one that its settings name.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// One member for each name that this build holds. Those that are never used hold no memory.
+/// Holds one solver for each name of this build. A solver that is never used holds no memory.
 template <class S> struct Solvers {
   Sequential<S> soft_step = Sequential<S>(soft_step_schedule<S>);
   Sequential<S> pgs = Sequential<S>(pgs_schedule<S>);

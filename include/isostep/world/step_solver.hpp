@@ -15,37 +15,37 @@
 
 namespace isostep {
 
-/// Input:   the state, the geometry of its contacts, those that turning bodies carry.
-/// Output:  a StepContext for the calls of rigid_solver.hpp, which move the awake bodies and leave impulses in contacts
-///          and joints; each contact's impulse of the whole step.
+/// Input:   the state, the geometry of its contacts, the contacts that rotating bodies carry.
+/// Output:  a StepContext for the calls of rigid_solver.hpp, which move the awake bodies and store impulses in contacts
+///          and joints; the impulse of each contact over the whole step.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class StepSolver {
  public:
   StepSolver(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies);
 
-  /// Takes the forces that commands left in the state, and finds what mechanisms push.
+  /// Takes the forces that commands left in the state, and finds the couplings and vehicles that act on bodies.
   ISO_INLINE void take_forces() {
     forces_.begin_step();
     mechanisms_.begin_step();
   }
-  /// After the last sub-step.
+  /// Reports cut forces and stores the state of mechanisms, after the last sub-step.
   ISO_INLINE void report_forces(StepReport& report) {
     forces_.end_step(report);
     mechanisms_.end_step();
   }
-  /// `watched`: somebody looks between the stages.
+  /// `watched`: an observer or trace reads the state between the stages.
   StepContext<S> context(std::span<const ContactGeometry<S>> geometry, std::span<const Carried<S>> carried,
                          std::span<const ContactResponse<S>> responses, std::span<JointImpulse<S>> joint_impulses,
                          const StepTools<S>& tools, bool watched);
-  /// visit(the solver)
+  /// Calls visit(solver) with the solver of the settings.
   template <class Visit> void with_solver(Visit&& visit) {
     isostep::with_solver(solvers_, state_.settings.solver, static_cast<Visit&&>(visit));
   }
-  /// By awake body, or empty: BodyForces.
+  /// One per awake body, or empty: see BodyForces::pulls.
   ISO_INLINE std::span<const Acceleration<S>> pulls() const { return forces_.pulls(); }
-  /// [m/s] Parallel to the contacts, of the whole step.
+  /// [m/s] Parallel to the contacts: the impulse of each over the whole step.
   ISO_INLINE std::span<const Velocity<S>> impulses() const { return impulses_; }
-  /// Parallel to the awake bodies: 1 for what turned faster than a step of integration bears.
+  /// Parallel to the awake bodies: 1 if the solver cut the body's turn to what one integration step allows.
   ISO_INLINE std::span<const std::uint8_t> cut() const { return cut_; }
 
   template <class Visit> void visit_forces(const Visit& visit) { forces_.visit_scratch(visit); }

@@ -13,7 +13,7 @@ StepSolver<S>::StepSolver(WorldState<S>& state, const BodyMap<S>& map, const Pro
     : state_(state), map_(map), forces_(state, map, proxies), mechanisms_(state, map, proxies) {}
 
 namespace detail {
-/// By joint, then by axis.
+/// Sorts drives by joint, then by axis.
 struct AxisDriveKey {
   template <class S> ISO_INLINE std::uint64_t operator()(const JointAxisDrive<S>& axis) const {
     return std::uint64_t{axis.joint} * kJointRows + static_cast<std::uint32_t>(axis.drive->axis);

@@ -68,7 +68,7 @@ template <class S> ShapeId World<S>::add_shape(const BlobRef& blob) {
   child.primitive.blob = 1;
   return add_shape(std::span<const Child<S>>(&child, 1), std::span<const BlobRef>(&blob, 1));
 }
-/// A command names a blob that the world has already without its content: a recording holds it once.
+/// Leaves out the content of a blob that the world already has, so that a recording holds it once.
 template <class S> ShapeId World<S>::add_shape(std::span<const Child<S>> children, std::span<const BlobRef> blobs) {
   AddShape<S> command = {{children.begin(), children.end()}};
   for (const BlobRef& blob : blobs) {
@@ -308,7 +308,7 @@ template <class S> const std::vector<RenderPose>& World<S>::poses_float(float al
 
 }  // namespace isostep
 
-/// World<S>, and how states come into it. What it calls: executing_commands.inl, world_queries.inl, engine_step.inl.
+/// Instantiates World<S> and the loading of states. Rest: executing_commands.inl, world_queries.inl, engine_step.inl.
 #define ISO_INSTANTIATE_WORLD(S)                       \
   ISO_STATE_LOADER_OF(, S)                             \
   template std::uint64_t WorldEngine<S>::hash() const; \

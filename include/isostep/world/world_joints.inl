@@ -42,8 +42,8 @@ template <class S> S World<S>::joint_position(JointId joint, JointAxis axis) con
   return pin_floats([&] { return detail::joint_position(engine_->state_, engine_->map_, joint, axis); });
 }
 
-/// Makes both frames from one frame in the world, as the bodies lie now. A frame whose orientation is none stays so,
-/// for create() to refuse it.
+/// Makes both frames from one world frame, with the bodies where they are now. Leaves a frame whose orientation is not
+/// a unit quaternion unchanged, so that create() refuses it.
 template <class S>
 JointProperties<S> World<S>::joint_at(JointType type, BodyId a, BodyId b, const Pose<S>& frame) const {
   return joint_between(type, a, frame, b, frame);

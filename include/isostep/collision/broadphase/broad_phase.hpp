@@ -14,7 +14,7 @@
 namespace isostep {
 
 namespace detail {
-/// Visitors of the three kinds, for the concept alone.
+/// Visitors of the three kinds, used by the concept alone.
 struct AnyBoxVisit {
   bool operator()(std::uint32_t slot) const;
 };
@@ -26,20 +26,20 @@ template <class S> struct AnySweepVisit { Unit<S> operator()(std::uint32_t slot,
 
 /// A structure over boxes that the caller names by small integers (slots), each at most once.
 ///
-/// The structure is a means, not state: its shape depends on what was inserted and moved before, and so does the order
-/// of visits, which is never stated. The set of visits depends on the boxes alone, and is that of brute force:
+/// The structure is a cache, not state: its shape depends on its history, and so does the order of visits, which is
+/// never specified. The set of visits depends on the boxes alone, and equals that of brute force:
 ///   insert(slot, box)        the slot is free;  update(slot, box), remove(slot): it is taken
-///   optimise()               restores quality after changes: once, before many questions. Answers do not need it.
+///   optimise()               restores quality after changes. Call it once before many queries. Results do not need it.
 ///   clear()                  forgets the boxes, keeps the memory
 ///   query(box, visit)        visit(slot) -> bool, once for every stored box that overlaps `box`; false ends it
-///   sweep(sweep, visit)      visit(slot, max_fraction) -> the new max_fraction, not larger, at most once for every
-///                            stored box and at least for those that the sweep touches within the fraction of the
-///                            moment
+///   sweep(sweep, visit)      visit(slot, max_fraction) -> the new max_fraction, not larger. Called at most once for
+///                            every stored box, and at least for those that the sweep touches within the current
+///                            fraction.
 ///   overlapping_pairs(matches, most, visit)            visit(slot, slot) once for every two stored boxes that overlap
 ///   overlapping_pairs_of(slots, matches, most, visit)  visit(slot, other) for every one of `slots` that is stored and
 ///                            every stored box that overlaps its own, itself included
-/// The latter two are false when they gave up, after `most` visits or what the structure counts as such; some pairs
-/// were not visited then. A caller whose results depend on order sorts: PairSet does, and all_pairs below.
+/// The last two return false if they give up after `most` visits, or what the structure counts as such: some pairs are
+/// not visited then. A caller whose results depend on order sorts: PairSet does, and all_pairs below.
 /// Touching boxes overlap. Boxes have low <= high and coordinates within 4 position limits (geometry/limits.hpp).
 /// No operation allocates once the structure has seen its greatest slot and size.
 template <class B, class S>
@@ -69,15 +69,15 @@ struct TakePair {
 };
 }  // namespace detail
 
-/// The memory of all_pairs; keep it from call to call.
+/// Holds the memory of all_pairs. Keep it from call to call.
 template <class S> struct AllPairs {
   std::vector<std::uint64_t> keys;  // ascending `pair_key`s
   std::vector<std::uint64_t> scratch;
   typename AabbTree<S>::Matches matches;
 };
 
-/// Every two stored boxes that overlap, in canonical order: pairs.keys. They are the same for every structure over
-/// these boxes.
+/// Finds every two stored boxes that overlap, in canonical order: pairs.keys. They are the same for every structure
+/// over these boxes.
 /// Source:  Millington 2007, Game Physics Engine Development, ch. 12: the potential contacts of a hierarchy or
 ///          partition.
 template <class S, BroadPhase<S> B> ISO_INLINE void all_pairs(const B& structure, AllPairs<S>& pairs) {

@@ -39,8 +39,8 @@ ISO_INLINE std::optional<BroadPhaseName> broad_phase_named(std::string_view name
   return std::nullopt;
 }
 
-/// The expectation that a fault names for a structure that this build leaves out (core/book.hpp). Null for one that it
-/// holds, and for a number that names none.
+/// Returns what a fault expects instead of a structure that this build leaves out (core/book.hpp). Null for a structure
+/// that the build holds, and for a number that names none.
 ISO_INLINE constexpr const char* expected_instead_of(BroadPhaseName name) {
   constexpr const char* kExpected[] = {ISO_BROAD_PHASES(ISO_NOT_LEFT_OUT, ISO_LEFT_OUT)};
   const auto index = static_cast<std::uint32_t>(name);

@@ -17,29 +17,29 @@
 
 namespace isostep {
 
-/// Made once, of children that stay as they are: it follows from them, and worlds and snapshots that have a shape in
-/// common share it. Boxes are in the body's frame, so it serves all bodies of the shape, wherever they are.
+/// A tree over the children of one shape, built once. It is a function of the children, so worlds and snapshots with a
+/// common shape share it. Boxes are in the body's frame, so it serves all bodies of the shape, wherever they are.
 template <class S> class ChildTree {
  public:
   static constexpr std::uint32_t kLeastChildren = 9;  // of fewer, looking at all of them is as fast
 
-  /// `children` as a world stores them, one or more.
+  /// `children`: as a world stores them, one or more.
   ChildTree(std::span<const Child<S>> children, Contents<S> contents);
 
   ISO_INLINE bool has_surfaces() const { return has_surfaces_; }
-  /// Of a child: see leaves_of.
+  /// Returns the index of a child's first leaf: see leaves_of.
   ISO_INLINE std::uint32_t first_leaf(std::uint32_t child) const { return first_leaves_[child]; }
-  /// `index` in range.
+  /// `index` must be in range.
   ISO_INLINE Leaf leaf_at(std::uint32_t index) const {
     const std::size_t after =
         lower_bound(first_leaves_.size(), [&](std::size_t i) ISO_INLINE_LAMBDA { return first_leaves_[i] <= index; });
     return {static_cast<std::uint32_t>(after - 1), index - first_leaves_[after - 1]};
   }
-  /// Of all children but half-spaces, in the frame that `t` leads to.
+  /// Returns the bounds of all children but half-spaces, in the frame that `t` leads to.
   ISO_INLINE Aabb<S> bounds(const Transform<S>& t) const { return Turn(t, bounds_).turned(bounds_); }
 
-  /// visit(child) -> bool for the children whose bounds at `t` meet `box`, and perhaps for others, in no stated order;
-  /// false ends it, and is returned then.
+  /// Calls visit(child) -> bool for children whose bounds at `t` meet `box`, and perhaps for others, in no stated
+  /// order. If it returns false, the query ends and returns false.
   template <class Visit> ISO_INLINE bool query(const Transform<S>& t, const Aabb<S>& box, Visit&& visit) const {
     for (const std::uint32_t child : endless_) {
       if (!visit(child)) return false;
@@ -47,7 +47,7 @@ template <class S> class ChildTree {
     const Turn turn(t, bounds_);
     return tree_.traverse([&](const Aabb<S>& of) ISO_INLINE_LAMBDA { return overlap(turn.turned(of), box); }, visit);
   }
-  /// visit(child, max_fraction) as AabbTree::sweep has it, for the children at `t`.
+  /// Calls visit(child, max_fraction), like AabbTree::sweep, for the children at `t`.
   template <class Visit> ISO_INLINE void sweep(const Transform<S>& t, const Sweep<S>& sweep, Visit&& visit) const {
     Sweep<S> local = sweep;
     for (const std::uint32_t child : endless_) local.max_fraction = visit(child, local.max_fraction);
@@ -62,11 +62,11 @@ template <class S> class ChildTree {
   static ISO_INLINE Mat3<Unit<S>> absolute(const Mat3<Unit<S>>& m) {
     return {{abs(m.rows[0]), abs(m.rows[1]), abs(m.rows[2])}};
   }
-  /// [m] What rounding may make of boxes up to `extent` [m] away from the frame's origin.
+  /// [m] Returns a bound of the rounding of boxes up to `extent` [m] away from the frame's origin.
   static ISO_INLINE S slack_of(const Transform<S>& t, S extent) {
     return detail::gap_noise(extent + max_abs(t.position)) * S(4);
   }
-  /// Boxes of the tree as the frame that `t` leads to has them.
+  /// Turns boxes of the tree into the frame that `t` leads to.
   struct Turn {
     Transform<S> t;
     Mat3<Unit<S>> absolutes;
@@ -89,7 +89,7 @@ template <class S> class ChildTree {
   bool has_surfaces_ = false;
 };
 
-/// The leaf of that index of a shape's children. `tree` is theirs, or null.
+/// Returns the leaf with that index among a shape's children. `tree` is their tree, or null.
 template <class S>
 ISO_INLINE Leaf leaf_at(const ChildTree<S>* tree, std::span<const Child<S>> children, Contents<S> contents,
                         std::uint32_t index) {

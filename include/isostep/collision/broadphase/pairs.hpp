@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// A pair of slots a < b as one number; ascending keys are the canonical order of pairs.
+/// Returns a pair of slots a < b as one number. Ascending keys are the canonical order of pairs.
 ISO_INLINE constexpr std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
   const std::uint64_t low = a < b ? a : b;
   return low << 32 | (a < b ? b : a);
@@ -18,25 +18,25 @@ ISO_INLINE constexpr std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
 ISO_INLINE constexpr std::uint32_t pair_a(std::uint64_t key) { return static_cast<std::uint32_t>(key >> 32); }
 ISO_INLINE constexpr std::uint32_t pair_b(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
 
-/// Holds { (a, b) : a < b, the stored boxes of a and b overlap, may_collide(a, b) }, ascending. After `update` that set
-/// depends on the boxes and on the predicate alone, not on what happened before nor on the structure that holds the
-/// boxes, any BroadPhase (broad_phase.hpp), as long as every slot whose box, presence or filter changed was marked. The
-/// set is not state: a loaded world clears it and marks all. That set is held while it has `most` pairs or fewer.
-/// Beyond, or where the search takes too many steps to tell, keys() are what the caller `choose`s instead, at every
-/// update, until it says that they are the whole set again.
+/// Holds { (a, b) : a < b, the stored boxes of a and b overlap, may_collide(a, b) }, ascending. After `update` the set
+/// depends on the boxes and the predicate alone, not on history, nor on the structure that holds the boxes, any
+/// BroadPhase (broad_phase.hpp), as long as every slot whose box, presence or filter changed was marked. The set is not
+/// state: a loaded world clears it and marks all. It is complete while it has `most` pairs or fewer. Beyond, or if the
+/// search takes too many steps to tell, keys() are what the caller `choose`s instead, at every update, until it says
+/// that they are the whole set again.
 /// Cost: O(pairs + marked log n); from a third of the leaves on, one join of the tree with itself (measured break-even
 /// 0.33 to 0.41). Memory and time end at a few times `most` and the leaves. No allocation once warm.
 template <class S> class PairSet {
  public:
-  /// The slot's box changed, it was inserted, or the predicate's answer for it changed. Repeats are free.
+  /// Marks a slot whose box changed, that was inserted, or for which the predicate changed. Repeats are free.
   void mark_moved(std::uint32_t slot);
-  /// The slot left the structure. It may be inserted again before `update`, and is then marked moved as well.
+  /// Marks a slot that left the structure. It may be inserted again before `update`, and is then marked moved as well.
   void mark_removed(std::uint32_t slot);
-  /// Brings the pairs up to date. may_collide(a, b) -> bool, a < b, is called only for overlapping pairs.
-  /// Returns false when the caller is to choose.
+  /// Updates the pairs. may_collide(a, b) -> bool, a < b, is called for overlapping pairs only. Returns false if the
+  /// caller must choose.
   template <class Structure, class Predicate>
   ISO_INLINE bool update(const Structure& boxes, const Predicate& may_collide, std::uint64_t most = kAnyNumber);
-  /// Replaces the pairs by `keys`, ascending. `whole`: they are all pairs that there are.
+  /// Replaces the pairs by `keys`, ascending. `whole`: they are all existing pairs.
   void choose(std::vector<std::uint64_t>& keys, bool whole);
   /// Forgets pairs and marks, keeps the memory.
   void clear();

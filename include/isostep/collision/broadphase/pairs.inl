@@ -38,7 +38,7 @@ template <class S> void PairSet<S>::drop_marked() {
   keys_.resize(kept);
 }
 
-/// Sorts the keys found and merges them into those kept, from the back; the two have no key in common.
+/// Sorts the found keys and merges them into the kept keys, from the back. The two have no key in common.
 template <class S> void PairSet<S>::merge_found() {
   forget_marks();
   std::size_t found = found_.size();

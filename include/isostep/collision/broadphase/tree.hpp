@@ -21,8 +21,8 @@ template <class S> struct Sweep {
 };
 
 namespace detail {
-/// overlap() as 0 or 1, without branches: in a join every second result is a surprise, and a mispredicted branch costs
-/// more than six comparisons.
+/// Returns overlap() as 0 or 1, without branches. In a join the results are hard to predict, and a mispredicted branch
+/// costs more than six comparisons.
 template <class S> ISO_INLINE std::uint32_t overlap_flag(const Aabb<S>& a, const Aabb<S>& b) {
   return static_cast<std::uint32_t>(a.low.x <= b.high.x) & static_cast<std::uint32_t>(b.low.x <= a.high.x) &
          static_cast<std::uint32_t>(a.low.y <= b.high.y) & static_cast<std::uint32_t>(b.low.y <= a.high.y) &
@@ -71,16 +71,16 @@ template <class S> struct SweepTest {
 
 /// A binary tree of boxes over leaves that the caller names by small integers (slots), each at most once.
 ///
-/// The tree is a means, not state: its shape depends on what was inserted and moved before, so the order of visits does
-/// too. The leaves that `query` and `overlapping_pairs` visit do not. A caller whose results depend on order sorts.
+/// The tree is a cache, not state: its shape depends on its history, and so does the order of visits. The set of leaves
+/// that `query` and `overlapping_pairs` visit does not. A caller whose results depend on order sorts.
 ///
 /// Siblings lie side by side (nodes 2k and 2k + 1; the root is node 0), a leaf is a node of height 0. `update` only
-/// enlarges ancestors and marks them; `optimise` takes the marked part apart and splits what hangs below it anew, so
-/// that few moves cost little and many cost one build. Boxes on the way are exact except above a moved leaf until then.
+/// enlarges ancestors and marks them. `optimise` takes the marked part apart and rebuilds it over the subtrees below: a
+/// few moves cost little, and many cost one build. Until then boxes are exact, except above a moved leaf.
 /// Source:  Catto 2022-2024, Box2D 3 (enlarge, then rebuild the enlarged part); Goldsmith, Salmon 1987, IEEE CG&A 7(5)
 ///          (insertion by surface area).
-/// Boxes that come in order, row by row, would hang one below the other: where the tree is half as high again as it
-/// needs to be, `insert` rotates the nodes above the new leaf, as an AVL tree does.
+/// Boxes inserted in order, row by row, would form a list. Where the tree is half as high again as it needs to be,
+/// `insert` rotates the nodes above the new leaf, like an AVL tree.
 /// Cost:    insert, remove O(height); update O(height) at worst; optimise O(m log m), m = subtrees below marked nodes.
 /// Limits:  box.low <= box.high; coordinates within 4 position limits (geometry/limits.hpp), so that doubled centres
 ///          and half areas fit.
@@ -94,7 +94,7 @@ template <class S> class AabbTree {
   struct NodePair {
     std::uint32_t a, b;
   };
-  /// The working memory of a join; keep it from one to the next.
+  /// Holds the working memory of a join. Keep it from one to the next.
   struct Matches {
     std::vector<NodePair> now, next;
   };
@@ -104,59 +104,59 @@ template <class S> class AabbTree {
   /// The slot must be taken.
   void remove(std::uint32_t slot);
   void update(std::uint32_t slot, const Aabb<S>& box);
-  /// Restores the tree's quality after inserts and updates; call it once, before many queries. Results do not need it.
+  /// Restores the tree's quality after inserts and updates. Call it once before many queries. Results do not need it.
   void optimise();
 
-  /// stage() and rebuild() insert in bulk: stage any number, then rebuild; the tree may not be used otherwise in
-  /// between.
+  /// stage() and rebuild() insert in bulk: stage any number, then rebuild. Other calls between the two are not
+  /// allowed.
   void stage(std::uint32_t slot, const Aabb<S>& box);
   void rebuild();
 
-  /// Forgets the leaves, keeps the memory.
+  /// Removes all leaves, keeps the memory.
   void clear();
 
   ISO_INLINE std::uint32_t size() const { return size_; }
   ISO_INLINE std::uint32_t height() const { return size_ == 0 ? 0u : nodes_[kRoot].height; }
-  /// The number of leaves and subtrees that all builds together were made over, for tests.
+  /// The number of leaves and subtrees over which all builds were made, for tests.
   ISO_INLINE std::uint64_t built() const { return built_; }
   ISO_INLINE bool contains(std::uint32_t slot) const { return slot < leaf_of_.size() && leaf_of_[slot] != kNone; }
   ISO_INLINE const Aabb<S>& box(std::uint32_t slot) const { return nodes_[leaf_of_[slot]].box; }
 
-  /// visit(slot) -> bool for every leaf whose box overlaps `box`, in no stated order; false ends the query.
-  /// A visitor of this class is a struct with an ISO_INLINE call operator wherever weak symbols matter.
+  /// Calls visit(slot) -> bool for every leaf whose box overlaps `box`, in no stated order. False ends the query. Where
+  /// weak symbols matter, a visitor of this class is a struct with an ISO_INLINE call operator.
   template <class Visit> ISO_INLINE void query(const Aabb<S>& box, Visit&& visit) const;
 
-  /// visit(slot) for the leaves that overlaps(box) -> bool reaches: those for which it is true of every box on the way
-  /// and of their own. Returns false when visit wanted no more.
+  /// Calls visit(slot) -> bool for the leaves for which overlaps(box) -> bool is true of their own box and of every box
+  /// above it. Returns false if visit wanted no more.
   template <class Overlaps, class Visit> ISO_INLINE bool traverse(const Overlaps& overlaps, Visit&& visit) const;
 
-  /// visit(slot) -> bool for the leaves that stand behind the slot's own in the tree's walk and whose boxes overlap its
-  /// box, nearest in the tree first; false ends it. enter(node) -> bool tells by values of `fold` whether to look at a
-  /// node at all.
+  /// Calls visit(slot) -> bool for leaves that come after the slot's own in the tree's walk and whose boxes overlap its
+  /// box, nearest in the tree first. False ends it. enter(node) -> bool decides by values of `fold` whether to look at
+  /// a node at all.
   template <class Enter, class Visit>
   ISO_INLINE void query_behind(std::uint32_t slot, const Enter& enter, const Visit& visit) const;
-  /// query_behind() for all leaves, the slot's own among them, in the order of the walk.
+  /// Does query_behind() for all leaves, the slot's own among them, in the order of the walk.
   template <class Enter, class Visit>
   ISO_INLINE void query_all(std::uint32_t slot, const Enter& enter, const Visit& visit) const;
-  /// A value for every node: leaf(slot) of a leaf, both(a, b) of what its two children have. The tree must just have
-  /// been rebuilt.
+  /// Computes a value for every node: leaf(slot) for a leaf, both(a, b) of its children's values otherwise. The tree
+  /// must just have been rebuilt.
   template <class Value, class Leaf, class Both>
   ISO_INLINE void fold(std::vector<Value>& values, const Leaf& leaf, const Both& both) const;
 
-  /// visit(slot, slot) -> void once for every two leaves whose boxes overlap, in no stated order, either first. Returns
-  /// false when it gives up after `most` overlaps, of leaves and of nodes above them; some pairs were not visited then.
+  /// Calls visit(slot, slot) once for every two leaves whose boxes overlap, in no stated order, either first. Returns
+  /// false if it gives up after `most` overlaps of leaves and inner nodes. Some pairs are not visited then.
   template <class Visit> ISO_INLINE bool overlapping_pairs(Matches& matches, std::uint64_t most, Visit&& visit) const;
 
-  /// visit(slot, other) -> void for every one of `slots` that is in the tree and every leaf, itself included, whose box
-  /// overlaps its own, in no stated order. It takes half the time of as many queries. Returns false when it gives up,
+  /// Calls visit(slot, other) for every one of `slots` that is in the tree and every leaf, itself included, whose box
+  /// overlaps its own, in no stated order. It takes half the time of as many queries. Returns false if it gives up,
   /// like overlapping_pairs().
   template <class Visit>
   ISO_INLINE bool overlapping_pairs_of(std::span<const std::uint32_t> slot_list, Matches& matches, std::uint64_t most,
                                        Visit&& visit) const;
 
-  /// visit(slot, max_fraction) -> the new max_fraction, not larger, for every leaf whose box the sweep touches within
-  /// the fraction of the moment, nearer ones first as a rule. The visitor may be shown leaves that it must refuse, and
-  /// prefers, of two hits at one fraction, the lower slot: then the nearest hit does not depend on the tree's shape.
+  /// Calls visit(slot, max_fraction) -> the new max_fraction, not larger, for every leaf whose box the sweep touches
+  /// within the current fraction, as a rule nearer ones first. The visitor may get leaves that it must reject. Of two
+  /// hits at one fraction it prefers the lower slot: then the nearest hit does not depend on the tree's shape.
   template <class Visit> ISO_INLINE void sweep(const Sweep<S>& sweep, Visit&& visit) const;
 
   /// Checks that links, heights, marks, containment, free list and slots agree, for tests.
@@ -167,8 +167,8 @@ template <class S> class AabbTree {
   static constexpr std::uint32_t kFreeHeight = 0xffffffffu;
   static constexpr std::uint32_t kMaxDepth = 32;
   static constexpr std::uint32_t kMaxGiants = 8;
-  /// The height above which `insert` rotates: half as much again as the least height of so many leaves: an AVL tree is
-  /// no higher, and few insertions rotate.
+  /// Returns the height above which `insert` rotates: half as much again as the least height for that many leaves. An
+  /// AVL tree is no higher, and few insertions rotate.
   static ISO_INLINE std::uint32_t height_to_level(std::uint32_t leaves) {
     return 2u + 3u * static_cast<std::uint32_t>(std::bit_width(leaves)) / 2u;
   }
@@ -315,9 +315,9 @@ ISO_INLINE bool AabbTree<S>::overlapping_pairs_of(std::span<const std::uint32_t>
   return resolve(matches, count, most, visit);
 }
 
-/// Opens matches until both sides are leaves. It goes level by level rather than depth first: the matches of a level
-/// wait for nothing but memory, so the processor works on several at once; a stack makes each step wait for the one
-/// before (measured: twice the time).
+/// Opens matches until both sides are leaves, level by level rather than depth first. The matches of a level only wait
+/// for memory, so the processor works on several at once. With a stack each step waits for the one before (measured:
+/// twice the time).
 template <class S>
 template <class Visit>
 ISO_INLINE bool AabbTree<S>::resolve(Matches& matches, std::uint32_t count, std::uint64_t most, Visit&& visit) const {

@@ -25,7 +25,7 @@ template <class S> void AabbTree<S>::free_pair(std::uint32_t pair) {
   free_ = pair;
 }
 
-/// Moves a subtree's top to `at`, whose parent stays; links that pointed to the top point to `at`.
+/// Moves a subtree's top node to `at`, whose parent stays. Links to the top node then point to `at`.
 template <class S> void AabbTree<S>::place(std::uint32_t at, const Node& node) {
   const std::uint32_t parent = nodes_[at].parent;
   nodes_[at] = node;
@@ -38,7 +38,7 @@ template <class S> void AabbTree<S>::place(std::uint32_t at, const Node& node) {
   }
 }
 
-/// Sets the exact box and height of an inner node. Returns whether either changed.
+/// Sets the exact box and height of an inner node. Returns true if either changed.
 template <class S> bool AabbTree<S>::refit(std::uint32_t at) {
   Node& node = nodes_[at];
   const Node& left = nodes_[node.child];
@@ -50,13 +50,13 @@ template <class S> bool AabbTree<S>::refit(std::uint32_t at) {
   node.height = height;
   return true;
 }
-/// Refits every node from `at` to the root, as far as anything changes.
+/// Refits nodes from `at` towards the root, as long as anything changes.
 template <class S> void AabbTree<S>::refit_from(std::uint32_t at) {
   while (at != kNone && refit(at)) at = nodes_[at].parent;
 }
 
 /// Rotates every node from `at` to the root whose children differ in height by two or more: the higher child's higher
-/// child trades places with the lower child. The nodes are marked.
+/// child swaps with the lower child. Marks the nodes.
 template <class S> void AabbTree<S>::level_from(std::uint32_t at) {
   for (; at != kNone; at = nodes_[at].parent) {
     const std::uint32_t first = nodes_[at].child;
@@ -75,11 +75,11 @@ template <class S> void AabbTree<S>::level_from(std::uint32_t at) {
   }
 }
 
-/// The node to pair a new leaf with: down the cheaper child while that adds less surface than stopping. A stop at n
-/// costs area(n + box). Going on to child c costs n's growth and, for a leaf c, area(c + box); for an inner c at least
-/// its growth and area(box). The growth of n's ancestors is common to both; n's growth, taken from both, leaves area(n)
-/// against the child's part. The lower of two that cost the same wins: boxes in one place would make a list of the tree
-/// otherwise.
+/// Finds the node to pair a new leaf with: goes down to the cheaper child while that adds less surface than a stop. A
+/// stop at n costs area(n + box). Going on to child c costs n's growth and, for a leaf c, area(c + box); for an inner c
+/// at least its growth and area(box). The growth of n's ancestors is common to both. n's growth, taken from both,
+/// leaves area(n) against the child's part. Of two that cost the same the lower subtree wins: boxes in one place would
+/// make a list of the tree otherwise.
 template <class S> std::uint32_t AabbTree<S>::find_sibling(const Aabb<S>& box) const {
   const Sum<S> own = half_area(box);
   std::uint32_t at = kRoot;
@@ -182,7 +182,7 @@ template <class S> void AabbTree<S>::clear() {
   size_ = 0;
 }
 
-/// Takes the tree apart from the root: marked nodes, or all inner nodes, are freed, the subtrees below become items.
+/// Takes the tree apart from the root: frees marked nodes, or all inner nodes. The subtrees below become items.
 template <class S> void AabbTree<S>::collect_items(bool all) {
   order_.clear();
   if (nodes_[kRoot].height == 0) {
@@ -205,10 +205,10 @@ template <class S> void AabbTree<S>::collect_items(bool all) {
   for (std::size_t i = order_.size(); i-- > 0;) free_pair(nodes_[order_[i]].child);
 }
 
-/// Builds the tree over items_, top down; then sets boxes and heights bottom up, as every node is made before its
+/// Builds the tree over items_, top down. Then sets boxes and heights bottom up, since every node is made before its
 /// children.
 /// Depth: kMaxDepth splits at the middle of space, then at most 32 at the middle of the list, stay below kMaxHeight as
-/// long as all items are leaves.
+///        long as all items are leaves.
 template <class S> void AabbTree<S>::build() {
   const std::uint32_t count = static_cast<std::uint32_t>(items_.size());
   built_ += count;
@@ -257,8 +257,8 @@ template <class S> void AabbTree<S>::build() {
   items_.clear();
 }
 
-/// Moves items of at least a quarter of the region of all centres (grounds, half-spaces) to the front, and returns how
-/// many: near the root they enlarge no box on the way down. They are a few only, as each makes the tree one level
+/// Moves items with at least a quarter of the area of all centres (grounds, half-spaces) to the front. Returns
+/// their number. Near the root they enlarge no box below. They are few, since each makes the tree one level
 /// deeper.
 template <class S> std::uint32_t AabbTree<S>::split_off_giants() {
   const std::uint32_t count = static_cast<std::uint32_t>(centres_.size());
@@ -278,7 +278,7 @@ template <class S> std::uint32_t AabbTree<S>::split_off_giants() {
   return giants;
 }
 
-/// Splits a range of centres at the middle of its longest side, or by count where that leaves one part empty.
+/// Splits a range of centres at the middle of its longest side, or by count if that leaves one part empty.
 template <class S> std::uint32_t AabbTree<S>::partition(std::uint32_t begin, std::uint32_t end) {
   Vec3<S> low = centres_[begin].twice;
   Vec3<S> high = low;

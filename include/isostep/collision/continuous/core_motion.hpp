@@ -8,9 +8,9 @@
 
 namespace isostep {
 
-/// One point of the solid moves along a line at constant speed; the orientation is the normalised linear interpolation
-/// of the two, the shorter way round. That needs a root but no sine, and turns about one axis: a little faster in the
-/// middle than at the ends, by (turn / 2)^2 / 4 of the speed. Turns must be less than half a turn.
+/// The motion of a solid. One point moves along a line at constant speed. The orientation is the normalised linear
+/// interpolation of both ends, the shorter way. That needs a root but no sine, and turns about one axis: a little
+/// faster in the middle than at the ends, by (turn / 2)^2 / 4 of the speed. Turns must be less than half a turn.
 template <class S> struct CoreMotion {
   Pose<S> start, end;  // of the solid's frame
   Vec3<S> centre;      // [m] in the solid's frame: the point, as a rule its body's centre of mass
@@ -18,20 +18,20 @@ template <class S> struct CoreMotion {
 
 namespace detail {
 
-/// The one of `end` and -`end`, the same orientation, that is the shorter way from `start`.
+/// Returns `end` or -`end`, which are the same orientation: the one on the shorter way from `start`.
 template <class U> ISO_INLINE Quat<U> on_near_side(Quat<U> start, Quat<U> end) {
   const auto cosine =
       product(start.x, end.x) + product(start.y, end.y) + product(start.z, end.z) + product(start.w, end.w);
   return cosine < product(U(0), U(0)) ? Quat<U>{-end.x, -end.y, -end.z, -end.w} : end;
 }
-/// The interpolated orientation, not normalised; its length is 0.7 to 1.
+/// Returns the interpolated orientation, not normalised. Its length is 0.7 to 1.
 template <class U> ISO_INLINE Quat<U> between(Quat<U> start, Quat<U> end, U t) {
   return {start.x + (end.x - start.x) * t, start.y + (end.y - start.y) * t, start.z + (end.z - start.z) * t,
           start.w + (end.w - start.w) * t};
 }
 
-/// [m] The bow of a point's way: no point within `reach` of the centre is ever further from its place, at that time, on
-/// the line between its two ends. It is an eighth of the largest acceleration, which SweptCore has.
+/// [m] Returns the bow of a way: a bound for the distance of any point within `reach` of the centre from its place, at
+/// that time, on the line between its two ends. It is an eighth of the largest acceleration: SweptCore.
 template <class S> ISO_INLINE S bow_of(const CoreMotion<S>& motion, S reach) {
   using U = Unit<S>;
   const Quat<U> turn =
@@ -41,7 +41,7 @@ template <class S> ISO_INLINE S bow_of(const CoreMotion<S>& motion, S reach) {
   const S squared = reach * (c * c);
   return (squared + squared * c) * S(16.25 / 8);
 }
-/// [m] A box grown by `margin` and by the rounding of its sides, as SweepTest has it.
+/// [m] Returns a box grown by `margin` and by the rounding of its sides, like SweepTest.
 template <class S> ISO_INLINE Aabb<S> grown_with_slack(const Aabb<S>& box, S margin) {
   const S step = resolution<S>() * S(16), farthest = max(max_abs(box.low), max_abs(box.high));
   return grow(box, margin + farthest * step + step);
@@ -49,7 +49,7 @@ template <class S> ISO_INLINE Aabb<S> grown_with_slack(const Aabb<S>& box, S mar
 
 }  // namespace detail
 
-/// The pose after a fraction 0 ... 1 of a motion: exact at both ends.
+/// Returns the pose after a fraction 0 ... 1 of a motion, exact at both ends.
 template <class S> ISO_INLINE Pose<S> pose_at(const CoreMotion<S>& motion, Unit<S> fraction) {
   if (fraction == Unit<S>(0)) return motion.start;
   if (fraction == Unit<S>(1)) return motion.end;

@@ -6,15 +6,15 @@
 
 namespace isostep {
 
-/// The surface of all points p with normal . (p - point) <= 0.
+/// A half-space: all points p with normal . (p - point) <= 0.
 template <class S> struct SolidPlane {
   Vec3<Unit<S>> normal;  // [1]
   Vec3<S> point;         // [m] of the surface, within Limits<S>::position() of the core
 };
 
-/// time_of_impact() against a plane: it takes the bound along the plane's normal, which is given and needs no search.
-/// The normal of the result points from the core to the plane; its points are zero, but for `on_a` where they touch at
-/// the start: the lowest of the core.
+/// time_of_impact() against a plane: takes the bound along the plane's normal, which is given and needs no search. The
+/// normal of the result points from the core to the plane. Its points are zero, except `on_a` for a touch at the start:
+/// the lowest point of the core.
 template <class S>
 TimeOfImpact<S> plane_impact(const ConvexCore<S>& core, const CoreMotion<S>& motion, const SolidPlane<S>& plane,
                              S target);

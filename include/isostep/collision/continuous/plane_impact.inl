@@ -55,7 +55,7 @@ template <class S> class PlaneAdvance {
   }
 
  private:
-  /// The bound of the core's surface above the plane; the plane is one vertex that does not move.
+  /// Returns the bound of the core's surface above the plane. The plane is one vertex that does not move.
   ISO_INLINE GapBound<F> bound_at(U t) const {
     static constexpr Vec3<F> kNothing[1] = {{F(0), F(0), F(0)}};
     const Vec3<F> zero = kNothing[0];
@@ -72,7 +72,7 @@ template <class S> class PlaneAdvance {
   F target_;
 };
 
-/// The point of the core's surface that is furthest against the normal.
+/// Returns the point of the core's surface that is furthest against the normal.
 template <class S> Vec3<S> lowest_point(const ConvexCore<S>& core, const Pose<S>& at, Vec3<Unit<S>> normal) {
   const Mat3<Unit<S>> rotation = to_matrix(at.orientation);
   Vec3<S> lowest = rotation * core.vertices[0];

@@ -8,14 +8,14 @@
 
 namespace isostep {
 
-/// A shape and its frame's place in another.
+/// A shape and the placement of its frame in another frame.
 template <class S> struct PlacedShape {
   ShapeView<S> shape;
   Transform<S> at;
 };
 
-/// [m] The depth to which another solid's middle may get into a shape and still be pushed out the way it came: its
-/// inner radius, at most 1 m. A surface without an inside has none.
+/// [m] Returns the depth to which another solid's middle may get into a shape and still be pushed out the way it came:
+/// its inner radius, at most 1 m. Zero for a surface without an inside.
 template <class S> S thickness(const ShapeView<S>& shape);
 
 /// The part of its motion that a solid is free to make.
@@ -28,26 +28,26 @@ template <class S> struct FreeWay {
 
 /// Finds how far `a`, a solid, moves before it would pass `b`. `b` moves as well if it is a solid; half-spaces and
 /// surfaces stay at the start of `of_b`. Both are placed in the frames of the poses.
-/// Method:  `a` is swept as a solid that is kGraze deep in it (a quarter of its inner radius, if that is less), up to
-///          where the two overlap by half to three quarters of that: what does not touch the solid grazes. To stop
-///          where all of `a` touches would hold what slides or tips over: contacts close gaps of that size.
-///          What overlaps by as much from the start is swept as a solid twice as deep in `a`, and so on up to half of
-///          the inner radius: where one end touches the other is stopped at the surface as well.
-///          If even that does, what is swept is a ball in its middle, of three quarters of that radius down to a
-///          sixteenth; the smallest goes nowhere but away from what it touches.
-///          Where an earlier step stopped it, a motion that dips in at once, a turn with a contact at one end, would
-///          stop for ever: it goes as far as the solid another kGraze deep, unless that does not get on either.
+/// Method:  sweeps a solid that lies kGraze inside `a` (a quarter of its inner radius, if that is less) until the two
+///          overlap by half to three quarters of that: whatever misses the inner solid only grazes. To stop where all
+///          of `a` touches would hold a solid that slides or tips over. Contacts close gaps of that size.
+///          If the inner solid overlaps by as much from the start, sweeps one twice as deep in `a`, and so on up to
+///          half of the inner radius: where one end touches, the other is stopped at the surface as well.
+///          If even that one overlaps, sweeps a ball in its middle, of three quarters of that radius down to a
+///          sixteenth. The smallest one only moves away from what it touches.
+///          Where an earlier step stopped `a`, a motion that dips in at once, a turn with a contact at one end, would
+///          stop for ever. It goes as far as a solid another kGraze deep, unless that makes no progress either.
 template <class S>
 FreeWay<S> free_way(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                     const CoreMotion<S>& of_b);
 
-/// Returns true if `a`, a solid, overlaps `b` by more than kTooDeep, or half of its inner radius, if that is less. A
-/// shallower overlap is left to contacts.
+/// Returns true if `a`, a solid, overlaps `b` by more than kTooDeep, or by more than half of its inner radius if that
+/// is less. Contacts handle shallower overlaps.
 template <class S>
 bool is_deep(const PlacedShape<S>& a, const Pose<S>& pose_of_a, const PlacedShape<S>& b, const Pose<S>& pose_of_b);
 
-/// Returns true if they touch at the start, apart or overlapping by half of kGraze or less; `on_a` is then the place of
-/// the touch, at most kGraze deep in `a`.
+/// Returns true if they touch at the start: apart, or overlapping by at most half of kGraze. Sets `on_a` to the place
+/// of the touch, at most kGraze deep in `a`.
 template <class S>
 bool touches_at_start(const PlacedShape<S>& a, const CoreMotion<S>& motion, const PlacedShape<S>& b,
                       const Pose<S>& pose_of_b, Vec3<S>& on_a);

@@ -47,10 +47,10 @@ TimeOfImpact<S> impact_with(const SurfaceShape<S, Type, G>& shape, const Transfo
 
 template <class S> ISO_INLINE S graze_of(S inner) { return min(inner * S(0.25), kGraze<S>); }
 
-/// [1] The fraction of a motion that gets on. A solid that would be deeper by kGraze sooner comes fast, at 7 m/s and
-/// more at 60 Hz, and waits for the contact that it begins with to stop it.
+/// [1] The fraction of a motion that counts as progress. A solid that is kGraze deeper before is fast, 7 m/s and more
+/// at 60 Hz, and its first contact has to stop it.
 template <class U> inline constexpr U kGettingOn = U(0.03125);
-/// [m] The way of a point of a solid from the start to the end of its motion.
+/// [m] Returns the way of a point of a solid from the start to the end of its motion.
 template <class S> ISO_INLINE Vec3<S> way_of_point(const CoreMotion<S>& motion, Vec3<S> point) {
   return motion.end.position - motion.start.position + rotate(motion.end.orientation, point) -
          rotate(motion.start.orientation, point);
@@ -73,7 +73,7 @@ template <class S> class Passage {
   }
 
  private:
-  /// The part of the solid that is swept instead of the whole.
+  /// The smaller solid that is swept in place of the whole.
   struct Smaller {
     S inset;  // [m] so deep in it
     S ball;   // [m] not 0: the radius of a ball in its middle
@@ -115,8 +115,8 @@ template <class S> class Passage {
   ISO_INLINE FreeWay<S> up_to(Unit<S> fraction) const {
     return {fraction, false, Vec3<S>::zero(), Vec3<Unit<S>>::zero()};
   }
-  /// A ball that has come as near as it may goes nowhere but away. The triangle of a surface that is met first decides
-  /// that for all of them, so smaller balls, which may come nearer, are asked before.
+  /// Sweeps balls in the middle. A ball that has come as near as it may only moves away. The first triangle of a
+  /// surface that it meets decides that for all of them, so smaller balls, which may come nearer, are tried before.
   template <class Shape> FreeWay<S> of_middle(const Shape& solid, S inner, S target) const {
     ShapeCore<S> core(solid, a_.at, S(0));
     core.become_ball(inner);

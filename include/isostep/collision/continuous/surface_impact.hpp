@@ -17,9 +17,9 @@ template <class S> Aabb<S> box_of(const ConvexCore<S>& core, const Transform<S>&
   }
   return grow(box, core.radius);
 }
-/// The box around all that a core passes, in the frame that leads to the world by `t`, grown by `margin`: its boxes at
-/// both ends and the bow between them, and no more than the ball in which it turns. A box as large as the core is far
-/// from its body's middle would hold a thousand times the triangles.
+/// Returns the box around all that a core passes, in the frame that leads to the world by `t`, grown by `margin`: its
+/// boxes at both ends and the bow between them, within the ball in which it turns. The ball of a core far from its
+/// body's middle would hold a thousand times the triangles.
 template <class S>
 Aabb<S> swept_box(const Transform<S>& t, const ConvexCore<S>& core, const CoreMotion<S>& motion, S margin) {
   const Transform<S> from = relative(t, Transform<S>::of(motion.start)), to = relative(t, Transform<S>::of(motion.end));
@@ -47,8 +47,8 @@ template <class S> Vec3<S> middle_of(const ConvexCore<S>& core) {
   return middle;
 }
 
-/// time_of_impact() against the triangles of a surface at rest whose outward side the core's middle is on at the start.
-/// A touch of one of them at the start counts as that of all.
+/// Finds the time of impact with those triangles of a surface at rest whose outward side the core's middle is on at the
+/// start. A touch of one of them at the start counts as a touch of all.
 template <class S, class G>
 TimeOfImpact<S> surface_impact(const G& surface, const Transform<S>& t, const ConvexCore<S>& core,
                                const CoreMotion<S>& motion, S target) {

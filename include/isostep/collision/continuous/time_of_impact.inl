@@ -8,7 +8,7 @@
 namespace isostep {
 namespace detail {
 
-/// A core and its motion, in the axes of the world about an origin near it.
+/// A core and its motion, in world axes about an origin near it.
 template <class S> class SweptCore {
   using F = Finer<S>;
   using U = Unit<F>;
@@ -42,7 +42,7 @@ template <class S> class SweptCore {
     const Mat3<U> rotation = to_matrix(normalise(between(start, end, t)));
     return {from + way * t - rotation * centre, rotation};
   }
-  /// [1] Angular velocity, in turns of 1 rad a motion.
+  /// [1] Returns the angular velocity, in radians per motion.
   ISO_INLINE Vec3<F> spin(U t) const {
     const Quat<U> q = between(start, end, t);
     const U squared = round_to<U>(product(q.x, q.x) + product(q.y, q.y) + product(q.z, q.z) + product(q.w, q.w));
@@ -77,7 +77,7 @@ template <class F> struct Turning {
   }
 };
 
-/// [1] The fraction of a motion that counts as progress: a core that gets so far gets on.
+/// [1] The fraction of a motion that counts as progress.
 template <class U> inline constexpr U kAtOnce = U(0.125);
 
 /// L(d) of time_of_impact.hpp.
@@ -93,7 +93,7 @@ template <class F> struct GapBound {
     const F bent = bend * d;
     return {gap + speed * d + of_a.height + of_b.height - bent * d * F(0.5), speed + of_a.slope + of_b.slope - bent};
   }
-  /// Returns how far the bound stays above 0 for sure, up to `rest`; it is `now` at 0.
+  /// Returns how far the bound is proved to stay above 0, up to `rest`. `now` is its value at 0.
   ISO_INLINE U proved(F now, U rest) const {
     U d = rest;
     for (int round = 0;; ++round) {
@@ -107,8 +107,8 @@ template <class F> struct GapBound {
   }
 };
 
-/// The turning of a core's lower side along the normal n [1], world axes, where `up` is n, or of its upper side where
-/// it is -n.
+/// Returns the turning of a core's lower side along the normal n [1], in world axes, if `up` is n, or of its upper side
+/// if `up` is -n.
 template <class S, class F = Finer<S>>
 ISO_INLINE Turning<F> turning_of(const SweptCore<S>& sweep, const Mat3<Unit<F>>& rotation, Vec3<F> up, Unit<F> t) {
   return {sweep.core.vertices, sweep.centre, transposed_times(rotation, up),

@@ -23,7 +23,7 @@ template <class S> struct BestAxis {
   Vec3<Unit<S>> normal;  // [1] crosses only: from a to b, a's frame
 };
 
-/// The separation along a's axis i times b's axis j, not normalised, so no further from zero than the true one.
+/// Returns the separation along a's axis I times b's axis J, not normalised: no further from zero than the true one.
 template <int I, int J, class S> ISO_INLINE S cross_separation(const BoxPair<S>& p) {
   constexpr int i1 = (I + 1) % 3, i2 = (I + 2) % 3, j1 = (J + 1) % 3, j2 = (J + 2) % 3;
   const Mat3<Unit<S>>& r = p.turn;
@@ -34,7 +34,7 @@ template <int I, int J, class S> ISO_INLINE S cross_separation(const BoxPair<S>&
   return round_to<S>((gap < widen<SumOf<S, Unit<S>>>(S(0)) ? -gap : gap) - reach);
 }
 
-/// Examines one cross of edges in full; false when it separates the boxes by more than reach.
+/// Examines one cross of edges in full. Returns false if it separates the boxes by more than reach.
 template <class S>
 ISO_INLINE bool examine_cross(const BoxPair<S>& p, int i, int j, S reach, S& limit, BestAxis<S>& best) {
   using U = Unit<S>;
@@ -51,7 +51,7 @@ ISO_INLINE bool examine_cross(const BoxPair<S>& p, int i, int j, S reach, S& lim
   return true;
 }
 
-/// Examines the crosses 3 i + j whose bits are set; best.axis becomes -1 when one of them separates.
+/// Examines the crosses 3 i + j whose bits are set. Sets best.axis to -1 if one of them separates.
 template <class S>
 ISO_INLINE void examine_crosses(const BoxPair<S>& p, unsigned candidates, S reach, S limit, BestAxis<S>& best) {
   for (int k = 0; candidates != 0; ++k, candidates >>= 1) {
@@ -63,7 +63,7 @@ ISO_INLINE void examine_crosses(const BoxPair<S>& p, unsigned candidates, S reac
   }
 }
 
-/// The separation along a's axis I [m]; fills in the parts of the pair that it needs.
+/// Returns the separation along a's axis I [m]. Fills in the parts of the pair that it needs.
 template <int I, class S>
 ISO_INLINE S separation_of_a(BoxPair<S>& p, const Mat3<Unit<S>>& turn_a, const Mat3<Unit<S>>& turn_b, Vec3<S> gap) {
   const Vec3<Unit<S>> axis = turn_a.column(I);
@@ -73,14 +73,14 @@ ISO_INLINE S separation_of_a(BoxPair<S>& p, const Mat3<Unit<S>>& turn_a, const M
   return abs(p.offset[I]) - p.half_a[I] - dot(p.turn_size.rows[I], p.half_b);
 }
 
-/// Returns true of two faces that look at each other to within kNearFace. Either gives the same points then, and a's
-/// does, however trembling changes their distance.
+/// Returns true if two faces look at each other to within kNearFace. Either gives the same points then, and a's is
+/// taken, however jitter changes their distance.
 template <class S> ISO_INLINE bool are_beside(const BoxPair<S>& p, int face_a, int face_b) {
   const bool below_a = p.offset[face_a] < S(0), below_b = dot(p.offset, p.turn.column(face_b)) < S(0);
   return negate_if(below_a != below_b, p.turn.rows[face_a][face_b]) >= Unit<S>(kNearFace);
 }
 
-/// Finds the best axis and fills in the rest of the pair as it goes along: half of all pairs end at one of the first
+/// Finds the best axis and fills in the rest of the pair on the way: half of all pairs end at one of the first
 /// axes.
 template <class S>
 ISO_INLINE BestAxis<S> best_axis(BoxPair<S>& p, const Transform<S>& ta, const Transform<S>& tb, S reach) {
@@ -121,7 +121,7 @@ ISO_INLINE BestAxis<S> best_axis(BoxPair<S>& p, const Transform<S>& ta, const Tr
   return best;
 }
 
-/// The one point where an edge of a crosses an edge of b.
+/// Adds the one point where an edge of a crosses an edge of b.
 template <class S>
 ISO_INLINE void touch_edges(const BoxPair<S>& p, const BestAxis<S>& best, S radius_a, S radius_b,
                             const Transform<S>& ta, Manifold<S>& out) {

@@ -27,7 +27,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     Mat3<U> turn;            // rows: a's axes; columns: b's
     L tolerance;             // [m] axis_tolerance()
   };
-  /// The best face of each pair, and by how much.
+  /// The best face of each pair, and the crosses that might be better.
   struct Best {
     Mask apart;
     Mask of_b, axis0, axis1;   // neither 0 nor 1: 2
@@ -35,7 +35,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     std::uint32_t crosses[9];  // a bit a lane: worth examining
     std::uint32_t examine;     // lanes with any
 
-    /// The number of the face, as BestAxis::face has it.
+    /// Returns the number of the face: see BestAxis::face.
     ISO_INLINE int face(int lane) const {
       const auto bit = [lane](Mask of) ISO_INLINE_LAMBDA { return static_cast<int>(to_bits(of) >> lane & 1u); };
       return 3 * bit(of_b) + 2 - 2 * bit(axis0) - bit(axis1);
@@ -65,7 +65,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     return smallest * L::broadcast(S(0.0078125)) + rounding * L::broadcast(S(8)) + L::broadcast(resolution<S>() * S(4));
   }
 
-  /// |gap| - reach, rounded once: the larger of the two signs, for rounding keeps order.
+  /// Returns |gap| - reach, rounded once, as the larger of both signs: rounding is monotonic.
   template <int I, int J> static ISO_INLINE L cross_separation(const Boxes& boxes, const Mat3<U>& q) {
     constexpr int i1 = (I + 1) % 3, i2 = (I + 2) % 3, j1 = (J + 1) % 3, j2 = (J + 2) % 3;
     const Mat3<U>& r = boxes.turn;
@@ -94,7 +94,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     const Mask is0 = less_equal(x[1], x[0]) & less_equal(x[2], x[0]);
     return {is0, less_equal(x[2], x[1]) & ~is0};
   }
-  /// are_beside() of box_axes.hpp.
+  /// See are_beside() of box_axes.hpp.
   static ISO_INLINE Mask are_beside(const Boxes& boxes, const L (&offset_a)[3], const Largest& a,
                                     const L (&offset_b)[3], const Largest& b) {
     const Mask below_a = less(a.pick(offset_a[0], offset_a[1], offset_a[2]), L::zero());
@@ -109,7 +109,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     return less_equal(U::broadcast(Unit<S>(detail::kNearFace)), select(differ, -cosine, cosine));
   }
 
-  /// Finds the best axis of every pair. Returns false when every pair is apart.
+  /// Finds the best axis of every pair. Returns false if every pair is apart.
   static ISO_INLINE bool find(const Batch& batch, const Bodies& p, S margin, Boxes& boxes, Best& best) {
     boxes.half_a = gather_half(batch.a);
     boxes.half_b = gather_half(batch.b);
@@ -154,7 +154,7 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     return true;
   }
 
-  /// The lanes' values in memory, for the work that is done pair by pair.
+  /// Holds the lanes' values in memory, for work that is done pair by pair.
   struct Rest {
     alignas(kLaneAlignment<S, W>) S separation[W], limit[W], offset[3][W];
     alignas(kLaneAlignment<S, W>) Unit<S> turn[3][3][W];
@@ -178,8 +178,8 @@ template <class S, int W, class Isa> struct BoxAxesLanes {
     return pair;
   }
 
-  /// Examines one by one the crosses that are worth it; collides the pairs of which one is the best axis or separates.
-  /// Returns a bit for the lane of each of those.
+  /// Examines candidate crosses one by one, and collides the pairs whose best axis is a cross. Returns a bit for the
+  /// lane of each of those, and of each pair that a cross separates.
   static ISO_INLINE std::uint32_t finish_crosses(const PairRun<S>& run, const Batch& batch, const Best& best,
                                                  const Rest& rest) {
     std::uint32_t done = 0;

@@ -9,17 +9,17 @@
 namespace isostep {
 namespace detail {
 
-/// The vector by which p lies outside the box, axis by axis [m]; zero inside.
+/// Returns the vector by which p lies outside the box, axis by axis [m]. Zero inside.
 template <class S> ISO_INLINE Vec3<S> excess(Vec3<S> half, Vec3<S> p) { return p - max(min(p, half), -half); }
 
-/// The search for the s at which the squared distance to the box, convex in s, has the slope zero: 2 excess . d.
+/// Searches the s at which the squared distance to the box, convex in s, has slope zero: 2 excess . d.
 template <class S> struct SlopeSearch {
   const Segment<S>& core;
   Vec3<S> half;           // [m] of the box
   S low, high;            // [m] where it falls, where it rises
   S flat_low, flat_high;  // [m] where it is level: empty while flat_high < flat_low
 
-  /// The slope's sign at s, from an exact sum.
+  /// Returns the sign of the slope at s, from an exact sum.
   ISO_INLINE int sign_at(S s) const {
     const auto slope = dot_sum(excess(half, core.at(s)), core.direction);
     const auto level = widen<SumOf<S, Unit<S>>>(S(0));
@@ -39,8 +39,8 @@ template <class S> struct SlopeSearch {
   }
 };
 
-/// Returns the s at which the segment is closest to the box; the middle of that stretch where it runs along or through
-/// the box.
+/// Returns the s at which the segment is closest to the box. If it runs along or through the box, the middle of that
+/// stretch.
 template <class S> ISO_INLINE S closest_to_box(const Segment<S>& core, Vec3<S> half) {
   using U = Unit<S>;
   const Vec3<U> d = core.direction;
@@ -69,20 +69,20 @@ template <class S> ISO_INLINE S closest_to_box(const Segment<S>& core, Vec3<S> h
   return low + clamp(divide_to<S>(-dot(e, heading.direction), heading.length), S(0), high - low);
 }
 
-/// A region of the box around it: which side of each axis, 0 for between the two faces.
+/// A region around the box: the side on each axis, 0 between the two faces.
 struct Region {
   int side[3];
 };
 
-/// Returns true beside a face, or beside an edge and nearly parallel to it: within 3.6 degrees, as between two
-/// capsules.
+/// Returns true if the region is beside a face, or beside an edge that is nearly parallel: within 3.6 degrees, as
+/// between two capsules.
 template <class U> ISO_INLINE bool lies_along(Region region, Vec3<U> direction) {
   const int sides = (region.side[0] != 0) + (region.side[1] != 0) + (region.side[2] != 0);
   const int along = region.side[0] == 0 ? 0 : region.side[1] == 0 ? 1 : 2;
   return sides == 1 || (sides == 2 && abs(direction[along]) > U(0.998046875));
 }
 
-/// The stretch of the segment that lies between the box's faces on the axes where the region does; empty if high < low.
+/// The stretch of the segment between the box's faces, on axes where the region is between them. Empty if high < low.
 template <class S> struct Stretch {
   S low, high;  // [m]
 };
@@ -102,8 +102,8 @@ template <class S> ISO_INLINE Stretch<S> stretch_beside(const Segment<S>& core, 
 }
 
 /// Adds the two ends of that stretch against their projections on the face or edge, both with the normal `outward`, box
-/// frame. Points beyond the patch are left out. It adds none when the stretch is short or misses the `deepest`
-/// separation by more than 1/512 of the radii, the cost of a tilt of 3.6 degrees.
+/// frame. Leaves out points beyond the patch. Adds none if the stretch is short or misses the `deepest` separation by
+/// more than 1/512 of the radii, the cost of a tilt of 3.6 degrees.
 template <class S>
 ISO_INLINE void touch_stretch(const Primitive<S>& box, const Transform<S>& frame, const Segment<S>& core, S radius,
                               Region region, Vec3<Unit<S>> outward, S margin, S deepest, Manifold<S>& out) {
@@ -135,8 +135,8 @@ ISO_INLINE void touch_stretch(const Primitive<S>& box, const Transform<S>& frame
   if (!reaches) out.count = 0;
 }
 
-/// The way out for a core that pierces the box: the least deep of three faces and three crosses of an edge with the
-/// core, as the separating axes of a box and a segment; a face wins unless an edge is better by the tolerance.
+/// The way out for a core that pierces the box: the shallowest of three faces and three crosses of an edge with the
+/// core, the separating axes of a box and a segment. A face wins unless an edge is better by the tolerance.
 template <class S> struct Pierced {
   Vec3<Unit<S>> outward;  // [1]
   S length;               // [m] <= 0
@@ -166,7 +166,7 @@ template <class S> ISO_INLINE Pierced<S> pierced(const Segment<S>& core, Vec3<S>
   return best;
 }
 
-/// The edge along `axis` that lies furthest along n.
+/// Returns the edge along `axis` that lies furthest along n.
 template <class S> ISO_INLINE Segment<S> edge_towards(Vec3<S> half, int axis, Vec3<Unit<S>> n) {
   Vec3<S> middle = {n.x < Unit<S>(0) ? -half.x : half.x, n.y < Unit<S>(0) ? -half.y : half.y,
                     n.z < Unit<S>(0) ? -half.z : half.z};
@@ -181,8 +181,8 @@ ISO_INLINE constexpr Region face_region(int axis, bool negative) {
 }
 template <class S> ISO_INLINE constexpr int side_of(S excess) { return excess < S(0) ? -1 : excess > S(0) ? 1 : 0; }
 
-/// A core that pierces the box, or touches it at `closest` to within rounding. A face that was preferred though
-/// the core's deepest end lies beyond it yields to the axis that is best without preference.
+/// Collides a core that pierces the box, or touches it at `closest` to within rounding. If the core's deepest end lies
+/// beyond the preferred face, the axis that is best without preference replaces it.
 template <class S>
 ISO_INLINE void touch_pierced(const Primitive<S>& box, const Transform<S>& frame, const Segment<S>& core, S radius,
                               S closest, S margin, Manifold<S>& out) {
@@ -211,7 +211,7 @@ ISO_INLINE void touch_pierced(const Primitive<S>& box, const Transform<S>& frame
   out.add(to_world(frame, local), way.length - radii, 0);
 }
 
-/// A core outside the box, at x closest to it, by gap.
+/// Collides a core outside the box. Its point x is closest, by the vector gap.
 template <class S>
 ISO_INLINE void touch_outside(const Primitive<S>& box, const Transform<S>& frame, const Segment<S>& core, S radius,
                               Vec3<S> x, Vec3<S> gap, S margin, Manifold<S>& out) {

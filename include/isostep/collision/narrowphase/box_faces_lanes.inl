@@ -30,7 +30,7 @@ template <class S, int W, class Isa> struct BoxFacesLanes {
     Mask there;
     std::uint32_t leaves[kSides], enters[kSides];  // a bit a lane: cut by that side at its end, at its beginning
   };
-  /// FacePair over lanes, and the numbers by which a manifold names its faces.
+  /// FacePair over lanes, with the numbers by which a manifold names its faces.
   struct Faces {
     L half[3], offset[3], incident_half[3];
     U turn[3][3];
@@ -48,7 +48,7 @@ template <class S, int W, class Isa> struct BoxFacesLanes {
   }
   static ISO_INLINE Mask differ(Mask a, Mask b) { return (a & ~b) | (b & ~a); }
 
-  /// face_pair() of either box.
+  /// Does face_pair() for either box.
   static ISO_INLINE void face_pair(const typename Pairs::Bodies& p, const typename Axes::Boxes& boxes,
                                    const typename Axes::Best& best, Faces& faces) {
     Vec3<L> place = boxes.offset;
@@ -76,7 +76,7 @@ template <class S, int W, class Isa> struct BoxFacesLanes {
     faces.below = less(faces.offset[2], L::zero());
   }
 
-  /// incident_face(), as edges.
+  /// Does incident_face(), as edges.
   static ISO_INLINE void incident_face(Faces& faces) {
     const U(&facing)[3] = faces.turn[2];
     const U x = abs(facing[0]), y = abs(facing[1]), z = abs(facing[2]);
@@ -112,8 +112,8 @@ template <class S, int W, class Isa> struct BoxFacesLanes {
     }
   }
 
-  /// Cuts off the part of an edge beyond `Side` (0: u < -half, 1: u > half, 2, 3: v); `left` says which polygons left
-  /// through it.
+  /// Cuts off the part of an edge beyond `Side` (0: u < -half, 1: u > half, 2, 3: v). `left`: the polygons that left
+  /// through that side.
   template <int Side> static ISO_INLINE void cut_edge(L half, Edge& edge, Edge& along, Mask& left, Mask& unclear) {
     constexpr int u = Side / 2, v = 1 - u;
     constexpr bool high = (Side & 1) != 0;
@@ -146,7 +146,7 @@ template <class S, int W, class Isa> struct BoxFacesLanes {
     along.there = left;
   }
 
-  /// Clips the polygons of the pairs whose faces touch; `edges` say where they begin and end.
+  /// Clips the polygons of the pairs whose faces touch. `edges` hold where they begin and end.
   static void clip(const typename Pairs::Bodies& p, const typename Axes::Boxes& boxes, const typename Axes::Best& best,
                    Faces& faces) {
     face_pair(p, boxes, best, faces);

@@ -44,13 +44,13 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
   }
 
  private:
-  /// The polygons' points by lane, for the work that is done pair by pair.
+  /// Holds the polygons' points by lane, for work that is done pair by pair.
   struct Points {
     alignas(kLaneAlignment<S, W>) S at[W][kEdges][4];  // [m] where each edge begins, world axes; its separation
     std::uint32_t kept[kEdges];                        // a bit a lane: its beginning is a point
   };
 
-  /// Sets where every edge begins: midway between the surfaces, seen from a's centre of mass.
+  /// Computes where every edge begins: midway between the surfaces, relative to a's centre of mass.
   static ISO_INLINE void place_points(const typename Pairs::Bodies& p, const typename Axes::Boxes& boxes,
                                       const typename Axes::Best& best, const Faces& faces, S margin, Points& points) {
     const Mask of_b = best.of_b, m0 = best.axis0, m1 = best.axis1;
@@ -100,8 +100,8 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
     store_transposed<4>(rows, words, touching);
   }
 
-  /// A pair's points in the polygon's order, which begins with the incident face's first corner: an edge along a side
-  /// comes after the edge that left through it, and before those that had left it earlier.
+  /// A pair's points in polygon order, from the incident face's first corner on. An edge along a side comes after the
+  /// edge that left through it, and before those that had left it earlier.
   struct Outline {
     int count;
     std::uint32_t edges[kEdges], before[kEdges];
@@ -137,7 +137,7 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
     return outline;
   }
 
-  /// reduce_to_four() of an outline.
+  /// Does reduce_to_four() for an outline.
   static void reduce(const Faces& faces, const L& tolerance, S slack, int lane, Outline& outline) {
     alignas(kLaneAlignment<S, W>) S x[3][W];
     detail::ClipPolygon<S> polygon;
@@ -162,7 +162,7 @@ template <class S, int W, class Isa, bool Polygons> struct BoxLanes {
     run.counts[batch.pair[lane]] = static_cast<std::uint8_t>(out.count);
   }
 
-  /// The polygons one by one.
+  /// Makes the polygons one by one.
   static ISO_INLINE void touch_faces_alone(const PairRun<S>& run, const Batch& batch, const typename Axes::Best& best,
                                            const typename Axes::Rest& rest, std::uint32_t touching) {
     for (std::uint32_t lanes = touching; lanes != 0; lanes &= lanes - 1) {

@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// Axes that cross leave along their common perpendicular; axes that coincide, across themselves.
+/// Crossing axes separate along their common perpendicular, coincident axes across themselves.
 /// Features: 0 the closest points; 1, 2 an end of a; 3, 4 an end of b.
 template <class S>
 void collide_capsule_capsule(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,

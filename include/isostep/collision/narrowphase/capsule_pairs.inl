@@ -9,7 +9,7 @@
 namespace isostep {
 namespace detail {
 
-/// The normal of two cores that touch: across both, towards b's centre; `aside`, across a, where they coincide.
+/// Returns the normal of two cores that touch: across both, towards b's centre. If they coincide, `aside`, across a.
 template <class S>
 ISO_INLINE Vec3<Unit<S>> crossing_normal(const Segment<S>& a, const Segment<S>& b, Vec3<Unit<S>> aside) {
   using U = Unit<S>;
@@ -18,10 +18,10 @@ ISO_INLINE Vec3<Unit<S>> crossing_normal(const Segment<S>& a, const Segment<S>& 
   return dot(b.centre - a.centre, n) < S(0) ? -n : n;
 }
 
-/// Two points at the ends of the stretch where nearly parallel capsules run side by side. None when that stretch is
-/// short, or where the axes diverge sideways by more than a sixteenth of the radii: there the surfaces are further
-/// apart than the separation along the normal says, by up to 1/512 of the radii within that bound. Each end belongs to
-/// the capsule that ends there, so that swapping a and b gives the same points.
+/// Adds two points at the ends of the stretch where nearly parallel capsules run side by side. Adds none if that
+/// stretch is short, or if the axes diverge sideways by more than a sixteenth of the radii. Within that bound the
+/// surfaces are further apart than the separation along the normal says, by up to 1/512 of the radii. Each end belongs
+/// to the capsule that ends there, so that swapping a and b gives the same points.
 template <class S>
 ISO_INLINE void touch_alongside(const Segment<S>& a, S radius_a, const Segment<S>& b, S radius_b, S margin,
                                 Manifold<S>& out) {

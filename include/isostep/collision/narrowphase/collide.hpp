@@ -10,14 +10,14 @@
 
 namespace isostep {
 
-/// Shapes within `margin` >= 0 fill `out` with the points of their patch; others leave count 0 and a zero normal.
+/// Fills `out` with the contact points of shapes within `margin` >= 0. For others sets count 0 and a zero normal.
 /// Frame:  both transforms lead to one frame near the shapes: origin at a body's centre of mass, axes as the world's.
 ///         Only the difference of the positions enters normal, separation and features; moving both moves the points.
 /// Order:  collide(b, a) gives the same points and the opposite normal to rounding; between unlike types exactly.
 ///         Two boxes whose best faces agree within axis_tolerance take a's as reference, so there the order shows.
 /// Limits: Q16.16: extents and distances below 100 m; Q32.32: 1000 m. Degenerate sizes (0) are allowed. Two half-spaces
 ///         never touch.
-/// `polyhedra`: collide_polyhedra, or a kernel that has its bits.
+/// `polyhedra`: collide_polyhedra, or a kernel with the same bits.
 template <class S>
 void collide(std::type_identity_t<ShapeView<S>> a, const Transform<S>& ta, std::type_identity_t<ShapeView<S>> b,
              const Transform<S>& tb, S margin, Manifold<S>& out,

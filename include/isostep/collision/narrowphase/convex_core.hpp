@@ -10,14 +10,14 @@
 
 namespace isostep {
 
-/// All points within `radius` of the hull of the vertices: a sphere is one vertex, a capsule two, a triangle three, a
-/// box eight, a hull its own. At least 1 vertex, at most ConvexHull::kMaxVertices; any order, equal ones too.
+/// A convex solid: all points within `radius` of the hull of the vertices. A sphere has one vertex, a capsule two, a
+/// triangle three, a box eight, a hull its own. 1 to ConvexHull::kMaxVertices vertices, in any order, equal ones too.
 template <class S> struct ConvexCore {
   ArrayView<Vec3<S>> vertices;  // [m] in the solid's frame
   S radius;                     // [m]
 };
 
-/// The core of a polyhedron: the memory that core() shows.
+/// Holds the core of a polyhedron: the memory that core() refers to.
 template <class S> class PolyhedronCore {
  public:
   ISO_INLINE explicit PolyhedronCore(const Polyhedron<S>& solid) : count_(solid.vertices.size()) {
@@ -38,7 +38,7 @@ namespace detail {
 template <class Out, class T> ISO_INLINE Vec3<Out> finer_of(Vec3<T> v) {
   return {finer<Out>(v.x), finer<Out>(v.y), finer<Out>(v.z)};
 }
-/// `a` in the coarser format, rounded down: never above a.
+/// Returns `a` in the coarser format, rounded down: never above a.
 template <class Out, class In> ISO_INLINE Out coarser_down(In a) {
   const Out nearby = coarser<Out>(a);
   return finer<In>(nearby) > a ? nearby - resolution<Out>() : nearby;
@@ -53,7 +53,7 @@ template <class S> ISO_INLINE Transform<Finer<S>> finer_of(const Transform<S>& t
             finer_of<Unit<F>>(t.rotation.rows[2])}}};
 }
 
-/// Frame b seen from a's frame; their distance is that of S, exact where it is fixed point.
+/// Returns frame b in the frame of a. Their distance is that of S, exact in fixed point.
 template <class S> ISO_INLINE Transform<Finer<S>> fine_relative(const Transform<S>& ta, const Transform<S>& tb) {
   using F = Finer<S>;
   const Transform<S> a = {Vec3<S>::zero(), ta.rotation}, b = {tb.position - ta.position, tb.rotation};

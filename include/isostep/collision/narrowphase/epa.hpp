@@ -24,11 +24,11 @@ template <class S> struct EpaPenetration {
   std::int32_t rounds;
 };
 
-/// All in the frame that both transforms lead to. Contacts of polyhedra do not use it: their axes are exact.
+/// Works in the frame that both transforms lead to. Contacts of polyhedra do not use it: their axes are exact.
 /// Source:  van den Bergen 2001, Proximity Queries and Penetration Depth Computation on 3D Game Objects, GDC.
-/// Differs: from whatever simplex GJK ended with, grown to a tetrahedron by supports across it; the axis is the best of
-///          all those examined, whose depth its own support proves; 64 rounds. Formats of 32 bits are searched in
-///          Q32.32.
+/// Differs: starts with the simplex that GJK ended with, grown to a tetrahedron by supports across it. The axis is the
+///          best of all those examined, whose depth its own support proves. 64 rounds. Formats of 32 bits are searched
+///          in Q32.32.
 /// Error:   depth and normal: tests/unit/collision/narrowphase/epa_test.cpp. Faces whose height is a few digits, as of
 ///          long thin triangles, have poor normals: then the depth is still one that parts the solids, but not the
 ///          least, and the status says so.

@@ -8,7 +8,7 @@
 namespace isostep {
 namespace detail {
 
-/// A polytope inside the difference of two cores, around the origin, that grows where its surface is nearest to it.
+/// A polytope inside the difference of two cores, around the origin. It grows where its surface is nearest to that.
 template <class F, class Search = Gjk<F>> class Epa {
   using U = Unit<F>;
   static constexpr int kMostRounds = 64, kMostPoints = kMostRounds + 4;
@@ -24,10 +24,10 @@ template <class F, class Search = Gjk<F>> class Epa {
   };
 
   ISO_INLINE Epa(const Search& search, F extent) : Epa(search, gap_noise(extent), gap_noise(extent) * F(8)) {}
-  /// `enough` [m]: an axis is the best where none is better by more.
+  /// `enough` [m]: the search ends with an axis once no other is better by more.
   ISO_INLINE Epa(const Search& search, F flat, F enough) : search_(search), flat_(flat), enough_(enough) {}
 
-  /// From a simplex that holds the origin, or is as near to it as digits tell.
+  /// Starts from a simplex that contains the origin, or is as near to it as rounding tells.
   ISO_INLINE Axis run(const Simplex<F>& simplex) {
     Axis best = {EpaStatus::unfinished, highest<F>(), Vec3<U>::zero(), simplex, 0};
     if (!begin(simplex, best)) return best;
@@ -65,7 +65,7 @@ template <class F, class Search = Gjk<F>> class Epa {
     for (int c = 0; c < 3; ++c) corners.points[c] = points_[face.corners[c]];
     return nearest_on_triangle(corners, 0, 1, 2);
   }
-  /// Of faces in one plane that are as near as any, the one that the origin is above.
+  /// Returns the nearest face. Of several in one plane, the face that the origin is above.
   ISO_INLINE Simplex<F> face_under_origin() const {
     const F height = faces_[nearest_face()].height + flat_;
     Simplex<F> best = {};
@@ -90,7 +90,7 @@ template <class F, class Search = Gjk<F>> class Epa {
     return nearest;
   }
 
-  /// Adds the furthest of the difference along a direction, either way, that `height` finds above its limit.
+  /// Adds the support point along a direction, either way, that `height` finds above its limit. False if none is.
   template <class Height> ISO_INLINE bool grow(Vec3<U> direction, const Height& height) {
     for (int way = 0; way < 2; ++way) {
       const SupportPoint<F> next = search_.support(negate_if(way != 0, direction));
@@ -100,7 +100,7 @@ template <class F, class Search = Gjk<F>> class Epa {
     }
     return false;
   }
-  /// To four points that are no plane. False: there are none, and the best axis is across what there is.
+  /// Grows the simplex to four points that are no plane. False: there are none, and the best axis is across it.
   ISO_INLINE bool begin(const Simplex<F>& simplex, Axis& best) {
     for (; count_ < simplex.count; ++count_) points_[count_] = simplex.points[count_];
     const auto along = [](Vec3<F> v) ISO_INLINE_LAMBDA { return max_abs(v); };
@@ -128,7 +128,7 @@ template <class F, class Search = Gjk<F>> class Epa {
     best.depth = min(there, back);
     return false;
   }
-  /// The tetrahedron of the first four points; `up` is across the first three.
+  /// Builds the tetrahedron of the first four points. `up` is across the first three.
   ISO_INLINE bool enclose(Vec3<U> up) {
     const bool above = dot(up, points_[3].point - points_[0].point) > F(0);
     const int j = above ? 2 : 1, k = above ? 1 : 2;
@@ -146,7 +146,7 @@ template <class F, class Search = Gjk<F>> class Epa {
     return true;
   }
 
-  /// By a point beyond face `nearest`: all faces that it is above are replaced by those from it to their outline.
+  /// Expands by a point beyond face `nearest`: replaces all faces below it by new ones from it to their outline.
   ISO_INLINE bool expand(int nearest, const SupportPoint<F>& next) {
     Edge outline[kMostEdges];
     int edges = 0;
@@ -164,7 +164,7 @@ template <class F, class Search = Gjk<F>> class Epa {
     ++count_;
     return edges >= 3;
   }
-  /// An edge that two of the faces share is none of the outline.
+  /// Adds an edge to the outline. An edge that two of the faces share is removed.
   static ISO_INLINE int add_edge(Edge* outline, int edges, Edge edge) {
     for (int e = 0; e < edges; ++e) {
       if (outline[e].from != edge.to || outline[e].to != edge.from) continue;
@@ -183,7 +183,7 @@ template <class F, class Search = Gjk<F>> class Epa {
   int count_ = 0, face_count_ = 0;
 };
 
-/// Of two cores in a's frame, radii included. Where they are apart, `status` says so.
+/// Finds the penetration of two cores in a's frame, radii included. If they are apart, `status` says so.
 template <class S, class F = Finer<S>>
 ISO_INLINE EpaPenetration<F> penetration_of(const FineCore<S>& a, const FineCore<S>& b, const Transform<F>& b_in_a) {
   const Gjk<F> search(a.vertices, b.vertices, b_in_a);

@@ -15,7 +15,7 @@ template <class S> struct FacePair {
   S incident_half[3];  // [m] along its own axes
 };
 
-/// The incident box seen from the reference box. turn: rows: reference axes; columns: incident axes.
+/// Returns the incident box as seen from the reference box. turn: rows: reference axes; columns: incident axes.
 template <class S>
 ISO_INLINE FacePair<S> face_pair(int axis, Vec3<S> half, Vec3<S> incident_half, Vec3<S> offset,
                                  const Mat3<Unit<S>>& turn) {
@@ -48,9 +48,9 @@ template <class S, int kCapacity = kClipPoints> struct ClipPolygon {
   int count;
 };
 
-/// Cuts off the part of a polygon beyond a line, whose name is `side`; a corner on it stays, not doubled. `beyond` [m]
-/// of each corner; cut(p, q, t, at) sets u and v on the line between corners p and q. Returns whether something was
-/// cut: then the result is in `to`, else it is still in `from`.
+/// Cuts off the part of a polygon beyond a line named `side`. A corner on the line stays, not doubled. `beyond` [m] of
+/// each corner. cut(p, q, t, at) sets u and v on the line between corners p and q. Returns true if something was cut:
+/// then the result is in `to`, else it is still in `from`.
 template <class S, int kCapacity, class Cut>
 ISO_INLINE bool clip(const ClipPolygon<S, kCapacity>& from, const S* beyond, std::uint32_t side, const Cut& cut,
                      ClipPolygon<S, kCapacity>& to) {
@@ -91,7 +91,7 @@ template <class S> ISO_INLINE bool clip_side(const ClipPolygon<S>& from, unsigne
   return clip(from, beyond, 4 + side, cut, to);
 }
 
-/// The doubled signed area of a triangle in the face [m^2], exact for fixed point.
+/// Returns the doubled signed area of a triangle in the face [m^2], exact in fixed point.
 template <class S> ISO_INLINE Sum<S> area2(const ClipPoint<S>& a, const ClipPoint<S>& b, const ClipPoint<S>& c) {
   return product(b.u - a.u, c.v - a.v) - product(b.v - a.v, c.u - a.u);
 }
@@ -100,9 +100,9 @@ template <class S> ISO_INLINE Sum<S> distance2(const ClipPoint<S>& a, const Clip
   return product(b.u - a.u, b.u - a.u) + product(b.v - a.v, b.v - a.v);
 }
 
-/// Keeps four of the corners: the deepest (within `tie` the first); the one furthest from it; the one that spans the
-/// largest triangle with these; the one that adds most area outside it. They stay in the polygon's order; ties go to
-/// the lowest index.
+/// Keeps four of the corners: the deepest (the first within `tie`); the one furthest from it; the one that spans the
+/// largest triangle with these; the one that adds most area outside it. They stay in polygon order. Ties go to the
+/// lowest index.
 template <class S, int kCapacity> ISO_INLINE void reduce_to_four(ClipPolygon<S, kCapacity>& polygon, S tie) {
   const ClipPoint<S>* p = polygon.points;
   S lowest = p[0].height;
@@ -146,7 +146,7 @@ template <class S, int kCapacity> ISO_INLINE void reduce_to_four(ClipPolygon<S, 
   polygon.count = kept;
 }
 
-/// Keeps the corners of the patch, or none where the lowest is higher than `reach` [m].
+/// Keeps the corners of the patch, or none if the lowest is higher than `reach` [m].
 template <class S, int kCapacity> ISO_INLINE void keep_patch(ClipPolygon<S, kCapacity>& polygon, S reach) {
   bool touches = false;
   int kept = 0;
@@ -159,7 +159,7 @@ template <class S, int kCapacity> ISO_INLINE void keep_patch(ClipPolygon<S, kCap
   polygon.count = touches ? kept : 0;
 }
 
-/// The face of the incident box that looks most against the reference normal; ties go to the lowest axis. Returns
+/// Finds the face of the incident box that looks most against the reference normal. Ties go to the lowest axis. Returns
 /// axis * 2, + 1 for its negative side.
 template <class S> ISO_INLINE unsigned incident_face(const FacePair<S>& pair, bool below, ClipPolygon<S>& polygon) {
   const Unit<S>(&facing)[3] = pair.turn[2];
@@ -186,7 +186,7 @@ template <class S> ISO_INLINE unsigned incident_face(const FacePair<S>& pair, bo
   return unsigned(m) * 2 + (negative ? 1u : 0u);
 }
 
-/// Adds the points of the face polygon. below: the face is the negative one of its axis.
+/// Adds the points of the face polygon. below: the reference face is the negative one of its axis.
 template <class S>
 ISO_INLINE void touch_faces(const FacePair<S>& pair, bool below, S radius, S incident_radius, const Transform<S>& frame,
                             S margin, bool of_a, Manifold<S>& out) {
@@ -223,7 +223,7 @@ ISO_INLINE void touch_faces(const FacePair<S>& pair, bool below, S radius, S inc
   }
 }
 
-/// touch_faces() for a face of a.
+/// Does touch_faces() for a face of a.
 template <class S>
 ISO_INLINE void touch_face_of_a(const BoxPair<S>& pair, int axis, bool below, S radius_a, const Transform<S>& ta,
                                 S radius_b, S margin, Manifold<S>& out) {
@@ -233,7 +233,7 @@ ISO_INLINE void touch_face_of_a(const BoxPair<S>& pair, int axis, bool below, S 
 template <class S> ISO_INLINE Vec3<S> offset_from_b(const Transform<S>& ta, const Transform<S>& tb) {
   return -transposed_times(tb.rotation, tb.position - ta.position);
 }
-/// touch_faces() for a face of b; offset [m] of a's centre in its frame.
+/// Does touch_faces() for a face of b. offset [m]: a's centre in b's frame.
 template <class S>
 ISO_INLINE void touch_face_of_b(const BoxPair<S>& pair, int axis, bool below, Vec3<S> offset, S radius_a, S radius_b,
                                 const Transform<S>& tb, S margin, Manifold<S>& out) {
@@ -241,7 +241,7 @@ ISO_INLINE void touch_face_of_b(const BoxPair<S>& pair, int axis, bool below, Ve
   touch_faces(faces, below, radius_b, radius_a, tb, margin, false, out);
 }
 
-/// touch_faces() for the best axis. axis: BestAxis::axis of a face.
+/// Does touch_faces() for the best axis. axis: BestAxis::axis of a face.
 template <class S>
 ISO_INLINE void touch_best_faces(const BoxPair<S>& pair, int axis, S radius_a, const Transform<S>& ta, S radius_b,
                                  const Transform<S>& tb, S margin, Manifold<S>& out) {
@@ -250,7 +250,7 @@ ISO_INLINE void touch_best_faces(const BoxPair<S>& pair, int axis, S radius_a, c
   touch_face_of_b(pair, axis - 3, offset[axis - 3] < S(0), offset, radius_a, radius_b, tb, margin, out);
 }
 
-/// Returns true if the points of a manifold show the gap `separation`, but for `slack` [m].
+/// Returns true if the points of a manifold show the gap `separation`, to within `slack` [m].
 template <class S> ISO_INLINE bool tells_of(const Manifold<S>& m, S separation, S slack) {
   if (m.count == 0) return false;
   S least = m.points[0].separation;
@@ -258,9 +258,9 @@ template <class S> ISO_INLINE bool tells_of(const Manifold<S>& m, S separation, 
   return abs(least - separation) <= slack;
 }
 
-/// Collides two boxes whose best axis is a cross of edges. Where their best faces show almost the same gap, those
+/// Collides two boxes whose best axis is a cross of edges. If their best faces show almost the same gap, the faces
 /// touch: a box that lies a little askew on something long and thin rests on the patch where they cross. The edges are
-/// one corner of it, and in the next step another.
+/// only one corner of it, and in the next step another.
 template <class S>
 ISO_INLINE void touch_crossing(const BoxPair<S>& pair, const BestAxis<S>& best, S radius_a, const Transform<S>& ta,
                                S radius_b, const Transform<S>& tb, S margin, Manifold<S>& out) {

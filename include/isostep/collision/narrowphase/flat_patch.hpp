@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// Takes manifolds of a convex with triangles and gives one for all of them, so that friction acts once, in the middle
-/// of the touching patch, however the surface is cut into triangles.
+/// Joins the manifolds of a convex with triangles to one for all of them, so that friction acts once, in the middle of
+/// the touching patch, however the surface is cut into triangles.
 /// Method:  as in Box3D and Jolt: all points with one normal, of which reduce_to_four() keeps those that span most.
 ///          Points are sorted by feature, so that the same points give the same four whatever triangles they are on.
 template <class S> class FlatPatch {
@@ -19,12 +19,12 @@ template <class S> class FlatPatch {
     add(first);
   }
 
-  /// Returns true if the other's normal is that of the first, to kAlike.
+  /// Returns true if the other's normal equals that of the first, to kAlike.
   ISO_INLINE bool takes(const Manifold<S>& other) const { return max_abs(other.normal - normal_) <= Unit<S>(kAlike); }
   ISO_INLINE void add(const Manifold<S>& other) {
     for (int i = 0; i < other.count; ++i) add(other.points[i]);
   }
-  /// Writes the manifold. `tie` [m]: of points that are as deep to within it, the first counts as the deepest.
+  /// Writes the manifold. `tie` [m]: of points within it of the deepest, the first counts as the deepest.
   ISO_INLINE void write(S tie, Manifold<S>& out) {
     if (polygon_.count > kMaxContactPoints) detail::reduce_to_four(polygon_, tie);
     out.normal = normal_;
@@ -39,7 +39,7 @@ template <class S> class FlatPatch {
   static constexpr double kAlike = 0x1p-7;  // [1] of normals; what is not flat to the eye differs by more
   static constexpr int kMost = 48;          // points; beyond it the ones so far are reduced to four
 
-  /// Adds a point at the place of its feature in the list. Neighbours may both count a point as theirs.
+  /// Adds a point, sorted by feature. Two neighbouring triangles may both have the point.
   ISO_INLINE void add(ManifoldPoint<S> point) {
     if (polygon_.count == kMost) shrink();
     int at = 0;

@@ -20,14 +20,14 @@ template <class S> struct GjkDistance {
 /// Finds the distance and the nearest points, all in the frame that both transforms lead to.
 /// Source:  Gilbert, Johnson and Keerthi 1988, A fast procedure for computing the distance between complex objects.
 /// Differs: the nearest point of a simplex is found by unit normals and distances, never by ratios of fourth powers of
-///          lengths, which fixed point has no room for. It ends by counting: where a support is a vertex pair that the
-///          simplex has, where the distance no longer falls, or after 32 rounds.
+///          lengths, which do not fit fixed point. The search ends by counting: when a support is a vertex pair of the
+///          simplex, when the distance no longer falls, or after 32 rounds.
 /// Limits:  distances up to a few of S's digits may count as overlap, and the other way round.
 template <class S>
 GjkDistance<S> gjk_distance(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
                             const Transform<S>& tb);
 
-/// gjk_distance() of the hulls of two cores, without their radii.
+/// Does gjk_distance() for the hulls of two cores, without their radii.
 template <class S>
 GjkDistance<S> gjk_distance(const ConvexCore<S>& a, const Transform<S>& ta, const ConvexCore<S>& b,
                             const Transform<S>& tb);

@@ -8,13 +8,13 @@
 namespace isostep {
 namespace detail {
 
-/// A point of the difference a - b, in a's frame, and what it is made of.
+/// A point of the difference a - b, in a's frame, and the vertices that it is made of.
 template <class S> struct SupportPoint {
   Vec3<S> point;  // [m]
   std::uint32_t vertex_a, vertex_b;
 };
 
-/// Up to four of them, and the shares that make the point nearest to the origin.
+/// Up to four support points, and the shares that make the point nearest to the origin.
 template <class S> struct Simplex {
   SupportPoint<S> points[4] = {};
   Unit<S> shares[4] = {};  // they add up to 1, but for rounding
@@ -23,7 +23,7 @@ template <class S> struct Simplex {
   Vec3<Unit<S>> across;  // [1] of three of them: of their triangle
 };
 
-/// To the nearest point. That of a triangle is as good as its normal, however near it is.
+/// Returns the direction and distance of the nearest point. For a triangle it is the normal, good at any distance.
 template <class S> ISO_INLINE Heading<S> heading_of(const Simplex<S>& simplex) {
   if (simplex.count != 3) return heading_of(simplex.nearest);
   const S height = dot(simplex.across, simplex.points[0].point);
@@ -37,7 +37,7 @@ template <class S> ISO_INLINE void keep_one(Simplex<S>& simplex, int i) {
   simplex.nearest = simplex.points[0].point;
 }
 
-/// Of the segment from point i to point j.
+/// Returns the nearest simplex on the segment from point i to point j.
 template <class S> ISO_INLINE Simplex<S> nearest_on_segment(const Simplex<S>& from, int i, int j) {
   Simplex<S> to;
   to.points[0] = from.points[i];
@@ -62,14 +62,14 @@ template <class S> ISO_INLINE bool is_nearer(const Simplex<S>& a, const Simplex<
   return dot_sum(a.nearest, a.nearest) < dot_sum(b.nearest, b.nearest);
 }
 
-/// [1] Across the triangle of three of the points; zero where they lie on a line.
+/// [1] Returns the normal of the triangle of three of the points. Zero if they lie on a line.
 template <class S> ISO_INLINE Vec3<Unit<S>> normal_of(const Simplex<S>& of, int i, int j, int k) {
   const Vec3<S> p = of.points[i].point;
   return normalise(cross(normalise(of.points[j].point - p), normalise(of.points[k].point - p)));
 }
 
-/// Of the triangle of three of the points. The share of a corner is its edge's distance from the point over that from
-/// the corner itself.
+/// Returns the nearest simplex on the triangle of three of the points. The share of a corner is the distance of its
+/// edge from the point over that from the corner itself.
 template <class S> ISO_INLINE Simplex<S> nearest_on_triangle(const Simplex<S>& from, int i, int j, int k) {
   using U = Unit<S>;
   const int corners[3] = {i, j, k};
@@ -95,11 +95,11 @@ template <class S> ISO_INLINE Simplex<S> nearest_on_triangle(const Simplex<S>& f
   return best;
 }
 
-/// Three corners, and the one opposite.
+/// The faces of a tetrahedron: three corners, and the one opposite.
 inline constexpr int kTetrahedronFaces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
 
-/// Of the tetrahedron, by those of its faces that have the origin outside, or that it is too flat to tell. False: none
-/// has.
+/// Finds the nearest simplex on a tetrahedron, over the faces that have the origin outside, or are too flat to tell.
+/// Returns false if there is no such face.
 template <class S> ISO_INLINE bool nearest_on_tetrahedron(const Simplex<S>& from, Simplex<S>& best) {
   S size = S(0);
   for (const SupportPoint<S>& point : from.points) size = max(size, max_abs(point.point));
@@ -118,7 +118,7 @@ template <class S> ISO_INLINE bool nearest_on_tetrahedron(const Simplex<S>& from
   return outside;
 }
 
-/// To what is nearest of it to the origin. False: the origin is inside.
+/// Reduces the simplex to its part nearest to the origin. Returns false if the origin is inside.
 template <class S> ISO_INLINE bool shrink(Simplex<S>& simplex) {
   if (simplex.count == 2) simplex = nearest_on_segment(simplex, 0, 1);
   else if (simplex.count == 3) simplex = nearest_on_triangle(simplex, 0, 1, 2);
@@ -138,7 +138,7 @@ template <class S> class Gjk {
   ISO_INLINE Gjk(ArrayView<Vec3<S>> a, ArrayView<Vec3<S>> b, const Transform<S>& b_in_a)
       : a_(a), b_(b), b_in_a_(b_in_a) {}
 
-  /// In a's frame. The direction points from b to a.
+  /// Returns the support point in a's frame. The direction points from b to a.
   ISO_INLINE SupportPoint<S> support(Vec3<U> direction) const {
     const std::uint32_t i = lowest_of(a_, -direction).vertex;
     const std::uint32_t j = lowest_of(b_, transposed_times(b_in_a_.rotation, direction)).vertex;
@@ -154,7 +154,7 @@ template <class S> class Gjk {
     keep_one(simplex, 0);
     return simplex;
   }
-  /// The vertices of a simplex of before, where they are now: from there the search ends sooner.
+  /// Returns a former simplex with its vertices where they are now. The search ends sooner from there.
   ISO_INLINE Simplex<S> begin(const Simplex<S>& before) const {
     Simplex<S> simplex = before;
     for (int i = 0; i < simplex.count; ++i)
@@ -164,11 +164,11 @@ template <class S> class Gjk {
     return simplex;
   }
 
-  /// Leaves in the simplex where the search ended.
+  /// Runs the search. Leaves the last simplex in `simplex`.
   ISO_INLINE GjkDistance<S> run(Simplex<S>& simplex) const {
     return run(simplex, [](S, S) ISO_INLINE_LAMBDA { return false; });
   }
-  /// Ends before, where `enough(separation, distance)` of a plane and of two points that it has found.
+  /// Ends sooner if `enough(separation, distance)` holds for a plane and two points that the search has found.
   template <class Enough> ISO_INLINE GjkDistance<S> run(Simplex<S>& simplex, const Enough& enough) const {
     int iterations = 1;
     S separation = S(0);
@@ -197,7 +197,7 @@ template <class S> class Gjk {
     return result;
   }
 
-  /// At distance 0, which is overlap.
+  /// Returns the result at distance 0, which is overlap.
   ISO_INLINE GjkDistance<S> witnesses(const Simplex<S>& simplex, std::int32_t iterations) const {
     Vec3<S> on_a = Vec3<S>::zero(), on_b = on_a;
     for (int i = 0; i < simplex.count; ++i) {

@@ -12,13 +12,13 @@ namespace isostep {
 template <class S>
 void collide_sphere_half_space(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
                                const Transform<S>& tb, S margin, Manifold<S>& out);
-/// The points are the vertices of the face that looks most at the plane: those above it are no support, however thin
-/// the box is.
-/// Feature: bit k set where the vertex lies on the positive side of the box's axis k.
+/// Adds the vertices of the face that looks most at the plane. Vertices above that face give no support,
+/// however thin the box is. Feature: bit k set where the vertex lies on the positive side of the box's axis
+/// k.
 template <class S>
 void collide_box_half_space(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
                             const Transform<S>& tb, S margin, Manifold<S>& out);
-/// The points are both ends, as far as they belong to the patch. Feature: 0 the negative end, 1 the positive one.
+/// Adds both ends, as far as they belong to the patch. Feature: 0 the negative end, 1 the positive one.
 template <class S>
 void collide_capsule_half_space(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
                                 const Transform<S>& tb, S margin, Manifold<S>& out);

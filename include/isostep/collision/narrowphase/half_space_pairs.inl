@@ -7,7 +7,7 @@
 namespace isostep {
 namespace detail {
 
-/// A half-space in its partner's frame.
+/// A half-space's plane below a shape.
 template <class S> struct Plane {
   Vec3<Unit<S>> up;  // [1] out of the half-space, in the transforms' outer frame
   S height;          // [m] of the partner's centre above the plane

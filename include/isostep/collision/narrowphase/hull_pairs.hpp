@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// b is the hull in all five. `polyhedra` is that of collide().
+/// b is the hull in all five. `polyhedra`: see collide().
 template <class S>
 void collide_sphere_hull(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                          Manifold<S>& out);

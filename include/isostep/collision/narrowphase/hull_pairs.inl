@@ -12,7 +12,7 @@
 namespace isostep {
 
 namespace detail {
-/// Moves the points of a sphere or capsule, thicker by a rounded b's radius, from b's core out to its skin.
+/// Moves the points of a sphere or capsule, thickened by the radius of a rounded b, from b's core out to its skin.
 template <class S> ISO_INLINE void move_to_skin(S radius, Manifold<S>& out) {
   for (int i = 0; i < out.count; ++i) out.points[i].position -= out.normal * radius;
 }

@@ -10,9 +10,9 @@ namespace isostep {
 
 inline constexpr int kMaxContactPoints = 4;  // of two parts: a face on a face needs no more to rest
 
-/// [m] The reach of a patch: where two shapes are as near as a margin, points of their patch that are further apart
-/// than that by no more belong to the contact too. A box that falls almost flat then touches with all of its edge or
-/// face in one step; with one corner alone it would be spun about.
+/// [m] The reach of a patch: if two shapes are within the margin, points that are further apart by up to this belong to
+/// the contact too. A box that falls almost flat then touches with all of its edge or face in one step. One corner
+/// alone would spin it.
 template <class S> inline constexpr S kPatchReach = S(0.0625);
 
 template <class S> struct ManifoldPoint {
@@ -30,7 +30,7 @@ template <class S> struct Manifold {
     normal = Vec3<Unit<S>>::zero();
     count = 0;
   }
-  /// The caller keeps count below kMaxContactPoints.
+  /// The caller must keep count at most kMaxContactPoints.
   ISO_INLINE constexpr void add(Vec3<S> position, S separation, std::uint32_t feature) {
     points[count] = {position, separation, feature};
     ++count;
@@ -39,7 +39,7 @@ template <class S> struct Manifold {
 
 namespace detail {
 
-/// The axis k of a local frame, or its opposite, in that frame.
+/// Returns the axis k of a local frame, or its opposite, in that frame.
 template <class U> ISO_INLINE constexpr Vec3<U> unit_axis(int k, bool negative) {
   Vec3<U> axis = Vec3<U>::zero();
   axis[k] = negative ? U(-1) : U(1);
@@ -47,7 +47,7 @@ template <class U> ISO_INLINE constexpr Vec3<U> unit_axis(int k, bool negative) 
 }
 template <class T> ISO_INLINE constexpr T negate_if(bool negative, T value) { return negative ? -value : value; }
 
-/// Returns true if |v| > length, for length >= 0: exact for fixed point, without a root.
+/// Returns true if |v| > length, for length >= 0. Exact in fixed point, without a root.
 template <class S> ISO_INLINE constexpr bool longer_than(Vec3<S> v, S length) {
   return dot_sum(v, v) > product(length, length);
 }

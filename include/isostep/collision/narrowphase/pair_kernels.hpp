@@ -16,13 +16,13 @@ namespace isostep {
 
 template <class S> class ChildTree;
 
-/// What a pair's kernel depends on.
+/// The kind of part that selects a pair's kernel.
 enum class PartKind : std::uint32_t { sphere, box, other };
 ISO_INLINE constexpr PartKind part_kind_of(ShapeType type) {
   return type == ShapeType::sphere ? PartKind::sphere : type == ShapeType::box ? PartKind::box : PartKind::other;
 }
 
-/// What the narrow phase needs of a body. Lanes read the numbers in runs of four and eight.
+/// Holds what the narrow phase needs of a body. Lanes read the numbers in runs of four and eight.
 template <class S> struct BodyFrame {
   Vec3<S> half;         // [m] of the core of the only part
   S radius;             // [m] around it
@@ -49,7 +49,7 @@ template <class S> struct BodyFrame {
              traits, varied, reports, mixes_alone)
 };
 
-/// Two bodies' parts that might touch. Frames are indices; parts are leaves, and of bodies without surfaces children.
+/// Two parts that might touch. Frames are indices. Parts are leaves, or children in a body without surfaces.
 struct PartPair {
   std::uint32_t frame_a, frame_b;
   std::uint32_t child_a, child_b;
@@ -57,14 +57,14 @@ struct PartPair {
   ISO_FIELDS(frame_a, frame_b, child_a, child_b)
 };
 
-/// Where b's frame lies for the narrow phase: everything relative to a's centre of mass, axes as the world's, so that
-/// far from the origin costs no precision.
+/// Returns b's frame for the narrow phase: relative to a's centre of mass, in world axes, so that distance from the
+/// world's origin costs no precision.
 template <class S> ISO_INLINE Transform<S> origin_beside(const BodyFrame<S>& a, const BodyFrame<S>& b) {
   return {b.centre - a.centre + b.origin.position, b.origin.rotation};
 }
 
-/// Pairs of one kind, both bodies plain. Pair order[i] fills counts[order[i]] and, where that is not zero,
-/// manifolds[order[i]], begin <= i < end: runs may be cut anywhere and collided at once.
+/// A run of pairs of one kind, both bodies plain. Pair order[i] fills counts[order[i]] and, if that is not zero,
+/// manifolds[order[i]], begin <= i < end. Runs may be cut anywhere and collided in parallel.
 template <class S> struct PairRun {
   const BodyFrame<S>* frames;
   const PartPair* pairs;
@@ -81,7 +81,7 @@ template <class S> struct PairKernels {
   CollidePolyhedra<S> polyhedra;  // one pair
 };
 
-/// The kernels for `simd`: those of one lane where an instruction set has none of its own, is missing or does not pay.
+/// Returns the kernels for `simd`, or those of one lane if that instruction set has none, is missing or does not pay.
 template <class S> const PairKernels<S>* pair_kernels(Simd simd);
 
 #define ISO_DECLARE_PAIR_KERNELS(S)         \

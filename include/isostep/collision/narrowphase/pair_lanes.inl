@@ -10,7 +10,7 @@
 namespace isostep {
 namespace {
 
-/// Every lane has the bits that collide() gives its pair: branches are selections.
+/// Every lane has the bits that collide() gives its pair. Branches are selections.
 template <class S, int W, class Isa> struct PairLanes {
   using L = Lanes<S, W, Isa>;
   using U = Lanes<Unit<S>, W, Isa>;
@@ -22,7 +22,7 @@ template <class S, int W, class Isa> struct PairLanes {
   static_assert(offsetof(Frame, origin) == offsetof(Frame, half) + 7 * sizeof(S));
   static_assert(sizeof(Transform<S>) == 12 * sizeof(S));
 
-  /// W pairs; lanes that are left over repeat the last.
+  /// W pairs. Spare lanes repeat the last pair.
   struct Batch {
     const Frame* a[W];
     const Frame* b[W];
@@ -48,7 +48,7 @@ template <class S, int W, class Isa> struct PairLanes {
     load_transposed<Words>(rows, out);
   }
 
-  /// Two bodies of each pair. Positions are relative to a's centre of mass, as origin_beside() has them.
+  /// The two bodies of each pair. Positions are relative to a's centre of mass, as in origin_beside().
   struct Bodies {
     L radius_a, radius_b;
     Vec3<L> place_a, place_b;
@@ -77,7 +77,7 @@ template <class S, int W, class Isa> struct PairLanes {
   }
 
  private:
-  /// touch_points() of sphere_pairs.inl, upright where centres coincide.
+  /// Does touch_points() of sphere_pairs.inl, with an upright normal if centres coincide.
   static ISO_INLINE void touch_spheres(const PairRun<S>& run, const Batch& batch, const Bodies& p, Mask nearby,
                                        std::uint32_t touching) {
     const Direction<L> heading = direction_where(nearby, p.gap.x, p.gap.y, p.gap.z);

@@ -8,12 +8,12 @@
 
 namespace isostep {
 
-/// Contacts of a and b where they are nearer than `margin` [m]. Axes are the faces of both and those crosses of edges
-/// whose arcs on the Gauss map meet, which alone can be the best (Gregorius, The separating axis test between convex
-/// polyhedra, GDC 2013). Faces go before edges, and a before b, unless the other is better by 1/128 of the smaller
-/// inner radius. Solids further apart than the margin along the line between the origins have no contact either; and a
-/// face that a vertex decides, nearer to no other face of its solid, goes before all others. Faces that look at each
-/// other, or tell of the depth of the best cross of edges, touch as those of boxes do (box_box.hpp).
+/// Finds the contacts of a and b where they are nearer than `margin` [m]. Axes are the faces of both and those crosses
+/// of edges whose arcs on the Gauss map meet, since only these can be the best (Gregorius, The separating axis test
+/// between convex polyhedra, GDC 2013). Faces go before edges, and a before b, unless the other is better by 1/128 of
+/// the smaller inner radius. Solids further apart than the margin along the line between the origins have no contact. A
+/// face goes before all others if the vertex below it is nearer to no other face. Faces that look at each other, or
+/// that show the depth of the best cross of edges, touch like those of boxes (box_box.hpp).
 /// Features: faces: bit 31, bit 30 where b's face is the reference, that face, a vertex twice or both edges of another
 /// corner; edges: both.
 template <class S>
@@ -24,9 +24,9 @@ template <class S>
 using CollidePolyhedra = void (*)(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
                                   const Transform<S>& tb, S margin, Manifold<S>& out);
 
-/// A polyhedron on a half-space, dot(normal, p) <= offset in tb's frame: up to four vertices that are nearer than
-/// `margin` [m], the lowest among them, of the face that looks down most and those as flat: vertices of a thin plate
-/// above those are no support, though they are near. Features: vertices.
+/// Collides a polyhedron with a half-space, dot(normal, p) <= offset in tb's frame. Adds up to four vertices within
+/// `margin` [m], the lowest among them, of the face that looks down most and of equally flat ones. Vertices of a thin
+/// plate above those give no support, though they are near. Features: vertices.
 template <class S>
 void collide_polyhedron_half_space(const Polyhedron<S>& a, const Transform<S>& ta, Vec3<Unit<S>> normal, S offset,
                                    const Transform<S>& tb, S margin, Manifold<S>& out);

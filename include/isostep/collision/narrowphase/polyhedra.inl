@@ -11,11 +11,11 @@
 namespace isostep {
 namespace detail {
 
-/// A face has at most half as many corners as there are edges; cutting by a convex polygon adds at most its corners.
+/// A face has at most half as many corners as there are edges. Cutting by a convex polygon adds at most its corners.
 inline constexpr int kFacePoints = ConvexHull::kMaxEdges;
 template <class S> using FacePolygon = ClipPolygon<S, kFacePoints>;
 
-/// A reference face and the solid that touches it, in the frame of the face's own.
+/// A reference face and the solid that touches it, in the frame of the face's solid.
 template <class S> struct FaceContact {
   const Polyhedron<S>& reference;
   const Polyhedron<S>& incident;
@@ -24,7 +24,7 @@ template <class S> struct FaceContact {
   Tangents<Unit<S>> across;  // of the face's normal
 };
 
-/// The face around a vertex that looks most against a direction; of equals the first.
+/// Returns the face around a vertex that looks most against a direction. The first of equals.
 template <class S>
 ISO_INLINE std::uint32_t face_against(const Polyhedron<S>& solid, std::uint32_t vertex, Vec3<Unit<S>> up) {
   std::uint32_t best = 0xffffffffu;
@@ -39,8 +39,8 @@ ISO_INLINE std::uint32_t face_against(const Polyhedron<S>& solid, std::uint32_t 
   return best;
 }
 
-/// A face's corners over a plane: vertex(i) is where a vertex is seen from it, height(p) [m] above it. Edges of the
-/// face are named by their numbers.
+/// Projects a face's corners on a plane: vertex(i) returns a vertex in the plane's frame, height(p) [m] its height.
+/// Edges of the face are named by their numbers.
 template <class S, class Vertex, class Height>
 ISO_INLINE void project_face(const Polyhedron<S>& solid, std::uint32_t face, const Tangents<Unit<S>>& across,
                              const Vertex& vertex, const Height& height, FacePolygon<S>& polygon) {
@@ -54,8 +54,8 @@ ISO_INLINE void project_face(const Polyhedron<S>& solid, std::uint32_t face, con
   } while (edge != solid.faces[face]);
 }
 
-/// Calls visit(f) for a face and for those that look along it to within kFlat. A solid need not lie on one plane, and
-/// each of two that differ by less than contacts sag would tip it onto the other.
+/// Calls visit(f) for a face and for all that look along it to within kFlat. A solid need not rest on one plane: each
+/// of two that differ by less than contacts sink would tip it onto the other.
 template <class S, class Visit>
 ISO_INLINE void visit_flat_faces(const Polyhedron<S>& solid, std::uint32_t face, const Visit& visit) {
   constexpr double kFlat = 1 - 1.0 / 1024;  // cosine, of 2.5 degrees
@@ -63,33 +63,33 @@ ISO_INLINE void visit_flat_faces(const Polyhedron<S>& solid, std::uint32_t face,
     if (f == face || dot(solid.normals[f], solid.normals[face]) >= Unit<S>(kFlat)) visit(f);
   }
 }
-/// Adds a point unless it is there: corners that are named alike are one.
+/// Adds a point unless it is there already: corners with equal names are one.
 template <class S> ISO_INLINE void add_point(const ClipPoint<S>& p, FacePolygon<S>& points) {
   for (int i = 0; i < points.count; ++i) {
     if (points.points[i].before == p.before && points.points[i].after == p.after) return;
   }
   if (points.count < kFacePoints) points.points[points.count++] = p;
 }
-/// The end that two edges share.
+/// Returns the vertex that two edges share.
 template <class S>
 ISO_INLINE std::uint32_t vertex_between(const Polyhedron<S>& a, std::uint32_t before, std::uint32_t after) {
   const std::uint32_t first = a.origin(2 * before);
   return first == a.origin(2 * after) || first == a.origin(2 * after + 1) ? first : a.origin(2 * before + 1);
 }
-/// A corner that is a vertex of the solid is named by it, twice: the same on every face around it.
+/// Names a corner that is a vertex of the solid by that vertex, twice: the name is the same on every face around it.
 template <class S>
 ISO_INLINE ClipPoint<S> named_by_vertex(const Polyhedron<S>& solid, std::uint32_t cut, ClipPoint<S> p) {
   if (p.before < cut && p.after < cut) p.before = p.after = vertex_between(solid, p.before, p.after);
   return p;
 }
 
-/// The cut of clip() for lines at any angle.
+/// The cut function of clip() for lines at any angle.
 inline constexpr auto kCutAcross = [](const auto& p, const auto& q, auto t, auto& at) ISO_INLINE_LAMBDA {
   at.u = p.u + (q.u - p.u) * t;
   at.v = p.v + (q.v - p.v) * t;
 };
 
-/// Cuts off the part beyond an edge of the reference face, whose name is kReferenceEdge + its number.
+/// Cuts off the part beyond an edge of the reference face. The edge is named kReferenceEdge + its number.
 inline constexpr std::uint32_t kReferenceEdge = 128;
 template <class S>
 ISO_INLINE bool clip_beyond(const Polyhedron<S>& solid, const Tangents<Unit<S>>& across, std::uint32_t half_edge,
@@ -104,7 +104,7 @@ ISO_INLINE bool clip_beyond(const Polyhedron<S>& solid, const Tangents<Unit<S>>&
   return clip(from, beyond, kReferenceEdge + half_edge / 2, kCutAcross, to);
 }
 
-/// Takes the vertex below the face alone, where rounding leaves nothing above the best face of solids that overlap.
+/// Takes only the vertex below the face, if rounding leaves nothing above the best face of overlapping solids.
 template <class S> ISO_INLINE void take_deepest(const FaceContact<S>& contact, FacePolygon<S>& polygon) {
   const Vec3<S> p = contact.vertices.at(contact.axis.vertex);
   polygon.points[0] = {dot(contact.across.t, p), dot(contact.across.u, p), contact.axis.separation, contact.axis.vertex,
@@ -112,7 +112,7 @@ template <class S> ISO_INLINE void take_deepest(const FaceContact<S>& contact, F
   polygon.count = 1;
 }
 
-/// Adds the points of the face polygon. face: of the incident solid.
+/// Adds the points of the face polygon. face: that of the incident solid.
 template <class S>
 ISO_INLINE void touch_faces(const FaceContact<S>& contact, std::uint32_t face, const Transform<S>& frame, S margin,
                             S tie, bool of_a, bool deepest, Manifold<S>& out) {
@@ -165,9 +165,9 @@ ISO_INLINE EdgeContact<S> contact_of(const PolyhedronPair<S, W, Isa>& pair, cons
   return {best, of_a.at(closest.s), of_b.at(closest.t)};
 }
 
-/// Returns true if the edges near both best faces have the best cross of all: solids that overlap have a point of one
-/// inside the other, and those that are apart along it points that are no further apart than that, but for the
-/// tolerance.
+/// Returns true if the edges near both best faces contain the best cross of all. Solids that overlap then have a point
+/// of one inside the other; solids that are apart along it have points that are no further apart than that, to within
+/// the tolerance.
 template <class S, int W, class Isa>
 ISO_INLINE bool is_best(const PolyhedronPair<S, W, Isa>& pair, const EdgeContact<S>& contact, S margin) {
   const S separation = contact.axis.separation;
@@ -176,9 +176,9 @@ ISO_INLINE bool is_best(const PolyhedronPair<S, W, Isa>& pair, const EdgeContact
   return height_over<S, W, Isa>(pair.a, contact.on_b) <= S(0);
 }
 
-/// The edges whose cross is better than both best faces by the tolerance, of those near both. `is_known`: they are
-/// proved the best of all, or there are none. `over_a` [m]: the height over a of b's vertex that is lowest over a's
-/// best face.
+/// Finds the edges whose cross is better than both best faces by the tolerance, among those near both. `is_known`: they
+/// are proved the best of all, or there are none. `over_a` [m]: the height over a of that vertex of b which is lowest
+/// over a's best face.
 template <class S, int W, class Isa>
 ISO_INLINE EdgeContact<S> near_edges(const PolyhedronPair<S, W, Isa>& pair, const FaceAxis<S>& face_a, S over_a,
                                      const FaceAxis<S>& face_b, S margin, bool& is_known) {
@@ -208,7 +208,7 @@ ISO_INLINE bool shares_a_point(const PolyhedronPair<S, W, Isa>& pair, const Tran
   return false;
 }
 
-/// collide_polyhedra() with W lanes of Isa.
+/// Does collide_polyhedra() with W lanes of Isa.
 template <class S, int W, class Isa>
 ISO_INLINE void collide_polyhedra_over(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
                                        const Transform<S>& tb, S margin, Manifold<S>& out) {

@@ -9,8 +9,8 @@
 
 namespace isostep::detail {
 
-/// The point of the arc between the normals of an edge's faces that looks across a direction, which one of them looks
-/// along and the other against. It is as exact of short edges as of long ones; a cross of the two is not.
+/// Returns the point of the arc between the normals of an edge's faces that is perpendicular to a direction, which one
+/// normal looks along and the other against. It is as exact for short edges as for long ones; a cross product is not.
 template <class S>
 ISO_INLINE Vec3<Unit<S>> point_of_arc(const Polyhedron<S>& solid, std::uint32_t k, Vec3<Unit<S>> direction) {
   using U = Unit<S>;
@@ -22,7 +22,7 @@ ISO_INLINE Vec3<Unit<S>> point_of_arc(const Polyhedron<S>& solid, std::uint32_t 
   return normalise(left * (half - half * t) + right * (half * t));
 }
 
-/// The vertex lowest along a direction; of equals the first.
+/// The vertex lowest along a direction. The first of equals.
 template <class S> struct Lowest {
   std::uint32_t vertex;
   S height;  // [m]
@@ -37,8 +37,8 @@ template <class Vertices, class U> ISO_INLINE auto lowest_of(const Vertices& ver
   return lowest;
 }
 
-/// Two polyhedra; b's vertices are also there as a's frame sees them, and, once turned, a's as b's does. They are found
-/// W at a time in lanes of Isa, with the bits of one at a time.
+/// Two polyhedra, with b's vertices in a's frame too and, after turn_a(), a's in b's. These are computed W at a time in
+/// lanes of Isa, with the bits of one at a time.
 template <class S, int W, class Isa> struct PolyhedronPair {
   static constexpr int kMost = ConvexHull::kMaxVertices;  // and edges, and faces
   using U = Unit<S>;
@@ -66,8 +66,8 @@ template <class S, int W, class Isa> struct PolyhedronPair {
       vertices_a.store(i, to_local(lanes, a.vertices.template load<L>(i)));
   }
 
-  /// Returns true if they are further apart than `reach` [m] along the line from a's origin to b's: of the pairs of S10
-  /// that are, nine of ten are so along it. False where the origins coincide.
+  /// Returns true if they are further apart than `reach` [m] along the line from a's origin to b's. In S10 that finds
+  /// nine of ten pairs that are apart. False if the origins coincide.
   ISO_INLINE bool are_apart(S reach) const {
     const Vec3<U> along = normalise(b_in_a.position);
     const Vec3<UL> up = broadcast<UL>(along), down = broadcast<UL>(-along);
@@ -88,8 +88,8 @@ template <class S> struct FaceAxis {
   S separation;          // [m]
 };
 
-/// The face with the largest separation from the other's `count` vertices; of equals the first. It ends where one
-/// exceeds `reach`: which one is returned is open then.
+/// Returns the face with the largest separation from the other's `count` vertices, the first of equals. Once one
+/// exceeds `reach` the search ends, and any such face may be returned.
 template <class S, int W, class Isa>
 ISO_INLINE FaceAxis<S> best_face(const Polyhedron<S>& of, const Columns<S, ConvexHull::kMaxVertices>& others,
                                  std::uint32_t count, S reach) {
@@ -121,8 +121,8 @@ ISO_INLINE FaceAxis<S> best_face(const Polyhedron<S>& of, const Columns<S, Conve
   return best;
 }
 
-/// [m] The height of a point over the face that it is least below. No axis separates two solids by more than a point of
-/// one is over the other.
+/// [m] Returns the height of a point over the face that it is least below. No axis separates two solids by more than
+/// the height of a point of one over the other.
 template <class S, int W, class Isa> ISO_INLINE S height_over(const Polyhedron<S>& of, Vec3<S> point) {
   using Pair = PolyhedronPair<S, W, Isa>;
   const Vec3<typename Pair::L> at = broadcast<typename Pair::L>(point);

@@ -13,16 +13,16 @@ template <class S> struct EdgeAxis {
   bool found;
 };
 
-/// The crosses of edges whose arcs meet. Edge 2 k of a has face L on its left and R on its right, and its direction is
-/// that of L x R; its arc leads from L to R, that of b's edge from -L to -R. They meet where the edge of each leads out
-/// of one face of the other's and into the other, in the same order. W edges of b are looked at at once for each of
-/// a's.
+/// The crosses of edges whose arcs meet. Edge 2 k of a has face L on its left and R on its right, and the direction
+/// of L x R. Its arc leads from L to R, the arc of b's edge from -L to -R. They meet if the edge of each leads out of
+/// one face of the other's and into the other, in the same order. For each edge of a, W edges of b are tested at
+/// once.
 ///
 /// Two edges that are the best axis of all are as far apart, or as deep in each other, as the solids are: `d`. So one
-/// has a point within |d| of the other solid, which is below each of its faces; and the other solid reaches down to the
-/// face's separation, so that what is within |d| of it is above that less |d|. Edges outside these layers, of both best
-/// faces, are left out: in S10 nine of ten pairs of edges. Of solids that are apart the best cross may be none of two
-/// edges that are near each other: who asks must see whether it is.
+/// edge has a point within |d| of the other solid, which is below each of its faces. The other solid reaches down to
+/// the separation of the face, so that what is within |d| of it is above that less |d|. Edges outside these layers,
+/// of both of the best faces, are left out: in S10 nine of ten pairs of edges. For solids that are apart the best
+/// cross may be that of edges which are not near each other: the caller must check whether it is.
 template <class S, int W, class Isa> class EdgeAxes {
   using Pair = PolyhedronPair<S, W, Isa>;
   using U = Unit<S>;
@@ -31,14 +31,14 @@ template <class S, int W, class Isa> class EdgeAxes {
   static constexpr std::uint32_t kMost = ConvexHull::kMaxEdges;
 
  public:
-  /// All edges.
+  /// Uses all edges.
   ISO_INLINE explicit EdgeAxes(const Pair& pair) : pair_(pair) {
     edges_a_.count = edges_b_.count = 0;
     for (std::uint32_t i = 0; i < pair.a.edges(); ++i) edges_a_.add_if(true, i);
     for (std::uint32_t j = 0; j < pair.b.edges(); ++j) edges_b_.add_if(true, j);
     turn_edges_of_b();
   }
-  /// Those that can be the best axis where solids are at most `reach` [m] apart, or overlap by any depth.
+  /// Uses the edges that can be the best axis of solids at most `reach` [m] apart, or overlapping by any depth.
   ISO_INLINE EdgeAxes(const Pair& pair, const FaceAxis<S>& face_a, const FaceAxis<S>& face_b, S reach) : pair_(pair) {
     edges_a_.count = edges_b_.count = 0;
     const Polyhedron<S>&a = pair.a, &b = pair.b;
@@ -51,7 +51,7 @@ template <class S, int W, class Isa> class EdgeAxes {
     turn_edges_of_b();
   }
 
-  /// The best of those better than `limit`; the search ends where one exceeds `reach`.
+  /// Returns the best cross better than `limit`. The search ends once one exceeds `reach`.
   ISO_INLINE EdgeAxis<S> best(S limit, S reach) const {
     EdgeAxis<S> best = {0, 0, Vec3<U>::zero(), limit, false};
     for (std::uint32_t at = 0; at < edges_a_.count; ++at) {
@@ -82,7 +82,7 @@ template <class S, int W, class Isa> class EdgeAxes {
   static ISO_INLINE Plane plane_of(const Polyhedron<S>& solid, std::uint32_t face) {
     return {solid.normals[face], solid.offsets[face]};
   }
-  /// Finds the edges that reach above one plane and below another; the second and `seen`, the vertices, are in the
+  /// Finds the edges that reach above one plane and below another. The second plane and the vertices `seen` are in the
   /// other's frame.
   static ISO_INLINE void find_near(const Polyhedron<S>& solid, const Plane& floor,
                                    const Columns<S, ConvexHull::kMaxVertices>& seen, const Plane& ceiling,
@@ -120,7 +120,7 @@ template <class S, int W, class Isa> class EdgeAxes {
       columns.store(first, turn * columns.template load<UL>(first));
   }
 
-  /// Those of W of b's edges that meet edge i of a's, a bit each.
+  /// Returns those of W edges of b whose arcs meet that of edge i of a, a bit each.
   ISO_INLINE std::uint32_t meeting(std::uint32_t i, std::uint32_t first) const {
     const Polyhedron<S>& a = pair_.a;
     const UL zero = UL::zero();
@@ -150,8 +150,8 @@ template <class S, int W, class Isa> class EdgeAxes {
     const S separation = dot(n, gap);
     if (separation > best.separation) best = {i, j, n, separation, true};
   }
-  /// [m] A number with the sign of the separation: that along a vector of length at most 1/2 that leads to the point of
-  /// the arc. Most arcs that meet look from one solid deep into the other, and need no more.
+  /// [m] Returns a number with the sign of the separation: that along a vector of length at most 1/2 towards the point
+  /// of the arc. Most arcs that meet look from one solid deep into the other, and need no more.
   ISO_INLINE S side_of_arc(std::uint32_t i, Vec3<U> direction, Vec3<S> gap) const {
     const Polyhedron<S>& a = pair_.a;
     const Vec3<U> left = a.normals[a.half_edges[2 * i].face], right = a.normals[a.half_edges[2 * i + 1].face];

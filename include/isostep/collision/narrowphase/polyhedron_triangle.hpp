@@ -9,14 +9,14 @@
 
 namespace isostep {
 
-/// Contacts of a polyhedron with a triangle of a surface, where they are nearer than `margin` [m]. The normal points
-/// into the surface.
+/// Finds the contacts of a polyhedron with a triangle of a surface, where they are nearer than `margin` [m]. The normal
+/// points into the surface.
 /// Axes:     the triangle's normal; faces of the polyhedron that look into the surface where the triangle's edges and
-///           points can be touched; crosses of edges whose arcs meet; the normals of neighbours that go down: if
-///           one of those is best, the contact is the neighbour's. Flat and concave edges give no axis, so inside a
-///           plane there is no other normal than its own, without a look at the neighbours' contacts.
-/// Points:   on the triangle's plane, the corners of the polyhedron's face that are over it, and where that face leaves
-///           it across an edge that is not flat: what is beyond a flat edge is the neighbour's.
+///           points can be touched; crosses of edges whose arcs meet; the normals of neighbours that go down: if one of
+///           those is best, the contact is the neighbour's. Flat and concave edges give no axis, so inside a plane only
+///           its own normal exists, without a look at the neighbours' contacts.
+/// Points:   on the triangle's plane, the corners of the polyhedron's face over it, and the points where that face
+///           leaves it across an edge that is not flat. Points beyond a flat edge belong to the neighbour.
 /// Features: a vertex, of the polyhedron alone; bit 31, its face, both edges of a corner, 128 + an edge of the
 ///           triangle; the same with bit 30 where its face is the reference and 128 + an edge its own; bit 29, edges.
 template <class S>

@@ -23,7 +23,7 @@ template <class S> class TriangleAxes {
  public:
   ISO_INLINE TriangleAxes(const Polyhedron<S>& a, const SurfaceTriangle<S>& triangle) : a_(a), triangle_(triangle) {}
 
-  /// Returns false when a face is further off than `margin`.
+  /// Returns false if a face is further off than `margin`.
   ISO_INLINE bool are_faces_near(S margin, S limit) {
     for (std::uint32_t f = 0; f < a_.faces.size(); ++f) {
       S heights[3];
@@ -44,8 +44,8 @@ template <class S> class TriangleAxes {
       limit = least;
     }
   }
-  /// Takes the planes of neighbours whose outer side the centre is on. `lowest`: the vertex below the triangle's own
-  /// normal.
+  /// Takes the planes of neighbours that have the centre on their outer side. `lowest`: the vertex lowest along the
+  /// triangle's normal.
   ISO_INLINE void look_at_neighbours(Vec3<S> centre, std::uint32_t lowest, S tolerance, TriangleAxis<S>& best) {
     const S limit = best.separation + (best.kind == TriangleAxis<S>::plane ? tolerance : S(0));
     for (int k = 0; k < 3; ++k) {
@@ -59,8 +59,8 @@ template <class S> class TriangleAxes {
         best = {TriangleAxis<S>::neighbour, separation, 0, k, edge.other};
     }
   }
-  /// Takes crosses of edges; it comes after the neighbours. A vertex that is lowest at both ends of an edge's arc is so
-  /// in between, and no edge of the polyhedron has an arc that meets it.
+  /// Takes crosses of edges. Call it after look_at_neighbours(). A vertex that is lowest at both ends of an edge's arc
+  /// is lowest in between, and no edge of the polyhedron has an arc that meets it.
   ISO_INLINE void look_at_edges(S tolerance, TriangleAxis<S>& best) const {
     for (int k = 0; k < 3; ++k) {
       if (!has_arcs_[k]) continue;
@@ -82,7 +82,7 @@ template <class S> class TriangleAxes {
     }
     return least;
   }
-  /// Returns true if the surface can be touched from a direction, by its points that are lowest above a face.
+  /// Returns true if the surface can be touched from a direction, at its points that are lowest above a face.
   ISO_INLINE bool owns(Vec3<U> direction, const S (&heights)[3], S least) const {
     for (int k = 0; k < 3; ++k) {
       const bool along = abs(dot(direction, triangle_.edges[k].along)) <= U(kAlongEdge);
@@ -92,8 +92,8 @@ template <class S> class TriangleAxes {
     }
     return false;
   }
-  /// Returns true if the arcs of two edges meet, as EdgeAxes has it, with the arc from the triangle's normal to its
-  /// neighbour's.
+  /// Returns true if the arc of an edge meets the arc from the triangle's normal to its neighbour's. The arcs are those
+  /// of EdgeAxes.
   ISO_INLINE bool arcs_meet(std::uint32_t i, int k) const {
     const SurfaceEdge<S>& edge = triangle_.edges[k];
     const Vec3<U> along = a_.directions[i];
@@ -119,7 +119,7 @@ template <class S> class TriangleAxes {
   bool has_arcs_[3] = {};
 };
 
-/// Names of the triangle's edges in polygons.
+/// The names of the triangle's edges in polygons start here.
 inline constexpr std::uint32_t kTriangleEdge = 128;
 
 template <class S>
@@ -136,15 +136,15 @@ ISO_INLINE bool clip_to_edge(const SurfaceTriangle<S>& triangle, const Tangents<
   return clip(from, beyond, kTriangleEdge + static_cast<std::uint32_t>(k), kCutAcross, to);
 }
 
-/// Returns true if a corner is there because of flat edges alone.
+/// Returns true if only flat edges made the corner.
 template <class S> ISO_INLINE bool is_cut_flat(const SurfaceTriangle<S>& triangle, const ClipPoint<S>& p) {
   const bool before = p.before >= kTriangleEdge, after = p.after >= kTriangleEdge;
   if (!before && !after) return false;
   return (!before || triangle.edges[p.before - kTriangleEdge].flat) &&
          (!after || triangle.edges[p.after - kTriangleEdge].flat);
 }
-/// The corners of a face that would be kept if the triangle went on in its plane, by the edge that begins there: its
-/// neighbours choose the same ones. A face that is not level with it to `margin` keeps all.
+/// Marks the corners of a face that would be kept if the triangle went on in its plane, by the edge that begins there:
+/// its neighbours choose the same ones. A face that is not level with it to within `margin` keeps all.
 template <class S> struct KeptCorners {
   bool kept[kTriangleEdge];
 
@@ -161,7 +161,7 @@ template <class S> struct KeptCorners {
   }
 };
 
-/// Adds the points of the polyhedron's lowest face over the triangle, and of those that lie as flat.
+/// Adds the points of the polyhedron's lowest face over the triangle, and of faces that lie as flat.
 template <class S>
 ISO_INLINE void touch_plane(const Polyhedron<S>& a, const Transform<S>& ta, const SurfaceTriangle<S>& triangle,
                             std::uint32_t lowest, S margin, S tie, Manifold<S>& out) {
@@ -233,8 +233,8 @@ ISO_INLINE void touch_face(const Polyhedron<S>& a, const Transform<S>& ta, const
   }
 }
 
-/// Adds the point where the edges cross. They do not touch, nor do the shapes there, if their nearest points are not
-/// one above the other, to `slack` [m].
+/// Adds the point where the edges cross. If their nearest points are not one above the other, to within `slack` [m],
+/// the edges do not touch, nor do the shapes there.
 template <class S>
 ISO_INLINE void touch_edge(const Polyhedron<S>& a, const Transform<S>& ta, const SurfaceTriangle<S>& triangle,
                            const TriangleAxis<S>& axis, S slack, Manifold<S>& out) {

@@ -8,12 +8,12 @@
 
 namespace isostep {
 
-/// Collides a sphere of `radius` [m] about ta's position: one point, named as NearestPoint::feature.
+/// Collides a sphere of `radius` [m] about ta's position: one point, named by NearestPoint::feature.
 template <class S>
 void collide_sphere_polyhedron(S radius, const Transform<S>& ta, const Polyhedron<S>& b, const Transform<S>& tb,
                                S margin, Manifold<S>& out);
 
-/// Collides a capsule along y of ta: one point, or two where it lies along a face or an edge. Features: bit 31, the
+/// Collides a capsule along y of ta: one point, or two if it lies along a face or an edge. Features: bit 31, the
 /// face, the edge that cuts the core there or 255, the end; bit 30 or 28, the face, the end; bit 29, the edge, the end;
 /// or an edge.
 template <class S>

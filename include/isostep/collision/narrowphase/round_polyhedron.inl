@@ -8,7 +8,7 @@
 namespace isostep {
 namespace detail {
 
-/// A segment and a polyhedron, in the latter's frame: their best axis, as polyhedron_axes.hpp has it.
+/// The best axis of a segment and a polyhedron, in the latter's frame, as in polyhedron_axes.hpp.
 template <class S> struct SegmentAxis {
   std::uint32_t face;    // the best of the faces
   S face_separation;     // [m]
@@ -96,7 +96,7 @@ ISO_INLINE bool stretch_over(const Polyhedron<S>& solid, std::uint32_t face, con
   return true;
 }
 
-/// Adds the point of the core over the surface, whose outward normal is `normal`; all in the solid's frame.
+/// Adds the point of the core over the surface with the outward normal `normal`, all in the solid's frame.
 template <class S>
 ISO_INLINE void touch_round(Vec3<S> on_core, S distance, Vec3<Unit<S>> normal, S radius, const Transform<S>& frame,
                             std::uint32_t feature, Manifold<S>& out) {
@@ -106,8 +106,8 @@ ISO_INLINE void touch_round(Vec3<S> on_core, S distance, Vec3<Unit<S>> normal, S
 
 inline constexpr double kAlong = 0.0625;  // sine of the angle, 3.6 degrees, within which a core lies along a feature
 
-/// Adds both ends of the stretch over a face that the core lies along, where the lower of them is no higher than
-/// `highest`. Cores up to `slack` beyond a side are over it.
+/// Adds both ends of the stretch over a face that the core lies along, if the lower of them is no higher than
+/// `highest`. Cores up to `slack` beyond a side count as over it.
 template <class S>
 ISO_INLINE bool touch_along(const Polyhedron<S>& solid, std::uint32_t face, const Segment<S>& core, S highest, S slack,
                             S radius, S margin, const Transform<S>& frame, Manifold<S>& out) {

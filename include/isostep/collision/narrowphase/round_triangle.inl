@@ -8,7 +8,7 @@
 namespace isostep {
 namespace detail {
 
-/// The point of the triangle's rim that is nearest to a point over none of its inside.
+/// The point of the triangle's rim that is nearest to a point which is not over its inside.
 template <class S> struct RimPoint {
   Vec3<S> apart;  // [m] from there to the point
   S distance;     // [m]
@@ -54,9 +54,9 @@ ISO_INLINE TriangleStretch<S> stretch_over(const SurfaceTriangle<S>& triangle, c
   return over;
 }
 
-/// The best of the edges that a core may touch. One that it is under counts only where the core is as near as its
-/// radius, and where a stretch of it is over the triangle, `is_over`: a core that is deeper, or beside it, is beyond
-/// another side, or a face's to push out.
+/// The best of the edges that a core may touch. An edge above the core counts only if the core is as near as its radius
+/// and a stretch of it is over the triangle, `is_over`. A core that is deeper, or beside it, is beyond another side, or
+/// a face pushes it out.
 template <class S> struct TriangleEdgeTouch {
   S separation;  // [m] of the core
   Vec3<Unit<S>> normal;

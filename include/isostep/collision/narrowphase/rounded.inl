@@ -8,7 +8,7 @@
 
 namespace isostep::detail {
 
-/// Makes a manifold of two cores that of their skins, `a` and `b` [m] around them. Points beyond the margin go.
+/// Turns a manifold of two cores into that of their skins, `a` and `b` [m] around them. Drops points beyond the margin.
 template <class S> ISO_INLINE void grow_cores(Manifold<S>& m, S a, S b, S margin) {
   const S radii = a + b;
   const Vec3<S> shift = m.normal * ((a - b) * S(0.5));
@@ -24,7 +24,7 @@ template <class S> ISO_INLINE void grow_cores(Manifold<S>& m, S a, S b, S margin
   if (!touches) m.clear();
 }
 
-/// The gap of two cores where they are nearest, in a's frame. Those that are not apart overlap, or are too near for a
+/// The gap of two cores at their nearest points, in a's frame. Cores that are not apart overlap, or are too near for a
 /// direction.
 template <class S> struct CoreGap {
   bool is_apart;
@@ -35,15 +35,15 @@ template <class S> struct CoreGap {
   std::uint32_t corner[3];
 
   ISO_INLINE Vec3<S> across() const { return normal * distance; }
-  /// Returns true if a manifold of the cores, whose normal is in a's frame, shows the same gap, to `tolerance` [m]: it
-  /// reaches as far along its own normal, and has a point there.
+  /// Returns true if a manifold of the cores, whose normal is in a's frame, shows the same gap, to within `tolerance`
+  /// [m]: it reaches as far along its own normal, and has a point there.
   ISO_INLINE bool is_told_by(const Manifold<S>& cores, Vec3<Unit<S>> normal_in_a, S tolerance) const {
     S least = highest<S>();
     for (int i = 0; i < cores.count; ++i) least = min(least, cores.points[i].separation);
     return cores.count > 0 && dot(normal_in_a, across()) >= distance - tolerance && least <= distance + tolerance;
   }
-  /// Adds the one point there. It has no name of its own: where a contact rolls from feature to feature it stays the
-  /// same.
+  /// Adds the one point there. Its name does not depend on the feature: a contact that rolls from feature to feature
+  /// stays the same.
   ISO_INLINE void touch(const Transform<S>& frame, S a, S b, Manifold<S>& out) const {
     out.normal = frame.rotation * normal;
     out.add(to_world(frame, on_a + normal * ((distance + a - b) * S(0.5))), distance - a - b, kNearest);
@@ -51,7 +51,7 @@ template <class S> struct CoreGap {
   static constexpr std::uint32_t kNearest = 1u << 27;
 };
 
-/// The gap that a search found, in S.
+/// Converts the gap that a search found to S.
 template <class S> ISO_INLINE CoreGap<S> gap_of(const GjkDistance<Finer<S>>& found, const Simplex<Finer<S>>& simplex) {
   CoreGap<S> gap = {};
   gap.is_apart = found.distance > Finer<S>(0);
@@ -68,7 +68,7 @@ template <class S> ISO_INLINE CoreGap<S> gap_of(const GjkDistance<Finer<S>>& fou
   return gap;
 }
 
-/// Finds the gap by GJK, in the finer format: a skin of a few digits of S has a direction, too.
+/// Finds the gap by GJK, in the finer format: a skin of a few digits of S has a direction there, too.
 template <class S>
 ISO_INLINE CoreGap<S> gap_between(const ConvexCore<S>& a, const Transform<S>& ta, const ConvexCore<S>& b,
                                   const Transform<S>& tb) {

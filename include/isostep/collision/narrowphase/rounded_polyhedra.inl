@@ -10,8 +10,8 @@
 namespace isostep {
 namespace detail {
 
-/// The edge by which a solid reaches furthest along a direction, both ends within `slack` [m] of its reach; of equals
-/// the first.
+/// The edge with which a solid reaches furthest along a direction, both ends within `slack` [m] of its reach. The first
+/// of equals.
 template <class S> struct OuterEdge {
   std::uint32_t edge;
   bool found;
@@ -31,7 +31,7 @@ template <class S> ISO_INLINE OuterEdge<S> outer_edge(const Polyhedron<S>& solid
   return best;
 }
 
-/// Adds both ends of the stretch that two edges run beside each other, facing across the gap, if there are such.
+/// Adds both ends of the stretch along which two edges lie beside each other, facing across the gap, if there are such.
 template <class S>
 ISO_INLINE bool touch_edges_beside(const RoundedPolyhedron<S>& a, const Transform<S>& ta, const RoundedPolyhedron<S>& b,
                                    const Transform<S>& tb, const CoreGap<S>& gap, S slack, S margin, Manifold<S>& out) {
@@ -57,7 +57,7 @@ ISO_INLINE bool touch_edges_beside(const RoundedPolyhedron<S>& a, const Transfor
   return out.count > 0;
 }
 
-/// Returns true if a solid has a face that comes as near to a gap, out of the solid, as is_told_by asks.
+/// Returns true if a face of the solid comes as near to the gap's direction as is_told_by() asks.
 template <class S> ISO_INLINE bool has_face_across(const Polyhedron<S>& solid, Vec3<S> gap, S distance, S tolerance) {
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
     if (dot(solid.normals[f], gap) >= distance - tolerance) return true;
@@ -65,7 +65,7 @@ template <class S> ISO_INLINE bool has_face_across(const Polyhedron<S>& solid, V
   return false;
 }
 
-/// A polyhedron as a core, its vertices in a row.
+/// Finds the gap of two polyhedra, each as a core with its vertices in a row.
 template <class S>
 ISO_INLINE CoreGap<S> gap_between(const Polyhedron<S>& a, const Transform<S>& ta, const Polyhedron<S>& b,
                                   const Transform<S>& tb) {
@@ -73,7 +73,7 @@ ISO_INLINE CoreGap<S> gap_between(const Polyhedron<S>& a, const Transform<S>& ta
   return gap_between(core_a.core(), ta, core_b.core(), tb);
 }
 
-/// Returns true if a triangle is further above a face of a solid than `reach`.
+/// Returns true if a triangle is further than `reach` above a face of a solid.
 template <class S>
 ISO_INLINE bool is_beyond_face(const Polyhedron<S>& solid, const SurfaceTriangle<S>& triangle, S reach) {
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
@@ -84,7 +84,7 @@ ISO_INLINE bool is_beyond_face(const Polyhedron<S>& solid, const SurfaceTriangle
   return false;
 }
 
-/// Returns true if an edge's or a point's contact across a gap is the triangle's own, and no neighbour's.
+/// Returns true if the contact of an edge or a point across a gap is the triangle's own, and not a neighbour's.
 template <class S> ISO_INLINE bool is_owned(const SurfaceTriangle<S>& triangle, const CoreGap<S>& gap) {
   const Vec3<Unit<S>> direction = -gap.normal;
   if (gap.corners == 1) return triangle.owns_at_point(static_cast<int>(gap.corner[0]), direction);

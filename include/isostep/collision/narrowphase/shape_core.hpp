@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// A solid of a shape's file (`Sphere<S>`, `Box<S>` ...), or its part `inset` [m] deep, 0 up to its inner radius. The
-/// memory that core() shows.
+/// Holds the core of a solid of a shape's file (`Sphere<S>`, `Box<S>` ...), or of its part that lies `inset` [m]
+/// inside, 0 up to its inner radius. core() refers to this memory.
 template <class S> class ShapeCore {
  public:
   /// Takes the shape in the frame that `t` leads to.
@@ -22,7 +22,7 @@ template <class S> class ShapeCore {
   ShapeCore(const ShapeCore&) = delete;
   ShapeCore& operator=(const ShapeCore&) = delete;
 
-  /// Makes it a ball about the mean of the vertices, inside of the shape for a radius up to its inner one.
+  /// Makes it a ball about the mean of the vertices. The ball is inside the shape for a radius up to the inner radius.
   ISO_INLINE void become_ball(S radius) {
     const Unit<S> share = divide_to<Unit<S>>(S(1), S(static_cast<std::int32_t>(count_)));
     Vec3<S> middle = Vec3<S>::zero();
@@ -31,7 +31,7 @@ template <class S> class ShapeCore {
     count_ = 1;
     radius_ = radius;
   }
-  /// The core, valid as long as this is.
+  /// Returns the core, valid as long as this object.
   ISO_INLINE ConvexCore<S> core() const { return {{vertices_, count_}, radius_}; }
 
  private:
@@ -45,7 +45,7 @@ template <class S> class ShapeCore {
   S radius_;  // [m]
 };
 
-/// A shape is convex and has an end: then it has a core and an inner radius, see Solid in shape.hpp.
+/// True for a convex and bounded shape: it has a core and an inner radius, see Solid in shape.hpp.
 template <class Shape> inline constexpr bool kIsSolid = Shape::kBounded;
 
 }  // namespace isostep

@@ -13,19 +13,19 @@
 
 namespace isostep::detail {
 
-/// As collide(), for shapes whose types ascend.
+/// Collides two shapes whose types ascend, like collide().
 template <class S>
 using CollideShapes = void (*)(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                                Manifold<S>& out, CollidePolyhedra<S> polyhedra);
 
-/// Of pairs that pass through each other, for queries too: those that only static bodies have.
+/// Leaves out pairs that pass through each other, also for queries: shapes that only static bodies have.
 template <class S>
 void collide_never(ShapeView<S>, const Transform<S>&, ShapeView<S>, const Transform<S>&, S, Manifold<S>& out,
                    CollidePolyhedra<S>) {
   out.clear();
 }
 
-/// Of shapes that a record holds whole.
+/// Collides shapes that are complete in their records.
 template <class S>
 using CollidePrimitives = void (*)(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
                                    const Transform<S>& tb, S margin, Manifold<S>& out);
@@ -34,7 +34,7 @@ void collide_records(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, con
                      Manifold<S>& out, CollidePolyhedra<S>) {
   Collide(a.primitive, ta, b.primitive, tb, margin, out);
 }
-/// Of those of which no more than one is a polyhedron.
+/// Collides shapes of which at most one is a polyhedron.
 template <class S>
 using CollideViews = void (*)(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                               Manifold<S>& out);
@@ -82,7 +82,7 @@ template <class S> struct ShapePairs {
   }
 
  private:
-  /// What two shapes do that have no function of their own; none where one without an end is new.
+  /// Returns the function of two shapes that have none of their own. Null if one is a new unbounded shape.
   static constexpr CollideShapes<S> of_all(ShapeType a, ShapeType b) {
     if (!is_bounded(a) && !is_bounded(b)) return collide_never<S>;
     if (is_surface(b)) return collide_views<S, collide_with_surface<S>>;

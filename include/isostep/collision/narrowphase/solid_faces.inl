@@ -8,13 +8,13 @@
 
 namespace isostep::detail {
 
-/// Names of contacts. Of faces bit 31, bit 30 where b's is what a lies on, bit 29 where a side cuts, and the face; else
-/// bit 27, and bit 26 of two points along lines.
+/// Names of contacts. On faces: bit 31, bit 30 if b's face bears the other solid, bit 29 if a side cuts, and the face.
+/// Else bit 27, and bit 26 for two points along lines.
 namespace solid_feature {
 inline constexpr std::uint32_t kFace = 1u << 31, kOfB = 1u << 30, kPoint = 1u << 27, kLines = kPoint | 1u << 26;
 }  // namespace solid_feature
 
-/// The line of a face that reaches furthest along n: its own, or that of its edges whose nearer end does.
+/// Returns the line of a face that reaches furthest along n: its own, or the edge whose nearer end reaches furthest.
 template <class S> ISO_INLINE Segment<S> line_of(const SolidFace<S>& face, Vec3<Unit<S>> n) {
   int best = 0, after = face.count - 1;
   S most = -highest<S>();
@@ -28,8 +28,8 @@ template <class S> ISO_INLINE Segment<S> line_of(const SolidFace<S>& face, Vec3<
   return {from + half, heading.direction, heading.length};
 }
 
-/// Of a solid, where a line in its frame is nearest to it: the distance is convex along the line, inside too, and rises
-/// as the normal says.
+/// Finds the point of a solid nearest to a line in its frame. The distance is convex along the line, inside too, and
+/// rises by the slope that the normal tells.
 template <class S> ISO_INLINE ClosestPoint<S> nearest_of_line(const SolidView<S>& solid, const Segment<S>& line) {
   using U = Unit<S>;
   constexpr int kSteps = 24;
@@ -59,7 +59,7 @@ template <class S> class SolidTouch {
   using U = Unit<S>;
 
  public:
-  /// `margin` [m] of the cores; `tolerance` [m] by which an axis must be better than one that is preferred.
+  /// `margin` [m] of the cores. `tolerance` [m] by which an axis must be better than a preferred one.
   ISO_INLINE SolidTouch(const SolidView<S>& a, const Transform<S>& ta, const SolidView<S>& b, const Transform<S>& tb,
                         S margin, S tolerance, Manifold<S>& out)
       : a_(a),
@@ -73,7 +73,7 @@ template <class S> class SolidTouch {
         out_(out) {}
 
   /// Takes better axes across lines of both, and from one solid to where a line of the other is nearest to it, until
-  /// there are none: lines of what is round, and edges, are others along another axis.
+  /// there are none. Along another axis, the lines of round parts and the edges are others.
   ISO_INLINE void look_at_lines(SolidGap<S>& gap) const {
     for (int round = 0; round < kMostLines; ++round) {
       const bool crossed = look_across_lines(gap), by_a = look_at_line_of_a(gap), by_b = look_at_line_of_b(gap);
@@ -81,12 +81,12 @@ template <class S> class SolidTouch {
     }
   }
 
-  /// What touches along the axis so far, in `out`: on a flat face that reaches as far but for the tolerance, along two
-  /// lines, or in the one point where the cores meet. False: that is not known.
+  /// Writes the contact points along the axis so far to `out`: on a flat face that reaches as far, within the
+  /// tolerance; along two lines; or in the one point where the cores meet. Returns false if that point is not known.
   ISO_INLINE bool touch(const SolidGap<S>& gap) {
     return touch(gap, [](Vec3<U>) ISO_INLINE_LAMBDA { return true; });
   }
-  /// Faces of a where `allows(normal)`; b is a triangle, whose own is elsewhere.
+  /// Does so for a triangle b, with faces of a that `allows(normal)`. The triangle's own face is handled elsewhere.
   template <class Allows> ISO_INLINE bool touch(const SolidGap<S>& gap, const Allows& allows) {
     out_.clear();
     const SolidAxis<S>& axis = gap.best();
@@ -107,15 +107,15 @@ template <class S> class SolidTouch {
     return along_lines(n, separation) || (axis.is_met && at_point(axis, n, separation));
   }
 
-  /// One point between those that the cores reach furthest with, where nothing else is known.
+  /// Adds one point between the support points of the cores, if nothing else is known.
   ISO_INLINE void touch_anyway(SolidGap<S>& gap) {
     gap.meet_at_supports();
     out_.clear();
     at_point(gap.best(), coarser_of<U>(gap.best().normal), coarser<S>(gap.best().separation));
   }
 
-  /// Whether no axis is better than that of the manifold by more than the tolerance, or what a point may miss: no axis
-  /// tells that a point of one core is further from the other than it is.
+  /// Returns true if no axis is better than the manifold's by more than the tolerance, or by what a point may miss: no
+  /// axis separates the cores by more than the distance of a point of one core from the other.
   ISO_INLINE bool is_best() const {
     const S least = least_of();
     for (int i = 0; i < out_.count; ++i) {
@@ -176,7 +176,7 @@ template <class S> class SolidTouch {
     b_.find_face(back, U(0), face);
     return seen_by(b_in_a_, line_of(face, back));
   }
-  /// Edges go before rims, and of two discs the wider: that is what the other lies on.
+  /// Returns true if b's face is preferred: polygons go before discs, and the wider of two discs bears the other.
   static ISO_INLINE bool is_b_wider(const SolidFace<S>& of_a, const SolidFace<S>& of_b) {
     if (!of_a.is_disc) return false;
     return !of_b.is_disc || width(of_b) > width(of_a);
@@ -188,7 +188,7 @@ template <class S> class SolidTouch {
     for (int i = 1; i < out_.count; ++i) least = min(least, out_.points[i].separation);
     return least;
   }
-  /// Whether the points tell of the axis' gap.
+  /// Returns true if the points show the axis' gap.
   ISO_INLINE bool tells(S separation) {
     if (out_.count > 0 && abs(least_of() - separation) <= tolerance_) return true;
     out_.clear();
@@ -203,7 +203,7 @@ template <class S> class SolidTouch {
     if (!of_b) out_.normal = -out_.normal;
     return tells(separation);
   }
-  /// Both ends of what two lines have beside each other, if they are nearly parallel.
+  /// Adds both ends of the stretch along which two lines are beside each other, if they are nearly parallel.
   ISO_INLINE bool along_lines(Vec3<U> n, S separation) {
     const Segment<S> of_a = line_of_a(n), of_b = line_of_b(n);
     const Vec3<U> across = cross(of_a.direction, of_b.direction);

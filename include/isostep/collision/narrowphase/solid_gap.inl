@@ -17,7 +17,7 @@ template <class S> struct SolidAxis {
   Vec3<F> on_a, on_b;    // [m] where the cores are nearest along the normal
 };
 
-/// Points of the difference of two cores, b moved by `shift`; each remembers its point of a.
+/// Finds support points of the difference of two cores, b moved by `shift`. Remembers a's point for each.
 template <class S> class SolidSupports {
   using F = Finer<S>;
   using U = Unit<F>;
@@ -28,7 +28,7 @@ template <class S> class SolidSupports {
   ISO_INLINE SolidSupports(const SolidView<S>& a, const SolidView<S>& b, const Transform<F>& b_in_a, Vec3<F> shift)
       : a_(a), b_(b), b_in_a_(b_in_a), shift_(shift) {}
 
-  /// Furthest along the direction. A point that was found before keeps its number.
+  /// Returns the point furthest along the direction. A point that was found before keeps its number.
   ISO_INLINE SupportPoint<F> support(Vec3<U> direction) const {
     const Vec3<F> on_a = a_.support(direction);
     const Vec3<F> on_b = to_world(b_in_a_, b_.support(transposed_times(b_in_a_.rotation, -direction))) + shift_;
@@ -38,7 +38,7 @@ template <class S> class SolidSupports {
     if (i == count_ && count_ < kMost) points_[count_] = point, on_a_[count_++] = on_a;
     return {point, i, i};
   }
-  /// [m] Of a and of b where it is not moved.
+  /// [m] Returns the nearest points on a, and on b where it is not moved.
   ISO_INLINE GjkDistance<F> witnesses(const Simplex<F>& simplex, std::int32_t rounds) const {
     Vec3<F> on_a = Vec3<F>::zero(), point = on_a;
     for (int i = 0; i < simplex.count; ++i) {
@@ -58,11 +58,11 @@ template <class S> class SolidSupports {
 };
 
 /// Source:  Gilbert, Johnson and Keerthi 1988; van den Bergen 2001: see gjk.hpp and epa.hpp.
-/// Differs: solids that overlap are moved apart along the best axis so far, and GJK says which way they are nearest
-///          then; that way, where they are, is better or the axis stays. So the axis is a local best. Whether it is the
-///          best of all, a point proves (is_best); else EPA looks everywhere.
-/// Error:   of the separation what GJK leaves, some digits of the size; of the normal its root, over the radius of what
-///          is round.
+/// Differs: solids that overlap are moved apart along the best axis so far, and GJK finds the direction in which they
+///          are nearest then. That axis, with the solids in place, is better, or the old one stays. So the axis is a
+///          local best. A point proves whether it is the best of all (is_best); else EPA searches everywhere.
+/// Error:   of the separation what GJK leaves, some digits of the size; of the normal its root, over the radius of
+///          round parts.
 template <class S> class SolidGap {
   using F = Finer<S>;
   using U = Unit<F>;
@@ -72,19 +72,19 @@ template <class S> class SolidGap {
       : a_(a), b_(b), b_in_a_(fine_relative(ta, tb)), noise_(noise_of(max_abs(b_in_a_.position))) {}
 
   const SolidAxis<S>& best() const { return best_; }
-  /// [m] of the cores along n.
+  /// [m] Returns the separation of the cores along n.
   ISO_INLINE F along(Vec3<U> n) const {
     const Vec3<F> on_a = a_.support(n), on_b = b_.support(transposed_times(b_in_a_.rotation, -n));
     return dot(n, b_in_a_.position + b_in_a_.rotation * on_b - on_a);
   }
-  /// Takes an axis that is better by `lead` [m].
+  /// Takes an axis that is better by more than `lead` [m].
   ISO_INLINE bool look(Vec3<U> n, F lead = F(0)) {
     const F separation = along(n);
     if (!(separation > best_.separation + lead)) return false;
     best_ = {n, separation, false, {}, {}};
     return true;
   }
-  /// The axis so far with the points where features of both cross, found elsewhere.
+  /// Sets the points of the axis so far, where features of both cross that were found elsewhere.
   ISO_INLINE void meet(Vec3<F> on_a, Vec3<F> on_b) { best_.is_met = true, best_.on_a = on_a, best_.on_b = on_b; }
 
   ISO_INLINE void meet_at_supports() {
@@ -93,8 +93,8 @@ template <class S> class SolidGap {
     meet(p - best_.normal * best_.separation, p);
   }
 
-  /// From the best axis to the best one nearby, with the points where the cores are nearest along it. Ends where one
-  /// separates the cores by more than `reach`.
+  /// Climbs from the best axis to the best one nearby, and finds the points where the cores are nearest along it. Ends
+  /// once an axis separates the cores by more than `reach`.
   ISO_INLINE void climb(F reach, F apart) {
     for (int round = 0; round < kRounds && best_.separation <= reach; ++round) {
       const F before = best_.separation;
@@ -103,7 +103,7 @@ template <class S> class SolidGap {
       if (best_.separation - before <= noise_) return;
     }
   }
-  /// The best axis of all, of cores that overlap.
+  /// Finds the best axis of all, for cores that overlap.
   ISO_INLINE void search_everywhere(F enough) {
     const SolidSupports<S> supports(a_, b_, b_in_a_, Vec3<F>::zero());
     Simplex<F> simplex = begin(supports, normalise(b_in_a_.position));
@@ -132,7 +132,7 @@ template <class S> class SolidGap {
     keep_one(simplex, 0);
     return simplex;
   }
-  /// As Gjk::run, to the last digits: a normal across what is round is the root of what is left.
+  /// Runs GJK like Gjk::run, but to the last digits: across round parts the normal errs by the root of the rest.
   ISO_INLINE GjkDistance<F> run(const SolidSupports<S>& supports, Simplex<F>& simplex) const {
     for (int i = 1;; ++i) {
       const Heading<F> heading = heading_of(simplex);
@@ -166,7 +166,7 @@ template <class S> class SolidGap {
     }
     return false;
   }
-  /// To where b, moved, is nearest to a. False: they still overlap.
+  /// Finds the axis where b, moved, is nearest to a. Returns false if they still overlap.
   ISO_INLINE bool step(Vec3<F> shift) {
     const SolidSupports<S> supports(a_, b_, b_in_a_, shift);
     Simplex<F> simplex = begin(supports, best_.normal);

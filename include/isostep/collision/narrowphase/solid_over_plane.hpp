@@ -7,7 +7,7 @@
 
 namespace isostep::detail {
 
-/// What a solid lies on, in the frame of that solid: a plane, and the sides of the face that it is.
+/// The face that a solid lies on, in the frame of that solid: a plane and the face's sides.
 template <class S> struct RestPlane {
   struct Side {
     Vec3<Unit<S>> outward;  // [1] in the plane
@@ -25,11 +25,11 @@ template <class S> struct RestPlane {
   ISO_INLINE S height(Vec3<S> p) const { return dot(normal, p) - offset; }
   ISO_INLINE S beyond(int k, Vec3<S> p) const { return dot(sides[k].outward, p) - sides[k].offset; }
 };
-/// Of what cuts: side k is kSideName + k.
+/// The name of what cuts: side k is kSideName + k.
 inline constexpr std::uint32_t kSideName = 128;
 
-/// A flat face of a solid; t leads from its frame. A disc's sides are around it, so that what turns in place on a disc
-/// of its size is not cut.
+/// Makes the plane of a solid's flat face. t leads from its frame. A disc's sides lie around it, so that a body that
+/// turns in place on a disc of its size is not cut.
 template <class S>
 ISO_INLINE void plane_of(const SolidFace<S>& face, const Transform<S>& t, std::uint32_t name, RestPlane<S>& plane) {
   Vec3<S> corners[SolidFace<S>::kMost];
@@ -50,8 +50,8 @@ ISO_INLINE void plane_of(const SolidFace<S>& face, const Transform<S>& t, std::u
   plane.count = face.count;
 }
 
-/// Within this sine of the axis [1] a disc lies on a face with points that turn with it; the lowest of sixteen is then
-/// higher than the lowest of all by 0.0006 radii at most.
+/// [1] The sine of the axis within which a disc lies on a face, with points that turn with it. The lowest of its
+/// sixteen points is then higher than the lowest of all by at most 0.0006 radii.
 inline constexpr double kFlatDisc = 0.03125;
 inline constexpr double kLeaningDisc = 0.5;        // sine up to which the points beside the lowest are looked at
 inline constexpr std::uint32_t kQuarterTurn = 34;  // names those
@@ -62,12 +62,12 @@ template <class S> class SolidOverPlane {
   using Polygon = ClipPolygon<S, kMostClipped>;
 
  public:
-  /// `frame` leads out of the solid's; `tie` [m]: points as deep to that are equals.
+  /// `frame` leads out of the solid's frame. `tie` [m]: points within it count as equally deep.
   ISO_INLINE SolidOverPlane(const SolidView<S>& solid, const Transform<S>& frame, S margin, S tie, Manifold<S>& out)
       : solid_(solid), frame_(frame), margin_(margin), tie_(tie), out_(out) {}
 
-  /// The normal is the plane's, reversed. False: nothing is over it. True without a point: a neighbour's side of the
-  /// plane has them.
+  /// Adds the points over the plane, with the plane's normal reversed. Returns false if nothing is over it. True
+  /// without a point: the points belong to a neighbour's side of the plane.
   ISO_INLINE bool touch(const RestPlane<S>& plane) const {
     const Vec3<U> n = -plane.normal;
     SolidFace<S> part;
@@ -76,7 +76,7 @@ template <class S> class SolidOverPlane {
     if (out_.count > 0) out_.normal = frame_.rotation * n;
     return is_over;
   }
-  /// The lowest point alone, [m] it is at `height`.
+  /// Adds only the lowest point, at `height` [m].
   ISO_INLINE void touch_lowest(const RestPlane<S>& plane, Vec3<S> p, S height) const {
     out_.normal = frame_.rotation * -plane.normal;
     add(plane, p, height, plane.own | kLowestAlone);
@@ -103,8 +103,8 @@ template <class S> class SolidOverPlane {
     return goes_on(p.before) && goes_on(p.after);
   }
 
-  /// A flat face, by its corners' places in it; of those that are kept where the plane goes on beyond its sides,
-  /// neighbours choose the same ones.
+  /// Adds the points of a flat face, clipped to the plane's sides. Where the plane goes on beyond its sides, neighbours
+  /// choose the same corners.
   ISO_INLINE bool face_over(const RestPlane<S>& plane, const SolidFace<S>& part) const {
     const Tangents<U> across = tangents_of(plane.normal);
     Polygon polygons[2];
@@ -139,7 +139,7 @@ template <class S> class SolidOverPlane {
     }
     return is_over;
   }
-  /// The corners that would be kept if the plane had no sides.
+  /// Chooses the corners that would be kept if the plane had no sides.
   ISO_INLINE void choose(const SolidFace<S>& part, const Tangents<U>& across, const RestPlane<S>& plane,
                          bool (&kept)[SolidFace<S>::kMost]) const {
     Polygon all;
@@ -166,8 +166,8 @@ template <class S> class SolidOverPlane {
     return clip(from, beyond, kSideName + static_cast<std::uint32_t>(k), kCut, to);
   }
 
-  /// A line as far as it is over the plane's face, and of a disc that leans the points beside its lowest one; of one
-  /// whose lowest point is not over the face, what else of it is. A point is a line of no length.
+  /// Adds the ends of a line as far as it is over the plane's face, and for a leaning disc the points beside its lowest
+  /// one. If the lowest point of the disc is not over the face, other points of it. A point is a line of no length.
   ISO_INLINE bool line_over(const RestPlane<S>& plane, const SolidFace<S>& line, Vec3<U> n) const {
     const int last = line.count - 1;
     Vec3<S> ends[2] = {line.points[0], line.points[last]};

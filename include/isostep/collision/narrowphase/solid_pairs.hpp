@@ -8,19 +8,19 @@
 
 namespace isostep {
 
-/// Contacts of two solids where they are nearer than `margin` [m]; the normal points from a to b.
-/// Axis:   see SolidGap: that of the two faces that look at each other, or across two lines, where a point proves that
-///         none is better; else what GJK finds of the solids moved apart; else EPA's.
-/// Points: of a solid on a flat face up to four that are over it, of two lines beside each other the ends, else one.
-///         Flat faces go before lines and points unless those are better by 1/128 of the smaller inner radius.
+/// Finds the contacts of two solids where they are nearer than `margin` [m]. The normal points from a to b.
+/// Axis:   see SolidGap: that of two faces that look at each other, or across two lines, if a point proves that none is
+///         better; else the one that GJK finds for the solids moved apart; else EPA's.
+/// Points: up to four of a solid over a flat face, the ends of two lines beside each other, else one. Flat faces go
+///         before lines and points unless those are better by 1/128 of the smaller inner radius.
 template <class S>
 void collide_solids(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                     Manifold<S>& out);
-/// A ball and a solid: the nearest point of the solid to the centre.
+/// Collides a ball with a solid, at the solid's point nearest to the centre.
 template <class S>
 void collide_sphere_solid(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                           Manifold<S>& out);
-/// A half-space and a solid: what of the solid looks down.
+/// Collides a half-space with a solid, at the part of the solid that looks down.
 template <class S>
 void collide_half_space_solid(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                               Manifold<S>& out);

@@ -10,7 +10,7 @@
 namespace isostep {
 namespace detail {
 
-/// The cores of two solids: as collide_solids, without their radii; a's origin is the frame's.
+/// Collides the cores of two solids like collide_solids, without their radii. a's origin is that of the frame.
 template <class S>
 void collide_cores(const SolidView<S>& a, const Transform<S>& ta, const SolidView<S>& b, const Transform<S>& tb,
                    S margin, Manifold<S>& out) {

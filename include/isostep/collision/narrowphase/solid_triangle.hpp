@@ -9,12 +9,12 @@
 
 namespace isostep {
 
-/// Contacts of a solid with one triangle where they are nearer than `margin` [m]; the normal points into the surface.
-/// The triangle's plane decides where the solid's lowest point is over it; else the axis that SolidGap finds from
-/// there, if it is the triangle's own: edges and points of the triangle count only where the surface can be touched
-/// from there, so that none is found on a flat surface.
-/// Features: a point of the solid over the triangle has none of the triangle's. Of others bit 31: where edges cut it
-/// off, or a flat face of the solid is over an edge; else as solids have them.
+/// Finds the contacts of a solid with one triangle where they are nearer than `margin` [m]. The normal points into the
+/// surface. The triangle's plane decides if the solid's lowest point is over it. Else the axis does that SolidGap finds
+/// from there, if it is the triangle's own: edges and points of the triangle count only if the surface can be touched
+/// from there, so that a flat surface has no such contacts.
+/// Features: a point of the solid over the triangle has a name of the solid alone. Others have bit 31 if edges cut them
+///           off, or if a flat face of the solid is over an edge; else the names of solids.
 template <class S>
 void collide_solid_triangle(ShapeView<S> a, const Transform<S>& ta, const SurfaceFrame<S>& frame,
                             const BakedTriangle& baked, S margin, Manifold<S>& out);

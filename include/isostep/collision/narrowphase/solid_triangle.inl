@@ -9,7 +9,7 @@
 namespace isostep {
 namespace detail {
 
-/// A solid's core over a triangle, in the solid's frame: manifolds are in it, too.
+/// A solid's core over a triangle, in the solid's frame. Manifolds are in that frame, too.
 template <class S> class SolidOverTriangle {
   using F = Finer<S>;
   using U = Unit<S>;
@@ -26,7 +26,7 @@ template <class S> class SolidOverTriangle {
         out_(out) {}
 
   ISO_INLINE S height() const { return triangle_.height_of(lowest_); }
-  /// Whether the triangle is beside the solid, or a neighbour's to touch. The edges are known by then.
+  /// Returns true if the triangle is beside the solid, or a neighbour makes the contact. Needs the triangle's edges.
   ISO_INLINE bool is_elsewhere() const {
     for (int k = 0; k < 3; ++k) {
       if (triangle_.inside_of(k, support(triangle_.edges[k].inward)) < -margin_) return true;
@@ -65,7 +65,7 @@ template <class S> class SolidOverTriangle {
     }
     return true;
   }
-  /// Whether the plane of a neighbour, whose outer side the centre is on, is better.
+  /// Returns true if the plane of a neighbour is better, with the centre on that plane's outer side.
   ISO_INLINE bool is_of_neighbour() const {
     for (int k = 0; k < 3; ++k) {
       const SurfaceEdge<S>& edge = triangle_.edges[k];
@@ -75,7 +75,7 @@ template <class S> class SolidOverTriangle {
     }
     return false;
   }
-  /// Whether the surface can be touched along n, from the solid, by its points that are nearest along it, to `tie` [m].
+  /// Returns true if the surface can be touched along n, from the solid, at its points nearest along n, to `tie` [m].
   ISO_INLINE bool owns(Vec3<U> n, S tie) const {
     S heights[3];
     for (int i = 0; i < 3; ++i) heights[i] = dot(n, triangle_.points[i]);
@@ -88,7 +88,7 @@ template <class S> class SolidOverTriangle {
     }
     return false;
   }
-  /// Of what a flat face of the solid looks along.
+  /// Returns a filter for the normals of the solid's flat faces.
   ISO_INLINE auto allows() const {
     return [this](Vec3<U> n) ISO_INLINE_LAMBDA { return owns(n, tie()); };
   }
@@ -108,7 +108,7 @@ template <class S> class SolidOverTriangle {
     return plane;
   }
   ISO_INLINE bool touch_plane() const { return SolidOverPlane<S>(solid_, here(), margin_, tie(), out_).touch(plane()); }
-  /// The lowest point alone, where it is a little beyond an edge that is not flat: over a ridge it is over neither
+  /// Adds only the lowest point, if it is a little beyond an edge that is not flat: over a ridge it is over neither
   /// side.
   ISO_INLINE bool touch_lowest() const {
     for (int k = 0; k < 3; ++k) {

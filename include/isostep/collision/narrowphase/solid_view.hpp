@@ -8,7 +8,7 @@
 
 namespace isostep::detail {
 
-/// What a solid's file tells of it, in the solid's own frame; `of` is what a view keeps. Supports are in the finer
+/// The calls of a solid's file, in the solid's own frame. `of` is the object of a view. Supports are in the finer
 /// format, in which a direction across a short edge still has digits.
 template <class S> struct SolidCalls {
   using F = Finer<S>;
@@ -24,9 +24,9 @@ template <class S> class SolidView {
   ISO_INLINE SolidView(const SolidCalls<S>& calls, const void* of, S around_core, S inner_radius, Vec3<S> middle_of_it)
       : radius(around_core), inner(inner_radius), middle(middle_of_it), calls_(calls), of_(of) {}
 
-  /// [m] The point of the core furthest along n.
+  /// [m] Returns the support point of the core along n.
   ISO_INLINE Vec3<F> support(Vec3<Unit<F>> n) const { return calls_.support(of_, n); }
-  /// Of the core: its distance is less than 0 inside.
+  /// Returns the closest point of the core. Its distance is negative inside.
   ISO_INLINE ClosestPoint<S> closest(Vec3<S> p) const {
     ClosestPoint<S> found = calls_.closest(of_, p);
     found.point -= found.normal * radius;
@@ -71,7 +71,7 @@ template <template <class> class Shape, class S>
 inline constexpr SolidCalls<S> kSolidCalls = {support_of_shape<Shape, S>, closest_of_shape<Shape, S>,
                                               find_face_of_shape<Shape, S>};
 
-/// [m] Of a solid.
+/// [m] Returns a point well inside a solid. Zero for other shapes.
 template <class S> ISO_INLINE Vec3<S> middle_of(const ShapeView<S>& view) {
   return visit_shape_type(view.primitive.type, [&](auto tag) ISO_INLINE_LAMBDA {
     if constexpr (decltype(tag)::template Of<S>::kBounded) {
@@ -81,7 +81,7 @@ template <class S> ISO_INLINE Vec3<S> middle_of(const ShapeView<S>& view) {
     }
   });
 }
-/// Of a stored solid; `view` must outlive it.
+/// Returns the view of a stored solid. `view` must outlive it.
 template <class S> ISO_INLINE SolidView<S> solid_of(const ShapeView<S>& view) {
   return visit_shape_type(view.primitive.type, [&](auto tag) ISO_INLINE_LAMBDA -> SolidView<S> {
     if constexpr (decltype(tag)::template Of<S>::kBounded) {
@@ -94,7 +94,7 @@ template <class S> ISO_INLINE SolidView<S> solid_of(const ShapeView<S>& view) {
   });
 }
 
-/// A triangle in the frame of what lies on it, which asks it for no nearest point.
+/// Returns the support point of a triangle, in the frame of the solid on it. That never asks for its closest point.
 template <class S> Vec3<Finer<S>> support_of_triangle(const void* of, Vec3<Unit<Finer<S>>> n) {
   using F = Finer<S>;
   const SurfaceTriangle<S>& triangle = *static_cast<const SurfaceTriangle<S>*>(of);

@@ -8,15 +8,15 @@
 
 namespace isostep {
 
-/// Centres that coincide give the normal (0, 1, 0).
+/// Coincident centres give the normal (0, 1, 0).
 template <class S>
 void collide_sphere_sphere(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b, const Transform<S>& tb,
                            S margin, Manifold<S>& out);
-/// A centre inside the box leaves by the nearest face; ties go to the lowest axis, its positive side.
+/// A centre inside the box leaves by the nearest face. Ties go to the lowest axis, and its positive side.
 template <class S>
 void collide_sphere_box(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b, const Transform<S>& tb,
                         S margin, Manifold<S>& out);
-/// A centre on the capsule's axis leaves across it.
+/// A centre on the capsule's axis leaves at a right angle to it.
 template <class S>
 void collide_sphere_capsule(const Primitive<S>& a, const Transform<S>& ta, const Primitive<S>& b,
                             const Transform<S>& tb, S margin, Manifold<S>& out);

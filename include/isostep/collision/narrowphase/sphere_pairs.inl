@@ -9,8 +9,8 @@
 namespace isostep {
 namespace detail {
 
-/// Adds one point between core points p of a and p + gap of b, `radius_a` and `radius_b` thick; `fallback` is the
-/// normal when the two coincide.
+/// Adds one point between the core points p of a and p + gap of b, with `radius_a` and `radius_b` around them.
+/// `fallback` is the normal if the two coincide.
 template <class S>
 ISO_INLINE void touch_points(Vec3<S> p, Vec3<S> gap, S radius_a, S radius_b, Vec3<Unit<S>> fallback, Manifold<S>& out) {
   const Heading<S> heading = heading_of(gap);

@@ -9,8 +9,8 @@
 
 namespace isostep {
 
-/// Calls visit(triangle) for the triangles of surface b whose boxes meet that of a, grown by `margin`, until it returns
-/// false. The order follows from the surface alone.
+/// Calls visit(triangle) for triangles of surface b whose boxes meet that of a, grown by `margin`, until it returns
+/// false. The order depends on the surface alone.
 template <class S, class Visit>
 ISO_INLINE bool visit_triangles_near(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb,
                                      S margin, Visit&& visit) {
@@ -31,12 +31,12 @@ template <class S>
 void collide_with_triangle(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, std::uint32_t triangle,
                            const Transform<S>& tb, S margin, Manifold<S>& out);
 
-/// Collides with all triangles: the manifold that has the deepest point; of equals that of the lowest triangle.
+/// Collides with all triangles. Returns the manifold with the deepest point, of equals that of the lowest triangle.
 template <class S>
 void collide_with_surface(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                           Manifold<S>& out);
 
-/// Collides a convex b, which the list of shapes has after surfaces: the normal points out of surface a.
+/// Collides a convex b whose type comes after surfaces in the list of shapes. The normal points out of surface a.
 template <class S>
 void collide_surface_with(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                           Manifold<S>& out);

@@ -14,7 +14,7 @@
 namespace isostep {
 
 namespace detail {
-/// The same bits wherever both are, as long as the difference of their positions is exact.
+/// Returns the frame of b's surface beside a. Gives equal bits anywhere if the difference of the positions is exact.
 template <class S>
 ISO_INLINE SurfaceFrame<S> frame_from(const ShapeView<S>& a, const Transform<S>& ta, const Transform<S>& tb,
                                       int exponent) {

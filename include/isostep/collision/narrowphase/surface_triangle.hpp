@@ -10,8 +10,8 @@
 
 namespace isostep {
 
-/// The place of a convex beside a surface. The convex's centre is subtracted on the surface's grid, exactly: a small
-/// body far out on a large mesh loses no digit.
+/// The pose of a convex relative to a surface. The convex's centre is subtracted on the surface's grid, exactly: a
+/// small body far out on a large mesh loses no digit.
 template <class S> struct SurfaceFrame {
   int exponent;           // a step of the grid is 2^-exponent m
   std::int64_t steps[3];  // the convex's centre on the grid, rounded down
@@ -28,7 +28,7 @@ template <class S> struct SurfaceFrame {
       rest[axis] = at[axis] - from_lattice<S>(steps[axis], exponent);
     }
   }
-  /// [m] The vector from the convex's centre, in the surface's axes.
+  /// [m] Returns the vector from the convex's centre to p, in the surface's axes.
   ISO_INLINE Vec3<S> beside(MeshPoint p) const {
     return Vec3<S>{from_lattice<S>(p.x - steps[0], exponent), from_lattice<S>(p.y - steps[1], exponent),
                    from_lattice<S>(p.z - steps[2], exponent)} -
@@ -57,7 +57,7 @@ template <class S> struct SurfaceTriangle {
   S height;              // [m] of the convex's centre above it
   SurfaceEdge<S> edges[3];
 
-  /// It leaves edges for later: most triangles are ruled out before.
+  /// Leaves out the edges: most triangles are ruled out before they are needed.
   ISO_INLINE SurfaceTriangle(const SurfaceFrame<S>& frame, const TriangleCorners& baked) {
     Vec3<S> nearest = frame.beside(baked.points[0]);
     points[0] = frame.centre + frame.turn * nearest;
@@ -91,28 +91,28 @@ template <class S> struct SurfaceTriangle {
     }
   }
   ISO_INLINE S height_of(Vec3<S> p) const { return dot(normal, p) - offset; }
-  /// [m] The distance of p from edge k on its inner side.
+  /// [m] Returns the distance of p from edge k, positive on the inner side.
   ISO_INLINE S inside_of(int k, Vec3<S> p) const { return dot(edges[k].inward, p - points[k]); }
-  /// [m] The distance beyond an edge that may be rounding alone. Neighbours both count it as theirs: nothing falls
-  /// between them.
+  /// [m] Returns the distance beyond an edge that may be rounding alone. Both neighbours count it as theirs: nothing
+  /// falls between them.
   ISO_INLINE S slack() const {
     const S reach = max(max_abs(points[0]), max(max_abs(points[1]), max_abs(points[2])));
     return detail::gap_noise(reach) + detail::gap_noise(reach);
   }
 
-  /// Returns true if a direction looks out of the surface at edge k: within the arc, to kAcross. A direction beyond the
-  /// arc is the neighbour's to touch.
+  /// Returns true if a direction looks out of the surface at edge k: within the arc, to kAcross. Beyond the arc the
+  /// neighbour makes the contact.
   ISO_INLINE bool owns_at_edge(int k, Vec3<Unit<S>> direction) const {
     const SurfaceEdge<S>& edge = edges[k];
     return edge.touchable && dot(direction, edge.away) <= Unit<S>(kAcross) &&
            dot(direction, edge.inward) <= Unit<S>(kAcross);
   }
   /// Returns true if a direction from edge k leads under both planes that meet there, by more than kAcross. A point in
-  /// the plane of one of them may be beyond its far edge, outside of everything.
+  /// the plane of one of them may be beyond that one's far edge, outside everything.
   ISO_INLINE bool is_under_edge(int k, Vec3<Unit<S>> direction) const {
     return dot(direction, normal) < Unit<S>(-kAcross) && dot(direction, edges[k].other) < Unit<S>(-kAcross);
   }
-  /// Returns true if a direction at point i is beyond neither of the neighbours that meet there.
+  /// Returns true if a direction at point i is not beyond either of the neighbours that meet there.
   ISO_INLINE bool owns_at_point(int i, Vec3<Unit<S>> direction) const {
     return is_short_of(i, direction) && is_short_of((i + 2) % 3, direction);
   }
@@ -129,7 +129,7 @@ template <class S> struct SurfaceTriangle {
 
 /// Bits of the features of contacts with triangles.
 namespace triangle_feature {
-/// Names a feature of the convex and nothing of the triangle: it is the same on the next one, and impulses go with it.
+/// Names a feature of the convex and none of the triangle: it is the same on the next triangle, so impulses go with it.
 inline constexpr std::uint32_t kOfConvexAlone = 1u << 28;
 }  // namespace triangle_feature
 

@@ -9,10 +9,10 @@ namespace isostep::detail {
 
 enum class FaceCast { hit, miss, undecided };
 
-/// cast_convex() of a core of one vertex against a box, as far as a face below the ball at the start decides it: the
-/// box lies behind the plane of that face. So a ball that does not reach the plane misses the box, and one that meets
-/// the plane within the face meets nothing before it.
-/// Undecided: what starts near the face, inside of the box, or passes it by an edge.
+/// cast_convex() of a core of one vertex against a box, as far as a face decides it that is below the ball at the
+/// start. The box lies behind that face's plane. So a ball that does not reach the plane misses the box, and one that
+/// meets the plane within the face meets nothing before it.
+/// Undecided: a ball that starts near the face or inside the box, or that passes the face by an edge.
 template <class S>
 ISO_INLINE FaceCast cast_ball(const ConvexCore<S>& core, const Transform<S>& start, Vec3<S> half, const Transform<S>& t,
                               const CastMotion<S>& motion, CastHit<S>& hit) {

@@ -10,7 +10,7 @@
 
 namespace isostep::detail {
 
-/// CastHit in the frame of the cast; the normal points from a to b.
+/// The hit of a cast, as CastHit, in the frame of the cast. The normal points from a to b.
 template <class F> struct CoreHit {
   bool hit, inside;
   Unit<F> fraction;
@@ -26,13 +26,13 @@ template <class F> struct CoreWayOut {
   Vec3<F> on_b;
 };
 
-/// The size of a core, which a cast has to know beside its search.
+/// The size of a core, which a cast needs beside its search.
 template <class F> struct CoreSize {
   F radius, extent;  // [m] as FineCore has them
 };
 
-/// The frame of a cast has a's position at the start for its origin, and any rotation. In it a stands still and b moves
-/// the other way.
+/// A cast of core a to core b. The origin of its frame is a's position at the start, with any rotation. In it a stands
+/// still and b moves the other way.
 template <class S> struct CoreCast {
   using F = Finer<S>;
   using U = Unit<F>;
@@ -61,9 +61,9 @@ template <class S> struct CoreCast {
         resolution(finer<F>(isostep::resolution<S>())),
         parting(motion.parting) {}
 
-  /// The search knows both cores:
-  ///   nearest(at, enough)  with b at a position, as GjkDistance; it may end early where enough(separation, distance)
-  ///   way_out(size)        of cores of that size, where `nearest` was asked last; nothing: it cannot tell
+  /// Runs the cast. The search knows both cores:
+  ///   nearest(at, enough)  with b at a position, as GjkDistance; it may end early if enough(separation, distance)
+  ///   way_out(size)        of cores of that size, at the place of the last `nearest`; nothing: it cannot tell
   template <class Search> ISO_INLINE CoreHit<F> run(Search& search) const {
     constexpr int kMostRounds = 32;
     constexpr F kEnough = F(0.5);  // of a distance: a plane that far away is worth a step before the best is found
@@ -115,10 +115,10 @@ template <class S> struct CoreCast {
     miss.gap = gap;
     return miss;
   }
-  /// Returns true if the gap has a direction. Else that of the step before is right: its plane has just been reached.
+  /// Returns true if the gap has a direction. If not, that of the step before holds: its plane has just been reached.
   static ISO_INLINE bool is_clear(const GjkDistance<F>& found, F noise) { return found.distance > noise * F(256); }
 
-  /// Decides the whole way by a plane that they do not sink through, as both are convex.
+  /// Decides the whole way by a plane through which they do not sink, since both are convex.
   template <class Search>
   ISO_INLINE CoreHit<F> from_touch(Search& search, const GjkDistance<F>& found, F nearby) const {
     CoreHit<F> start = {true, false, U(0), found.normal, found.on_b};

@@ -6,7 +6,7 @@
 
 namespace isostep {
 
-/// Returns true when the primitives share a point; touching counts. Two half-spaces never overlap here: they never
+/// Returns true if the primitives share a point. Touching counts. Two half-spaces never overlap here: they never
 /// collide.
 template <class S>
 ISO_INLINE bool overlaps(std::type_identity_t<ShapeView<S>> a, const Transform<S>& ta,

@@ -6,8 +6,8 @@
 
 namespace isostep::detail {
 
-/// cast_convex() against the points p with normal . p <= offset of the frame at `t`: one division for the search. It
-/// leaves the plane as the one that parts the two, whatever the result.
+/// cast_convex() against the points p with normal . p <= offset, in the frame at `t`. One division replaces the search.
+/// Leaves the plane in motion.parting, whatever the result.
 template <class S>
 ISO_INLINE bool cast_plane(const ConvexCore<S>& core, const Transform<S>& start, Vec3<Unit<S>> normal, S offset,
                            const Transform<S>& t, const CastMotion<S>& motion, CastHit<S>& hit) {

@@ -17,16 +17,16 @@ template <class S> struct RayHit {
   std::uint8_t material = 0;   // of the triangle; 0 where the shape has none
   std::uint32_t triangle = 0;  // of a mesh or height field; else 0
 };
-/// Takes hits one by one, in no order.
+/// Receives hits one by one, in no order.
 template <class S> struct RayHitTaker {
   void* user;
   void (*take)(void* user, const RayHit<S>& hit);
 };
 
-/// The first point where origin + fraction translation, 0 <= fraction <= max_fraction, meets the primitive. An origin
-/// inside or on the surface reports fraction 0 and the normal opposite to the ray (zero for a ray of no length).
-/// `hit` is written only when the result is true. Shapes are hit from outside alone, but where `back_faces` asks for
-/// it triangles from behind too: their normals are turned round then. Of those hit at once the lowest is reported.
+/// Finds the first point where origin + fraction translation, 0 <= fraction <= max_fraction, meets the primitive. For
+/// an origin inside or on the surface reports fraction 0 and the normal opposite to the ray (zero for a ray of no
+/// length). Writes `hit` only if it returns true. Rays hit shapes from outside only. With `back_faces` they hit
+/// triangles from behind too, whose normals are then turned round. Of triangles hit at once the lowest is reported.
 /// Units:  origin and translation [m], world frame.
 /// Error:  of the point hit, along the ray: fixed 4 raw units, float and double 4 ulp of the largest coordinate, over
 ///         the cosine of incidence; and half a step of the fraction times the ray's length (0.8 mm for 100 m in
@@ -35,7 +35,7 @@ template <class S> struct RayHitTaker {
 template <class S>
 bool ray_cast(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> origin,
               Vec3<S> translation, S max_fraction, RayHit<S>& hit, bool back_faces = false);
-/// Takes all hits: every triangle that is entered, those on both sides of an edge that is passed; one of another shape.
+/// Reports all hits: every triangle that is entered, those on both sides of an edge too; one hit of another shape.
 template <class S>
 void ray_cast_all(std::type_identity_t<ShapeView<S>> shape, const Transform<S>& transform, Vec3<S> origin,
                   Vec3<S> translation, const RayReach<S>& reach, const RayHitTaker<S>& taker);

@@ -16,7 +16,7 @@ ISO_INLINE RayHit<S> placed_hit(const LocalHit<S>& found, const Transform<S>& tr
           found.triangle};
 }
 
-/// Hits of a surface on their way to the caller's frame.
+/// Transforms hits of a surface to the caller's frame.
 template <class S> struct PlacedTaker {
   const Transform<S>& transform;
   Vec3<S> translation;

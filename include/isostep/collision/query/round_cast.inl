@@ -8,7 +8,7 @@
 
 namespace isostep::detail {
 
-/// A core of one or two vertices.
+/// Returns a core of one or two vertices as a segment.
 template <class F> ISO_INLINE Segment<F> segment_of(ArrayView<Vec3<F>> vertices) {
   if (vertices.size() == 1) return {vertices[0], {Unit<F>(0), Unit<F>(1), Unit<F>(0)}, F(0)};
   const Vec3<F> half = (vertices[1] - vertices[0]) * F(0.5);
@@ -16,16 +16,16 @@ template <class F> ISO_INLINE Segment<F> segment_of(ArrayView<Vec3<F>> vertices)
   return {vertices[0] + half, way.direction, way.length};
 }
 
-/// A search for CoreCast, in b's rotation: a's core is a segment. `Still` is b's about its own position:
-///   nearest(segment)  its point nearest to a segment, and the segment's
-///   reach(direction)  [m] how far it goes from its centre, and `centre`
-///   way_out(segment)  of one that goes through it, as CoreSearch has it; nothing: it cannot tell
+/// A search for CoreCast, in b's rotation. a's core is a segment. `Still` is b's core about its own position:
+///   nearest(segment)  its point nearest to a segment, and the segment's nearest point
+///   reach(direction)  [m] how far it reaches from its centre, and `centre`
+///   way_out(segment)  of a segment that passes through it, as in CoreSearch; nothing: it cannot tell
 template <class F, class Still> struct SegmentSearch {
   Segment<F> moving;
   Still still;
   Vec3<F> seen_at = Vec3<F>::zero();  // [m] of b, where `nearest` was asked last
 
-  /// The plane across the shortest way parts them by the two cores' reach along it: the separation is proved, not
+  /// Computes the separation by the two cores' reach along the shortest way: the plane across it is proved, not
   /// assumed.
   template <class Enough> ISO_INLINE GjkDistance<F> nearest(Vec3<F> at, const Enough&) {
     seen_at = at;
@@ -54,7 +54,7 @@ template <class F> struct StillBox {
     const Vec3<F> on_a = segment.at(closest_to_box(segment, half));
     return {on_a, max(min(on_a, half), -half)};
   }
-  /// The way out by a face, at the point below the end that is in deepest; else that across the edge.
+  /// Returns the way out by a face, at the point below the deepest end, or the way across an edge.
   ISO_INLINE std::optional<CoreWayOut<F>> way_out(const Segment<F>& segment) const {
     const Pierced<F> way = pierced(segment, half, F(0));
     const bool first = dot(segment.direction, way.outward) < Unit<F>(0);
@@ -78,8 +78,8 @@ template <class F> struct StillSegment {
 
 enum class RoundCast { hit, miss, undecided };
 
-/// cast_convex() of a core of one or two vertices against `still`, in the frame at `tb`.
-/// Undecided: cores that may overlap at the start.
+/// cast_convex() of a core of one or two vertices against `still`, in the frame at `tb`. Undecided: cores that may
+/// overlap at the start.
 template <class S, class Still>
 ISO_INLINE RoundCast cast_round_at(const ConvexCore<S>& a, const Transform<S>& ta, const Still& still,
                                    CoreSize<Finer<S>> size, const Transform<S>& tb, const CastMotion<S>& motion,

@@ -13,7 +13,7 @@ template <class S> struct RoundCore {
   detail::Segment<S> axis;  // [m]
   S radius;                 // [m]
 };
-/// A core with one or two vertices, in the world's axes, about the position of the frame that `t` leads from.
+/// Returns a core of one or two vertices, in world axes, relative to the position of the frame that `t` leads from.
 template <class S> ISO_INLINE RoundCore<S> round_core(const ConvexCore<S>& core, const Transform<S>& t) {
   const Vec3<S> first = t.rotation * core.vertices[0], last = t.rotation * core.vertices[core.vertices.size() - 1];
   const Vec3<S> half = (last - first) * S(0.5);
@@ -22,8 +22,8 @@ template <class S> ISO_INLINE RoundCore<S> round_core(const ConvexCore<S>& core,
 }
 
 namespace detail {
-/// The plane across the shortest way between two axes. `axis` is from the position of the mover, `to` [m] from there to
-/// the other.
+/// Returns the plane across the shortest way between two axes. `axis` is relative to the position of the mover, `to`
+/// [m] leads from there to the other.
 template <class S>
 ISO_INLINE Parting<S> part_axes(const Segment<S>& axis, S radii, const Segment<S>& other, Vec3<S> to, Vec3<S> at) {
   const Segment<S> there = {other.centre + to, other.direction, other.half};
@@ -32,8 +32,8 @@ ISO_INLINE Parting<S> part_axes(const Segment<S>& axis, S radii, const Segment<S
   const S reaches = axis.half * abs(dot(axis.direction, n)) + there.half * abs(dot(there.direction, n));
   return {n, at, dot(axis.centre - there.centre, n) - reaches - radii};
 }
-/// The plane of the face that the axis lies beyond by most; or, beyond none, the plane across the way from the box to
-/// the axis' nearest point to its middle.
+/// Returns the plane of the face that the axis lies beyond by most. If it lies beyond none, the plane across the way
+/// from the box to the axis' point nearest to the box's middle.
 template <class S>
 ISO_INLINE Parting<S> part_box(const RoundCore<S>& core, Vec3<S> half, const Transform<S>& t, Vec3<S> at) {
   const Vec3<S> centre = transposed_times(t.rotation, at + core.axis.centre - t.position);
@@ -54,9 +54,9 @@ ISO_INLINE Parting<S> part_box(const RoundCore<S>& core, Vec3<S> half, const Tra
 }
 }  // namespace detail
 
-/// The plane that parts `core`, its position at `at` [m], from a shape at `t`, a half-space included. Other shapes than
-/// those in closed form give no plane.
-/// Error: the gap [m] is never too wide.
+/// Returns the plane that parts `core`, with its position at `at` [m], from a shape at `t`,
+/// half-spaces included. Shapes without a closed form give no plane. Error: the gap [m] is never too
+/// wide.
 template <class S>
 ISO_INLINE Parting<S> part_round(const RoundCore<S>& core, Vec3<S> at, const ShapeView<S>& shape,
                                  const Transform<S>& t) {

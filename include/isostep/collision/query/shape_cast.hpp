@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// A plane that parts two solids which do not turn, wherever the first of them goes: a proof that holds beyond one
+/// A plane that parts two solids which do not turn, wherever the first of them goes: a proof that outlasts a single
 /// cast.
 template <class S> struct Parting {
   Vec3<Unit<S>> normal = Vec3<Unit<S>>::zero();  // [1] towards the first, world frame
@@ -15,7 +15,7 @@ template <class S> struct Parting {
   S gap = S(0);                                  // [m] between the two then
 
   ISO_INLINE bool is_known() const { return !(normal == Vec3<Unit<S>>::zero()); }
-  /// [m] The gap left between the two all along a way; 0 or less of no plane.
+  /// [m] Returns the least gap between the two all along a way; 0 or less without a plane.
   ISO_INLINE S least_gap(Vec3<S> from, Vec3<S> way) const {
     return gap + dot(from - at, normal) + min(dot(way, normal), S(0));
   }
@@ -23,7 +23,7 @@ template <class S> struct Parting {
   ISO_INLINE bool holds(Vec3<S> from, Vec3<S> way, S clear) const { return clear < least_gap(from, way); }
 };
 
-/// The way of a core that is cast.
+/// The motion of a core that is cast.
 template <class S> struct CastMotion {
   Vec3<S> translation;   // [m] world frame
   Unit<S> max_fraction;  // [1] of it that is looked at, 0 ... 1
@@ -40,9 +40,9 @@ template <class S> struct CastHit {
   bool inside;           // they overlap at the start by more than `touch`: the normal is the shortest way out, by EPA
 };
 
-/// Finds the first fraction 0 ... max_fraction of its translation at which a touches b. `hit` is written only when the
-/// result is true. Cores that touch at the start miss where they move apart, or along their surfaces: where they sink
-/// into each other by no more than `touch` and by no more than 1/256 of the way. Else they hit at 0.
+/// Finds the first fraction 0 ... max_fraction of its translation at which a touches b. Writes `hit` only if it returns
+/// true. Cores that touch at the start miss if they move apart or along their surfaces, that is if they sink into each
+/// other by at most `touch` and at most 1/256 of the way. Else they hit at 0.
 /// Source:  Conservative advancement, Mirtich 1996, Impulse-based Dynamic Simulation of Rigid Body Systems, sec. 2.3.2:
 ///          with a separating plane from GJK, and without rotation, a step is one of Newton's method on the distance,
 ///          a convex function of the fraction, from its left.

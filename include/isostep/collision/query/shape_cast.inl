@@ -8,7 +8,7 @@
 namespace isostep {
 namespace detail {
 
-/// A search for CoreCast, in a's own frame: GJK from where it ended before, and EPA.
+/// A search for CoreCast, in a's own frame: GJK, warm started from its last simplex, and EPA.
 template <class F> class GjkSearch {
  public:
   ISO_INLINE GjkSearch(ArrayView<Vec3<F>> a, ArrayView<Vec3<F>> b, const Mat3<Unit<F>>& b_in_a)

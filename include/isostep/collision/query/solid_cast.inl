@@ -16,7 +16,7 @@ template <class S> ISO_INLINE SolidHit<S> of_whole_shape(const CastHit<S>& hit) 
   return {hit.fraction, hit.normal, hit.point, hit.inside, 0, 0};
 }
 
-/// Casts against a box by its nearest points in closed form; undecided where there are none.
+/// Casts against a box by nearest points in closed form. Undecided if there are none.
 template <class S>
 ISO_INLINE RoundCast cast_at_box(const SolidCast<S>& cast, const Box<S>& box, const Transform<S>& t, CastHit<S>& hit) {
   if (cast.core.vertices.size() > 2) return RoundCast::undecided;
@@ -26,7 +26,7 @@ ISO_INLINE RoundCast cast_at_box(const SolidCast<S>& cast, const Box<S>& box, co
   }
   return cast_round(cast.core, cast.start, box.half_extents, t, cast.motion, hit);
 }
-/// Casts against any core by the nearest points in closed form; undecided where there are none.
+/// Casts against any core by nearest points in closed form. Undecided if there are none.
 template <class S>
 ISO_INLINE RoundCast cast_at_core(const SolidCast<S>& cast, const ConvexCore<S>& core, const Transform<S>& t,
                                   CastHit<S>& hit) {
@@ -34,7 +34,7 @@ ISO_INLINE RoundCast cast_at_core(const SolidCast<S>& cast, const ConvexCore<S>&
   return cast_round(cast.core, cast.start, core, t, cast.motion, hit);
 }
 
-/// Casts against a shape that is no surface: a solid, or a half-space.
+/// Casts against a shape that is not a surface: a solid, or a half-space.
 template <class S>
 bool cast_whole(const SolidCast<S>& cast, const ShapeView<S>& shape, const Transform<S>& t, CastHit<S>& hit) {
   return visit_shape(shape, [&](const auto& visited) ISO_INLINE_LAMBDA {

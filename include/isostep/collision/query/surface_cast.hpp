@@ -9,7 +9,7 @@
 
 namespace isostep::detail {
 
-/// A cast in the solid's frame, where triangles near the start have all their digits however large the surface.
+/// A cast in the solid's frame, in which triangles near the start have all their digits however large the surface is.
 template <class S, class G> class SurfaceCast {
  public:
   ISO_INLINE SurfaceCast(const SolidCast<S>& cast, const G& surface, const Transform<S>& t)
@@ -23,7 +23,7 @@ template <class S, class G> class SurfaceCast {
     for (const Vec3<S>& v : cast.core.vertices) extent_ = max(extent_, max_abs(v));
   }
 
-  /// Calls found(hit) -> Unit<S>, the latest fraction that is of interest from then on.
+  /// Runs the cast. Calls found(hit) -> Unit<S>, the latest fraction that is of interest from then on.
   template <class Found> ISO_INLINE void run(const Found& found) {
     const bool leaves = cast_.skip_inside && starts_inside();
     Unit<S> latest = cast_.motion.latest;
@@ -43,7 +43,7 @@ template <class S, class G> class SurfaceCast {
     for (const Vec3<S>& v : core.vertices) middle += v * share;
     return middle;
   }
-  /// The sweep of the solid's box, in the surface's frame.
+  /// Returns the sweep of the solid's box, in the surface's frame.
   ISO_INLINE Sweep<S> sweep_of(const Transform<S>& t) const {
     const Transform<S> placed = relative(t, cast_.start);
     Vec3<S> low = placed.rotation * cast_.core.vertices[0], high = low;
@@ -58,7 +58,7 @@ template <class S, class G> class SurfaceCast {
     const S more = cast_.core.radius + cast_margin(distant);
     return {placed.position + low + half, surface_way_, half + Vec3<S>{more, more, more}, Unit<S>(1)};
   }
-  /// visit(id, corners) -> bool for the triangles that the solid's box sweeps over, the first ones first as a rule.
+  /// Calls visit(id, corners) -> bool for triangles that the solid's box sweeps over, as a rule in order along the way.
   template <class Visit> ISO_INLINE void visit(Unit<S> latest, const Visit& each) {
     const Vec3<Unit<S>> along = normalise(surface_way_);
     const GridVector order = {floor_scaled(along.x, 20), floor_scaled(along.y, 20), floor_scaled(along.z, 20)};
@@ -70,7 +70,7 @@ template <class S, class G> class SurfaceCast {
           return !touches(corners.bounds()) || each(id, corners);
         });
   }
-  /// Returns true if it overlaps some triangle deeply: those that it touches beside that one are no obstacle either.
+  /// Returns true if it overlaps a triangle deeply: other triangles that it touches are then no obstacle either.
   ISO_INLINE bool starts_inside() {
     bool inside = false;
     visit(Unit<S>(0), [&](std::uint32_t id, const TriangleCorners& corners) ISO_INLINE_LAMBDA {
@@ -93,7 +93,7 @@ template <class S, class G> class SurfaceCast {
     return test_.touches(bounds);
   }
 
-  /// The solid's place over a triangle's plane, and its motion against it.
+  /// The solid's height over a triangle's plane, and its motion against it.
   struct Approach {
     Vec3<Unit<S>> up;  // [1] of the side that it moves against
     S middle;          // [m] of the middle above it
@@ -110,7 +110,7 @@ template <class S, class G> class SurfaceCast {
     a.gap = lowest - cast_.core.radius - (behind ? -triangle.offset : triangle.offset);
     return a;
   }
-  /// Returns true where the plane alone decides a miss: the solid does not come down to it, or touches it and moves
+  /// Returns true if the plane alone decides a miss: the solid does not come down to it, or touches it and moves
   /// along.
   ISO_INLINE bool passes(const Approach& a, S nearby) const {
     const S fall = a.fall * cast_.motion.max_fraction, touch = max(cast_.motion.touch, nearby);
@@ -148,8 +148,8 @@ template <class S, class G> class SurfaceCast {
            id};
     return true;
   }
-  /// Returns true if the normal found at an edge or corner is one of the surface there: the triangles about it lie
-  /// below the plane across that normal. Where they do not, the face was met.
+  /// Returns true if the normal found at an edge or corner is one of the surface there: the triangles around it lie
+  /// below the plane across that normal. If they do not, the face was hit.
   ISO_INLINE bool is_clear(std::uint32_t id, const BakedTriangle& baked, const SurfaceTriangle<S>& triangle,
                            const CastHit<S>& hit) const {
     bool at[3];

@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// Orientations coincide, origins move freely.
+/// Keeps orientations equal. Origins move freely.
 template <class S> struct AngularJoint : detail::SlidingJoint<S> {
   static constexpr JointType kType = JointType::angular;
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected;

@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// Origins coincide. kLimit: lower..upper of the twist about z, and the z axes are at most 149 degrees apart: farther,
-/// a twist means nothing. kCone: of the angle between the z axes.
+/// Keeps origins together. kLimit: lower..upper limit the twist about z, and the z axes are at most 149 degrees apart,
+/// as the twist has no meaning beyond. kCone limits the angle between the z axes.
 template <class S> struct BallJoint : detail::PointJoint<S> {
   static constexpr JointType kType = JointType::ball;
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kLimit | joint_flag::kCone;

@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// Origins coincide, and b does not twist about z against a: two shafts turn at one speed whatever the bend. kCone: of
-/// the angle between the z axes; it is 149 degrees at most.
+/// Keeps origins together, and b does not twist about z against a: two shafts turn at one speed at any bend. kCone
+/// limits the angle between the z axes, which is 149 degrees at most.
 template <class S> struct ConstantVelocityJoint : detail::PointJoint<S> {
   static constexpr JointType kType = JointType::constant_velocity;
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kCone;

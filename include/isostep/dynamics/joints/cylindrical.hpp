@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// b moves along z of a and turns about it: a bolt in its sleeve. kLimit, kMotor and kSpring: of the way along z.
+/// Lets b move along z of a and turn about it, as a bolt in its sleeve. kLimit, kMotor and kSpring act along z.
 template <class S> struct CylindricalJoint : detail::SlidingJoint<S> {
   static constexpr JointType kType = JointType::cylindrical;
   static constexpr std::uint32_t kFlags =

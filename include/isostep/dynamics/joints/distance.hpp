@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// Origins stay lower..upper apart (lower = upper: rod, lower = 0: rope). kSpring puts a spring there instead; with
-/// kLimit both act. Two more drives stand across it: joint_sway.hpp.
+/// Keeps origins lower..upper apart (lower = upper: rod, lower = 0: rope). kSpring replaces that by a spring; with
+/// kLimit both act. Two more drives act across it: joint_sway.hpp.
 template <class S> struct DistanceJoint {
   static constexpr JointType kType = JointType::distance;
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kLimit | joint_flag::kSpring;
@@ -38,7 +38,7 @@ template <class S> struct DistanceJoint {
     }
     detail::add_sways(joint);
   }
-  /// Coinciding points have no direction: y is taken, and a rod grows along it.
+  /// Computes the row. Coincident points have no direction: y is taken, and a rod grows along it.
   static ISO_INLINE void linearise(const detail::JointFrames<S>& f, Step<S> h, JointConstraint<S>& joint) {
     const Direction<S> d = direction_of(f.between.x, f.between.y, f.between.z);
     const Vec3<Unit<S>> unit =
@@ -69,7 +69,7 @@ template <class S> struct DistanceJoint {
     return is_bounded(p) ? max(S(0), max(apart - p.upper, p.lower - apart)) : S(0);
   }
 
-  /// Without a spring it keeps its lengths with or without the flag.
+  /// Returns true if the length is limited: without a spring, even without the flag.
   static ISO_INLINE constexpr bool is_bounded(const JointProperties<S>& p) {
     return (p.flags & joint_flag::kLimit) != 0 || (p.flags & joint_flag::kSpring) == 0;
   }

@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// Frames coincide.
+/// Keeps both frames equal.
 template <class S> struct FixedJoint : detail::PointJoint<S> {
   static constexpr JointType kType = JointType::fixed;
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected;

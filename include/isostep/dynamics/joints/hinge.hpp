@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// Origins and z axes coincide. kLimit, kMotor and kSpring: of the angle about z.
+/// Keeps origins and z axes together. kLimit, kMotor and kSpring act on the angle about z.
 template <class S> struct HingeJoint : detail::PointJoint<S> {
   static constexpr JointType kType = JointType::hinge;
   static constexpr std::uint32_t kFlags =

@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// One end of a joint as the solver finds it.
+/// One end of a joint for the solver.
 template <class S> struct JointEnd {
   std::uint32_t row;  // of SolverBodies
   Pose<S> pose;       // centre and orientation when the step begins; the world's is the identity
@@ -36,7 +36,7 @@ template <class S> struct JointConstraint {
   JointDrive<S> drives[kJointRows];  // drive_count of them, each in a row of its own; first the one of the properties
 };
 
-/// The values that the calls of one sub-step share. Row r > 0 of the bodies is states[r - 1].
+/// Holds the values that the calls of one sub-step share. Row r > 0 of the bodies is states[r - 1].
 template <class S> struct JointStep {
   const BodyState<S>* states;
   SolverBodies<S>* bodies;
@@ -47,64 +47,64 @@ template <class S> struct JointStep {
   Velocity<S> rapid = Velocity<S>(0), fastest = highest<Velocity<S>>();
 };
 
-/// The softness of joints that no JointTrees solves at once, and the rate at which those that it does close their
-/// errors: a quarter of the sub-step rate as frequency, and a damping ratio of 5. On S6 ratios 1, 2, 5, 10 leave
+/// Returns the softness of joints that JointTrees does not solve at once, and the rate at which others close their
+/// errors: a frequency of a quarter of the sub-step rate, and a damping ratio of 5. On S6 ratios 1, 2, 5, 10 leave
 /// one-by-one joints (two sweeps) 0.52, 0.18, 0.09, 0.08 m apart and trees 1.3, 1.9, 3.4, 5.2 mm.
 template <class S> ISO_INLINE constexpr Softness<S> joint_softness(S rate) {
   return soften(S(1.5707963267948966), S(5), rate);
 }
 
-/// A number for each row of a joint.
+/// Holds a number for each row of a joint.
 template <class S> struct JointRows {
   Vec3<Velocity<S>> point, angular;  // [m/s] of the two blocks
 };
 
-/// The state of a joint and its bodies that a pass changes.
+/// Holds the state of a joint and its bodies that a pass changes.
 template <class S> struct JointStart {
   JointMotion<S> motion;
   JointRows<S> impulses;
   Velocity<S> drives[kJointRows];  // [m/s] their impulses
 };
 
-/// Prepares a joint once a step. Masses and rows must be gathered. `axes` are those of the joint, none twice.
+/// Prepares a joint once a step, when masses and rows are gathered. `axes`: the joint's drives, at most one an axis.
 template <class S>
 void prepare_joint(const JointProperties<S>& properties, const JointState<S>& state, const JointEnd<S>& a,
                    const JointEnd<S>& b, const SolverBodies<S>& bodies, JointConstraint<S>& joint,
                    std::span<const JointAxisDrive<S>> axes = {});
-/// Finds the Jacobian and the errors of position at the present poses.
+/// Computes the Jacobian and the position errors at the present poses.
 template <class S> void linearise_joint(JointConstraint<S>& joint, const JointStep<S>& step);
-/// Sets how arms curve, for velocities: after linearise_joint(), from the angular velocities of `step.bodies`. Solvers
-/// that close errors of position by themselves do without: what the arms curved then stays as speed.
+/// Computes how arms curve, for velocities: after linearise_joint(), from the angular velocities of `step.bodies`.
+/// Solvers that close position errors separately leave this out: the curvature then stays as speed.
 template <class S> void curve_joint(JointConstraint<S>& joint, const JointStep<S>& step);
-/// Sets the turns that the rows give bodies with the inverse inertia kappa.
+/// Computes the turns that the rows give bodies with the inverse inertia kappa.
 template <class S> void weigh_joint(JointConstraint<S>& joint, const Mat3<S>& kappa_a, const Mat3<S>& kappa_b);
-/// Places the drives' rows as their pieces ask, and finds the couplings within each block.
+/// Places the drives' rows as their pieces require, and computes the couplings within each block.
 template <class S> void couple_blocks(JointConstraint<S>& joint);
-/// Applies the last sub-step's impulses; motors at their largest force give it anew.
+/// Warm starts with the last sub-step's impulses. Motors at their largest force give it anew.
 template <class S> void apply_impulses(JointConstraint<S>& joint, const JointStep<S>& step);
-/// Returns the speeds [m/s] that the rows of a block ask for: minus speed and bias.
+/// Returns the speed changes [m/s] that the rows of a block ask for: minus speed and bias.
 template <class S>
 Vec3<Velocity<S>> right_side(const JointConstraint<S>& joint, std::uint32_t block, const JointMotion<S>& motion,
                              const JointStep<S>& step, bool relax);
-/// Adds to the impulses of all rows, as softly as asked, and to the bodies.
+/// Adds impulses to all rows, with the softness `soft`, and applies them to the bodies.
 template <class S>
 void push_joint(JointConstraint<S>& joint, const JointRows<S>& change, Softness<S> soft, SolverBodies<S>& bodies);
-/// Returns whether a drive is off its piece of the law. Without `may_hold` only those count that hold a speed and
+/// Returns true if a drive is off its piece of the law. Without `may_hold` only drives count that hold a speed and
 /// should not: they let go, and the pass ends.
 template <class S> bool judge_drives(JointConstraint<S>& joint, const JointStep<S>& step, bool relax, bool may_hold);
-/// These begin a pass again with the next pieces, from what it began with: a piece that was wrong may ask for impulses
-/// that are far from any that are right. Blocks have to couple anew.
+/// Restart a pass with the next pieces, from its start: a wrong piece may ask for impulses that are far from any right
+/// ones. Blocks must be coupled again.
 template <class S> JointStart<S> start_of(const JointConstraint<S>& joint, const SolverBodies<S>& bodies);
 template <class S> void restart_joint(JointConstraint<S>& joint, const JointStart<S>& start, SolverBodies<S>& bodies);
 template <class S> void change_pieces(JointConstraint<S>& joint, const JointStep<S>& step);
 template <class S> void store_joint(const JointConstraint<S>& joint, JointState<S>& state);
 
-/// A joint by itself, all of its rows at once: for joints that form loops, and to compare with.
+/// Solve a joint by itself, all of its rows at once: for joints that form loops, and for comparison.
 template <class S> void factor_joint(JointConstraint<S>& joint);
 template <class S> JointRows<S> substitute_joint(const JointConstraint<S>& joint, JointRows<S> right);
 template <class S> void solve_joint(JointConstraint<S>& joint, const JointStep<S>& step, bool relax);
 
-/// These solve one joint after another in array order: the first once a sub-step, then the second, biased and, after
+/// Solve joints one after another in array order. The first runs once a sub-step, then the second with bias and, after
 /// positions moved, relaxed.
 template <class S> void warm_start_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step);
 template <class S> void solve_joints(std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);

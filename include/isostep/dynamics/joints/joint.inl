@@ -16,12 +16,12 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> block_bias(const JointBlock<S>& 
   return {bound(block.error.x), bound(block.error.y), bound(block.error.z)};
 }
 
-/// Velocities hold where a sub-step begins and move bodies through all of it: while an arm turns its end leaves the
-/// tangent by h^2 / 2 w x (w x arm). A joint that closed that afterwards would turn the body back with every sub-step,
-/// and a spinning top would sink. It asks for no more than an error may: beyond, a turn is too long for the second
-/// order. Where an arm turns by more than a sixteenth of a radian in the sub-step, half of what
-/// angular_speed_to_follow() allows, neither of the joint bends: light links of a rope under load whip so fast, and
-/// what bends them would drive them.
+/// Returns the curvature of an arm. Velocities hold at the start of a sub-step and move bodies through all of it: while
+/// an arm turns, its end leaves the tangent by h^2 / 2 w x (w x arm). A joint that closed that afterwards would turn
+/// the body back in every sub-step, and a spinning top would sink. The curvature is limited like an error: beyond, a
+/// turn is too long for the second order. If an arm turns by more than a sixteenth of a radian in the sub-step, half of
+/// what angular_speed_to_follow() allows, neither arm of the joint bends: light links of a loaded rope whip that fast,
+/// and the bend would drive them.
 template <class S>
 ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Velocity<S>> angular_velocity, Step<S> h, Velocity<S> fastest,
                                       bool& bends) {
@@ -41,10 +41,10 @@ ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Velocity<S>> angular_vel
   return held_within(bent, most);
 }
 
-/// Returns the way that a spring came in the sub-step before. An undamped spring whose force is taken there, at x - h v
-/// + h v', keeps its energy whatever its frequency, as if its bodies were heavier by angle^2 of themselves. At x + h
-/// v', implicit Euler, it loses angle^2 of its energy in every sub-step. Beyond kSpringLag less is taken back: bodies
-/// on a fast spring would sag.
+/// Returns the way that a spring came in the last sub-step. An undamped spring whose force is taken there, at x - h v +
+/// h v', keeps its energy at any frequency, as if its bodies were heavier by angle^2 of themselves. At x + h v',
+/// implicit Euler, it loses angle^2 of its energy in every sub-step. Beyond kSpringLag less is taken back: bodies on a
+/// fast spring would sag.
 template <class S>
 ISO_INLINE Velocity<S> lagging_way(const JointRow<S>& row, S angle, const JointConstraint<S>& joint,
                                    const JointStep<S>& step) {
@@ -56,8 +56,8 @@ ISO_INLINE Velocity<S> lagging_way(const JointRow<S>& row, S angle, const JointC
 }
 }  // namespace detail
 
-/// Both arms bend or neither does. The joint's impulse works by half of the speed between its ends before it and half
-/// of that after it; with one arm bent the two did not cancel, and it gave bodies 7 % of their energy in ten seconds.
+/// Curves both arms or neither. The joint's impulse works by half of the speed between its ends before it and half of
+/// that after it. With one arm bent the two did not cancel, which gave bodies 7 % of their energy in ten seconds.
 template <class S> void curve_joint(JointConstraint<S>& joint, const JointStep<S>& step) {
   if (!joint.blocks[0].point) return;
   const Vec3<Velocity<S>> a = step.bodies->velocity[joint.row_a].angular;

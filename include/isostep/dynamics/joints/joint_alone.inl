@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// Angles and drives are eliminated first: a long arm makes the point's entries large, and what is left of them once
-/// the body may not turn is near one again. The other way round a fixed-point format loses every digit of it.
+/// Eliminates angles and drives first. A long arm makes the point's entries large, and their rest is near one again
+/// once the body may not turn. In the other order a fixed-point format loses every digit of them.
 template <class S> void factor_joint(JointConstraint<S>& joint) {
   couple_blocks(joint);
   JointBlock<S>& point = joint.blocks[0];

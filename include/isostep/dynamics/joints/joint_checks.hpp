@@ -7,7 +7,7 @@
 
 namespace isostep::detail {
 
-/// A kind of joint requires this of its record; see JointOf.
+/// Holds what a kind of joint requires of its record: see JointOf.
 template <class S> struct JointRules {
   JointMeasure measure;
   std::uint32_t flags;
@@ -52,8 +52,8 @@ template <class S> FaultReport fault_of(const JointProperties<S>& j, std::int32_
       .report();
 }
 
-/// Returns true if one of two bodies that move is too heavy for a joint with the other: in float two links of a ten
-/// thousandth of the weight that hung on them let it fall 68 m.
+/// Returns true if one of two dynamic bodies is too heavy for a joint with the other: in float a weight that hung on
+/// two links of a ten thousandth of it fell by 68 m.
 template <class S> ISO_INLINE bool outweighs(const BodyProperties<S>& a, const BodyProperties<S>& b) {
   if (a.type != BodyType::dynamic || b.type != BodyType::dynamic) return false;
   return min(a.mass, b.mass) < max(a.mass, b.mass) * (S(1) / Limits<S>::mass_ratio());

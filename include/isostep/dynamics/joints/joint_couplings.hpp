@@ -10,12 +10,12 @@ template <class S> ISO_INLINE void set_turns(JointRow<S>& row, const Mat3<S>& ka
   row.turn_a = kappa_a * row.angular_a;
   row.turn_b = kappa_b * row.angular_b;
 }
-/// Entry of K between two rows of one joint.
+/// Returns the entry of K between two rows of one joint.
 template <class S> ISO_INLINE S self_coupling(const JointRow<S>& i, const JointRow<S>& j, MassShare<S> share) {
   return share.a * coupling(i.linear, i.angular_a, j.linear, j.turn_a) +
          share.b * coupling(i.linear, i.angular_b, j.linear, j.turn_b);
 }
-/// The coupling of two rows that only turn.
+/// Returns the coupling of two purely angular rows.
 template <class S> ISO_INLINE S turning_coupling(const JointRow<S>& i, const JointRow<S>& j, MassShare<S> share) {
   return share.a * round_to<S>(dot_sum(i.angular_a, j.turn_a)) + share.b * round_to<S>(dot_sum(i.angular_b, j.turn_b));
 }
@@ -43,7 +43,7 @@ template <class S> ISO_INLINE void weigh_block(JointBlock<S>& block, MassShare<S
   block.coupling = {{{k(0, 0) + give.x, xy, xz}, {xy, k(1, 1) + give.y, yz}, {xz, yz, k(2, 2) + give.z}}};
 }
 
-/// K_ij between blocks at one body, without the mass share of j.
+/// Returns K_ij between blocks at one body, without the mass share of j.
 template <class S>
 ISO_INLINE Mat3<S> block_coupling(const JointBlock<S>& i, bool i_is_a, const JointBlock<S>& j, bool j_is_a) {
   if (i.point && j.point) {

@@ -46,30 +46,30 @@ template <class S> struct JointDrive {
   DrivePiece piece, next;
 };
 
-/// The speeds between which the limits leave a drive in a pass.
+/// The range of speeds that the limits leave to a drive in a pass.
 template <class S> struct DriveBounds {
   Velocity<S> low, high;  // [m/s]
 
-  /// No bound: faster than anything moves, and sums with it fit.
+  /// Returns the value for no bound: faster than anything moves, and sums with it fit.
   static ISO_INLINE constexpr Velocity<S> limitless() { return highest<Velocity<S>>() * Velocity<S>(0.5); }
 };
 
 namespace detail {
 
-/// [m/s] a free drive passes a bound by less than this without being stopped: what rounding makes of a fixed speed.
+/// [m/s] The most by which a free drive passes a bound without being stopped: the rounding of a fixed speed.
 template <class S> inline constexpr Velocity<S> kPieceTolerance = Velocity<S>(0x1p-14);
-/// [m/s] an angle beyond its limit returns no faster, at its lever: a limb of five centimetres at five radians a
-/// second. pgs keeps as speed what closes an error, and gains no more than that.
+/// [m/s] The most speed with which an angle returns from beyond its limit, at its lever: a limb of five centimetres at
+/// five radians a second. pgs keeps as speed what closes an error, and gains no more than that.
 template <class S> inline constexpr Velocity<S> kAnglePushSpeed = Velocity<S>(0.25);
-/// [rad] a sub-step: a spring of this frequency still keeps its energy, and sags by a sixteenth more than it should.
+/// [rad] in a sub-step: a spring of this frequency still keeps its energy, and sags by a sixteenth more than it should.
 template <class S> inline constexpr S kSpringLag = S(0.25);
-/// Refactorisations of a pass in which drives change to any piece: an impact in a chain of stops takes two or three.
-/// Beyond, drives only let go of speeds that they hold against their law, each once at most. What is left then is a
-/// stop that begins a pass too late, which adds no energy; one that pulls would add any amount.
+/// The most refactorisations of a pass in which drives change to any piece. An impact in a chain of stops takes two or
+/// three. Beyond it drives only let go of speeds that they hold against their law, each at most once. What is left then
+/// is a stop that acts a pass too late and adds no energy; one that pulls would add any amount.
 inline constexpr int kMostPieceChanges = 4;
 
-/// Least speed away from a bound at `gap` >= 0: it may be reached within the sub-step, not passed. Beyond it the drive
-/// is pushed back, no faster than `push_speed`.
+/// Returns the least speed away from a bound at `gap` >= 0: the drive may reach it within the sub-step, not pass it.
+/// Beyond it the drive is pushed back, no faster than `push_speed`.
 template <class S> ISO_INLINE Velocity<S> least_speed(S gap, Velocity<S> push_speed, S rate, Step<S> h, S bias_rate) {
   using V = Velocity<S>;
   if (gap > S(0)) {
@@ -95,15 +95,15 @@ template <class S> ISO_INLINE DriveBounds<S> bounds_of(const JointDrive<S>& driv
 ISO_INLINE constexpr bool fixes_speed(DrivePiece piece) {
   return piece == DrivePiece::lower || piece == DrivePiece::upper || piece == DrivePiece::driven;
 }
-/// The spring's force follows the speed on that piece: on others a stop takes it up, or a servo gives its most.
+/// Returns true if the spring's force follows the speed on that piece. On others a stop or the bound of a servo does.
 template <class S> ISO_INLINE bool springs(const JointDrive<S>& drive, DrivePiece piece) {
   return !fixes_speed(piece) && drive.spring > S(0) && !(drive.servo && piece != DrivePiece::free);
 }
-/// The drive's impulse is the same whatever its speed.
+/// Returns true if the drive's impulse does not depend on its speed.
 template <class S> ISO_INLINE bool is_constant(const JointDrive<S>& drive, DrivePiece piece) {
   return !fixes_speed(piece) && !springs(drive, piece);
 }
-/// The motor's impulse on a piece of constant force.
+/// Returns the motor's impulse on a piece of constant force.
 template <class V> ISO_INLINE V motor_impulse(DrivePiece piece, V most) {
   return piece == DrivePiece::forwards ? most : piece == DrivePiece::backwards ? -most : V(0);
 }
@@ -116,7 +116,7 @@ ISO_INLINE Velocity<S> fixed_speed(const JointDrive<S>& drive, DrivePiece piece,
   return piece == DrivePiece::lower ? bounds.low : piece == DrivePiece::upper ? bounds.high : drive.speed;
 }
 
-/// The piece that replaces one left over from other properties: a limit may be gone, a motor new.
+/// Returns a piece that fits the present properties: a limit may be gone, a motor new.
 template <class S> ISO_INLINE DrivePiece valid_piece(const JointDrive<S>& drive, DrivePiece piece) {
   const bool gone =
       (piece == DrivePiece::lower && !drive.bounded_below) || (piece == DrivePiece::upper && !drive.bounded_above) ||
@@ -125,7 +125,7 @@ template <class S> ISO_INLINE DrivePiece valid_piece(const JointDrive<S>& drive,
   return gone ? DrivePiece::free : piece;
 }
 
-/// The piece of a drive at a speed that no limit stops; `tie` where the motor wants just that speed.
+/// Returns the piece of a drive at a speed that no limit stops. `tie`: the piece if the motor wants just that speed.
 template <class S>
 ISO_INLINE DrivePiece piece_between_limits(const JointDrive<S>& drive, Velocity<S> speed, Velocity<S> most,
                                            DrivePiece tie) {
@@ -137,7 +137,7 @@ ISO_INLINE DrivePiece piece_between_limits(const JointDrive<S>& drive, Velocity<
   return speed < drive.speed ? DrivePiece::forwards : drive.speed < speed ? DrivePiece::backwards : tie;
 }
 
-/// The piece to try next, given what came of this one: its neighbour on the side where the law was left.
+/// Returns the piece to try next, by the result of this one: its neighbour on the side where the law was left.
 template <class S>
 ISO_INLINE DrivePiece next_piece(const JointDrive<S>& drive, Velocity<S> speed, const DriveBounds<S>& bounds,
                                  Velocity<S> most) {
@@ -177,7 +177,7 @@ ISO_INLINE DrivePiece next_piece(const JointDrive<S>& drive, Velocity<S> speed, 
   return passes ? DrivePiece::driven : drive.piece;
 }
 
-/// [m/s] The distance of a drive from its law: speed that is wrong, or impulse that is too much.
+/// [m/s] Returns the distance of a drive from its law: the wrong speed, or the excess impulse.
 template <class S>
 ISO_INLINE Velocity<S> drive_residual(const JointDrive<S>& drive, Velocity<S> speed, const DriveBounds<S>& bounds,
                                       Velocity<S> most) {

@@ -9,7 +9,7 @@ namespace isostep::detail {
 template <class S> ISO_INLINE JointRow<S> scaled_row(const JointRow<S>& row, Unit<S> s) {
   return {row.linear * s, row.angular_a * s, row.angular_b * s, row.turn_a * s, row.turn_b * s};
 }
-/// A fixed speed is the row itself, a spring a weaker one that yields, a constant impulse none.
+/// Places the drives' rows: for a fixed speed the row itself, for a spring a weaker one that yields, else none.
 template <class S> ISO_INLINE void place_drives(JointConstraint<S>& joint) {
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     const JointDrive<S>& drive = joint.drives[i];
@@ -22,9 +22,9 @@ template <class S> ISO_INLINE void place_drives(JointConstraint<S>& joint) {
   }
 }
 
-/// Strength of a spring that has its frequency with the effective mass e that it is made for.
-/// Symbols: a1 = 2 damping + angle, w^2 = angle a1 e, with angle = 2 pi frequency h; roots are taken apart, for where a
-///          spring is weak their product keeps digits that w^2 loses.
+/// Computes the strength of a spring that has its frequency with the effective mass e that it is made for.
+/// Symbols: a1 = 2 damping + angle, w^2 = angle a1 e, with angle = 2 pi frequency h. Roots are taken apart: for a weak
+///          spring their product keeps digits that w^2 loses.
 template <class S> ISO_INLINE void weigh_spring(JointDrive<S>& drive) {
   using V = Velocity<S>;
   drive.spring = drive.spring_inverse > S(0) ? drive.spring_root / sqrt(drive.spring_inverse) : S(0);
@@ -36,7 +36,7 @@ template <class S> ISO_INLINE void weigh_spring(JointDrive<S>& drive) {
                                           : saturated<S>(product(drive.spring, drive.spring_speed));
 }
 
-/// [m/s] Most that a motor or servo gives in a sub-step.
+/// [m/s] Returns the most impulse of a motor or servo in a sub-step.
 template <class S> ISO_INLINE Velocity<S> most_impulse(const JointDrive<S>& drive, Step<S> h) {
   return convert<Velocity<S>>(min(drive.force * h, drive.most));
 }
@@ -45,7 +45,7 @@ ISO_INLINE DriveBounds<S> bounds_of(const JointDrive<S>& drive, const JointStep<
   return bounds_of(drive, step.rate, step.h, relax ? S(0) : step.softness.bias_rate);
 }
 
-/// Sets the piece to try next, given the speed along the row. Returns whether it is another one. Without `may_hold` a
+/// Sets the piece to try next, given the speed along the row. Returns true if it is another one. Without `may_hold` a
 /// drive may only let go of a speed that it holds.
 template <class S>
 ISO_INLINE bool judge_drive(JointDrive<S>& drive, Velocity<S> speed, const DriveBounds<S>& bounds, Step<S> h,
@@ -56,7 +56,7 @@ ISO_INLINE bool judge_drive(JointDrive<S>& drive, Velocity<S> speed, const Drive
   return drive.next != drive.piece;
 }
 
-/// `speed` is that of the row as it stands in its block.
+/// Returns the right side of a drive's row. `speed` is that of the row as it is in its block.
 template <class S>
 ISO_INLINE Velocity<S> drive_right_side(const JointDrive<S>& drive, Velocity<S> speed, const DriveBounds<S>& bounds,
                                         Velocity<S> most) {

@@ -13,7 +13,7 @@ template <class S> struct JointFrames {
   Quat<Unit<S>> a, b;    // frames to world
 };
 
-/// Finds the frames; orientations only where a kind needs them.
+/// Computes the frames; orientations only if the kind needs them.
 template <class S> ISO_INLINE JointFrames<S> joint_frames(const JointConstraint<S>& joint, const BodyState<S>* states) {
   const auto pose = [&](std::uint32_t row, const Pose<S>& fixed) ISO_INLINE_LAMBDA {
     return row == 0 ? fixed : Pose<S>{states[row - 1].centre, states[row - 1].orientation};
@@ -32,26 +32,26 @@ template <class S> ISO_INLINE JointFrames<S> joint_frames(const JointConstraint<
   return f;
 }
 
-/// [m] error as a row keeps it: beyond 32 m/s times h it is that, so that its product with a bias rate fits.
+/// [m] Returns the error that a row keeps, at most 32 m/s times h, so that its product with a bias rate fits.
 template <class S> ISO_INLINE Velocity<S> bounded_error(S error, Step<S> h) {
   const S most = S(32) * h;
   return convert<Velocity<S>>(clamp(error, -most, most));
 }
 
-/// A row that only turns, about `axis`, and whose speed is counted at the joint's radius.
+/// Returns an angular row about `axis`, whose speed is that at the joint's radius.
 template <class S> ISO_INLINE JointRow<S> angular_row(Vec3<Unit<S>> axis, S radius) {
   const Vec3<S> angular = convert<S>(axis) * radius;
   return {Vec3<S>::zero(), angular, angular, Vec3<S>::zero(), Vec3<S>::zero()};
 }
 
-/// Rows of zeros, for equalities and drives to be written over.
+/// Fills rows with zeros, for equalities and drives to overwrite.
 template <class S> ISO_INLINE void empty_block(JointBlock<S>& block) {
   block.point = false;
   for (JointRow<S>& row : block.rows) row = JointRow<S>::zero();
   block.error = Vec3<Velocity<S>>::zero();
 }
 
-/// Origins coincide.
+/// Computes the rows that keep origins together.
 template <class S> ISO_INLINE void point_block(const JointFrames<S>& f, Step<S> h, JointBlock<S>& block) {
   const Vec3<S> ra = f.arm_a, rb = f.arm_b, zero = Vec3<S>::zero();
   const S o = S(0), one = S(1);
@@ -62,16 +62,16 @@ template <class S> ISO_INLINE void point_block(const JointFrames<S>& f, Step<S> 
   block.error = {bounded_error(f.between.x, h), bounded_error(f.between.y, h), bounded_error(f.between.z, h)};
 }
 
-/// b's frame seen from a's, on the half of the double cover with w >= 0.
+/// Returns b's frame relative to a's, on the half of the double cover with w >= 0.
 template <class S> ISO_INLINE Quat<Unit<S>> relative_rotation(const JointFrames<S>& f) {
   const Quat<Unit<S>> q = conjugate(f.a) * f.b;
   if (q.w < Unit<S>(0)) return {-q.x, -q.y, -q.z, -q.w};
   return q;
 }
-/// [rad] angle about z of a rotation with w >= 0, whatever its swing.
+/// [rad] Returns the angle about z of a rotation with w >= 0, at any swing.
 template <class S> ISO_INLINE S twist_angle(Quat<Unit<S>> q) { return S(2) * atan2_to<S>(q.z, q.w); }
 
-/// The main drive, where a kind lets it have limits, a motor and a spring.
+/// Counts the main drive, for kinds that allow it limits, a motor and a spring.
 template <class S> ISO_INLINE void count_drive(JointConstraint<S>& joint) {
   const std::uint32_t flags = joint.properties.flags;
   JointDrive<S>& drive = joint.drives[0];

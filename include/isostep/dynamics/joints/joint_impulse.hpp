@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// Impulses of all rows over the sub-steps of a step, on b, as velocity changes of the pair's reduced mass.
+/// Holds the summed impulses of all rows over a step's sub-steps, on b, as velocity changes of the pair's reduced mass.
 template <class S> struct JointImpulse {
   Vec3<S> linear;   // [m/s] world
   Vec3<S> angular;  // [m^2/s] world, about b's origin of the joint
@@ -27,7 +27,7 @@ template <class S> ISO_INLINE void add_row(JointImpulse<S>& sum, const JointRow<
   }
 }
 
-/// Adds those of a sub-step. Kernels leave points without rows: theirs are the axes.
+/// Adds the impulses of a sub-step. Kernels leave points without rows: their rows are the axes.
 template <class S> ISO_INLINE void add_impulses(const JointConstraint<S>& joint, JointImpulse<S>& sum) {
   const bool point = holds_point(joint.properties), alone = joint.block_count == 1 && joint.drive_count == 0;
   for (int k = 0; k < 3 && point; ++k) {

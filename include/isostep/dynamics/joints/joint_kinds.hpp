@@ -18,7 +18,7 @@
 
 namespace isostep {
 
-/// The members of a joint's file. The rows stand in up to two blocks of three equalities and two drives.
+/// The members of a joint's file. Its rows are in up to two blocks, of three equalities and two drives.
 template <template <class> class Joint, class S>
 concept JointOf = requires(JointConstraint<S> joint, const JointConstraint<S> solved, const JointProperties<S> p,
                            const detail::JointFrames<S> frames, Step<S> h, const Pose<S> world) {
@@ -42,10 +42,10 @@ concept JointOf = requires(JointConstraint<S> joint, const JointConstraint<S> so
 ISO_FOR_EACH_JOINT(ISO_COMPLETE)
 #undef ISO_COMPLETE
 
-/// A class of joints, before a scalar is chosen.
+/// A class of joints, without a scalar.
 template <template <class> class Joint> struct JointClass { template <class S> using Of = Joint<S>; };
 
-/// Calls visit(JointClass<BallJoint>{}) for balls, and so on. No world takes a record of a type outside of the list.
+/// Calls visit(JointClass<BallJoint>{}) for balls, and so on. A world never holds a record of a type outside the list.
 template <class Visit> ISO_INLINE constexpr decltype(auto) visit_joint_type(JointType type, Visit&& visit) {
   switch (type) {
 #define ISO_CASE(name, Joint) \
@@ -64,7 +64,7 @@ ISO_INLINE constexpr bool joins_two_points(JointType type) {
   return visit_joint_type(type,
                           [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<float>::kTwoPoints; });
 }
-/// The limits of a type's properties are those of the twist about z and of the swing of z, where origins coincide.
+/// Returns true if lower, upper and cone limit the twist about z and the swing of z, and origins coincide.
 template <class S> ISO_INLINE constexpr bool bounds_twist_and_swing(JointType type) {
   return visit_joint_type(type,
                           [](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<S>::kTwistAndSwing; });
@@ -73,7 +73,7 @@ template <class S> ISO_INLINE bool holds_point(const JointProperties<S>& p) {
   return visit_joint_type(p.type,
                           [&](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<S>::is_point(p); });
 }
-/// A block is free if it holds no equality: all of its rows are drives or empty.
+/// Returns true if a block holds no equality: all of its rows are drives or empty.
 template <class S> ISO_INLINE bool is_free(const JointProperties<S>& p, std::uint32_t block) {
   return visit_joint_type(
       p.type, [&](auto kind) ISO_INLINE_LAMBDA { return decltype(kind)::template Of<S>::is_free(p, block); });

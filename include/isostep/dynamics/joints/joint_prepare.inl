@@ -15,16 +15,16 @@ template <class S> ISO_INLINE S trace_bound(const SolverMass<S>& a, const Solver
   return max(entry(0), max(entry(1), entry(2)));
 }
 
-/// [1/m^2] The inverse inertia of the pair about an axis of frame a, times its reduced mass.
+/// [1/m^2] Returns the pair's inverse inertia about an axis of frame a, times its reduced mass.
 template <class S>
 ISO_INLINE S turning_about(Vec3<S> axis, const SolverMass<S>& a, const SolverMass<S>& b, MassShare<S> share) {
   return share.a * dot(axis, a.kappa * axis) + share.b * dot(axis, b.kappa * axis);
 }
 template <class S> ISO_INLINE S radius_of(S turning) { return turning > S(0) ? S(1) / sqrt(turning) : S(0); }
 
-/// Lever of an angle about the joint's z axis, and of one across it: thin bodies turn far more easily about one. It is
-/// the mean between the body's own radius of inertia, at which a row alone is one, and the one about the joint, at
-/// which it is one once the point holds: where the arm is long, entries and impulses then both keep within the format.
+/// Sets the levers of angles about the joint's z axis and across it: thin bodies turn far more easily about one. A
+/// lever is the mean of the body's own radius of inertia, at which a row alone is one, and the one about the joint, at
+/// which it is one once the point holds. So on long arms both entries and impulses stay within the format.
 template <class S>
 ISO_INLINE void set_radii(const JointEnd<S>& end_a, const SolverMass<S>& a, const SolverMass<S>& b,
                           JointConstraint<S>& joint) {
@@ -49,7 +49,7 @@ ISO_INLINE void set_radii(const JointEnd<S>& end_a, const SolverMass<S>& a, cons
   }
 }
 
-/// Counts a joint's blocks and drives, and places the drives: an angle in the last row, unless its kind says otherwise.
+/// Counts a joint's blocks and drives, and places the drives. An angle is in the last row unless its kind overrides it.
 template <class S> ISO_INLINE void count_rows(JointConstraint<S>& joint) {
   JointDrive<S>& main = joint.drives[0];
   JointDrive<S>& swing = joint.drives[1];
@@ -63,8 +63,8 @@ template <class S> ISO_INLINE void count_rows(JointConstraint<S>& joint) {
   main.frequency = joint.properties.spring_frequency;
   main.damping = joint.properties.spring_damping;
 }
-/// [rad] The widest half axis of an ellipse, 120 degrees, and [1] the least: tan of half of 3 degrees. A narrower
-/// ellipse is a line for what a format resolves.
+/// The widest half axis of an ellipse [rad], 120 degrees, and the least [1]: tan of half of 3 degrees. A narrower
+/// ellipse counts as a line in coarse formats.
 template <class S> inline constexpr S kWidestSwing = S(2.0943951023931953);
 template <class S> inline constexpr S kLeastHalfTangent = S(0.026186);
 template <class S> ISO_INLINE void add_drive(const AxisDrive<S>& asked, JointConstraint<S>& joint) {
@@ -84,8 +84,8 @@ template <class S> ISO_INLINE void add_drive(const AxisDrive<S>& asked, JointCon
   drive.half_tangent = max(half.sin / half.cos, kLeastHalfTangent<S>);
 }
 
-/// Loads the last impulses. A row that held as an equality before the joint's settings changed begins from nothing
-/// where a drive stands now, and so does one that held as a drive where none stands.
+/// Loads the last impulses. After a change of the joint's settings, a row that was an equality and is a drive now
+/// starts from zero, and so does one that was a drive and is none now.
 template <class S> ISO_INLINE void load_impulses(const JointState<S>& state, JointConstraint<S>& joint) {
   joint.blocks[0].impulse = state.point;
   joint.blocks[1].impulse = state.angular;
@@ -103,16 +103,16 @@ template <class S> ISO_INLINE void load_impulses(const JointState<S>& state, Joi
   }
 }
 
-/// [N] or [N m] The most that a drive's motor or servo gives.
+/// [N] or [N m] Returns the most that a drive's motor or servo gives.
 template <class S> ISO_INLINE S force_of(const JointDrive<S>& drive, const JointProperties<S>& p) {
   return drive.asked == nullptr ? p.max_force : drive.asked->max_force;
 }
-/// [kg] The reduced mass for which impulses of the joint are counted.
+/// [kg] Returns the reduced mass to which impulses of the joint refer.
 template <class S>
 ISO_INLINE S impulse_mass(const SolverMass<S>& a, const SolverMass<S>& b, const JointConstraint<S>& joint) {
   return a.mass > S(0) ? a.mass * joint.share.a : b.mass * joint.share.b;
 }
-/// force h / reduced mass is the impulse, in its unit, that the motor gives in h; a torque's lever is the radius.
+/// Sets the most impulse of a motor in h: force h / reduced mass. The lever of a torque is the radius.
 template <class S>
 ISO_INLINE void set_force(const SolverMass<S>& a, const SolverMass<S>& b, const JointConstraint<S>& joint,
                           JointDrive<S>& drive) {
@@ -132,10 +132,10 @@ ISO_INLINE void set_force(const SolverMass<S>& a, const SolverMass<S>& b, const 
   drive.most = min(Limits<S>::speed(), Limits<S>::surface_speed() / reach / turning);
 }
 
-/// [1] A spring acts as if made for no more than a million times the mass between its bodies, of which Q16.16 resolves
-/// 16384.
+/// [1] The least inverse of a spring: its mass counts as at most a million times the mass between its bodies, of which
+/// Q16.16 resolves 16384.
 template <class S> inline constexpr S kLeastSpringInverse = max(S(0x1p-20), S(4) * resolution<S>());
-/// Sets the inverse of a spring whose mass is named: along a row of unit length, or at the radius of a turn.
+/// Sets the inverse mass of a spring with a named mass: along a row of unit length, or at the radius of a turn.
 template <class S>
 ISO_INLINE void set_spring_mass(const SolverMass<S>& a, const SolverMass<S>& b, const JointConstraint<S>& joint,
                                 JointDrive<S>& drive) {
@@ -147,8 +147,8 @@ ISO_INLINE void set_spring_mass(const SolverMass<S>& a, const SolverMass<S>& b, 
   drive.spring_inverse = max(inverse, kLeastSpringInverse<S>);
 }
 
-/// The stiffer spring of a cone's swings acts on both: their rows turn with the swing, and a stiffness that changed
-/// with them would give energy. What is not sprung of them has no way to its target: off_target().
+/// Gives both swings of a cone the stiffer spring of the two: their rows turn with the swing, and a stiffness that
+/// changed with them would give energy. A swing without a spring has no way to its target: off_target().
 template <class S> ISO_INLINE void even_cone(JointConstraint<S>& joint) {
   if (joint.properties.type != JointType::six_axis) return;
   JointDrive<S>* const x = drive_of(joint, 0);
@@ -166,7 +166,7 @@ template <class S> ISO_INLINE void even_cone(JointConstraint<S>& joint) {
   other.most = stiff.most;
 }
 
-/// A body that turns about a joint far away answers more strongly than the format holds: see Limits<S>::leverage().
+/// Returns the reach within which a body that turns about a far joint still fits the format: see Limits<S>::leverage().
 template <class S> ISO_INLINE S reach_of(const JointConstraint<S>& joint, const SolverMass<S>& a) {
   const S kappa = max(a.kappa.rows[0].x, max(a.kappa.rows[1].y, a.kappa.rows[2].z));
   const S most = S(2) * Limits<S>::position();

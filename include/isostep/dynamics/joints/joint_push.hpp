@@ -6,8 +6,8 @@
 
 namespace isostep::detail {
 
-/// The changes of impulse of a joint's rows, for bodies to be pushed once by all: on a long arm a drive and the point
-/// turn a light body hard against each other, beyond the range of velocities, and what is left of both is little.
+/// Collects the impulse changes of a joint's rows, so that bodies are pushed once by all. On a long arm a drive and the
+/// point turn a light body hard against each other, beyond the range of velocities, while their sum is small.
 template <class S> class JointPush {
  public:
   using V = Velocity<S>;

@@ -30,7 +30,7 @@ inline constexpr std::uint32_t kLockTurns = kLockSwing | kLockTwist;
 
 inline constexpr std::uint32_t kNoBody = 0xffffffffu;  // as a joint's body: the world
 
-/// The part of its law that a drive is on. It is kept from step to step, as the first guess of the next sub-step.
+/// The piece of its law that a drive is on. It is kept from step to step, as the first guess of the next sub-step.
 enum class DrivePiece : std::uint32_t {
   free,      // between the limits, no motor
   lower,     // stopped at the lower limit
@@ -43,7 +43,7 @@ inline constexpr std::uint32_t kDrivePieces = 6;
 inline constexpr std::uint32_t kJointRows = 6;  // two blocks of three
 
 /// The part of a joint that the step changes: impulses as velocity changes of the pair's reduced mass, one for each of
-/// its six rows, whether an equality or a drive stands there.
+/// its six rows, equality or drive.
 template <class S> struct JointState {
   std::uint32_t slot;         // of its id
   std::uint32_t pieces;       // four bits a row: 0 where no drive is, else its DrivePiece and 1
@@ -51,12 +51,12 @@ template <class S> struct JointState {
   Vec3<Velocity<S>> angular;  // [m/s] on b about the axes of frame a, times the row's radius
 
   ISO_INLINE constexpr bool has_drive(std::uint32_t row) const { return role(row) != 0; }
-  /// The piece of a row that has a drive.
+  /// Returns the piece of a row that has a drive.
   ISO_INLINE constexpr DrivePiece piece(std::uint32_t row) const { return static_cast<DrivePiece>(role(row) - 1); }
   ISO_INLINE constexpr void set_piece(std::uint32_t row, DrivePiece piece) {
     pieces |= (static_cast<std::uint32_t>(piece) + 1) << (4 * row);
   }
-  /// Every row's bits are ones that set_piece() writes.
+  /// Returns true if set_piece() can have written the bits of every row.
   ISO_INLINE constexpr bool has_known_pieces() const {
     for (std::uint32_t row = 0; row < kJointRows; ++row) {
       if (kDrivePieces < role(row)) return false;
@@ -91,7 +91,7 @@ template <class S> struct JointProperties {
   S spring_frequency = S(0);  // [Hz] up to half the sub-step rate; a spring's swing lasts up to 0.25 rad a sub-step
   S spring_damping = S(0);    // [1] ratio, 1 = critical
 
-  /// All that a joint may be set to once it is made: neither its kind, nor its bodies, nor its frames.
+  /// Takes all settings that may change after creation: all but the kind, the bodies and the frames.
   ISO_INLINE constexpr void take_settings(const JointProperties& from) {
     flags = from.flags;
     user_data = from.user_data;

@@ -23,7 +23,7 @@ template <class S> struct JointRow {
   ISO_FIELDS(linear, angular_a, angular_b, turn_a, turn_b)
 };
 
-/// Three equalities solved at once; fewer leave rows of zeros.
+/// A block of three equalities that are solved together. Unused rows are zero.
 template <class S> struct JointBlock {
   bool point;  // rows are the world axes through a point: linear parts are the identity
   bool turns;  // rows have no linear parts: the second block of every joint
@@ -36,11 +36,11 @@ template <class S> struct JointBlock {
   Vec3<Velocity<S>> curve;    // [m/s] what the arms' turning adds to the speed of a point: curve_of()
 };
 
-/// Velocities of the two bodies, worked on together; written back only where mass is.
+/// Holds the velocities of the two bodies of a joint. Only those of bodies with mass are written back.
 template <class S> struct JointMotion { MotionRow<Velocity<S>> a, b; };
 
-/// The speed along a row, held within half of the format: a pass whose drives are on wrong pieces leaves speeds that
-/// are far from any right ones.
+/// Returns the speed along a row, within half of the format: a pass with drives on wrong pieces leaves speeds that are
+/// far from any right ones.
 template <class S> ISO_INLINE Velocity<S> speed_along(const JointRow<S>& row, const JointMotion<S>& m) {
   const Vec3<Velocity<S>> between = saturating_subtract(m.b.linear, m.a.linear);
   return round_with_headroom<Velocity<S>>(dot_sum(row.linear, between) + dot_sum(row.angular_b, m.b.angular) -
@@ -62,32 +62,32 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> speed_along(const JointBlock<S>&
   return {speed_along(block.rows[0], m), speed_along(block.rows[1], m), speed_along(block.rows[2], m)};
 }
 
-/// v s at the precision of velocities.
+/// Returns v s at the precision of velocities.
 template <class S, class V> ISO_INLINE Vec3<V> scaled(Vec3<S> v, V s) {
   return {round_to<V>(product(v.x, s)), round_to<V>(product(v.y, s)), round_to<V>(product(v.z, s))};
 }
 template <class S, class V> ISO_INLINE V scaled(S a, V s) { return round_to<V>(product(a, s)); }
-/// A sum as a velocity, held within the speed limit: the impulse of a joint that is asked for too much must not wrap.
+/// Rounds a sum to a velocity within the speed limit: the impulse of an overloaded joint must not wrap.
 template <class S, class Sum> ISO_INLINE Velocity<S> saturated(Sum sum) {
   return round_within<Velocity<S>>(sum, convert<Velocity<S>>(Limits<S>::speed()));
 }
-/// [m/s] No impulse of a joint is larger: four times the speed limit, an eighth of what Velocity<Q16_16> holds. Chains
-/// of stops hold themselves out straight like a beam, and the first of them bears all the others.
+/// [m/s] Returns the largest impulse of a joint: four times the speed limit, an eighth of what Velocity<Q16_16> holds.
+/// Chains of stops hold themselves out straight like a beam, whose first joint bears all the others.
 template <class S> ISO_INLINE constexpr Velocity<S> most_joint_impulse() {
   return convert<Velocity<S>>(Limits<S>::speed()) * Velocity<S>(4);
 }
-/// m v as impulses of a joint.
+/// Returns m v as impulses of a joint.
 template <class S, class V> ISO_INLINE Vec3<V> impulses(const Mat3<S>& m, Vec3<V> v) {
   const auto held = [](auto sum) ISO_INLINE_LAMBDA { return round_within<V>(sum, most_joint_impulse<S>()); };
   return {held(dot_sum(m.rows[0], v)), held(dot_sum(m.rows[1], v)), held(dot_sum(m.rows[2], v))};
 }
-/// right - m v: what impulses leave of a right-hand side. Large impulses on long arms do not wrap.
+/// Returns right - m v, the rest of a right-hand side after impulses. Large impulses on long arms do not wrap.
 template <class S, class V> ISO_INLINE Vec3<V> less_moved(Vec3<V> right, const Mat3<S>& m, Vec3<V> v) {
   return {with_headroom(right.x - round_with_headroom<V>(dot_sum(m.rows[0], v))),
           with_headroom(right.y - round_with_headroom<V>(dot_sum(m.rows[1], v))),
           with_headroom(right.z - round_with_headroom<V>(dot_sum(m.rows[2], v)))};
 }
-/// old + change within the speed limit.
+/// Returns old + change within the speed limit.
 template <class S> ISO_INLINE Vec3<Velocity<S>> saturated_sum(Vec3<Velocity<S>> old, Vec3<Velocity<S>> change) {
   return held_within(old + change, convert<Velocity<S>>(Limits<S>::speed()));
 }
@@ -107,7 +107,7 @@ template <class S> ISO_INLINE void subtract(Mat3<S>& m, const Mat3<S>& p) {
   for (int i = 0; i < 3; ++i) m.rows[i] -= p.rows[i];
 }
 
-/// sum of rows times impulses, in one rounding a component.
+/// Returns the sum of rows times impulses, with one rounding a component.
 template <class S, class V> ISO_INLINE Vec3<V> combine(Vec3<S> r0, Vec3<S> r1, Vec3<S> r2, Vec3<V> x) {
   return {round_to<V>(product(r0.x, x.x) + product(r1.x, x.y) + product(r2.x, x.z)),
           round_to<V>(product(r0.y, x.x) + product(r1.y, x.y) + product(r2.y, x.z)),
@@ -134,22 +134,22 @@ ISO_INLINE void scatter(SolverBodies<S>& bodies, std::uint32_t a, std::uint32_t 
 }
 
 namespace detail {
-/// [m/s] a joint's error is closed no faster than this.
+/// [m/s] The most speed with which a joint's error is closed.
 template <class S> inline constexpr Velocity<S> kJointPushSpeed = Velocity<S>(4);
-/// [1] The compliance that K's diagonal gets: it keeps a block solvable in directions in which its bodies cannot move.
+/// [1] The compliance on K's diagonal. It keeps a block solvable in directions in which its bodies cannot move.
 template <class S> inline constexpr S kBlockCompliance = S(0x1p-20) + S(16) * resolution<S>();
 /// [1] The least value that a format resolves to ten bits: 2^-6 for Q16.16, 2^-22 for Q32.32, 2^-13 for float.
 template <class S> inline constexpr S kLeastCompliance = S(1024) * resolution<S>();
-/// [1] The softest entry that a tree may hold: 2^-7 for Q16.16, 2^-23 for Q32.32, 2^-14 for float. Rounding makes a
+/// [1] The softest entry that a tree may hold: 2^-7 for Q16.16, 2^-23 for Q32.32, 2^-14 for float. Rounding is a
 /// sixty-fourth of it: residuals are measured anew in every pass. Random trees of Q16.16 that hold 2^-9 fly apart.
 template <class S> inline constexpr S kTreeCompliance = S(512) * resolution<S>();
-/// [1] compliance of the end that closes a loop through the world: a bridge of hinges holds its width twice.
+/// [1] The compliance of the end that closes a loop through the world: a bridge of hinges holds its width twice.
 template <class S> inline constexpr S kClosingCompliance = S(1.0 / 64);
 /// [1] (angular frequency h)^2 above which tension is taken implicitly: half of what an explicit step can follow.
 template <class S> inline constexpr S kTautLimit = S(2);
 }  // namespace detail
 
-/// [r]x^T kappa [r]x between two blocks of points at one body: the angular part of their coupling.
+/// Returns [r]x^T kappa [r]x between two blocks of points at one body: the angular part of their coupling.
 template <class S> ISO_INLINE Mat3<S> point_coupling(const Vec3<S> (&angular)[3], const Vec3<S> (&turn)[3]) {
   Mat3<S> k;
   for (int j = 0; j < 3; ++j) {
@@ -161,7 +161,7 @@ template <class S> ISO_INLINE Mat3<S> point_coupling(const Vec3<S> (&angular)[3]
   return k;
 }
 
-/// linear . linear + angular . kappa angular of one body's halves of two rows.
+/// Returns linear . linear + angular . kappa angular for one body's halves of two rows.
 template <class S> ISO_INLINE S coupling(Vec3<S> linear_i, Vec3<S> angular_i, Vec3<S> linear_j, Vec3<S> turn_j) {
   return round_to<S>(dot_sum(linear_i, linear_j) + dot_sum(angular_i, turn_j));
 }

@@ -14,7 +14,7 @@ template <class S> struct Pull {
   Vec3<Unit<S>> axis;  // along the arm
   S stiffness;         // [m^2] h^2 f.r / mass
 };
-/// Impulse share_b lambda = f h / mass pulls b's arm outwards.
+/// Returns the pull on an arm: the impulse share_b lambda = f h / mass pulls b's arm outwards.
 template <class S> ISO_INLINE Pull<S> pull_on(const JointConstraint<S>& joint, bool on_a, Step<S> h) {
   const Vec3<S> arm = on_a ? joint.arm_a : joint.arm_b;
   const Vec3<Velocity<S>> f = visit_joint_type(
@@ -25,12 +25,12 @@ template <class S> ISO_INLINE Pull<S> pull_on(const JointConstraint<S>& joint, b
   const Direction<S> axis = direction_of(arm.x, arm.y, arm.z);
   return {{axis.x, axis.y, axis.z}, along * h};
 }
-/// s (1 - n n^T)
+/// Returns s (1 - n n^T).
 template <class S> ISO_INLINE Mat3<S> across(Vec3<Unit<S>> n, S s) {
   const S xy = -(s * (n.x * n.y)), xz = -(s * (n.x * n.z)), yz = -(s * (n.y * n.z));
   return {{{s - s * (n.x * n.x), xy, xz}, {xy, s - s * (n.y * n.y), yz}, {xz, yz, s - s * (n.z * n.z)}}};
 }
-/// Adds the stiffness of a joint's pull to its bodies, by row. Rows that nothing pulled at before join `taut`.
+/// Adds the stiffness of a joint's pull to its bodies, by row. Rows that nothing pulled at before are added to `taut`.
 template <class S>
 ISO_INLINE void add_tension(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, Step<S> h,
                             std::vector<Mat3<S>>& tension, std::vector<std::uint32_t>& taut) {
@@ -45,8 +45,8 @@ ISO_INLINE void add_tension(const JointConstraint<S>& joint, const SolverBodies<
   }
 }
 /// Source:  Andrews, Teichmann, Kovecses 2017, Geometric Stiffness for Real-time Constrained Multibody Dynamics,
-///          Computer Graphics Forum 36(2): the stiffness that tension gives a light link enters its inertia as an
-///          implicit integrator would have it, and only as far as the sub-step is too long for it.
+///          Computer Graphics Forum 36(2): the stiffness that tension gives a light link is added to its inertia, as in
+///          an implicit integrator, but only as far as the sub-step is too long for it.
 /// Symbols: kappa tension = (angular frequency h)^2; explicit steps follow it below 4.
 template <class S> ISO_INLINE Mat3<S> stiffened(const Mat3<S>& kappa, const Mat3<S>& tension) {
   const auto square = [&](int i) ISO_INLINE_LAMBDA { return round_to<S>(dot_sum(kappa.rows[i], tension.rows[i])); };

@@ -14,39 +14,39 @@
 
 namespace isostep {
 
-/// The joints that are solved at once: all that form trees, or those trees alone that have a drive and close no loop.
+/// The joints that are solved at once: all that form trees, or only trees that have a drive and close no loop.
 enum class JointOrder : std::uint32_t { trees, driven_trees };
 
 /// Source:  Baraff 1996, Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH: a sparse factorisation ordered from
-///          the leaves of a tree inwards fills nothing. Differs: joints are the unknowns, bodies the couplings.
-/// Why:     one joint after another, fifty links need thousands of passes to feel a weight at their end; here one pass
+///          the leaves of a tree inwards has no fill-in. Differs: joints are the unknowns, bodies the couplings.
+/// Why:     one joint after another, fifty links need thousands of passes to feel a weight at their end. Here one pass
 ///          is enough, whatever the ratio of masses, and nothing has to be soft.
 /// Symbols: lambda_i = impulse over joint i's reduced mass, three to a block; K_ij = share_j A_ij couples blocks i and
 ///          j at the body they share, A_ij = A_ji^T. Elimination keeps diagonal blocks symmetric and near one.
 /// Error:   S6 of the scenes (50 links, a weight of 100) at 4 sub-steps: worst separation 3.4 mm swinging, 3 um
-///          hanging, where one after another leaves 91 mm (two sweeps) and 35 mm. tests/unit/dynamics/joints_test.cpp.
+///          hanging. Solved one after another, 91 mm (two sweeps) and 35 mm. tests/unit/dynamics/joints_test.cpp.
 /// Limits:  solved one after another, before the trees: a joint that closes a loop of bodies, one that would be the
-///          25th block at one body, and all of a tree whose mass over the least reduced mass of its joints is more
-///          than the format resolves (64 for Q16.16, 8192 for float). The world is no body: both ends of a bridge may
-///          hang on it; the end that closes that loop yields a little, for what it asks may already be held. While
+///          25th block at one body, and all joints of a tree whose mass over their least reduced mass is more than the
+///          format resolves (64 for Q16.16, 8192 for float). The world is no body: both ends of a bridge may hang on
+///          it. The end that closes that loop yields a little, since what it asks for may be held already. While
 ///          tension is taken implicitly (stiffen) joints conserve momentum, not angular momentum.
-/// Drives:  rows of their joint's blocks. While one is off its piece of the law (joint_drive.hpp) the pass begins
-///          again with a new factorisation, see kMostPieceChanges. A block of drives alone, none of which acts, asks
-///          for nothing and is left out. Limits of an angle that no speed of a sub-step reaches (tree_stops.inl) cost
-///          it one look at the bodies' orientations.
+/// Drives:  rows of their joint's blocks. While one is off its piece of the law (joint_drive.hpp) the pass begins again
+///          with a new factorisation, see kMostPieceChanges. A block of inactive drives alone asks for nothing and is
+///          left out. Limits of an angle that no speed of a sub-step reaches (tree_stops.inl) cost it one look at the
+///          bodies' orientations.
 /// Order:   trees, elimination and loops follow from the order of joints and rows alone.
-/// Batches: trees are solved by TreeKernels, as many of one shape at once as they are wide. Joints solved one after
-///          another, and trees that share a body with them, are one batch more. Batches write no body in common: each
-///          may be warm-started and solved by a thread of its own, and in any order.
+/// Batches: TreeKernels solve trees, as many of one shape at once as they are wide. Joints solved one after another,
+///          and trees that share a body with them, form one more batch. Batches write no body in common: threads may
+///          warm start and solve them in parallel, in any order.
 template <class S> class JointTrees {
  public:
-  /// Plans the trees once a step, after its joints are prepared. `wide` is not null where there are joints.
+  /// Plans the trees once a step, after its joints are prepared. `wide` is not null if there are joints.
   void plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>* wide,
             JointOrder order = JointOrder::trees);
   ISO_INLINE std::uint32_t batch_count() const {
     return static_cast<std::uint32_t>(batches_.size()) + (loose_.empty() ? 0u : 1u);
   }
-  /// A sub-step takes the joints' state and applies last impulses; solves biased; and, after positions moved, relaxed.
+  /// A sub-step takes the joints' state and warm starts, solves with bias and, after positions moved, relaxes.
   void warm_start(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step);
   void solve(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
   /// Stores impulses in the joints once a step, after the last sub-step.
@@ -56,25 +56,25 @@ template <class S> class JointTrees {
   /// The most blocks at a body: twelve joints of two. Elimination links all blocks of a body with each other, and costs
   /// the third power of their number: joints on one body alone take 20 times as long with 24 blocks as with 8.
   static constexpr std::uint32_t kMaxBlocksAtBody = 24;
-  /// Sweeps over the joints solved one by one: a second takes S6's worst separation from 0.6 m to 0.09, four to 0.087.
+  /// Sweeps over the joints solved one by one. A second takes S6's worst separation from 0.6 m to 0.09, four to 0.087.
   static constexpr int kLooseSweeps = 2;
-  /// Relaxations of them and of the trees that they tie: what closed their errors would stay as speed where one is not
-  /// enough. After one a grid of 10 by 10 bodies that hangs still swings at 10 m/s two seconds later.
+  /// Relaxations of these joints and of the trees that they connect. With too few, the speed that closed their errors
+  /// stays. After one, a hanging grid of 10 by 10 bodies still swings at 10 m/s two seconds later.
   static constexpr int kLooseRelaxations = 4;
 
-  /// A block of a joint that is eliminated in its turn; its links lead to blocks that are eliminated later.
+  /// A block of a joint, in order of elimination. Its links lead to blocks that are eliminated later.
   struct Node {
     std::uint32_t joint, block;
     std::uint32_t first_link, link_count;
   };
-  /// A tree, as a list that next_ links.
+  /// A tree: a list of joints, linked by next_.
   struct Tree {
     std::uint64_t hash;    // of its joints' ends
     std::uint32_t active;  // of its joints, the first 32: those with a drive that is not free
     bool odd;              // shares a body with joints that are solved one by one
     std::uint32_t first, last, joint_count, body_count;
   };
-  /// A joint's ends as its tree numbers bodies, and its rows: equal lists of them are equal shapes.
+  /// The ends of a joint by the body numbers of its tree, and its rows: equal lists of them are equal shapes.
   struct Ends {
     std::uint32_t a, b;
     std::uint32_t layout;
@@ -86,7 +86,7 @@ template <class S> class JointTrees {
   struct ActiveOfTree {
     ISO_INLINE std::uint64_t operator()(const Tree& tree) const { return tree.active; }
   };
-  /// The places where a shape's lists begin, and their lengths.
+  /// The beginnings and lengths of a shape's lists.
   struct Shape {
     std::uint32_t first_joint, joint_count, first_node, node_count, first_link, link_count, first_drive, drive_count,
         first_body, body_count, row_blocks, stops;
@@ -102,7 +102,7 @@ template <class S> class JointTrees {
 
   // joint_tree_plan.inl
   void find_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, JointOrder order);
-  /// The softest thing a tree's elimination leaves is near the least reduced mass of its joints over its whole mass.
+  /// The softest entry after a tree's elimination is near the least reduced mass of its joints over its whole mass.
   static ISO_INLINE bool is_too_heavy(S mass, S lightest) { return lightest < mass * detail::kTreeCompliance<S>; }
   void add_joint(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, std::uint32_t j);
   void weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, JointOrder order);

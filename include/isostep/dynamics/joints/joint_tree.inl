@@ -26,7 +26,7 @@ void JointTrees<S>::solve(const Batch& batch, std::span<JointConstraint<S>> join
   if (relax) return batch.kernels->relax(run_of(batch, step.bodies), step);
   batch.kernels->solve(run_of(batch, step.bodies), step);
 }
-/// The piece of a drive that is a limit and nothing else.
+/// Returns the piece of a drive that is only a limit.
 ISO_INLINE DrivePiece piece_of(const HeldLanes& held, std::uint32_t lane) {
   if ((held.below >> lane & 1u) != 0) return DrivePiece::lower;
   return (held.above >> lane & 1u) != 0 ? DrivePiece::upper : DrivePiece::free;
@@ -51,7 +51,7 @@ template <class S> void JointTrees<S>::store(const Batch& batch, std::span<Joint
 
 // ---- joints one after another
 
-/// A pulled arm turns back like a pendulum, of stiffness f.r about the axes across it.
+/// Lists taut rows. A pulled arm turns back like a pendulum, with stiffness f.r about the axes across it.
 template <class S> void JointTrees<S>::find_taut(std::span<const JointConstraint<S>> joints, const JointStep<S>& step) {
   taut_.clear();
   for (const std::uint32_t j : loose_) detail::add_tension(joints[j], *step.bodies, step.h, tension_, taut_);

@@ -11,13 +11,13 @@
 namespace isostep {
 
 namespace detail {
-/// Adds a word to the hash of a list: FNV-1a's step, with the high bits brought down.
+/// Adds a word to the hash of a list: a step of FNV-1a, with the high bits brought down.
 ISO_INLINE constexpr std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t word) {
   hash = (hash ^ word) * 0x100000001b3u;
   return hash ^ (hash >> 29);
 }
-/// A joint's rows, as far as kernels must know them: whether its first block is a point, whether there is a second,
-/// which of both may idle, in which row each drive stands, and whether all of them are stops.
+/// Returns a joint's rows as far as kernels must know them: whether its first block is a point, whether there is a
+/// second, which of both may idle, the row of each drive, and whether all of them are stops.
 inline constexpr std::uint32_t kStopsInLayout = 1u << 31;
 template <class S> ISO_INLINE std::uint32_t layout_of(const JointConstraint<S>& joint) {
   const JointProperties<S>& p = joint.properties;
@@ -32,7 +32,7 @@ template <class S> ISO_INLINE std::uint32_t layout_of(const JointConstraint<S>& 
 }  // namespace detail
 
 namespace detail {
-/// The narrowest kernels that take so many trees at once, for lanes without a tree cost as much as the others; `wide`
+/// Returns the narrowest kernels for so many trees at once, since lanes without a tree cost as much as others. `wide`
 /// if there are more trees than it has lanes.
 template <class S> ISO_INLINE const TreeKernels<S>& kernels_for(std::uint32_t trees, const TreeKernels<S>& wide) {
   const TreeKernels<S>* chosen = &wide;
@@ -105,7 +105,7 @@ template <class S> bool JointTrees<S>::same_shape(const Tree& a, const Tree& b) 
   return true;
 }
 
-/// Trees of one shape side by side, those next to each other in which the same drives act: a node that idles in all of
+/// Makes batches of trees of one shape. Trees in which the same drives act go together: a node that idles in all of
 /// them costs nothing.
 template <class S>
 void JointTrees<S>::make_batches(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies,
@@ -188,7 +188,7 @@ template <class S> void JointTrees<S>::add_shape(std::span<const JointConstraint
   shapes_.push_back(shape);
 }
 
-/// A joint's block of angles comes just before that of places: it is a node of the joint that is next.
+/// Adds a node. A joint's block of angles comes just before that of places: it is a node of the joint that follows.
 template <class S> void JointTrees<S>::add_shape_node(const JointConstraint<S>& joint, const Node& node, Shape& shape) {
   const Ends& ends = ends_[node.joint];
   const bool of_angles = node.block == 1, is_point = !of_angles && (ends.layout & 1u) != 0;

@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// Calls act(drive of the shape, its number, lane, whether the lane has a tree), but for joints with stops.
+/// Calls act(drive of the shape, its number, lane, whether the lane has a tree), except for joints with stops.
 template <class S>
 template <class Act>
 void JointTrees<S>::each_drive(const Batch& batch, const TreeRun<S>& run, const Act& act) const {
@@ -20,8 +20,8 @@ void JointTrees<S>::each_drive(const Batch& batch, const TreeRun<S>& run, const 
   }
 }
 
-/// Writes rows, errors and springs of the joints that are more than a point and have no stops. A rod's pull stands in
-/// the lanes.
+/// Writes rows, errors and springs of joints that are more than a point and have no stops. The lanes hold a rod's pull
+/// already.
 template <class S>
 void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
                                const JointStep<S>& step) {
@@ -39,7 +39,7 @@ void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::s
   }
 }
 
-/// Sets impulses, scales and yielding of the pieces on which drives are, and which nodes idle.
+/// Sets impulses, scales and yielding of the drives' present pieces, and which nodes idle.
 template <class S>
 void JointTrees<S>::set_pieces(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
                                const JointStep<S>& step) {
@@ -59,7 +59,7 @@ void JointTrees<S>::set_pieces(const Batch& batch, const TreeRun<S>& run, std::s
   });
 }
 
-/// Sets the speeds between which limits leave drives in a pass, whatever their pieces.
+/// Sets the speeds between which limits leave drives in a pass, for any pieces.
 template <class S>
 void JointTrees<S>::bound_drives(const Batch& batch, const TreeRun<S>& run, std::span<const JointConstraint<S>> joints,
                                  const JointStep<S>& step, bool relax) const {
@@ -87,7 +87,7 @@ void JointTrees<S>::ask_drives(const Batch& batch, const TreeRun<S>& run, std::s
   });
 }
 
-/// Returns whether a drive is off its piece of the law; `next` is the piece to try then. Without `may_hold` only those
+/// Returns true if a drive is off its piece of the law; sets `next` to the piece to try. Without `may_hold` only drives
 /// count that hold a speed and should not: they let go, and the pass ends.
 template <class S>
 bool JointTrees<S>::judge_drives(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
@@ -112,8 +112,8 @@ bool JointTrees<S>::judge_drives(const Batch& batch, const TreeRun<S>& run, std:
   return off;
 }
 
-/// Solves with drives on their present pieces, then anew as long as one is off its piece. Trees that are on theirs go
-/// the same way again.
+/// Solves with drives on their present pieces, and again as long as one is off its piece. Trees on their pieces repeat
+/// the same computation.
 template <class S>
 void JointTrees<S>::solve_driven(const Batch& batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step,
                                  bool relax) {

@@ -55,8 +55,8 @@ void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const
   }
 }
 
-/// A joint of a tree, unless it closes a loop of bodies, meets too many others, or ties two sets that hang by
-/// themselves into one that is too heavy: a wide net falls into its columns.
+/// Adds a joint to a tree, unless it closes a loop of bodies, meets too many others, or ties two sets that hang by
+/// themselves into one that is too heavy: so a wide net falls apart into its columns.
 template <class S>
 void JointTrees<S>::add_joint(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, std::uint32_t j) {
   const bool a_moves = bodies.moves(joint.row_a), b_moves = bodies.moves(joint.row_b);
@@ -89,7 +89,7 @@ void JointTrees<S>::add_joint(const JointConstraint<S>& joint, const SolverBodie
   if (b_moves) blocks_[joint.row_b] += joint.block_count;
 }
 
-/// Trees that are solved at once.
+/// Marks the trees that are solved at once.
 template <class S>
 void JointTrees<S>::weigh_sets(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies,
                                JointOrder order) {
@@ -138,8 +138,8 @@ template <class S> void JointTrees<S>::list_joints_of_bodies(std::span<const Joi
   }
 }
 
-/// Leaves first: a joint's turn comes when one of its bodies has no other joint left. What does not move has degree 0.
-/// `some` is a whole tree.
+/// Orders elimination from the leaves: a joint's turn comes when one of its bodies has no other joint left. A body that
+/// does not move has degree 0. `some` is a whole tree.
 template <class S>
 void JointTrees<S>::eliminate(std::span<const JointConstraint<S>> joints, std::span<const std::uint32_t> some) {
   nodes_.clear();

@@ -16,8 +16,8 @@ template <class S> ISO_INLINE bool has_stops(const JointConstraint<S>& joint) {
   }
   return joint.block_count > 1 && bounds_twist_and_swing<S>(joint.properties.type);
 }
-/// [rad] per cosine: the way from any angle below the one of this sine and cosine to it is at least so much times what
-/// its cosine is less. 1 / (sin R + sin(R / 2)), or 1 where that is less or the format has too few digits for it.
+/// [rad] per cosine: the way from any smaller angle to the one of this sine and cosine is at least that many times the
+/// difference of their cosines. 1 / (sin R + sin(R / 2)), or 1 if that is less or the format has too few digits for it.
 template <class S> ISO_INLINE S slope_to(SinCos<Unit<S>> most) {
   const S sum = convert<S>(most.sin) + sqrt(max(S(0.5) - S(0.5) * convert<S>(most.cos), S(0)));
   return S(0.125) < sum ? max(S(1), S(1) / sum) : S(1);
@@ -50,7 +50,7 @@ template <class S> ISO_INLINE TreeStopLimits<S> stop_limits(const JointConstrain
 }
 }  // namespace detail
 
-/// Writes once a step what kernels know of such joints. Drives that a sub-step does not look at ask for nothing.
+/// Writes, once a step, what kernels need of joints with stops. Drives that a sub-step skips ask for nothing.
 template <class S> void JointTrees<S>::set_stops(const Batch& batch, std::span<JointConstraint<S>> joints) {
   const TreeRun<S> run = run_of(batch, nullptr);
   const auto width = static_cast<std::uint32_t>(batch.kernels->width);

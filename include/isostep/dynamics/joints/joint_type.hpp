@@ -7,7 +7,7 @@
 
 #include "isostep/scalar/platform.hpp"
 
-/// ISO_FOR_EACH_JOINT(X) expands X(name, Joint): the name in JointType, in scene files and on pages, and the class.
+/// Expands ISO_FOR_EACH_JOINT(X) to X(name, Joint): the name in JointType, in scene files and on pages, and the class.
 #define ISO_FOR_EACH_JOINT(X)                 \
   X(ball, BallJoint)                          \
   X(hinge, HingeJoint)                        \
@@ -23,7 +23,7 @@
 
 namespace isostep {
 
-/// Every kind holds two frames together; z is the frame's axis.
+/// The types of joints. Every type connects two frames, whose axis is z.
 #define ISO_ENUMERATOR(name, Joint) name,
 enum class JointType : std::uint32_t { ISO_FOR_EACH_JOINT(ISO_ENUMERATOR) };
 #undef ISO_ENUMERATOR
@@ -33,7 +33,7 @@ inline constexpr const char* kJointNames[] = {ISO_FOR_EACH_JOINT(ISO_NAME)};
 #undef ISO_NAME
 inline constexpr std::uint32_t kJointTypes = sizeof kJointNames / sizeof kJointNames[0];
 
-/// The measure of a joint's position, and with it of lower, upper and spring_target.
+/// The unit of a joint's position, and so of lower, upper and spring_target.
 enum class JointMeasure : std::uint32_t {
   angle,  // [rad]
   length  // [m]

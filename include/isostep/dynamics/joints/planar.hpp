@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// b's origin stays in the plane x y of a, and their z axes are parallel: a puck on a table. kLimit, kMotor and
-/// kSpring: of the angle about z.
+/// Keeps b's origin in the plane x y of a, and their z axes parallel: a puck on a table. kLimit, kMotor and kSpring act
+/// on the angle about z.
 template <class S> struct PlanarJoint : detail::SlidingJoint<S> {
   static constexpr JointType kType = JointType::planar;
   static constexpr std::uint32_t kFlags =
@@ -29,7 +29,7 @@ template <class S> struct PlanarJoint : detail::SlidingJoint<S> {
     detail::axle_block(f, a, h, joint);
     detail::linearise_turn(f, a, joint);
   }
-  /// The distance off the plane [m].
+  /// Returns the distance off the plane [m].
   static ISO_INLINE S error(const JointProperties<S>&, const Pose<S>& a, const Pose<S>& b) {
     return abs(dot(b.position - a.position, to_matrix(a.orientation).column(2)));
   }

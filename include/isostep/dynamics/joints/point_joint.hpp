@@ -6,12 +6,12 @@
 
 namespace isostep::detail {
 
-/// The base of such a kind, which has the other members of `JointOf` (joint_kinds.hpp).
+/// The base of such joints. Each has the other members of `JointOf` (joint_kinds.hpp).
 template <class S> struct PointJoint {
   static constexpr bool kTwoPoints = false;
   static constexpr bool kTwistAndSwing = false;
 
-  /// Any setting is valid that is valid for all kinds.
+  /// Accepts any setting that is valid for all joints.
   static ISO_INLINE FaultReport fault(const JointProperties<S>&) { return {}; }
   static ISO_INLINE bool is_point(const JointProperties<S>&) { return true; }
   static ISO_INLINE bool is_free(const JointProperties<S>&, std::uint32_t) { return false; }

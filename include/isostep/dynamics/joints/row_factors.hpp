@@ -9,11 +9,11 @@
 
 namespace isostep {
 
-/// factor_symmetric() of W blocks' couplings; in coarse formats without a row that asks for what others of it hold or
-/// for what no body can do: a weld of a body that a lock keeps from turning about an axis.
-/// Why:    its inverse is 1 / softness along such a direction, and multiplies what float and Q16.16 rounded of the
-///         neighbours' couplings by as much: what is left of those is noise, and a tree of them explodes. What moves by
-///         less than three times the softness is softer than anything that a tree of these formats may hold.
+/// factor_symmetric() of W blocks' couplings. In coarse formats it leaves out a row that asks for what others of it
+/// hold, or for what no body can do: a weld of a body that a lock keeps from turning about an axis.
+/// Why:    its inverse is 1 / softness along such a direction, and multiplies the rounding of float and Q16.16 in the
+///         neighbours' couplings by as much: their rest is noise, and a tree of them explodes. What moves by less than
+///         three times the softness is softer than anything that a tree of these formats may hold.
 /// Differs: a point moves along every axis; a row without entries asks for nothing, and finer formats have the digits.
 template <class S, int W, class Isa>
 ISO_INLINE SymmetricFactors<Lanes<S, W, Isa>> factor_rows(const Mat3<Lanes<S, W, Isa>>& m, S softness) {
@@ -50,7 +50,7 @@ ISO_INLINE SymmetricFactors<Lanes<S, W, Isa>> factor_rows(const Mat3<Lanes<S, W,
   return factors;
 }
 
-/// Factors the coupling of one block.
+/// Returns the factors of one block's coupling.
 template <class S> ISO_INLINE SymmetricFactors<S> factor_block(const JointBlock<S>& block, S softness) {
   if (block.point) return factor_symmetric(block.coupling, softness);
   using L = Lanes<S, 1, isa::Portable>;

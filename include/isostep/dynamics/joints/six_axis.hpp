@@ -6,13 +6,13 @@
 
 namespace isostep {
 
-/// Lengths: b's origin along the axes of a. Angles: with two of them locked the third is a turn about that axis, as a
-/// hinge's; else swings and a twist, see SwingTwist. A swing that is locked, or has limits within 80 degrees beside a
-/// swing without, is how far b's z axis tilts out of the plane across, and the other swing is a turn, which goes round:
-/// see TiltTurn. Where a twist is locked, limited or sprung beside swings there is a stop at 149 degrees; limits of a
-/// kCone hold while the z axes are less than 120 degrees apart. kLock...: holds that axis. kCone: of two
-/// swings with limits, `upper` are the half axes of an ellipse in which b's z axis stays. Their springs and motors are
-/// to be alike: beyond half of the ellipse those of x act along the swing, and those of y across it.
+/// Locks or drives each of six axes. Lengths: b's origin along the axes of a. Angles: with two of them locked the third
+/// is a turn about that axis, like a hinge's; else swings and a twist, see SwingTwist. A swing that is locked, or has
+/// limits within 80 degrees beside a swing without, is the tilt of b's z axis out of the plane across, and the other
+/// swing is a turn, which goes round: see TiltTurn. A twist beside swings that is locked, limited or sprung has a stop
+/// at 149 degrees. Limits of a kCone hold while the z axes are less than 120 degrees apart. kLock...: holds that axis.
+/// kCone: of two swings with limits, `upper` are the half axes of an ellipse in which b's z axis stays. Their springs
+/// and motors should be alike: beyond half of the ellipse those of x act along the swing, and those of y across it.
 template <class S> struct SixAxisJoint : detail::SlidingJoint<S> {
   static constexpr JointType kType = JointType::six_axis;
   static constexpr std::uint32_t kFlags =
@@ -35,7 +35,7 @@ template <class S> struct SixAxisJoint : detail::SlidingJoint<S> {
     linearise_places(f, a, h, joint);
     detail::linearise_turns(f, a, h, joint);
   }
-  /// The distance [m] along the axes that it locks.
+  /// Returns the distance [m] along the locked axes.
   static ISO_INLINE S error(const JointProperties<S>& p, const Pose<S>& a, const Pose<S>& b) {
     Vec3<S> between = transposed_times(to_matrix(a.orientation), b.position - a.position);
     for (std::uint32_t i = 0; i < 3; ++i) {

@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// b moves along z of a and does not turn against it: a lift, a piston. kLimit, kMotor and kSpring: of the way along z.
+/// Lets b move along z of a without turning against it: a lift, a piston. kLimit, kMotor and kSpring act along z.
 template <class S> struct SliderJoint : detail::SlidingJoint<S> {
   static constexpr JointType kType = JointType::slider;
   static constexpr std::uint32_t kFlags =

@@ -17,13 +17,13 @@ template <class S> ISO_INLINE void set_spring(const AxisDrive<S>& asked, JointDr
   drive.damping = asked.spring_damping;
 }
 
-/// The limit is a spring toward itself, beside the drive's own, while a sub-step begins beyond it: stiffness and
-/// damping add up, w^2 = w1^2 + w2^2, d w = d1 w1 + d2 w2. It replaces a servo, whose force has a bound that one spring
-/// of both would not know. The drive stands where `linearise` placed it.
+/// Makes a limit a spring toward itself, beside the drive's own, while a sub-step begins beyond it: stiffness and
+/// damping add up, w^2 = w1^2 + w2^2, d w = d1 w1 + d2 w2. It replaces a servo, since one spring for both would not
+/// know the bound of the servo's force. `linearise` must have placed the drive.
 /// Source:  PxJointLimitParameters of PhysX: a limit with stiffness acts where it is violated.
-/// Limits:  a body is beyond it by up to its speed times the sub-step before the limit begins. So the spring is taken
-///          implicitly, without what `lagging_way` gives back: it loses at least the energy that it did not take on
-///          that way, and a bounce gives none.
+/// Limits:  a body is beyond the limit by up to its speed times the sub-step before it acts. So the spring is implicit,
+///          without what `lagging_way` gives back: it loses at least the energy that it did not take on that way, and a
+///          bounce gives none.
 template <class S> ISO_INLINE void yield_limit(JointDrive<S>& drive) {
   const AxisDrive<S>&asked = *drive.asked, &spring = *drive.spring_asked;
   const bool below = drive.bounded_below && drive.position < drive.lower;

@@ -7,8 +7,8 @@
 
 namespace isostep::detail {
 
-/// A joint whose frames coincide: a as it is now, b where that takes it. A spring between two points draws them into
-/// line with the centres of their bodies, where it has no lever.
+/// Returns the frames of a joint whose frames coincide: a at its present pose, b moved to it. A spring between two
+/// points draws them into line with the centres of their bodies, where it has no lever.
 template <class S> ISO_INLINE JointFrames<S> frames_as_made(const JointConstraint<S>& joint) {
   const JointProperties<S>& p = joint.properties;
   const Vec3<S> zero = Vec3<S>::zero();
@@ -20,7 +20,7 @@ template <class S> ISO_INLINE JointFrames<S> frames_as_made(const JointConstrain
   return f;
 }
 
-/// The kappa of b, turned with it to there.
+/// Returns the kappa of b, turned with it to that pose.
 template <class S> ISO_INLINE Mat3<S> kappa_as_made(const JointConstraint<S>& joint, const Mat3<S>& kappa_b) {
   const Quat<Unit<S>> made = joint.pose_a.orientation * joint.properties.frame_a.orientation;
   const Quat<Unit<S>> now = joint.pose_b.orientation * joint.properties.frame_b.orientation;
@@ -30,8 +30,8 @@ template <class S> ISO_INLINE Mat3<S> kappa_as_made(const JointConstraint<S>& jo
   return {{turn * rows.rows[0], turn * rows.rows[1], turn * rows.rows[2]}};
 }
 
-/// [1] Inverse of the effective mass along a drive's row while all equalities of its joint hold, drives are free, and
-/// the rest of the world is still. The joint is factored.
+/// [1] Returns the inverse effective mass along a drive's row while all equalities of its joint hold, drives are free,
+/// and the rest of the world is still. The joint must be factored.
 template <class S> ISO_INLINE S felt_inverse(const JointConstraint<S>& joint, const JointRow<S>& row) {
   const auto with = [&](std::uint32_t block) ISO_INLINE_LAMBDA {
     const JointRow<S>(&rows)[3] = joint.blocks[block].rows;
@@ -48,9 +48,9 @@ template <class S> ISO_INLINE S felt_inverse(const JointConstraint<S>& joint, co
   return max(k - taken, k * kLeastCompliance<S>);
 }
 
-/// Finds the strength of springs without a named mass, once a step, before the pieces of drives are known. It is the
-/// same whatever pose the joint is in: a spring that followed the mass which it feels would give back more than it took
-/// where that has grown.
+/// Finds the strength of springs without a named mass, once a step, before the pieces of drives are known. It does not
+/// depend on the joint's pose: a spring that followed the mass which it feels would give back more than it took where
+/// that has grown.
 template <class S>
 ISO_INLINE void feel_springs(const SolverMass<S>& a, const SolverMass<S>& b, JointConstraint<S>& joint) {
   const auto feels = [](const JointDrive<S>& drive)

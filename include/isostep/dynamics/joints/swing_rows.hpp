@@ -27,10 +27,10 @@ template <class S> struct SwingTwist {
     t.y = t.d.y * t.per;
     return t;
   }
-  /// [1] The rates, in a: w . rate is the rate of the swing about y, or of the one about x.
+  /// [1] Return the rates, in a: w . rate is the rate of the swing about y, or of the one about x.
   ISO_INLINE Vec3<S> rate_about_y() const { return rate({per, S(0), -(x * per)}, x); }
   ISO_INLINE Vec3<S> rate_about_x() const { return -rate({S(0), per, -(y * per)}, y); }
-  /// [rad] The swings themselves.
+  /// [rad] Return the swings.
   ISO_INLINE S angle_about_y() const { return S(2) * atan2(x, S(1)); }
   ISO_INLINE S angle_about_x() const { return S(-2) * atan2(y, S(1)); }
 
@@ -38,12 +38,12 @@ template <class S> struct SwingTwist {
   ISO_INLINE Vec3<S> rate(Vec3<S> gradient, S s) const { return cross(d, gradient) * (S(2) / (S(1) + s * s)); }
 };
 
-/// [rad] Limits within which a swing is a tilt.
+/// [rad] The limits within which a swing is a tilt.
 template <class S> inline constexpr S kMostTilt = S(1.4);
 template <class S> ISO_INLINE bool is_limited(const AxisDrive<S>* drive) { return drive != nullptr && drive->limited; }
-/// The swing, 0 about x and 1 about y, that is the tilt of b's z axis out of the plane across its limit, or -1. One is
-/// locked, or has limits beside a swing that has none: the other is then a turn, which goes round. Limits of
-/// SwingTwist's angle would meet where the z axes point in opposite directions, and stop that turn.
+/// Returns the swing, 0 about x and 1 about y, that is the tilt of b's z axis out of the plane across its limit, or -1.
+/// It is locked, or has limits beside a swing that has none. The other swing is then a turn, which goes round: limits
+/// of SwingTwist's angle would meet where the z axes point in opposite directions, and stop that turn.
 template <class S> ISO_INLINE int tilting_swing(std::uint32_t flags, const AxisDrive<S>* x, const AxisDrive<S>* y) {
   const AxisDrive<S>* const swings[2] = {x, y};
   for (int i = 0; i < 2; ++i) {
@@ -80,13 +80,13 @@ template <class S> struct TiltTurn {
   }
 };
 
-/// Makes an angular_row() of an axis that need not be a direction.
+/// Makes an angular_row() of an axis of any length.
 template <class S> ISO_INLINE JointRow<S> turning_row(Vec3<S> axis, S radius) {
   const Vec3<S> angular = axis * radius;
   return {Vec3<S>::zero(), angular, angular, Vec3<S>::zero(), Vec3<S>::zero()};
 }
 
-/// The axis that two locks leave, or -1.
+/// Returns the axis that two locks leave free, or -1.
 ISO_INLINE constexpr int only_free_turn(std::uint32_t flags) {
   const std::uint32_t locks = flags & joint_flag::kLockTurns;
   return locks == joint_flag::kLockSwing                               ? 2
@@ -95,7 +95,7 @@ ISO_INLINE constexpr int only_free_turn(std::uint32_t flags) {
                                                                        : -1;
 }
 
-/// [rad] The position in (-pi, pi] of an axis that is no length; `tilting`: see tilting_swing().
+/// [rad] Returns the position of an angular axis, in (-pi, pi]. `tilting`: see tilting_swing().
 template <class S> ISO_INLINE S angle_of(JointAxis axis, std::uint32_t flags, int tilting, const JointFrames<S>& f) {
   const int place = static_cast<int>(axis) - 3;
   const Quat<Unit<S>> q = relative_rotation(f);
@@ -109,7 +109,7 @@ template <class S> ISO_INLINE S angle_of(JointAxis axis, std::uint32_t flags, in
   const S up = S(1) + convert<S>(d.z);
   return place == 1 ? S(2) * atan2(convert<S>(d.x), up) : S(-2) * atan2(convert<S>(d.y), up);
 }
-/// [m] or [rad] The position of an axis.
+/// [m] or [rad] Returns the position of an axis.
 template <class S> ISO_INLINE S position_of(JointAxis axis, std::uint32_t flags, int tilting, const JointFrames<S>& f) {
   if (!is_length(axis)) return angle_of(axis, flags, tilting, f);
   return dot(f.between, to_matrix(f.a).column(static_cast<int>(axis)));
@@ -122,7 +122,7 @@ template <class S> ISO_INLINE JointDrive<S>* drive_of(JointConstraint<S>& joint,
   return nullptr;
 }
 
-/// A twist beside a swing is locked, limited or sprung: one that only has a motor may be any.
+/// Returns true if a twist beside a swing is locked, limited or sprung. One with only a motor may have any angle.
 template <class S> ISO_INLINE bool holds_twist(JointConstraint<S>& joint) {
   const std::uint32_t flags = joint.properties.flags;
   if ((flags & joint_flag::kLockTurns) == joint_flag::kLockTurns || only_free_turn(flags) >= 0) return false;
@@ -130,7 +130,7 @@ template <class S> ISO_INLINE bool holds_twist(JointConstraint<S>& joint) {
   const JointDrive<S>* const twist = drive_of(joint, 2);
   return twist != nullptr && (twist->asked->limited || S(0) < twist->asked->spring_frequency);
 }
-/// Adds drives that nothing asks for, of swings that are to stop where the twist ends.
+/// Adds drives without an AxisDrive for swings that must stop where the twist ends.
 template <class S> ISO_INLINE void add_swings(JointConstraint<S>& joint) {
   if (joint.properties.type != JointType::six_axis || !holds_twist(joint)) return;
   for (const std::uint32_t place : {0u, 1u}) {
@@ -143,7 +143,7 @@ template <class S> ISO_INLINE void add_swings(JointConstraint<S>& joint) {
   }
 }
 
-/// b's axis of that number coincides with a's, and the turn about it may be driven.
+/// Keeps b's axis of that number together with a's. The turn about it may be driven.
 template <class S>
 ISO_INLINE void linearise_turn_about(int free, const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step<S> h,
                                      JointConstraint<S>& joint) {
@@ -160,8 +160,8 @@ ISO_INLINE void linearise_turn_about(int free, const JointFrames<S>& f, const Ma
   set_angle(*drive, *drive->asked, angle_of(static_cast<JointAxis>(3 + free), joint.properties.flags, -1, f));
 }
 
-/// One swing is locked: b's z axis stays in a plane of a.
-/// Symbols: d(z_b . y_a)/dt = (w_b - w_a) . (z_b x y_a), and the same of x.
+/// Locks one swing: b's z axis stays in a plane of a.
+/// Symbols: d(z_b . y_a)/dt = (w_b - w_a) . (z_b x y_a), and the same for x.
 template <class S>
 ISO_INLINE void lock_swing(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step<S> h, JointConstraint<S>& joint) {
   const Vec3<Unit<S>> z = to_matrix(f.b).column(2);
@@ -178,11 +178,11 @@ template <class S> ISO_INLINE bool is_limited(const JointDrive<S>& drive) { retu
 template <class S> ISO_INLINE const AxisDrive<S>* asked_of(const JointDrive<S>* drive) {
   return drive == nullptr ? nullptr : drive->asked;
 }
-/// The limits of both swings form an ellipse.
+/// Returns true if the limits of both swings form an ellipse.
 template <class S> ISO_INLINE bool makes_cone(std::uint32_t flags, const JointDrive<S>* x, const JointDrive<S>* y) {
   return (flags & joint_flag::kCone) != 0 && x != nullptr && y != nullptr && is_limited(*x) && is_limited(*y);
 }
-/// The drives of both swings, each about its axis.
+/// Sets the drives of both swings, each about its axis.
 template <class S>
 ISO_INLINE void set_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, JointDrive<S>* x, JointDrive<S>* y) {
   const auto set = [&](JointDrive<S>* drive, Vec3<S> rate, S angle) ISO_INLINE_LAMBDA {
@@ -195,11 +195,11 @@ ISO_INLINE void set_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, J
   set(y, swing.rate_about_y(), swing.angle_about_y());
 }
 
-/// [1] The part of the ellipse beyond which rows turn with the swing's direction: nearer its middle no limit is near.
+/// [1] The part of the ellipse beyond which rows turn with the swing's direction. Nearer its middle no limit is near.
 template <class S> inline constexpr S kConeBasis = S(0.5);
 
-/// [rad] The angle of a swing's spring off its target, and [rad/s] the speed of its motor; 0 without them, for rows
-/// that turn with the swing mix both.
+/// [rad] Returns the angle of a swing's spring off its target, and [rad/s] the speed of its motor; 0 without them,
+/// since rows that turn with the swing mix both.
 template <class S> ISO_INLINE S off_target(const JointDrive<S>* swing, S angle) {
   if (swing == nullptr || swing->asked == nullptr || !(S(0) < swing->asked->spring_frequency)) return S(0);
   return angle - swing->asked->spring_target;
@@ -208,8 +208,8 @@ template <class S> ISO_INLINE S asked_speed(const JointDrive<S>* swing) {
   return swing != nullptr && swing->asked != nullptr && swing->asked->motor ? swing->asked->motor_speed : S(0);
 }
 
-/// The rows of swings along one axis, in a, and across it: `x` is the drive along it if both are there. Nothing limits
-/// them.
+/// Sets the rows of swings along one axis, in a, and across it. `x` is the drive along it if both exist. Sets no
+/// limits.
 template <class S>
 ISO_INLINE void set_along(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, Vec3<Unit<S>> axis, JointDrive<S>* x,
                           JointDrive<S>* y) {
@@ -229,7 +229,7 @@ ISO_INLINE void set_along(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, Ve
   set(x, along, along.x, along.y);
   set(y, cross(swing.d, along), -along.y, along.x);
 }
-/// Stops such a drive at `most`, where it is at `angle` along its axis. Its spring stays as far from its target.
+/// Stops such a drive at `most`, with its position at `angle` along its axis. Its spring stays as far from its target.
 template <class S> ISO_INLINE void stop_along(JointDrive<S>& drive, S angle, S most) {
   drive.position = angle * drive.radius;
   drive.target = drive.position + drive.target;
@@ -237,7 +237,7 @@ template <class S> ISO_INLINE void stop_along(JointDrive<S>& drive, S angle, S m
   drive.bounded_above = true;
 }
 
-/// Stops such a drive where a twist that is held ends. The stop does not yield.
+/// Stops such a drive where a held twist ends. The stop does not yield.
 template <class S> ISO_INLINE void stop_hard(JointDrive<S>& drive, S angle) {
   stop_along(drive, angle, kTwistEnds<S>);
   if (!drive.soft) return;
@@ -245,7 +245,7 @@ template <class S> ISO_INLINE void stop_hard(JointDrive<S>& drive, S angle) {
   set_spring(*drive.spring_asked, drive);
 }
 
-/// Both swings within an ellipse: a row along the swing, on which the limit acts, and one across it.
+/// Keeps both swings within an ellipse: a row along the swing, on which the limit acts, and one across it.
 /// Symbols: e = sqrt((s_x / t_x)^2 + (s_y / t_y)^2), t = tan(half axis / 2). d x gradient of e points along the row's
 ///          axis n, and (e - 1) / its length is the angle that is left, to first order: 4 % short at 0.2 rad.
 template <class S>
@@ -262,7 +262,7 @@ ISO_INLINE bool set_cone(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, Joi
   return true;
 }
 
-/// Stops a joint whose twist is held along its swing beyond 120 degrees, wherever that leads. The stop does not yield.
+/// Stops a joint with a held twist along its swing, beyond 120 degrees in any direction. The stop does not yield.
 template <class S>
 ISO_INLINE void end_swing(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, JointDrive<S>* x, JointDrive<S>* y) {
   const Direction<S> n = direction_of(-swing.d.y, swing.d.x, S(0));
@@ -291,7 +291,7 @@ template <class S> struct SwingLimit {
     return {convert<S>(Vec3<Unit<S>>{along.x, along.y, along.z}), above ? -beyond : beyond};
   }
 };
-/// The nearer limit of a swing beyond 120 degrees. Returns how much is left [rad].
+/// Sets the nearer limit of a swing beyond 120 degrees. Returns the angle left until it [rad].
 template <class S> ISO_INLINE S set_limit(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, JointDrive<S>& drive) {
   const SwingLimit<S> low = SwingLimit<S>::of(swing, drive.place, drive.asked->lower, false);
   const SwingLimit<S> high = SwingLimit<S>::of(swing, drive.place, drive.asked->upper, true);
@@ -304,7 +304,7 @@ template <class S> ISO_INLINE S set_limit(const SwingTwist<S>& swing, const Mat3
   drive.lower = drive.position - low.left * drive.radius;
   return above ? high.left : low.left;
 }
-/// Swings beyond 120 degrees of which one at least has limits, and no cone: those, and the stop of end_swing() on the
+/// Sets swings beyond 120 degrees without a cone, at least one of them with limits. The stop of end_swing() acts on the
 /// row that needs it most.
 template <class S>
 ISO_INLINE void limit_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a, bool ends, JointDrive<S>* x,
@@ -323,7 +323,7 @@ ISO_INLINE void limit_swings(const SwingTwist<S>& swing, const Mat3<Unit<S>>& a,
   stop_hard(on_x ? *x : *y, angle);
 }
 
-/// One swing tilts, the other turns: see tilting_swing(). `ends`: the twist is held.
+/// Sets the swing that tilts and the one that turns: see tilting_swing(). `ends`: the twist is held.
 template <class S>
 ISO_INLINE void set_tilt_and_turn(const TiltTurn<S>& now, int tilting, bool ends, const Mat3<Unit<S>>& a,
                                   JointConstraint<S>& joint) {

@@ -9,12 +9,12 @@ namespace isostep {
 
 template <class S> ISO_INLINE S reciprocal(S a) { return S(1) / a; }
 
-/// T may be lanes.
+/// The factors of a symmetric matrix. T may be lanes.
 /// Symbols: m = L D L^T, L = [1; l10 1; l20 l21 1], D = 1 / (i0, i1, i2).
 template <class T> struct SymmetricFactors {
   T l10, l20, l21, i0, i1, i2;
 
-  /// The inverse, for products with vectors. Its relative error is the format's times the largest over the least pivot.
+  /// Returns the inverse, for products with vectors. Its relative error is the format's times largest over least pivot.
   ISO_INLINE Mat3<T> inverse() const {
     // L^-1 = [1; -l10 1; l10 l21 - l20, -l21, 1]
     const T n20 = l10 * l21 - l20;
@@ -24,9 +24,9 @@ template <class T> struct SymmetricFactors {
     const T xx = i0 + round_to<T>(product(l10 * l10, i1) + product(n20, xz));
     return {{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
   }
-  /// m^-1 b, for b^T m^-1 b: what eliminating this block subtracts from those it is linked to.
-  /// Why: the solution is exact for a matrix near m, so that along what m hardly moves its error is as small as b is
-  ///      there. A product with the inverse is not: where a light body on a long arm carries many heavy ones, it
+  /// Returns m^-1 b, for b^T m^-1 b: what eliminating this block subtracts from linked blocks.
+  /// Why: the solution is exact for a matrix near m, so that along directions that m hardly moves its error is as small
+  ///      as b is there. A product with the inverse is not: if a light body on a long arm carries many heavy ones, that
   ///      leaves noise instead of their weight.
   ISO_INLINE Mat3<T> solve(const Mat3<T>& b) const {
     const auto less = [](Vec3<T> v, T l, Vec3<T> w) ISO_INLINE_LAMBDA {
@@ -39,7 +39,7 @@ template <class T> struct SymmetricFactors {
   }
 };
 
-/// a in the lanes of the mask, b in the others.
+/// Returns a in the lanes of the mask, b in the others.
 template <class Mask, class T>
 ISO_INLINE SymmetricFactors<T> select(Mask mask, const SymmetricFactors<T>& a, const SymmetricFactors<T>& b) {
   return {select(mask, a.l10, b.l10), select(mask, a.l20, b.l20), select(mask, a.l21, b.l21),
@@ -47,7 +47,7 @@ ISO_INLINE SymmetricFactors<T> select(Mask mask, const SymmetricFactors<T>& a, c
 }
 
 /// Factors a symmetric positive definite matrix plus `softness` times the identity, from the upper triangle.
-/// Method: pivots stay near one where a determinant would vanish in fixed point. One that rounding took below the
+/// Method: pivots stay near one where a determinant would vanish in fixed point. A pivot that rounding took below the
 ///         softness is held there: such a direction moves nothing.
 /// Error:  measured in tests/unit/dynamics/joints_test.cpp.
 template <class T> ISO_INLINE SymmetricFactors<T> factor_symmetric(const Mat3<T>& m, T softness) {

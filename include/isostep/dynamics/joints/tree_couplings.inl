@@ -8,7 +8,7 @@
 namespace isostep {
 namespace {
 
-/// The functions of joint_couplings.hpp, of lanes.
+/// The functions of joint_couplings.hpp, over lanes.
 /// Symbols: r = arm from a body's centre to the joint, kappa = mass times inverse inertia. An impulse p at r turns the
 ///          body by C p, row i of C = kappa_i x r; that moves the end of another arm q of the body by (C p) x q.
 template <class S, int W, class Isa> struct TreeCoupler : TreeStopper<S, W, Isa> {
@@ -41,7 +41,7 @@ template <class S, int W, class Isa> struct TreeCoupler : TreeStopper<S, W, Isa>
 
   // ---- of one node
 
-  /// K between its own rows, the upper triangle; drives not yet scaled.
+  /// Returns K between the node's own rows, the upper triangle. Drives are not scaled yet.
   static ISO_INLINE Mat3<L> self_coupling(const TreeNode& node, Memory m) {
     const Joint& joint = m.joints[node.joint];
     const L share_a = L::load(joint.share_a), share_b = L::load(joint.share_b);
@@ -61,7 +61,7 @@ template <class S, int W, class Isa> struct TreeCoupler : TreeStopper<S, W, Isa>
     const L xy = k(0, 1), xz = k(0, 2), yz = k(1, 2);
     return {{{k(0, 0), xy, xz}, {xy, k(1, 1), yz}, {xz, yz, k(2, 2)}}};
   }
-  /// Rows that a node's drives scale: a weak spring's yields, a constant impulse has none.
+  /// Scales the rows of a node's drives: that of a weak spring yields, a constant impulse has none.
   static ISO_INLINE void scale_self(const TreeShape& shape, const TreeNode& node, Memory m, Mat3<L>& k) {
     for (std::uint32_t d = node.first_drive; d < node.first_drive + node.drive_count; ++d) {
       const int at = static_cast<int>(shape.drives[d].place);
@@ -74,7 +74,7 @@ template <class S, int W, class Isa> struct TreeCoupler : TreeStopper<S, W, Isa>
 
   // ---- between two nodes
 
-  /// K_ij and K_ji of node i and the one that a link of it leads to.
+  /// Computes K_ij and K_ji for node i and the node at the end of a link.
   static ISO_INLINE void couple(const TreeShape& shape, const TreeNode& i, const TreeLink& link, Memory m, Mat3<L>& up,
                                 Mat3<L>& down) {
     const TreeNode& j = shape.nodes[link.to];
@@ -110,7 +110,7 @@ template <class S, int W, class Isa> struct TreeCoupler : TreeStopper<S, W, Isa>
       scale_column(k, static_cast<int>(shape.drives[d].place), U::load(m.drives[d].scale));
   }
 
-  /// Column j: where a unit impulse along axis j at another joint of the body, whose turns are `turn`, moves `arm`.
+  /// Returns the motion of `arm`. Column j: by a unit impulse along j at another joint of the body, with turns `turn`.
   static ISO_INLINE Mat3<L> moved(const Mat3<L>& turn, Vec3<L> arm) {
     return transpose(Mat3<L>{{cross(turn.column(0), arm), cross(turn.column(1), arm), cross(turn.column(2), arm)}});
   }
@@ -124,12 +124,12 @@ template <class S, int W, class Isa> struct TreeCoupler : TreeStopper<S, W, Isa>
              {xy, one + mix(a.rows[1].y, b.rows[1].y), yz},
              {xz, yz, one + mix(a.rows[2].z, b.rows[2].z)}}};
   }
-  /// The turns that a node's rows give its body, as columns.
+  /// Returns the turns that a node's rows give its body, as columns.
   static ISO_INLINE Mat3<L> turn_columns(const TreeNode& node, bool is_a, Memory m) {
     if (node.is_point()) return load(is_a ? m.joints[node.joint].turn_a : m.joints[node.joint].turn_b);
     return transpose(load(is_a ? m.rows[node.rows].turn_a : m.rows[node.rows].turn_b));
   }
-  /// The coupling of the halves of both nodes at one body, without a share of mass and without the signs of the halves.
+  /// Returns the coupling of both nodes' halves at one body, without the share of mass and the signs of the halves.
   static ISO_INLINE Mat3<L> at_body(const TreeNode& i, bool i_is_a, const TreeNode& j, bool j_is_a, Memory m) {
     const Mat3<L> turn = turn_columns(j, j_is_a, m);
     const bool meet = !i.of_angles && !j.of_angles;  // their linear parts

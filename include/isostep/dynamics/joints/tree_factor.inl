@@ -11,7 +11,7 @@
 namespace isostep {
 namespace {
 
-/// Symbols: D, K, lambda as in joint_tree.hpp.
+/// Factorises K of W trees. Symbols: D, K, lambda as in joint_tree.hpp.
 template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, Isa> {
   using Base = TreeCoupler<S, W, Isa>;
   using Base::load;
@@ -28,7 +28,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
   using typename Base::U;
   using typename Base::V;
 
-  /// Factorises K of the present poses of bodies and of what their joints ask.
+  /// Factorises K for the present poses of bodies and the present state of their joints.
   static ISO_INLINE void factorise(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints,
                                    const JointStep<S>& step) {
     Base::gather_rows(run, m, joints);
@@ -43,7 +43,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
       if (!Base::is_clear(run, node)) Base::set_turns(run.shape, node, m);
     }
   }
-  /// Factorises K of rows that turn bodies as before, with drives on their present pieces.
+  /// Factorises K for rows with unchanged turns, with drives on their present pieces.
   static ISO_INLINE void factorise(const TreeRun<S>& run, Memory m) {
     const TreeShape& shape = run.shape;
     for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
@@ -64,11 +64,11 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
       if (!idles(run, n)) eliminate(run, n, m);
     }
   }
-  /// The node asks for nothing in any lane.
+  /// Returns true if the node asks for nothing in any lane.
   static ISO_INLINE bool idles(const TreeRun<S>& run, std::size_t node) {
     return run.shape.nodes[node].may_idle && (run.idle[node] & Base::kAll) == Base::kAll;
   }
-  /// The lanes in which it asks for nothing.
+  /// Returns the lanes in which the node asks for nothing.
   static ISO_INLINE Mask idle_lanes(const TreeRun<S>& run, std::size_t node) { return Mask::from_bits(run.idle[node]); }
 
   template <class A> static ISO_INLINE V times(A a, V b) { return round_to<V>(product(a, b)); }
@@ -99,7 +99,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
   }
 
  private:
-  /// Gathers masses of bodies that spin, as BodyRows left them. Returns whether any does.
+  /// Gathers the masses of spinning bodies, as BodyRows left them. Returns true if any body spins.
   static ISO_INLINE bool follow_masses(const TreeRun<S>& run, Memory m, Velocity<S> least) {
     bool some = false;
     for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
@@ -110,7 +110,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
     }
     return some;
   }
-  /// curve_joint() of joint.inl.
+  /// Does curve_joint() of joint.inl.
   static ISO_INLINE Vec3<V> curve(const Body& a, Vec3<L> arm_a, const Body& b, Vec3<L> arm_b,
                                   const JointStep<S>& step) {
     const V fast = max(max_abs(load(a.angular)), max_abs(load(b.angular)));
@@ -118,7 +118,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
     const Vec3<V> of_a = curve_of(a, arm_a, step, bends), of_b = curve_of(b, arm_b, step, bends);
     return select(bends, of_b - of_a, {V::zero(), V::zero(), V::zero()});
   }
-  /// Takes lanes out of `bends` in which the arm turns too far.
+  /// Clears lanes of `bends` in which the arm turns too far.
   static ISO_INLINE Vec3<V> curve_of(const Body& body, Vec3<L> arm, const JointStep<S>& step, Mask& bends) {
     const Velocity<S> most = convert<Velocity<S>>(Limits<S>::speed());
     const auto across = [most](Vec3<V> w, Vec3<L> r) ISO_INLINE_LAMBDA {
@@ -137,7 +137,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
     return {part(bent.x), part(bent.y), part(bent.z)};
   }
 
-  /// The arms, how far apart the ends of points are, and how hard the last impulse pulls at each: linearise_joint(),
+  /// Computes the arms, the gaps of points, and the pull of the last impulse at each arm: linearise_joint(),
   /// pull_on().
   static ISO_INLINE void linearise(const TreeShape& shape, std::size_t j, Memory m, const JointStep<S>& step,
                                    bool rapid) {
@@ -168,7 +168,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
     if (of.a_moves) pull(arm_a, -L::load(joint.share_a), a, joint.pull_a);
     if (of.b_moves) pull(arm_b, L::load(joint.share_b), b, joint.pull_b);
   }
-  /// [m/s] The pull of a node's last impulse on b, world.
+  /// [m/s] Returns the pull of a node's last impulse on b, world.
   static ISO_INLINE Vec3<V> pull_of(const TreeNode& node, Memory m, const Node& block) {
     const Vec3<V> impulse = load(block.impulse);
     if (node.is_point()) return impulse;
@@ -248,7 +248,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
         shape.joints[node.joint].closes_loop ? detail::kClosingCompliance<S> : detail::kBlockCompliance<S>;
     return node.is_point() ? factor_symmetric(k, number(softness)) : factor_rows(k, softness);
   }
-  /// K = L D L^T by blocks: what node i's elimination leaves among the nodes it is linked to.
+  /// Eliminates node i from K = L D L^T, by blocks: updates the nodes that it is linked to.
   static ISO_INLINE void eliminate(const TreeRun<S>& run, std::size_t i, Memory m) {
     const TreeShape& shape = run.shape;
     const TreeNode& node = shape.nodes[i];
@@ -277,7 +277,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
       }
     }
   }
-  /// Subtracts what an elimination leaves, and +0 in lanes in which its node idles: -0 would turn a -0 into +0, and
+  /// Subtracts the update of an elimination, and +0 in lanes in which its node idles: -0 would turn a -0 into +0, and
   /// where all lanes idle nothing is subtracted.
   struct Left {
     Mask idle;
@@ -294,7 +294,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
         subtract(field[3 * i + 2], p.rows[i].z);
       }
     }
-    /// The upper triangle of a product that is symmetric.
+    /// Subtracts the upper triangle of a symmetric product.
     ISO_INLINE void subtract_symmetric(S (&field)[6][W], const Mat3<L>& p, const Mat3<L>& q) const {
       const Vec3<L> x = q.column(0), y = q.column(1), z = q.column(2);
       subtract(field[0], dot(p.rows[0], x));

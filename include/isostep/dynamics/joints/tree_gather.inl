@@ -12,7 +12,7 @@
 namespace isostep {
 namespace {
 
-/// Lanes as vectors and matrices, and records by runs of four and eight words, which transpose by whole registers.
+/// Loads and stores vectors and matrices of lanes. Records transpose by whole registers, four or eight words a time.
 template <class S, int W, class Isa> struct TreeGatherer {
   using L = Lanes<S, W, Isa>;
   using V = Lanes<Velocity<S>, W, Isa>;
@@ -67,7 +67,7 @@ template <class S, int W, class Isa> struct TreeGatherer {
       m.rows[i].z.store(field[3 * i + 2]);
     }
   }
-  /// The upper triangle.
+  /// Stores the upper triangle.
   static ISO_INLINE void store(const Mat3<L>& m, S (&field)[6][W]) {
     m.rows[0].x.store(field[0]);
     m.rows[0].y.store(field[1]);
@@ -106,9 +106,9 @@ template <class S, int W, class Isa> struct TreeGatherer {
 
   // ---- masses: once a step, and in those lanes that spin once a sub-step
 
-  /// Why:    joints pull with tension T, the sum of s (1 - n n^T) over them, and tr(kappa T) decides. With k the
-  ///         largest moment of kappa that is at most 3 k times the sum of s, and kTautLimit asks for 4: below 1 / k
-  ///         nothing can come of it, and no direction n need be found. 64 resolutions are for what eight joints round.
+  /// Gathers masses. Joints pull with tension T, the sum of s (1 - n n^T) over them, and tr(kappa T) decides. With k
+  /// the largest moment of kappa it is at most 3 k times the sum of s, and kTautLimit asks for 4: below 1 / k the
+  /// tension has no effect, and no direction n is needed. 64 resolutions allow for the rounding of eight joints.
   template <class Lane>
   static ISO_INLINE void gather_mass(const std::uint32_t* rows, const SolverMass<S>* masses, Body& body, Lane which) {
     const S* mass[W];
@@ -172,7 +172,7 @@ template <class S, int W, class Isa> struct TreeGatherer {
 
   // ---- once a sub-step
 
-  /// Rows and errors as their joints have written them.
+  /// Gathers rows and errors as their joints have written them.
   static ISO_INLINE void gather_rows(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints) {
     for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) {
       const TreeNode& node = run.shape.nodes[n];
@@ -190,18 +190,18 @@ template <class S, int W, class Isa> struct TreeGatherer {
     return run.joints[joint * W + static_cast<std::size_t>(lane)];
   }
 
-  /// The lanes of a run, one bit each, whether or not a tree is in them.
+  /// The lanes of a run, one bit each, with or without a tree.
   static constexpr std::uint32_t kAll = 0xffffffffu >> (32 - W);
   static ISO_INLINE bool has_stops(const TreeRun<S>& run, const TreeNode& node) {
     return node.of_angles && run.shape.joints[node.joint].stops != TreeJoint::kNoStops;
   }
-  /// The node consists of limits that are reached in no lane.
+  /// Returns true if the node consists of limits that no lane reaches.
   static ISO_INLINE bool is_clear(const TreeRun<S>& run, const TreeNode& node) {
     return node.may_idle && run.clear[node.joint] == kAll;
   }
 
  private:
-  /// Stores the rows that the sum of a joint's impulses on its bodies reads: joint_impulse.hpp.
+  /// Stores the rows that the sum of a joint's impulses on its bodies needs: joint_impulse.hpp.
   static ISO_INLINE void store_rows(const TreeRun<S>& run, const TreeNode& node, const Rows& rows, int lane,
                                     JointConstraint<S>& joint) {
     const auto row = [&](int r) ISO_INLINE_LAMBDA {
@@ -213,7 +213,7 @@ template <class S, int W, class Isa> struct TreeGatherer {
       joint.drives[drive.index].row.angular_b = row(static_cast<int>(drive.place));
     }
   }
-  /// Clears the rows of joints that are clear from the start of the step: what is not written yet is finite.
+  /// Clears the rows of joints that are clear at the start of the step, so that all numbers are finite.
   static ISO_INLINE void clear_rows(Rows& rows) {
     const L zero = L::zero();
     for (int i = 0; i < 9; ++i) {
@@ -231,7 +231,7 @@ template <class S, int W, class Isa> struct TreeGatherer {
   static ISO_INLINE void store_row(const L (&v)[4], S (&field)[9][W], std::uint32_t row) {
     ISO_UNROLL for (int k = 0; k < 3; ++k) v[k].store(field[3 * row + static_cast<std::uint32_t>(k)]);
   }
-  /// A drive's row is its own, whatever stands in the block.
+  /// Gathers a row of the node. A drive has its own row, in place of the one in the block.
   static ISO_INLINE void gather_row(const TreeRun<S>& run, const TreeNode& node, std::uint32_t r,
                                     const JointConstraint<S>* joints, Rows& rows) {
     const TreeDrive* drive = nullptr;

@@ -10,7 +10,7 @@
 namespace isostep {
 namespace {
 
-/// All trees of a run have one shape, so that what differs between lanes are numbers; lanes never meet.
+/// The kernel of W trees. All trees of a run have one shape, so that lanes differ only in numbers and never interact.
 template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
   using Base = TreeLaws<S, W, Isa>;
   using Base::bounded;
@@ -79,7 +79,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
     substitute(run, m);
     tell_drives(run, m);
   }
-  /// A joint that turns out not to be clear is judged from then on.
+  /// Judges drives. A joint that turns out not to be clear is judged from then on.
   template <bool Relax> static bool judge(const TreeRun<S>& run, const JointStep<S>& step, bool may_hold) {
     if (run.shape.stops == 0) return false;
     const Memory m = Memory::of(run.memory, run.shape);
@@ -118,7 +118,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
   static void end(const TreeRun<S>& run) { Base::scatter_velocities(run, Memory::of(run.memory, run.shape)); }
 
  private:
-  /// These do what the functions of their names in joint_rows.hpp do.
+  /// These do the same as the functions of those names in joint_rows.hpp.
   static ISO_INLINE Vec3<V> impulses(const Mat3<L>& a, Vec3<V> v) {
     const Velocity<S> most = most_joint_impulse<S>();
     return {round_within<V>(dot_sum(a.rows[0], v), most), round_within<V>(dot_sum(a.rows[1], v), most),
@@ -139,7 +139,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
     }
     tell_drives(run, m);
   }
-  /// Finds the right side of K lambda = -(speed + bias), for velocities before anything of this pass is applied.
+  /// Computes the right side of K lambda = -(speed + bias), for the velocities at the start of the pass.
   template <bool Relax>
   static ISO_INLINE void find_right_side(const TreeShape& shape, std::size_t n, Memory m, const JointStep<S>& step) {
     const TreeNode& of = shape.nodes[n];

@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// The lanes in which a limit holds a drive, one bit each, and those in which it is to hold it next.
+/// The lanes in which a limit holds a drive, one bit each, and those in which it will hold it next.
 struct HeldLanes {
   std::uint32_t below, above, next_below, next_above;
 
@@ -33,37 +33,37 @@ template <class S> struct TreeRun {
   const SolverMass<S>* mass;         // likewise
 };
 
-/// A pass over trees without drives is one call. One over trees with drives is several: between them the laws of the
-/// drives say what their rows ask for and are, in TreeDriveLanes.
+/// The kernels of one instruction set. A pass over trees without drives is one call. With drives it is several: between
+/// them the laws of the drives set what their rows are and ask for, in TreeDriveLanes.
 template <class S> struct TreeKernels {
   const char* name;
   std::int32_t width;
   /// Prepares the lanes from the constraints, once a step, and stores them back.
   void (*prepare)(const TreeRun<S>&, const JointConstraint<S>* joints);
   void (*store)(const TreeRun<S>&, JointConstraint<S>* joints);
-  /// Begins a sub-step: gathers the poses and velocities of bodies, and joints with stops as they are now.
+  /// Begins a sub-step: gathers the present poses and velocities of bodies, and the state of joints with stops.
   void (*place)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
-  /// JointTrees calls each once a sub-step. They read the rows of constraints, but of points and of joints with stops.
+  /// JointTrees calls each once a sub-step. They read the rows of constraints, except for points and joints with stops.
   void (*warm_start)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
   void (*solve)(const TreeRun<S>&, const JointStep<S>& step);
   void (*relax)(const TreeRun<S>&, const JointStep<S>& step);
 
   void (*begin)(const TreeRun<S>&);
-  /// Finds speeds and impulses of drives, and right-hand sides of equalities, without bias where relaxed.
+  /// Compute speeds and impulses of drives, and right-hand sides of equalities, without bias in the relaxed form.
   void (*find_right_sides)(const TreeRun<S>&, const JointStep<S>& step);
   void (*find_relaxed_right_sides)(const TreeRun<S>&, const JointStep<S>& step);
   /// Turns the drives' right-hand sides into their new speeds and impulses.
   void (*substitute)(const TreeRun<S>&);
-  /// Returns whether a drive of joints with stops is off its piece of the law, as JointTrees::judge_drives() does.
+  /// Return true if a drive of joints with stops is off its piece of the law, like JointTrees::judge_drives().
   bool (*judge)(const TreeRun<S>&, const JointStep<S>& step, bool may_hold);
   bool (*judge_relaxed)(const TreeRun<S>&, const JointStep<S>& step, bool may_hold);
-  /// `restore` puts all back as the pass began; `resume` then factorises with impulses, scales and give of new pieces.
+  /// `restore` resets the pass to its start. `resume` then factorises with impulses, scales and give of new pieces.
   void (*restore)(const TreeRun<S>&);
   void (*resume)(const TreeRun<S>&);
   void (*end)(const TreeRun<S>&);
 };
 
-/// The kernels for `simd`. Null when the processor or build lacks it; never for `best`.
+/// Returns the kernels for `simd`. Null if the CPU or the build lacks it; never null for `best`.
 template <class S> const TreeKernels<S>* tree_kernels(Simd simd);
 
 #define ISO_DECLARE_TREE_KERNELS(S)         \

@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// Symmetric matrices are their xx, xy, xz, yy, yz, zz; others nine entries by rows.
+/// The bodies of W trees. Symmetric matrices are stored as xx, xy, xz, yy, yz, zz, others as nine entries by rows.
 template <class S, int W> struct TreeBodyLanes {
   Velocity<S> linear[3][W], angular[3][W];              // [m/s], [rad/s] for the length of a pass
   Velocity<S> start_linear[3][W], start_angular[3][W];  // when the pass began, of trees with drives
@@ -39,7 +39,7 @@ template <class S, int W> struct TreeNodeLanes {
   Velocity<S> start[3][W];    // [m/s] the same when the pass began, of trees with drives
   Velocity<S> right[3][W];    // [m/s] right-hand sides, then solutions
 };
-/// Three rows that are no point, as JointRow has them: row i in entries 3 i to 3 i + 2.
+/// Three rows that are no point, like JointRow: row i in entries 3 i to 3 i + 2.
 template <class S, int W> struct TreeRowLanes {
   S linear[9][W];                      // [1] of places
   S angular_a[9][W], angular_b[9][W];  // [m]
@@ -62,7 +62,7 @@ template <class S, int W> struct TreeDriveLanes {
   S below_upper[W];        // [m]
 };
 
-/// A joint whose rows are those of a twist and a swing, bounded or held, and nothing else: tree_stops.inl.
+/// A joint with rows only of a twist and a swing, each bounded or held: tree_stops.inl.
 template <class S, int W> struct TreeStopLanes {
   Unit<S> frame_a[4][W], frame_b[4][W];  // rotations of the frames in their bodies
   Unit<S> middle[2][W];                  // cosine and sine of half the angle in the middle of the twist's range
@@ -98,7 +98,7 @@ template <class S, int W> struct TreeMemory {
     return m;
   }
 };
-/// Lanes and nothing between: W trees take W times the bytes of one.
+/// Returns the bytes before the drives of one tree. Lanes have no padding: W trees take W times the bytes.
 template <class S> ISO_INLINE std::size_t tree_bytes_before_drives(const TreeShape& shape) {
   return shape.bodies.size() * sizeof(TreeBodyLanes<S, 1>) + shape.joints.size() * sizeof(TreeJointLanes<S, 1>) +
          shape.nodes.size() * sizeof(TreeNodeLanes<S, 1>) + shape.row_blocks * sizeof(TreeRowLanes<S, 1>) +
@@ -111,7 +111,7 @@ template <class S> ISO_INLINE std::size_t tree_bytes(const TreeShape& shape) {
   return tree_bytes_before_stops<S>(shape) + shape.stops * sizeof(TreeStopLanes<S, 1>);
 }
 
-/// The drives of W trees, whatever W is: for code that is compiled for no instruction set of its own.
+/// The drives of W trees, for any W: for code that is compiled for no special instruction set.
 template <class S> class TreeDriveView {
  public:
   /// `memory` is a TreeMemory<S, width>.
@@ -137,7 +137,7 @@ template <class S> class TreeDriveView {
   std::size_t width_;
 };
 
-/// The impulses of the nodes of W trees, whatever W is.
+/// The impulses of the nodes of W trees, for any W.
 template <class S> class TreeNodeView {
  public:
   ISO_INLINE TreeNodeView(unsigned char* memory, const TreeShape& shape, std::size_t width)
@@ -163,7 +163,7 @@ template <class S> struct TreeStopLimits {
   SinCos<Unit<S>> middle;
   S twist, twist_slope, swing, swing_slope, lower, upper, cone, radius, twist_radius, swing_radius;
 };
-/// The stops of W trees, whatever W is.
+/// The stops of W trees, for any W.
 template <class S> class TreeStopView {
  public:
   ISO_INLINE TreeStopView(unsigned char* memory, const TreeShape& shape, std::size_t width)

@@ -8,7 +8,7 @@
 namespace isostep {
 namespace {
 
-/// The functions of joint_drive.hpp, joint_drive_rows.hpp and joint_tree_drives.inl with these names, of lanes. The
+/// The functions of joint_drive.hpp, joint_drive_rows.hpp and joint_tree_drives.inl with these names, over lanes. The
 /// pieces of such a drive are free, lower and upper: HeldLanes.
 template <class S, int W, class Isa> struct TreeLaws : TreePusher<S, W, Isa> {
   using Base = TreePusher<S, W, Isa>;
@@ -20,7 +20,7 @@ template <class S, int W, class Isa> struct TreeLaws : TreePusher<S, W, Isa> {
   using typename Base::U;
   using typename Base::V;
 
-  /// A drive that is free gives nothing, one that holds is its row.
+  /// Sets the rows of drives. A free drive has none, a drive that holds has its own row.
   static ISO_INLINE void set_pieces(const TreeRun<S>& run, Memory m) {
     for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
       const TreeDrive& of = run.shape.drives[d];
@@ -65,7 +65,7 @@ template <class S, int W, class Isa> struct TreeLaws : TreePusher<S, W, Isa> {
       select(Mask::from_bits(run.held[d].below), V::load(drive.low) - speed, of_above).store(drive.right);
     }
   }
-  /// Sets the pieces to try next. Returns whether there are others than now in lanes with a tree.
+  /// Sets the pieces to try next. Returns true if they differ from the present ones in a lane with a tree.
   static ISO_INLINE bool judge_drives(const TreeRun<S>& run, Memory m, bool may_hold) {
     bool off = false;
     for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {

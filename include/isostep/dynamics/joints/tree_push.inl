@@ -9,8 +9,8 @@
 namespace isostep {
 namespace {
 
-/// Speeds along rows are held within half of the format, and so is what impulses do to a body: a pass with drives on
-/// wrong pieces leaves any.
+/// Computes speeds along rows and pushes bodies, both within half of the format: a pass with drives on wrong pieces can
+/// leave any speed.
 template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Isa> {
   using Base = TreeFactoriser<S, W, Isa>;
   using Base::load;
@@ -61,7 +61,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     const std::uint32_t clear = run.shape.nodes[of.node - 1].may_idle ? run.clear[j] : 0;
     push(run.shape, of, m, load(m.nodes[of.node].impulse), load(m.nodes[of.node - 1].impulse), clear);
   }
-  /// Adds a joint's solutions to its impulses, and to the bodies what they grew by.
+  /// Adds a joint's solutions to its impulses, and applies the changes to the bodies.
   static ISO_INLINE void push_changes(const TreeRun<S>& run, std::uint32_t j, Memory m) {
     const TreeJoint& of = run.shape.joints[j];
     const Vec3<V> none = {V::zero(), V::zero(), V::zero()};
@@ -70,7 +70,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     const std::uint32_t idle = run.shape.nodes[of.node - 1].may_idle ? run.idle[of.node - 1] & Base::kAll : 0;
     push(run.shape, of, m, place, add_solution(run, of.node - 1, m), idle);
   }
-  /// A change of one drive's impulse; bodies of lanes in which there is none stay as they are, signs of zeros too.
+  /// Applies a change of one drive's impulse. Bodies in lanes without a change stay as they are, signs of zeros too.
   static ISO_INLINE void push_row(const TreeShape& shape, const TreeDrive& drive, Memory m, V change) {
     const Mask acts = ~equal(change, V::zero());
     if (!any(acts)) return;
@@ -94,7 +94,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
   }
 
  private:
-  /// speed_along() of joint_rows.hpp: v + w x r of b less that of a.
+  /// Does speed_along() of joint_rows.hpp: v + w x r of b less that of a.
   static ISO_INLINE Vec3<V> point_speed(const Joint& joint, const Body& a, const Body& b) {
     const Vec3<L> ra = load(joint.arm_a), rb = load(joint.arm_b);
     const Vec3<V> wa = load(a.angular), wb = load(b.angular);
@@ -116,7 +116,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     return round_with_headroom<V>(dot_sum(row_of(rows.linear, r), between) + turning);
   }
 
-  /// The growth of a node's impulses; a drive's solution counts as its row does.
+  /// Adds the solution to a node's impulses and returns the change. A drive's solution is scaled like its row.
   static ISO_INLINE Vec3<V> add_solution(const TreeRun<S>& run, std::uint32_t n, Memory m) {
     const TreeNode& of = run.shape.nodes[n];
     Node& node = m.nodes[n];
@@ -134,7 +134,7 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     return impulse - old;
   }
 
-  /// `still`: lanes in which the angles push nothing, not even a zero, which has a sign.
+  /// `still`: lanes in which the angles push nothing, not even a zero, since that has a sign.
   static ISO_INLINE void push(const TreeShape& shape, const TreeJoint& of, Memory m, Vec3<V> place, Vec3<V> angle,
                               std::uint32_t still) {
     const Joint& joint = m.joints[shape.nodes[of.node].joint];
@@ -162,8 +162,8 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
       store(load(body.angular) + times(load(joint.turn_b), p), body.angular);
     }
   }
-  /// All rows of a joint at once: on a long arm a drive and the point turn a light body hard against each other, beyond
-  /// the range of velocities, and what is left of both is little.
+  /// Pushes a body by all rows of a joint at once. On a long arm a drive and the point turn a light body hard against
+  /// each other, beyond the range of velocities, while their sum is small.
   template <bool IsA>
   static ISO_INLINE void push_body(const TreeShape& shape, const TreeJoint& of, Memory m, Vec3<V> place, Vec3<V> angle,
                                    std::uint32_t still) {

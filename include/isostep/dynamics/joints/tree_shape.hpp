@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// A span whose functions leave no symbol: what kernels of one instruction set include must not.
+/// A span whose functions leave no symbol: files included by kernels of one instruction set must not leave any.
 template <class T> struct KernelSpan {
   const T* first;
   std::size_t count;
@@ -32,7 +32,7 @@ struct TreeJoint {
 
   static constexpr std::uint32_t kNoStops = 0xffffffffu;
 };
-/// A block of a joint that is eliminated in its turn.
+/// A block of a joint, in order of elimination.
 struct TreeNode {
   std::uint32_t joint;
   std::uint32_t rows;                      // in the rows of the memory; kNoRows: the world's axes through a point
@@ -44,20 +44,20 @@ struct TreeNode {
   static constexpr std::uint32_t kNoRows = 0xffffffffu;
   ISO_INLINE bool is_point() const { return rows == kNoRows; }
 };
-/// Two nodes at one body; or both of one joint, which meet at both of its bodies.
+/// A link of two nodes at one body, or of both nodes of one joint, which meet at both of its bodies.
 struct TreeLink {
   std::uint32_t to;
   bool from_is_a, to_is_a;  // which end of either is at the body
   bool of_one_joint;
 };
-/// A row of a node that a drive stands in.
+/// A row of a node that belongs to a drive.
 struct TreeDrive {
   std::uint32_t joint, node;
   std::uint32_t place;  // of the node's three rows
   std::uint32_t index;  // of the joint's drives
   bool stops;           // its joint has stops
 };
-/// A body of the shape, by a joint that it has. What does not move is one body an end, even where it is the same one.
+/// A body of the shape, named by one of its joints. An unmoved body is one for each end, even if it is the same one.
 struct TreeBody {
   std::uint32_t joint;
   bool is_a, moves;

@@ -9,16 +9,16 @@
 namespace isostep {
 namespace {
 
-/// A limit that no speed of the sub-step reaches asks for nothing: its angle and its drive's law need not be known. The
-/// joint is clear.
-/// Symbols: q = frame b seen from frame a, m = half the angle in the middle of the twist's range, R = a quarter of that
-///          range. n = |(q_z, q_w)| is the cosine of half the swing, d = |q_w cos m + q_z sin m| is n times the cosine
-///          of f, half of how far the twist is from the middle: it is within its range while f < R.
+/// Joints with limits on twist and swing. A limit that no speed of the sub-step reaches asks for nothing: its angle and
+/// the law of its drive need not be known. Such a joint is clear.
+/// Symbols: q = frame b relative to frame a, m = half the angle in the middle of the twist's range, R = a quarter of
+///          that range. n = |(q_z, q_w)| is the cosine of half the swing, d = |q_w cos m + q_z sin m| is n times the
+///          cosine of f, half of the twist's distance from the middle: it is within its range while f < R.
 /// Why:     cosines are concave: from f to R it is at least (cos f - cos R) / (sin R + sin(R / 2)), the twist's slope,
-///          and of a swing likewise with the cone for R. A turn of t changes the swing by t at most, and f by t / (2 n)
-///          at most while n is what it is: by less than 2 t / (3 n) if t < n / 2. So neither the turn itself nor a
-///          row's speed times the sub-step, a twist's is 1 / n long, reaches a limit. 1 - e / 2 - e^2 / 8 with
-///          e = q_x^2 + q_y^2 stands for n, without a root: it is n or more; and n^2 = 1 - e where less is asked for.
+///          and the same for a swing with the cone for R. A turn of t changes the swing by t at most, and f by t / (2
+///          n) at most while n keeps its value: by less than 2 t / (3 n) if t < n / 2. So neither the turn itself nor a
+///          row's speed times the sub-step (a twist's row is 1 / n long) reaches a limit. 1 - e / 2 - e^2 / 8 with e =
+///          q_x^2 + q_y^2 replaces n, without a root: it is n or more; and n^2 = 1 - e where less is asked for.
 template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa> {
   using Base = TreeGatherer<S, W, Isa>;
   using Base::load;
@@ -35,7 +35,7 @@ template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa
   using typename Base::U;
   using typename Base::V;
 
-  /// Joints with a drive that acts are not clear, nor are those that turn by half of what they may.
+  /// Finds the clear joints. A joint with an active drive, or one that turns by half of what it may, is not clear.
   static ISO_INLINE void place_stops(const TreeRun<S>& run, Memory m, Step<S> h) {
     for (std::size_t j = 0; j < run.shape.joints.size(); ++j) {
       const TreeJoint& of = run.shape.joints[j];
@@ -52,7 +52,7 @@ template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa
       if (!Base::is_clear(run, node)) write_rows(run, j, f, m, h);
     }
   }
-  /// Returns whether a joint turns now so fast that it is clear no longer: its rows become those of one that is not.
+  /// Returns true if a joint turns too fast to stay clear. Computes the rows of such joints.
   static ISO_INLINE bool find_reached(const TreeRun<S>& run, Memory m, Step<S> h) {
     bool some = false;
     for (std::size_t j = 0; j < run.shape.joints.size(); ++j) {
@@ -85,7 +85,7 @@ template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa
     f.between = conjugate(f.a) * f.b;
     return f;
   }
-  /// [rad] A quarter, as turn_of() has it.
+  /// [rad] Returns a quarter of the turn that reaches no limit, in the unit of turn_of().
   static ISO_INLINE V reach_of(const Quat<U>& q, const Stops& stops) {
     const L one = number(S(1)), half = number(S(0.5));
     const L e = one * round_to<U>(product(q.x, q.x) + product(q.y, q.y)), half_e = half * e;
@@ -97,8 +97,8 @@ template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa
     // Rounding changes orientations and cosines by less than 2^-8.
     return convert<V>(number(S(0.25)) * (min(most, min(twist, swing)) - number(S(0x1p-8))));
   }
-  /// [rad] A quarter of what a joint's bodies turn by against each other in a sub-step, or more: a vector is shorter
-  /// than twice its largest component.
+  /// [rad] Returns a quarter of the angle by which a joint's bodies turn against each other in a sub-step, or more: a
+  /// vector is shorter than twice its largest component.
   static ISO_INLINE V turn_of(const TreeJoint& of, Memory m, Step<S> h) {
     const L half = number(S(0.5) * h);
     const auto turned = [half](V w) ISO_INLINE_LAMBDA { return round_to<V>(product(half, w)); };
@@ -149,7 +149,7 @@ template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa
     const U across = tilt.x + select(less(tilt.z, U::zero()), more, U::zero());
     store(Vec3<V>{error(-(radius * tilt.y)), error(radius * across), V::zero()}, node.error);
   }
-  /// Returns the cosine of half the swing, kLeastTwistCosine or more.
+  /// Writes the row of the twist. Returns the cosine of half the swing, at least kLeastTwistCosine.
   static ISO_INLINE L write_twist(const Stops& stops, Vec3<U> za, Vec3<U> zb, Rows& rows) {
     const U half = U::broadcast(Unit<S>(0.5));
     const Vec3<U> sum = za * half + zb * half;
@@ -162,7 +162,7 @@ template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa
 
   // ---- how far from their limits drives are, in lanes that are not clear
 
-  /// set_angle() of joint_frames.hpp. Where a twist means nothing no limit acts, and none that did goes on.
+  /// Does set_angle() of joint_frames.hpp. Where a twist has no meaning, no limit acts, and one that acted stops.
   static ISO_INLINE void measure_twist(const TreeRun<S>& run, std::size_t j, const Quat<U>& q, L cosine, Memory m) {
     const TreeJoint& of = run.shape.joints[j];
     const Stops& stops = m.stops[of.stops];

@@ -6,8 +6,8 @@
 
 namespace isostep::detail {
 
-/// Orientations coincide.
-/// Symbols: 2 (x, y, z) of the relative rotation is the error angle to first order, in a's axes.
+/// Computes the rows that keep orientations equal. Symbols: 2 (x, y, z) of the relative rotation is the error angle to
+/// first order, in a's axes.
 template <class S>
 ISO_INLINE void weld_block(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step<S> h, JointConstraint<S>& joint) {
   const Quat<Unit<S>> q = relative_rotation(f);
@@ -18,15 +18,15 @@ ISO_INLINE void weld_block(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step
   block.error = {bounded_error(twice * q.x, h), bounded_error(twice * q.y, h), bounded_error(twice * q.z, h)};
 }
 
-/// [1] The error `across` of two axes that are to coincide. `along`, of the other one, keeps it from ending where they
-/// point in opposite directions: there their cross product is zero, as where they coincide.
+/// [1] Returns the error `across` of two axes that should coincide. `along`, that of the other axis, keeps it from
+/// being zero where they point in opposite directions: there their cross product is zero, as where they coincide.
 template <class U> ISO_INLINE U part_across(U across, U along) {
   if (!(along < U(0))) return across;
   return across < U(0) ? across + along : across - along;
 }
 
-/// z axes coincide.
-/// Symbols: z_a x z_b is the rotation, to first order, by which b's axis has left a's; it has no part along z_a.
+/// Computes the rows that keep z axes together. Symbols: z_a x z_b is the rotation, to first order, of b's axis from
+/// a's; it has no part along z_a.
 template <class S>
 ISO_INLINE void axle_block(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step<S> h, JointConstraint<S>& joint) {
   const Vec3<Unit<S>> tilt = transposed_times(a, to_matrix(f.b).column(2));  // b's axis in a's frame
@@ -39,7 +39,7 @@ ISO_INLINE void axle_block(const JointFrames<S>& f, const Mat3<Unit<S>>& a, Step
                  bounded_error(joint.radius * part_across(tilt.x, tilt.z), h), Velocity<S>(0)};
 }
 
-/// The drive of the angle about z where the z axes coincide.
+/// Sets the drive of the angle about z while the z axes coincide.
 template <class S>
 ISO_INLINE void linearise_turn(const JointFrames<S>& f, const Mat3<Unit<S>>& a, JointConstraint<S>& joint) {
   if (joint.drive_count == 0) return;
@@ -47,22 +47,22 @@ ISO_INLINE void linearise_turn(const JointFrames<S>& f, const Mat3<Unit<S>>& a, 
   set_angle(joint.drives[0], joint.properties, twist_angle<S>(relative_rotation(f)));
 }
 
-/// [1] least cos(swing / 2) at which twist is limited: within 14 degrees of half a turn it changes faster than a
-/// sub-step follows, and at half a turn it means nothing.
+/// [1] The least cos(swing / 2) at which twist is limited: within 14 degrees of half a turn it changes faster than a
+/// sub-step follows, and at half a turn it has no meaning.
 template <class S> inline constexpr S kLeastTwistCosine = S(1.0 / 8);
 
-/// [rad] Swing at which a joint stops whose twist is limited, locked or sprung: 149 degrees. There a twist changes four
-/// times as fast as bodies turn. Beyond half a turn b comes back with another twist, and what acts on it then would
-/// turn b with energy that it never took.
+/// [rad] The swing at which a joint with a limited, locked or sprung twist stops: 149 degrees. There a twist changes
+/// four times as fast as bodies turn. Beyond half a turn b comes back with another twist, and forces on that would turn
+/// b with energy that it never took.
 template <class S> inline constexpr S kTwistEnds = S(2.6);
-/// [rad] The swing at which a joint stops that has a cone or a twist that is held.
+/// [rad] Returns the swing at which a joint with a cone or a held twist stops.
 template <class S> ISO_INLINE S most_swing(const JointProperties<S>& p, bool holds_twist) {
   const bool cone = (p.flags & joint_flag::kCone) != 0;
   return !cone ? kTwistEnds<S> : holds_twist ? min(p.cone, kTwistEnds<S>) : p.cone;
 }
 
-/// Twist, about z, of a rotation that also swings: its rate is the relative angular velocity about the mean of the two
-/// z axes, divided by cos(swing / 2).
+/// The twist, about z, of a rotation that also swings. Its rate is the relative angular velocity about the mean of the
+/// two z axes, divided by cos(swing / 2).
 template <class S> struct Twist {
   Vec3<Unit<S>> axis;
   S cosine;  // [1] of half the swing, kLeastTwistCosine or more
@@ -75,7 +75,7 @@ template <class S> ISO_INLINE Twist<S> twist_of(Vec3<Unit<S>> za, Vec3<Unit<S>> 
   return {{mean.x, mean.y, mean.z}, max(convert<S>(mean.length), kLeastTwistCosine<S>)};
 }
 
-/// The drive of the twist. Where it means nothing no limit acts.
+/// Sets the drive of the twist. Where the twist has no meaning no limit acts.
 template <class S, class Asked>
 ISO_INLINE void set_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<S>> zb, bool limit, const Asked& asked,
                           JointDrive<S>& drive) {
@@ -94,7 +94,7 @@ ISO_INLINE void lock_twist(const JointFrames<S>& f, Vec3<Unit<S>> za, Vec3<Unit<
   block.error.z = bounded_error(joint.radius * twist_angle<S>(relative_rotation(f)), h);
 }
 
-/// Swing: the angle between the z axes, about their common normal. Aligned axes have none, and no row.
+/// Sets the drive of the swing: the angle between the z axes, about their common normal. Aligned axes have no row.
 template <class S> ISO_INLINE void linearise_swing(Vec3<Unit<S>> za, Vec3<Unit<S>> zb, S most, JointDrive<S>& drive) {
   using U = Unit<S>;
   const Vec3<U> n = cross(za, zb);

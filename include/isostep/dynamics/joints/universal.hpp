@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// Hooke's: origins coincide, x of a and y of b are the arms of its cross. Two shafts along z, bent by an angle b, turn
-/// at speeds whose ratio goes from cos b to 1 / cos b twice a turn.
+/// Hooke's joint: keeps origins together. x of a and y of b are the arms of its cross. Two shafts along z, bent by an
+/// angle b, turn at speeds whose ratio goes from cos b to 1 / cos b twice a turn.
 template <class S> struct UniversalJoint : detail::PointJoint<S> {
   static constexpr JointType kType = JointType::universal;
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected;

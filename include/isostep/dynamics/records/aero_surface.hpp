@@ -11,12 +11,12 @@ namespace isostep {
 
 using AeroSurfaceId = Id<struct AeroSurfaceTag>;
 
-/// Force at a point of the body: tensor v in the surface's frame, with v the velocity of that point, the body's turning
-/// included, through the air (less the wind of the zones around it). What resists has negative entries. Under water,
-/// if it is made for that: through the Water around it, and without a force while the point is above it.
-/// A control surface: control from -1 to 1 leads from `low` over `tensor` to `high`, straight between them.
+/// Applies a force at a point of the body: tensor v in the surface's frame, with v the velocity of that point through
+/// the air, with the body's rotation, less the wind of the zones around it. A tensor that resists has negative entries.
+/// An underwater surface uses the velocity through the Water around it, and has no force while the point is above it.
+/// A control surface: control from -1 to 1 leads from `low` over `tensor` to `high`, linearly in between.
 /// An angled surface: `orientation` turns its frame in the body's.
-/// Source:  Millington 2007, pp. 217-222, 225-227. Differs: the wind is taken off, the body's turning counts, the
+/// Source:  Millington 2007, pp. 217-222, 225-227. Differs: the wind is subtracted, the body's rotation counts, the
 ///          force may grow with the speed squared, and large tensors are stable.
 template <class S> struct AeroSurface {
   BodyId body = {};
@@ -40,7 +40,7 @@ template <class S> bool is_finite_matrix(const Mat3<S>& m) {
   return is_finite(m.rows[0]) && is_finite(m.rows[1]) && is_finite(m.rows[2]);
 }
 
-/// [N s/m] The tensor at this control and, of a quadratic surface, at this speed [m/s] through the air.
+/// [N s/m] Returns the tensor at this control and, for a quadratic surface, at this speed [m/s] through the air.
 template <class S> Mat3<S> tensor_of(const AeroSurface<S>& surface, S speed) {
   const Mat3<S>& end = surface.control < S(0) ? surface.low : surface.high;
   const S part = abs(surface.control), rest = S(1) - part;

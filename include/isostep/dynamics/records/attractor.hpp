@@ -12,9 +12,9 @@ namespace isostep {
 
 using AttractorId = Id<struct AttractorTag>;
 
-/// Every dynamic body that is awake, of a category of the mask and nearer than `range`, is accelerated by
-/// strength / max(distance, least_distance)^2 towards the point. An attracting body that is dynamic is pulled back as
-/// much: momentum stays. What sleeps is left asleep.
+/// Accelerates every awake dynamic body with a category of the mask and nearer than `range` by strength / max(distance,
+/// least_distance)^2 towards the point. A dynamic body that attracts is pulled back as much: momentum is conserved.
+/// Sleeping bodies stay asleep.
 template <class S> struct Attractor {
   BodyId body = {};                    // whose centre of mass attracts; null: the point
   Vec3<S> point = {S(0), S(0), S(0)};  // [m] world
@@ -56,7 +56,7 @@ template <class S> struct RecordRules<Attractor<S>> : RecordDefaults<S> {
     a.strength = random.in(-2, 4, a.body && mass < kHeavy ? mass / kHeavy : 1);
     a.range = random.in(1, 4);
   }
-  /// It pulls every awake body.
+  /// Pulls every awake body.
   template <class Forces> static void act(const Attractor<S>& a, Forces& forces) {
     const auto& bodies = forces.bodies;
     if (a.body && !bodies.is_enabled(a.body)) return;

@@ -15,10 +15,10 @@ namespace isostep {
 using AxisDriveId = Id<struct AxisDriveTag>;
 
 /// The axes of a six-axis joint, in the order of its rows: b's origin along x, y and z of frame a; the swing of b's z
-/// axis about x and y of a, and the twist about z.
+/// axis about x and y of a; the twist about z.
 enum class JointAxis : std::uint32_t { x, y, z, swing_x, swing_y, twist };
 
-/// Words for it, in scene files and in C.
+/// The words for it, in scene files and in C.
 inline constexpr const char* kJointAxisNames[] = {"x", "y", "z", "swing_x", "swing_y", "twist"};
 ISO_INLINE constexpr std::span<const char* const> words_of(JointAxis) { return kJointAxisNames; }
 inline constexpr std::uint32_t kJointAxes = kJointRows;
@@ -28,15 +28,15 @@ ISO_INLINE constexpr std::uint32_t lock_of(JointAxis axis) {
   return joint_flag::kLockX << static_cast<std::uint32_t>(axis);
 }
 
-/// Acts along one axis of a six-axis joint, which does not lock it. An axis has one of these at most; one without is
-/// free. It ends with its joint.
-/// Servo: a spring with a largest force and no motor beside it: it goes to its target as far as it is strong enough.
-/// Stiffness: spring_mass (2 pi frequency)^2, at most as of 2^20 times what its two bodies weigh, 2^14 in Q16.16. With
-/// spring_mass 0 a spring has its frequency between those two alone, where the joint's frames coincide, and gives under
-/// the weight of what else hangs on them. It is as stiff in every other pose. In a kCone the stiffer of both swings'
-/// springs acts on both. A twist or a single turn without limits is pulled the shorter way round.
-/// Soft limits: beyond them a spring of `limit_frequency` and `limit_damping` pulls back, beside the spring and the
-/// motor; a servo rests there. Those of a kCone are swing_x's.
+/// Acts along one axis that its six-axis joint does not lock. An axis has at most one; without one it is free. It ends
+/// with its joint.
+/// Servo: a spring with a largest force and without a motor. It moves to its target as far as its force allows.
+/// Stiffness: spring_mass (2 pi frequency)^2, at most as for 2^20 times the mass of its two bodies, 2^14 in Q16.16.
+/// With spring_mass 0 a spring has its frequency for those two alone, where the joint's frames coincide, and yields
+/// under the weight of bodies that hang on them. Its stiffness is the same in every pose. In a kCone both swings have
+/// the stiffer spring of the two. A twist or a single turn without limits is pulled the shorter way round.
+/// Soft limits: beyond them a spring of `limit_frequency` and `limit_damping` pulls back, beside spring and motor. A
+/// servo rests there. Those of a kCone are swing_x's.
 template <class S> struct AxisDrive {
   JointId joint = {};
   JointAxis axis = JointAxis::x;
@@ -57,7 +57,7 @@ template <class S> struct AxisDrive {
              max_force, spring_mass, limit_frequency, limit_damping)
 };
 
-/// A record as a step takes it: `joint` is the joint's place among those that are awake.
+/// A record during a step. `joint` is the index of the joint among the awake ones.
 template <class S> struct JointAxisDrive {
   std::uint32_t joint;
   const AxisDrive<S>* drive;
@@ -67,7 +67,7 @@ template <class S> struct JointAxisDrive {
 
 namespace isostep::detail {
 
-/// Checks a drive with the joint that it names.
+/// Checks a drive against its joint.
 template <class S>
 FaultReport fault_of_joint(const AxisDrive<S>& d, const JointProperties<S>& joint, std::int32_t substep_rate) {
   const bool cone = (joint.flags & joint_flag::kCone) != 0 && d.limited &&
@@ -109,7 +109,7 @@ template <class S> struct RecordRules<AxisDrive<S>> : RecordDefaults<S> {
   }
 };
 
-/// Checks all drives that a joint is to have.
+/// Checks all drives of a joint to be created.
 template <class S>
 FaultReport fault_of_drives(std::span<const AxisDrive<S>> drives, const JointProperties<S>& joint,
                             std::int32_t substep_rate) {

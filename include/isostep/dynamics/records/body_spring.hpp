@@ -12,10 +12,10 @@ namespace isostep {
 
 using BodySpringId = Id<struct BodySpringTag>;
 
-/// Pulls its ends together by stiffness (length - rest_length) + damping d(length)/dt, or pushes them apart. One that
-/// only pulls (the book's bungee) does nothing while it is slack. Evaluated in every sub-step: energies stay bounded
-/// while the sub-step's rate is above half of sqrt(stiffness / reduced mass), and a record beyond that is refused.
-/// Stiffer ones are joints with springs, which are solved.
+/// Pulls its ends together by stiffness (length - rest_length) + damping d(length)/dt, or pushes them apart. With
+/// only_pulls (the book's bungee) it has no force while it is slack. Evaluated in every sub-step: energies stay bounded
+/// while the sub-step rate is above half of sqrt(stiffness / reduced mass). A stiffer record is refused. For stiffer
+/// springs use joints, which are solved.
 template <class S> struct BodySpring {
   BodyId a = {};
   BodyId b = {};                          // null: the world
@@ -33,13 +33,13 @@ template <class S> struct BodySpring {
 
 namespace isostep::detail {
 
-/// [kg] What an end of a spring bears at a point: the mass, less what turning gives way.
+/// [kg] Returns the effective mass of a spring's end at a point: the mass, reduced by rotation.
 template <class S> S least_mass_at(const BodyProperties<S>& body, Vec3<S> point) {
   const S arm = length(point - body.local_centre), most = max_abs(body.kappa);
   return body.mass / (S(1) + (most * arm) * arm);
 }
-/// Whether a spring swings more slowly than the sub-steps of that rate [1/s] resolve, and is damped no faster. Null
-/// bodies do not move.
+/// Reports a fault if a spring swings or is damped faster than sub-steps of that rate [1/s] resolve. Null bodies do not
+/// move.
 template <class S>
 FaultReport fault_of_rate(const BodySpring<S>& s, const BodyProperties<S>* a, const BodyProperties<S>* b, S rate) {
   const auto mass_of = [](const BodyProperties<S>* body, Vec3<S> anchor) {

@@ -13,18 +13,18 @@ namespace isostep {
 
 using BreakableId = Id<struct BreakableTag>;
 
-/// A pattern of fracture_pattern.hpp, with numbers that follow from most_pieces.
+/// A pattern of fracture_pattern.hpp, with parameters derived from most_pieces.
 enum class BreakPattern : std::uint32_t { eight_boxes, grain, radial, voronoi };
 
-/// Words for it, in scene files and in C.
+/// The words for it, in scene files and in C.
 inline constexpr const char* kBreakPatternNames[] = {"eight_boxes", "grain", "radial", "voronoi"};
 ISO_INLINE constexpr std::span<const char* const> words_of(BreakPattern) { return kBreakPatternNames; }
 
-/// A dynamic body of one box or hull. A step in which the contacts with another body give it more than break_impulse,
-/// all along their normals together, marks it by a Blow; events().broke tells it. break_bodies(world)
-/// (fracture/breaking.hpp) then puts pieces in place of what is marked, by commands, so that they are recorded and
-/// rolled back. The mark is state: whoever loads a snapshot finds it again. Pieces are breakable in their turn, `depth`
-/// counts down, and each breaks at the same change of speed.
+/// A dynamic body of one box or hull that breaks. If in a step the contacts with another body give it more than
+/// break_impulse, summed along their normals, the step marks it by a Blow and reports it in events().broke.
+/// break_bodies(world) (fracture/breaking.hpp) then replaces marked bodies by pieces, with commands, so that this is
+/// recorded and rolled back. The mark is state: a loaded snapshot has it too. Pieces are breakable in turn, with
+/// `depth` counted down, and each breaks at the same change of speed.
 template <class S> struct Breakable {
   BodyId body = {};
   S break_impulse = S(1);  // [kg m/s]
@@ -41,7 +41,7 @@ template <class S> struct Breakable {
   ISO_FIELDS(body, break_impulse, pattern, most_pieces, depth, grain, seed, small_mass, lifetime, expires, owns_shape)
 };
 
-/// A blow breaks the body: the step writes it after a hard contact, or the game sets it as an input.
+/// The blow that breaks a body. The step writes it after a hard contact, or the game sets it as an input.
 template <class S> struct Blow {
   S impulse = S(0);                                                // [kg m/s] 0: whole
   Vec3<S> point = {S(0), S(0), S(0)};                              // [m] body frame

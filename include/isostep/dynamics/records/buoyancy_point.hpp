@@ -11,8 +11,8 @@ namespace isostep {
 
 using BuoyancyId = Id<struct BuoyancyPointTag>;
 
-/// Force at the point, against gravity, as the weight of the liquid displaced: share s of the volume, where s goes from
-/// 0 to 1 while the point sinks from max_depth above the surface to max_depth below it.
+/// Applies a force at the point, against gravity, equal to the weight of the displaced liquid: share s of the volume,
+/// where s goes from 0 to 1 while the point sinks from max_depth above the surface to max_depth below it.
 /// Source:  Millington 2007, pp. 222-225. Differs: up is against the world's gravity, whose strength the force has.
 template <class S> struct BuoyancyPoint {
   BodyId body = {};

@@ -18,10 +18,10 @@ enum class Footing : std::uint32_t {
   steep   // it touches ground that it cannot stand on
 };
 
-/// Moves a kinematic body of one convex part, upright as the game has turned it, at the end of every step: carried by
-/// the ground, then along CharacterInput::move or by gravity, around what is in its way. Other bodies are where the
-/// step left them; to another character it goes half of the way. What is dynamic in its way is pushed in the next step
-/// by at most push_force, until it moves as fast as is asked for, and dynamic ground bears its weight.
+/// Moves a kinematic body of one convex part at the end of every step, upright as the game has turned it: with the
+/// ground, then along CharacterInput::move or by gravity, around obstacles. Other bodies are where the step left them.
+/// Towards another character it goes half of the way. It pushes dynamic obstacles in the next step with at most
+/// push_force, up to the speed that is asked for, and puts its weight on dynamic ground.
 /// Source:  Quake's moves by casts and planes; steps by up, forward, down as in Source and Jolt's CharacterVirtual.
 template <class S> struct CharacterSettings {
   BodyId body = {};
@@ -37,7 +37,7 @@ template <class S> struct CharacterSettings {
   ISO_FIELDS(body, step_height, least_up, skin, mass, push_force, air_acceleration, gravity_scale, mask)
 };
 
-/// Input of a character: it stays until the game sets another.
+/// The input of a character. It lasts until the game sets another.
 template <class S> struct CharacterInput {
   Vec3<S> move = {S(0), S(0), S(0)};  // [m/s] along the ground, world
   S jump = S(0);                      // [m/s] upwards; 0 again once it has left the ground
@@ -45,7 +45,7 @@ template <class S> struct CharacterInput {
   ISO_FIELDS(move, jump)
 };
 
-/// State of a character: the step writes it.
+/// The state of a character, which the step writes.
 template <class S> struct CharacterState {
   Footing footing = Footing::airborne;
   BodyId ground = {};                     // null: airborne, or put elsewhere since
@@ -111,7 +111,7 @@ template <class S> struct RecordRules<CharacterSettings<S>> : RecordDefaults<S> 
   }
   static constexpr OnlyOne only_one(const CharacterSettings<S>&) { return kOneABody; }
   static RecordKey key(const CharacterSettings<S>& r) { return {r.body.slot}; }
-  /// It is cast, as one.
+  /// Accepts only bodies that can be cast: one convex part with an end.
   static FaultReport fault_at(const CharacterSettings<S>&, const RecordPlace<S>& place) {
     const bool one = place.parts.size() == 1;
     const bool walks = one && !is_surface(place.parts[0].primitive.type) && is_bounded(place.parts[0].primitive.type);

@@ -11,8 +11,8 @@ namespace isostep {
 
 using ContactReportId = Id<struct ContactReportTag>;
 
-/// Events::contacts has every point of every contact of the body, step by step; World::contacts_of picks them. Changes
-/// nothing that moves. One record a body.
+/// Reports every point of every contact of the body in Events::contacts, step by step; World::contacts_of selects them.
+/// Has no effect on motion. One record a body.
 template <class S> struct ContactReport {
   BodyId body = {};
 

@@ -12,17 +12,17 @@ namespace isostep {
 
 using CouplingId = Id<struct CouplingTag>;
 
-/// [1] Of a ratio of an angle. Q16.16 resolves no speeds that differ by more: gears of 256 to 1 gained energy.
+/// [1] The most of a ratio of an angle. Q16.16 resolves no larger ratios of speeds: gears of 256 to 1 gained energy.
 template <class S> inline constexpr int kMostTeeth = resolution<S>() > S(0x1p-20) ? 128 : 1024;
 
 /// Holds lower <= ratio_a q_a + ratio_b q_b + ratio_c q_c <= upper, where q is World::joint_position of a hinge, a
-/// slider, a cylindrical, planar or distance joint. Bodies are pushed along these coordinates alone; joints hold the
-/// rest.
-/// Angles:  where one of them is an angle the sum counts modulo 2 pi, and ratios of angles are whole numbers, of teeth:
-///          no turn is counted, and a gear stands in mesh after any number of turns. lower..upper is less than a turn.
-/// Method:  one row over the bodies of all joints, which the solver solves in turn with joints and contacts from most
-///          of what it bore in the sub-step before; where joints resist it, once, before them. Of an error a sub-step
-///          closes a fifth, by speed that does not stay. How exactly: joints/README.md.
+/// slider, a cylindrical, planar or distance joint. Pushes bodies along these coordinates only: joints hold the rest of
+/// the degrees of freedom.
+/// Angles:  if one of them is an angle the sum counts modulo 2 pi and ratios of angles are whole numbers, of teeth:
+///          turns are not counted: a gear stays in mesh after any number of turns. lower..upper is less than a turn.
+/// Method:  one row over the bodies of all joints, solved in turn with joints and contacts and warm started with most
+///          of its last impulse. If joints resist it: once, before them. A sub-step closes a fifth of an error, by
+///          speed that does not stay. Precision: joints/README.md.
 /// It ends with any of its joints.
 template <class S> struct Coupling {
   JointId joint_a = {}, joint_b = {};
@@ -36,37 +36,37 @@ template <class S> struct Coupling {
   ISO_FIELDS(joint_a, joint_b, joint_c, ratio_a, ratio_b, ratio_c, lower, upper)
 };
 
-/// State of a coupling: the step writes it, as of its last sub-step. 0 where a joint holds nothing.
+/// The state of a coupling after its last sub-step, which the step writes. 0 if one of its joints is disabled.
 template <class S> struct CouplingState {
   S load = S(0);  // [N m], of lengths alone [N]: each joint's coordinate is pushed with its ratio times that
 
   ISO_FIELDS(load)
 };
 
-/// Wheels on two hinges whose axes point the same way and that turn against each other, as their teeth have it.
+/// Couples wheels on two hinges whose axes point the same way, so that they turn against each other as gears.
 template <class S> ISO_INLINE Coupling<S> gears(JointId a, int teeth_a, JointId b, int teeth_b) {
   return {a, b, {}, S(teeth_a), S(teeth_b), S(0), S(0), S(0)};
 }
-/// A pinion of that radius [m] on a hinge, which drives a rack on a slider forwards as it turns forwards. A radius
-/// that is too small is refused as ratio_b, -1 / radius.
+/// Couples a pinion of that radius [m] on a hinge with a rack on a slider. A forward turn moves the rack forwards. A
+/// radius that is too small is refused as ratio_b, -1 / radius.
 template <class S> ISO_INLINE Coupling<S> rack_and_pinion(JointId hinge, S radius, JointId slider) {
   return {hinge, slider, {}, S(1), -(S(1) / radius), S(0), S(0), S(0)};
 }
-/// A nut on a slider, which `pitch` [m] moves forwards for every turn of a hinge.
+/// Couples a nut on a slider with a hinge. Every turn of the hinge moves the nut by `pitch` [m] forwards.
 template <class S> ISO_INLINE Coupling<S> screw(JointId hinge, S pitch, JointId slider) {
   return rack_and_pinion<S>(hinge, pitch * S(0.159154943091895336), slider);
 }
-/// A rope over two wheels: a and b are distance joints from each wheel to what hangs there, and the rope that runs from
-/// one to the other takes `ratio` metres of b for one of a. It only pulls. `rope` [m]: the longest that a's part and
-/// `ratio` times b's are together.
+/// Couples the parts of a rope over two wheels. a and b are distance joints from each wheel to the load there. The rope
+/// takes `ratio` metres of b for one of a. It only pulls. `rope` [m]: the largest sum of a's part and `ratio` times b's
+/// part.
 template <class S> ISO_INLINE Coupling<S> pulley(JointId a, JointId b, S ratio, S rope) {
   return {a, b, {}, S(1), ratio, S(0), S(0), rope};
 }
-/// A shaft that turns as the mean of two others.
+/// Couples a shaft that turns as the mean of two others.
 template <class S> ISO_INLINE Coupling<S> differential(JointId shaft, JointId left, JointId right) {
   return {shaft, left, right, S(2), S(-1), S(-1), S(0), S(0)};
 }
-/// b is where a is: a rod between two cranks, a hand that copies another.
+/// Keeps b's position equal to a's: a rod between two cranks, a hand that copies another.
 template <class S> ISO_INLINE Coupling<S> mimic(JointId a, JointId b) {
   return {a, b, {}, S(1), S(-1), S(0), S(0), S(0)};
 }
@@ -75,7 +75,7 @@ template <class S> ISO_INLINE Coupling<S> mimic(JointId a, JointId b) {
 
 namespace isostep::detail {
 
-/// Each joint of a coupling has a coordinate, and teeth where that is an angle.
+/// Checks that each joint of a coupling has a coordinate, and that the ratios of angles are whole numbers.
 template <class S>
 FaultReport fault_of_joints(const Coupling<S>& c, const NamedJoints& named, const JointSeen<S> (&joints)[3]) {
   const S ratios[] = {c.ratio_a, c.ratio_b, c.ratio_c};

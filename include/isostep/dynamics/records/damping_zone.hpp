@@ -10,11 +10,11 @@ namespace isostep {
 
 using DampingZoneId = Id<struct DampingZoneTag>;
 
-/// Dynamic bodies that are awake, of a category of the mask, with their centre of mass inside, are slowed: their
-/// velocity fades by `linear` of itself a second, their turning by `angular`, whatever their mass and inertia, beside
-/// the damping that they have themselves. By backward Euler, as all that resists motion: at no rate does a sub-step
-/// turn a velocity round. Of zones that overlap those below the highest priority that replaces count for nothing; all
-/// others add up. A zone of rates of 0 that replaces keeps a place free of others.
+/// Slows awake dynamic bodies with a category of the mask and their centre of mass inside. Their velocity fades by
+/// `linear` of itself a second, their angular velocity by `angular`, at any mass and inertia, beside their own damping.
+/// Uses backward Euler, like all resistance: at no rate does a sub-step reverse a velocity. Among overlapping zones,
+/// those below the highest priority that replaces have no effect; all others add up. A zone with rates of 0 that
+/// replaces keeps a place free of others.
 template <class S> struct DampingZone {
   ZoneShape shape = ZoneShape::everywhere;
   Pose<S> pose = Pose<S>::identity();  // of a sphere the position alone
@@ -32,7 +32,7 @@ template <class S> struct DampingZone {
 
 namespace isostep::detail {
 
-/// The zone hides those below it at this point, from bodies of that category.
+/// Returns true if the zone hides zones of lower priority at this point, from bodies of that category.
 template <class S> ISO_INLINE bool replaces(const DampingZone<S>& zone, std::uint32_t category, Vec3<S> point) {
   return zone.replaces && (category & zone.mask) != 0 && is_inside(zone, point);
 }

@@ -12,9 +12,9 @@ namespace isostep {
 
 using DragId = Id<struct BodyDragTag>;
 
-/// Force -v (linear + quadratic |v|) at the centre of mass, torque -angular w, with v the velocity through the air:
-/// less the wind of the zones around the centre. Stable whatever the coefficients, and exact at the speed at which it
-/// balances a steady force.
+/// Applies the force -v (linear + quadratic |v|) at the centre of mass and the torque -angular w, with v the velocity
+/// through the air: less the wind of the zones around the centre. Stable for any coefficients, and exact at the speed
+/// at which it balances a steady force.
 template <class S> struct BodyDrag {
   BodyId body = {};
   S linear = S(0);     // [N s/m]

@@ -11,8 +11,8 @@ namespace isostep {
 
 using ExplosionId = Id<struct ExplosionTag>;
 
-/// Acts on dynamic bodies of a category of the mask, at the point of each that is nearest to the centre, along the line
-/// from the centre through it: so bodies spin. Bodies that hold the centre are pushed at their centre of mass.
+/// Pushes dynamic bodies with a category of the mask, each at its point nearest to the centre, on the line from the
+/// centre through it, so that bodies spin. Bodies that contain the centre are pushed at their centre of mass.
 /// With t [s] since it went off, d [m] of the point from the centre and T = implosion_duration:
 ///   implosion   t < T, implosion_least < d < implosion_most: implosion_force towards the centre
 ///   wave        t from T on, for wave_duration, in which it fades to nothing: with y = s (t - T) - d, s = wave_speed,
@@ -21,8 +21,8 @@ using ExplosionId = Id<struct ExplosionTag>;
 ///               step gives exactly the impulse of what passes the point within it, however thin the wave
 ///   chimney     t from T on, for chimney_duration: in a cylinder about the centre, chimney_height up from it and of
 ///               radius chimney_radius, chimney_force (1 - r / chimney_radius) at r [m] from the axis
-/// The world removes it once it has ended. While there is one nothing falls asleep. Without gravity there is no up, and
-/// no chimney.
+/// The world removes it after its end. While one exists nothing falls asleep. Without gravity there is no up, and no
+/// chimney.
 /// Source:  Millington 2007, pp. 412-418. Differs: the wave's outer ramp falls outwards, and the chimney's force
 ///          outwards from its axis, as the text has it and the formulas have not.
 template <class S> struct Explosion {
@@ -47,7 +47,7 @@ template <class S> struct Explosion {
   ISO_FIELDS(centre, begin, implosion_force, implosion_least, implosion_most, implosion_duration, wave_force,
              wave_speed, wave_width, wave_ramp, wave_duration, chimney_force, chimney_radius, chimney_height,
              chimney_duration, is_shielded, mask)
-  /// [s] it lasts, from when it goes off.
+  /// [s] Returns how long it lasts, from when it goes off.
   ISO_INLINE S duration() const { return implosion_duration + max(wave_duration, chimney_duration); }
 };
 
@@ -57,8 +57,8 @@ namespace isostep::detail {
 
 inline constexpr int kMostBlastSeconds = 1024;  // [s] of each phase; the clock counts to 16384
 
-/// [m] The wave's profile from its front, -w - k w, to y: rises over k w, stands for w, falls over k w. A force that
-/// passes by at speed s gives force / s times the difference.
+/// [m] Integrates the wave's profile from its front, -w - k w, to y: it rises over k w, stays for w, falls over k w. A
+/// force that passes at speed s gives force / s times the difference.
 template <class S> S wave_passed(S y, S width, S ramp) {
   const S length = width * ramp;
   const auto half_square = [&](S part)
@@ -70,7 +70,7 @@ template <class S> S wave_passed(S y, S width, S ramp) {
   if (y < length) return risen + width + risen - half_square(length - y);
   return risen + width + risen;
 }
-/// [s] Since an explosion's begin, as a sub-step finds it; below 0: it is still to come.
+/// [s] Returns the time since an explosion's begin, for a sub-step. Below 0: it is still to come.
 template <class S>
 S seconds_since(std::uint64_t begin, std::uint64_t tick, std::int32_t hz, std::uint32_t substep, std::int32_t rate) {
   if (tick < begin) return S(-1);
@@ -80,18 +80,18 @@ S seconds_since(std::uint64_t begin, std::uint64_t tick, std::int32_t hz, std::u
   constexpr std::uint64_t kMost = 16384;  // [s] more than any explosion lasts
   return S(static_cast<int>(min(whole, kMost))) + divide_to<S>(S(part), S(rate));
 }
-/// Whether an explosion is over as the step of that tick begins.
+/// Returns true if an explosion is over at the start of that tick's step.
 template <class S> bool has_ended(const Explosion<S>& e, std::uint64_t tick, std::int32_t hz) {
   return e.duration() <= seconds_since<S>(e.begin, tick, hz, 0, hz);
 }
 
-/// The point of a body that a blast meets.
+/// The point of a body that a blast hits.
 template <class S> struct BlastTarget {
   S distance;      // [m] of the point from the centre
   S fleeing;       // [m/s] of the point, away from there
   S above, aside;  // [m] of the point over the centre, and from the chimney's axis
 };
-/// [N] outwards, over a sub-step of h seconds that begins `t` after the blast.
+/// [N] Returns the outward force over a sub-step of h seconds that begins `t` after the blast.
 template <class S> S blast(const Explosion<S>& e, S t, Step<S> h, const BlastTarget<S>& target) {
   const S distance = target.distance, above = target.above, aside = target.aside;
   SumOf<S, S> force = product(S(0), S(0));

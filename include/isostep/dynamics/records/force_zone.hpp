@@ -15,7 +15,7 @@ using ForceZoneId = Id<struct ForceZoneTag>;
 
 enum class ZoneShape : std::uint32_t { everywhere, sphere, box };
 
-/// Words for it, in scene files and in C.
+/// The words for it, in scene files and in C.
 inline constexpr const char* kZoneShapeNames[] = {"everywhere", "sphere", "box"};
 ISO_INLINE constexpr std::span<const char* const> words_of(ZoneShape) { return kZoneShapeNames; }
 
@@ -28,13 +28,13 @@ inline constexpr std::uint32_t kWater = 1u << 3;         // of Water: what is in
 inline constexpr std::uint32_t kAll = 15u;
 }  // namespace zone_effect
 
-/// Dynamic bodies that are awake, of a category of the mask, with their centre of mass inside, are accelerated. The
-/// wind moves no body by itself: BodyDrag and AeroSurface feel the sum of the winds at their points.
-/// Priority: zones act by (priority, slot). Of what acts at a point, effect by effect, zones below the highest priority
-/// that replaces the effect there count for nothing; all others add up. What a zone's mask leaves out it neither moves
-/// nor hides anything from; its wind blows for all. A body whose centre of mass is in a zone that replaces water of
-/// lower priority is neither borne nor slowed by it; of a body that reaches into it from outside, as the hull round a
-/// cabin, the water bears all that is below the surface.
+/// Accelerates awake dynamic bodies with a category of the mask and their centre of mass inside. The wind moves no body
+/// by itself: BodyDrag and AeroSurface use the sum of the winds at their points.
+/// Priority: zones act by (priority, slot). For each effect at a point, zones below the highest priority that replaces
+/// it there have no effect; all others add up. A zone neither moves a body outside its mask nor hides anything from it;
+/// its wind blows for all. A body with its centre of mass in a zone that replaces water of lower priority is neither
+/// borne nor slowed by that water. A body that reaches into the zone from outside, as the hull round a cabin, is borne
+/// by all that is below the surface.
 template <class S> struct ForceZone {
   ZoneShape shape = ZoneShape::everywhere;
   Pose<S> pose = Pose<S>::identity();         // of a sphere the position alone
@@ -52,7 +52,7 @@ template <class S> struct ForceZone {
 
 namespace isostep::detail {
 
-/// Whether a point is in the region of a zone of any kind.
+/// Returns true if a point is in the region of a zone of any kind.
 template <class Zone, class S> ISO_INLINE bool is_inside(const Zone& zone, Vec3<S> point) {
   if (zone.shape == ZoneShape::everywhere) return true;
   const Vec3<S> from_middle = point - zone.pose.position;
@@ -60,7 +60,7 @@ template <class Zone, class S> ISO_INLINE bool is_inside(const Zone& zone, Vec3<
   const Vec3<S> local = transposed_times(to_matrix(zone.pose.orientation), from_middle);
   return within(local.x, zone.half.x) && within(local.y, zone.half.y) && within(local.z, zone.half.z);
 }
-/// Whether the zone hides an effect of those below it at a point, from bodies of that category.
+/// Returns true if the zone hides an effect of lower zones at a point, from bodies of that category.
 template <class S>
 ISO_INLINE bool replaces(const ForceZone<S>& zone, std::uint32_t effect, std::uint32_t category, Vec3<S> point) {
   return (zone.replaces & effect) != 0 && (category & zone.mask) != 0 && is_inside(zone, point);
@@ -87,7 +87,7 @@ template <class S> struct RecordRules<ForceZone<S>> : RecordDefaults<S> {
     z.priority = random.rank();
     z.replaces = random.below(zone_effect::kAll + 1);
   }
-  /// It accelerates every awake body inside. What it does to wind, gravity and water others ask of it: Zones.
+  /// Accelerates every awake body inside. Zones handles its effects on wind, gravity and water.
   template <class Forces> static void act(const ForceZone<S>& z, Forces& forces) {
     if (z.acceleration == Vec3<S>::zero()) return;
     for (std::uint32_t row = 1; row < forces.bodies.rows(); ++row) {

@@ -11,11 +11,11 @@ namespace isostep {
 
 using GhostId = Id<struct GhostTag>;
 
-/// Two bodies pass through each other: no contact, no overlap with a sensor, no stop of a bullet, and a character of
-/// one of them does not see the other. As a step begins that finds them apart, the record ends by itself: where boxes
-/// or exact shapes are further from each other than contacts are made, 2 cm, and a character's skin besides, so that
-/// the end makes no contact. For what drops through its platform, or appears inside of something. A OneWay body makes
-/// such records too. One record a pair, in whichever order.
+/// Lets two bodies pass through each other: no contact, no overlap with a sensor, no stop of a bullet, and a character
+/// of one of them does not see the other. The record ends by itself at the start of a step that finds them apart: when
+/// boxes or exact shapes are further apart than the distance of contacts, 2 cm, plus a character's skin, so that its
+/// end makes no contact. For bodies that drop through a platform, or appear inside another. A OneWay body makes such
+/// records too. One record a pair, in either order.
 template <class S> struct Ghost {
   BodyId a = {}, b = {};
 

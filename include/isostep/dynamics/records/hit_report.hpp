@@ -11,8 +11,8 @@ namespace isostep {
 
 using HitReportId = Id<struct HitReportTag>;
 
-/// events().hits tells of contacts that begin on the body at a greater speed of approach: for sounds, sparks, dents.
-/// Where both bodies have a record the lower speed counts. One record a body.
+/// Reports contacts that begin on the body with a greater speed of approach in events().hits: for sounds, sparks,
+/// dents. If both bodies have a record the lower speed counts. One record a body.
 template <class S> struct HitReport {
   BodyId body = {};
   S speed = S(1);  // [m/s] along the normal, as the step begins in which they first press on each other

@@ -11,9 +11,9 @@ namespace isostep {
 
 using JointLoadId = Id<struct JointLoadTag>;
 
-/// Measures a joint: every step writes JointLoadState, means over its sub-steps, so that their number does not
-/// decide what breaks. A step in which one of them is above its limit destroys the joint, and this record with it;
-/// events().joint_broke tells it. A joint has one record of these at most. What sleeps is not measured.
+/// Measures a joint. Every step writes JointLoadState, the mean over its sub-steps, so that their number does not
+/// decide what breaks. A step with a mean above its limit destroys the joint, and this record with it;
+/// events().joint_broke reports it. One record a joint. Sleeping joints are not measured.
 template <class S> struct JointLoad {
   JointId joint = {};
   S break_force = S(0);   // [N] 0: no force breaks it
@@ -22,7 +22,7 @@ template <class S> struct JointLoad {
   ISO_FIELDS(joint, break_force, break_torque)
 };
 
-/// Load of a joint in the last step: the step writes it.
+/// The load of a joint in the last step, which the step writes.
 template <class S> struct JointLoadState {
   S force = S(0);   // [N] on body b, of all the joint does; held at the format's end
   S torque = S(0);  // [N m] about b's origin of the joint; held at the format's end

@@ -13,10 +13,10 @@ namespace isostep {
 
 using KindGhostId = Id<struct KindGhostTag>;
 
-/// Bodies whose materials are of these kinds pass through each other, for as long as the record is there: no contact,
-/// no overlap with a sensor, no stop of a bullet, and a character of one kind does not see bodies of the other. A kind
-/// may pass its own. The kind of the body's material counts, not those of a mesh's or height field's triangles. Wheels
-/// and queries of the game do not ask. The order of the kinds is of no account: a second record of the same two is
+/// Lets bodies whose materials are of these kinds pass through each other while the record exists: no contact, no
+/// overlap with a sensor, no stop of a bullet, and a character of one kind does not see bodies of the other. A kind may
+/// pass its own. The kind of the body's material counts, not those of a mesh's or height field's triangles. Has no
+/// effect on wheels and queries of the game. The order of the kinds does not matter: a second record of the same two is
 /// refused.
 template <class S> struct KindGhost {
   std::uint32_t kind_a = 0, kind_b = 0;  // Material::kind, 1 or more

@@ -14,18 +14,18 @@ namespace isostep {
 
 using KindResponseId = Id<struct KindResponseTag>;
 
-/// A row of the world's table of pairs, beside MaterialPair: contacts of bodies whose materials are of these kinds
-/// solve for other masses, and press no harder than a force. The kind of the part's material counts, not those of a
-/// mesh's or height field's triangles. A second record of the same two kinds is refused, and every record where the
-/// solver is `direct`, whose matrix is symmetric.
-/// The scales multiply what a contact takes for a body's inverse mass and inverse inertia, nothing else: gravity,
-/// joints and other contacts have the true ones. With a scale of 0 a body pushes the other and is not pushed back, and
-/// as a bullet not stopped by it. Of the two mass scales only the ratio counts; against what does not move they are of
-/// no account. Such contacts conserve neither momentum nor energy: what is not pushed back gives the other its speed,
-/// however heavy. Impulses in events and the force below are those on the side with the larger scale.
-/// What presses harder than max_force gives way: it sinks in at the speed that it has, is slowed by that force for as
-/// long as it is inside, and friction is that of the force. The force is that of one contact, all its points together:
-/// of a pair of bodies' parts. Continuous collision lets through what gives way.
+/// A row of the world's table of pairs, like MaterialPair: contacts of bodies whose materials are of these kinds solve
+/// for other masses, and press with a limited force. The kind of the part's material counts, not those of a mesh's or
+/// height field's triangles. A second record of the same two kinds is refused, and so is every record if the solver is
+/// `direct`, whose matrix is symmetric.
+/// The scales multiply a body's inverse mass and inverse inertia in such contacts and nothing else: gravity, joints and
+/// other contacts have the true ones. A body with a scale of 0 pushes the other and is not pushed back, and as a bullet
+/// it is not stopped by it. Only the ratio of the two mass scales counts; against an unmoved body they have no effect.
+/// Such contacts conserve neither momentum nor energy: a body that is not pushed back gives the other its speed,
+/// however heavy that is. Impulses in events and the force below are those on the side with the larger scale.
+/// A body that presses harder than max_force sinks in at its speed, is slowed by that force while it is inside, and has
+/// the friction of that force. The force is that of one contact with all its points: of a pair of bodies' parts.
+/// Continuous collision lets such bodies through.
 template <class S> struct KindResponse {
   std::uint32_t kind_a = 0, kind_b = 0;                        // Material::kind, 1 or more
   S inverse_mass_scale_a = S(1), inverse_mass_scale_b = S(1);  // [1] 0, or 2^-8 to 1; not both 0
@@ -71,7 +71,7 @@ template <class S> struct RecordRules<KindResponse<S>> : RecordDefaults<S> {
   }
   static constexpr OnlyOne only_one(const KindResponse<S>&) { return kOnePairOfKinds; }
   static RecordKey key(const KindResponse<S>& p) { return {kinds_key(p.kind_a, p.kind_b)}; }
-  /// Two rows of `direct` on one body share its true mass: its matrix is one of square roots of masses.
+  /// Refuses `direct`: two rows on one body share its true mass there, as the matrix is one of square roots of masses.
   static FaultReport fault_at(const KindResponse<S>&, const RecordPlace<S>& place) {
     return Checklist()
         .proper(place.settings.solver != SolverName::direct, "solver", "another solver than direct")

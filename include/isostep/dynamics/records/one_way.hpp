@@ -18,12 +18,12 @@ namespace isostep {
 
 using OneWayId = Id<struct OneWayTag>;
 
-/// What comes against the axis, from the side that it points to, is stopped as usual; what comes from elsewhere passes.
-/// A pair is judged as it meets: it is solid where a contact's normal, outward, has at least that cosine to the axis
-/// and the other body does not leave. A solid pair stays so for as long as it has contacts. A pair that overlaps
-/// otherwise becomes a Ghost, and is judged again once it has been apart; one that is only near has no contact yet.
-/// Between two such bodies both have to agree. A character stands on it where its lowest point is above the body,
-/// passes it from below, and drops through by a Ghost. One record a body.
+/// A body that only stops bodies that come against the axis, from the side that it points to. Others pass. A pair is
+/// judged as it meets: it is solid if a contact's normal, outward, has at least that cosine to the axis and the other
+/// body does not leave. A solid pair stays solid while it has contacts. A pair that overlaps otherwise becomes a Ghost,
+/// and is judged again once it has been apart. A pair that is only near has no contact yet. Two such bodies must both
+/// stop each other. A character stands on it if its lowest point is above the body, passes it from below, and drops
+/// through by a Ghost. One record a body.
 /// Source:  Rapier's function for one-way platforms, as data.
 template <class S> struct OneWay {
   BodyId body = {};
@@ -33,24 +33,24 @@ template <class S> struct OneWay {
   ISO_FIELDS(body, axis, least_cosine)
 };
 
-/// A OneWay record as a step begins.
+/// A OneWay record at the start of a step.
 template <class S> struct Way {
   std::uint32_t body;    // slot
   Vec3<Unit<S>> axis;    // [1] world
   Unit<S> least_cosine;  // [1]
 
-  /// [m/s] Slower is the trembling of what lies on it.
+  /// [m/s] A slower body lies on it and jitters.
   static ISO_INLINE constexpr Velocity<S> slack() { return Velocity<S>(0.0625); }
-  /// Whether what moves with that velocity [m/s] against the body leaves it, or passes it from below.
+  /// Returns true if a body with that velocity [m/s] against this one leaves it, or passes it from below.
   ISO_INLINE bool lets_out(Vec3<Velocity<S>> velocity) const {
     return slack() < saturate_to<Velocity<S>>(dot_sum(velocity, axis));
   }
 };
 
-/// All OneWay records as a step begins, ascending by the body's slot. Keeps nothing from step to step but memory.
+/// Holds all OneWay records of a step, ascending by the body's slot. Keeps nothing from step to step but memory.
 template <class S> class Ways {
  public:
-  /// orientation_of(slot)
+  /// orientation_of(slot) returns the orientation of a body.
   template <class OrientationOf>
   ISO_INLINE void update(const Registry<OneWay<S>, OneWayId>& records, const OrientationOf& orientation_of) {
     all_.clear();
@@ -65,7 +65,7 @@ template <class S> class Ways {
     stable_sort(all_.data(), scratch_.data(), static_cast<std::uint32_t>(all_.size()), BySlot{});
   }
   ISO_INLINE bool empty() const { return all_.empty(); }
-  /// Null: it can not be passed.
+  /// Returns null if the body is not one-way.
   ISO_INLINE const Way<S>* find(std::uint32_t body) const {
     const std::size_t at =
         lower_bound(all_.size(), [&](std::size_t i) ISO_INLINE_LAMBDA { return all_[i].body < body; });

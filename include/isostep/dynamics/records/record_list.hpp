@@ -28,10 +28,10 @@
 #include "isostep/dynamics/records/vehicle.hpp"
 #include "isostep/dynamics/records/water.hpp"
 
-/// ISO_FOR_EACH_RECORD_WITH(R, X, S) expands R(X, name, Record, Id, S) for each kind, at most 31 of them. Those that
-/// act in a sub-step (Acts) act in this order; what resists motion - drag, surfaces, the drag of water - after all
-/// others, for it asks what they are about to do. Every kind has three commands, add_name, set_name and remove_name,
-/// and a registry in RecordStore, whose name is the same with an s. The order is that of hashes, portable forms and
+/// Expands ISO_FOR_EACH_RECORD_WITH(R, X, S) to R(X, name, Record, Id, S) for each kind, at most 31 of them. Kinds that
+/// act in a sub-step (Acts) act in this order. Resisting kinds - drag, surfaces, the drag of water - act after all
+/// others, since they need the effect of those. Every kind has three commands, add_name, set_name and remove_name, and
+/// a registry in RecordStore, whose name is the same with an s. The order is that of hashes, portable forms and
 /// commands. To add one: README.md.
 #define ISO_FOR_EACH_RECORD_WITH(R, X, S)                          \
   R(X, force_zone, ForceZone<S>, ForceZoneId, S)                   \
@@ -61,19 +61,19 @@
   R(X, kind_response, KindResponse<S>, KindResponseId, S)          \
   R(X, sensor_mount, SensorMount<S>, SensorMountId, S)
 
-/// R(name, Record, Id, S) for each kind.
+/// Expands R(name, Record, Id, S) for each kind.
 #define ISO_FOR_EACH_RECORD(R, S) ISO_FOR_EACH_RECORD_WITH(ISO_RECORD_ALONE, R, S)
 #define ISO_RECORD_ALONE(R, name, Record, Id, S) R(name, Record, Id, S)
 
-/// Kinds with an input, which a game sets frame by frame: R(X, name, Input, Id, S). Such a kind has one command more,
-/// set_name_input.
+/// The kinds with an input, which a game sets frame by frame: R(X, name, Input, Id, S). Such a kind has one more
+/// command, set_name_input.
 #define ISO_FOR_EACH_INPUT_WITH(R, X, S)             \
   R(X, breakable, Blow<S>, BreakableId, S)           \
   R(X, character, CharacterInput<S>, CharacterId, S) \
   R(X, vehicle, VehicleInput<S>, VehicleId, S)
 #define ISO_FOR_EACH_INPUT(R, S) ISO_FOR_EACH_INPUT_WITH(ISO_RECORD_ALONE, R, S)
 
-/// Kinds with a state, which the step writes: R(X, name, State, Id, S).
+/// The kinds with a state, which the step writes: R(X, name, State, Id, S).
 #define ISO_FOR_EACH_RECORD_STATE_WITH(R, X, S)       \
   R(X, character, CharacterState<S>, CharacterId, S)  \
   R(X, vehicle, VehicleState<S>, VehicleId, S)        \

@@ -27,7 +27,7 @@
 
 namespace isostep {
 
-/// The pairs (a, b) and (b, a) have one key.
+/// Returns one key for the pairs (a, b) and (b, a).
 ISO_INLINE constexpr std::uint64_t kinds_key(std::uint32_t a, std::uint32_t b) {
   return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
 }
@@ -36,7 +36,7 @@ ISO_INLINE constexpr std::uint64_t kinds_key(std::uint32_t a, std::uint32_t b) {
 
 namespace isostep::detail {
 
-/// Which bodies wake as a record comes, changes or goes.
+/// The bodies that wake when a record is added, changed or removed.
 enum class Wakes {
   none,      // it only tells
   named,     // those that it names, and the bodies of its joints
@@ -44,10 +44,10 @@ enum class Wakes {
   all        // it acts on more than it names
 };
 
-/// An act of a kind is what it does to bodies in a sub-step. Its rules have the functions that its word here names and
-/// no others, else RecordStore does not compile: rule_checks.hpp. They are `template <class Forces> static void`, and
-/// Forces is RecordForces<S> (systems/forces/record_forces.hpp), a parameter, for that is above a kind's file. What
-/// slows has a priority: the highest record is asked first.
+/// The effects of a kind on bodies in a sub-step. Its rules have the functions that its enumerator names and no others,
+/// or RecordStore does not compile (rule_checks.hpp). They are `template <class Forces> static void`, where Forces is
+/// RecordForces<S> (systems/forces/record_forces.hpp): a parameter, since that is a layer above a kind's file. Kinds
+/// that slow have a priority: the highest record is asked first.
 enum class Acts {
   not_here,            // it only tells, or other systems read it
   pushes,              // act(record, Forces&): whatever else acts
@@ -59,8 +59,8 @@ ISO_INLINE constexpr bool pushes(Acts acts) { return acts == Acts::pushes || act
 ISO_INLINE constexpr bool resists(Acts acts) { return acts == Acts::resists || acts == Acts::pushes_and_resists; }
 
 enum class MustBe { any, dynamic, kinematic };
-/// A body that a record names: in which field, whether that may be null, of which type the body has to be, and where on
-/// it the force acts.
+/// A body that a record names: its field, whether that may be null, the type that the body must have, and the point on
+/// it where the force acts.
 template <class S> struct NamedBody {
   BodyId body;
   const char* field;
@@ -73,11 +73,11 @@ template <class S> struct NamedBodies {
   NamedBody<S> all[2];
   int count;
 };
-/// The record is about a body as a whole.
+/// Names the body of a record that is about the whole body.
 template <class S> ISO_INLINE constexpr NamedBodies<S> named_body(BodyId body, MustBe must_be) {
   return {{{body, "body", false, must_be, Vec3<S>::zero(), ""}, {}}, 1};
 }
-/// The record acts at a point of a dynamic body.
+/// Names the dynamic body of a record that acts at a point.
 template <class S> ISO_INLINE constexpr NamedBodies<S> named_point(BodyId body, Vec3<S> point, const char* field) {
   return {{{body, "body", false, MustBe::dynamic, point, field}, {}}, 1};
 }
@@ -85,12 +85,12 @@ ISO_INLINE constexpr bool is_as_asked(BodyType type, MustBe must_be) {
   if (must_be == MustBe::any) return true;
   return type == (must_be == MustBe::dynamic ? BodyType::dynamic : BodyType::kinematic);
 }
-/// Whether a force of the record acts too far from the centre of mass of the body that it names; a record without a
-/// point is about the body as a whole.
+/// Returns true if a force of the record acts too far from the centre of mass of the body that it names. A record
+/// without a point is about the whole body.
 template <class S> bool overreaches(const BodyProperties<S>& body, const NamedBody<S>& named) {
   return *named.point_field != 0 && overreaches(body.kappa, body.principal, named.point - body.local_centre);
 }
-/// A record names the first `count` joints; a third one may be null.
+/// The joints that a record names: the first `count`. A third one may be null.
 struct NamedJoints {
   JointId all[3] = {};
   int count = 0;
@@ -102,13 +102,13 @@ struct NamedJoints {
   ISO_INLINE bool may_be_null(int i) const { return i == 2; }
 };
 
-/// A joint that a record names, as a world has it.
+/// A joint that a record names, as the world has it.
 template <class S> struct JointSeen {
   const JointProperties<S>* properties = nullptr;  // null: the record names none
   bool has_coordinate = false;                     // that motors drive and couplings tie
   JointMeasure measure = JointMeasure::angle;      // of that coordinate
 };
-/// A record names these, as a world has them; null where it names nothing. record_place.hpp finds them.
+/// The bodies and joints that a record names, as the world has them; null for none. record_place.hpp finds them.
 template <class S> struct RecordPlace {
   const Settings<S>& settings;
   const BodyProperties<S>* bodies[2];
@@ -116,12 +116,12 @@ template <class S> struct RecordPlace {
   JointSeen<S> joints[3];
 };
 
-/// Two records of a kind may not have one key.
+/// The key of a record. Two records of a kind must not have one key.
 struct RecordKey {
   std::uint64_t first = 0, second = 0;
   friend constexpr bool operator==(const RecordKey&, const RecordKey&) = default;
 };
-/// The refusal of a second one says this.
+/// The texts that refuse a second one.
 struct OnlyOne {
   const char *field, *expected;
 };
@@ -139,7 +139,7 @@ template <class S> struct RecordDefaults {
   template <class Record> static ISO_INLINE FaultReport fault_at(const Record&, const RecordPlace<S>&) { return {}; }
 };
 
-/// The bodies and joints that a record names.
+/// Returns the bodies and joints that a record names.
 template <class Record> ISO_INLINE auto bodies_of(const Record& record) {
   using Rules = RecordRules<Record>;
   if constexpr (requires { Rules::bodies(record); }) return Rules::bodies(record);
@@ -176,7 +176,7 @@ template <class Zone> FaultReport fault_of_region(const Zone& z) {
       .report();
 }
 
-/// Further questions to a list, each about one number.
+/// Adds checks of single numbers to a list.
 template <class S> struct NumberChecks {
   Checklist list;
 

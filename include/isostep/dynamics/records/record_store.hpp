@@ -11,8 +11,8 @@
 
 namespace isostep {
 
-/// Inputs and states of records, each by the slot of its record; those of free slots are as new ones. A step writes
-/// them, so every copy of a state has its own.
+/// Holds the inputs and states of records, each by the slot of its record. Those of free slots are as new. A step
+/// writes them, so every copy of a state has its own.
 template <class S> struct RecordParts {
 #define ISO_INPUT(name, Input, Id, S) std::vector<Input> name##_inputs;
   ISO_FOR_EACH_INPUT(ISO_INPUT, S)
@@ -23,7 +23,7 @@ template <class S> struct RecordParts {
 };
 
 namespace detail {
-/// The array of a kind's inputs or states, by the type of its ids: what has none has no such call.
+/// Returns the array of a kind's inputs or states, by the type of its ids. Kinds without them have no such call.
 #define ISO_INPUT(name, Input, Id, S) \
   template <class Parts> ISO_INLINE auto& inputs_of(Parts& parts, Id) { return parts.name##_inputs; }
 ISO_FOR_EACH_INPUT(ISO_INPUT, S)
@@ -32,12 +32,12 @@ ISO_FOR_EACH_INPUT(ISO_INPUT, S)
   template <class Parts> ISO_INLINE auto& states_of(Parts& parts, Id) { return parts.name##_states; }
 ISO_FOR_EACH_RECORD_STATE(ISO_STATE, S)
 #undef ISO_STATE
-/// visit(array) of the inputs and states that a kind has.
+/// Calls visit(array) for the inputs and states that a kind has.
 template <class IdType, class Parts, class Visit> ISO_INLINE void for_each_part(Parts& parts, const Visit& visit) {
   if constexpr (requires { inputs_of(parts, IdType{}); }) visit(inputs_of(parts, IdType{}));
   if constexpr (requires { states_of(parts, IdType{}); }) visit(states_of(parts, IdType{}));
 }
-/// A record in that slot begins or has ended.
+/// Resets the parts of a slot in which a record begins or has ended.
 template <class IdType, class S> ISO_INLINE void renew_parts(RecordParts<S>& parts, std::uint32_t slot) {
   for_each_part<IdType>(parts, [slot](auto& array) ISO_INLINE_LAMBDA {
     if (array.size() <= slot) array.resize(slot + 1);
@@ -46,8 +46,8 @@ template <class IdType, class S> ISO_INLINE void renew_parts(RecordParts<S>& par
 }
 }  // namespace detail
 
-/// The store has a registry of each kind. Copies share them until one changes: by a command, or by a step in which an
-/// explosion ends, a ghost begins or ends, or a joint breaks.
+/// Holds a registry of each kind. Copies share them until one changes: by a command, or by a step in which an explosion
+/// ends, a ghost begins or ends, or a joint breaks.
 template <class S> struct RecordStore {
 #define ISO_REGISTRY(name, Record, Id, S) Registry<Record, Id> name##s;
   ISO_FOR_EACH_RECORD(ISO_REGISTRY, S)
@@ -63,13 +63,13 @@ template <class S> struct RecordStore {
   ISO_INLINE RecordStore& operator=(const RecordStore&) = default;
   ISO_INLINE RecordStore& operator=(RecordStore&&) = default;
 
-  /// visit("name", registry) in the order of the list.
+  /// Calls visit("name", registry) in the order of the list.
   template <class Visitor, class Self> static ISO_INLINE void members(Visitor&& visit, Self&& self) {
 #define ISO_VISIT(name, Record, Id, S) visit(#name "s", self.name##s);
     ISO_FOR_EACH_RECORD(ISO_VISIT, S)
 #undef ISO_VISIT
   }
-  /// Visits the kinds whose bits are set, the first kind has the lowest; after each its inputs and states.
+  /// Visits the kinds whose bits are set, and after each its inputs and states. The first kind has the lowest bit.
   template <class Visitor, class Self, class Parts>
   static ISO_INLINE void members_of(std::uint32_t kinds, Visitor&& visit, Self&& self, Parts& parts) {
 #define ISO_VISIT(name, Record, Id, S)                          \
@@ -97,7 +97,7 @@ template <class S> struct RecordStore {
   static_assert(detail::acts_as_it_says<Record>(), #name ": its rules have other functions than their kActs says");
   ISO_FOR_EACH_RECORD(ISO_CHECK, S)
 #undef ISO_CHECK
-  /// Bits of the kinds of which one was ever added: a state that has none hashes and writes nothing of them.
+  /// Returns the bits of kinds of which one was ever added. A state hashes and writes nothing of the others.
   ISO_INLINE std::uint32_t kinds() const {
     std::uint32_t kinds = 0, bit = 1;
 #define ISO_BIT(name, Record, Id, S)                            \
@@ -110,7 +110,7 @@ template <class S> struct RecordStore {
 };
 
 namespace detail {
-/// The registry of an id's type.
+/// Returns the registry of an id's type.
 #define ISO_REGISTRY(name, Record, Id, S) \
   template <class Records> ISO_INLINE auto& registry_of(Records& records, Id) { return records.name##s; }
 ISO_FOR_EACH_RECORD(ISO_REGISTRY, S)
@@ -123,7 +123,7 @@ ISO_FOR_EACH_RECORD(ISO_ID_OF, S)
 ISO_FOR_EACH_INPUT(ISO_ID_OF, S)
 #undef ISO_ID_OF
 
-/// The record on that axis of a joint; null where there is none.
+/// Returns the record on that axis of a joint. Null if there is none.
 template <class S> AxisDriveId drive_on(const RecordStore<S>& records, JointId joint, JointAxis axis) {
   return records.axis_drives.id_where(
       [&](const AxisDrive<S>& drive) { return drive.joint == joint && drive.axis == axis; });

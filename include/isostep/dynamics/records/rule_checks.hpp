@@ -18,7 +18,7 @@ struct IdCounter {
   int* count;
   template <class T> constexpr void operator()(const char*, const T&) const { *count += count_ids<T>(); }
 };
-/// Counts the ids in a struct, those in its structs and arrays too.
+/// Counts the ids in a struct, with those in its structs and arrays.
 template <class T> constexpr int count_ids() {
   int count = 0;
   if constexpr (kIsId<T>) count = 1;
@@ -27,7 +27,7 @@ template <class T> constexpr int count_ids() {
   return count;
 }
 
-/// Compares the members of a record that are of an id's type with what its rules name, in the order of the members.
+/// Compares the members of a record that have an id's type with those that its rules name, in the order of the members.
 template <class IdType, class FieldOf> struct NameComparer {
   const FieldOf& field_of;  // (i): "" beyond the last
   int* met;
@@ -43,7 +43,7 @@ template <class IdType, class Record, class FieldOf> constexpr bool names_member
   return same && met == count;
 }
 
-/// Whether `bodies` of a kind's rules names each member that is a BodyId, by its name: with those the record ends.
+/// Returns true if a kind's rules name each member that is a BodyId in `bodies`: with those the record ends.
 template <class Record> constexpr bool names_its_bodies() {
   using Rules = RecordRules<Record>;
   const auto nothing = [](int) { return ""; };
@@ -55,7 +55,7 @@ template <class Record> constexpr bool names_its_bodies() {
     return names_members<BodyId, Record>(0, nothing);
   }
 }
-/// Whether `joints` does so for each JointId.
+/// Returns true if `joints` does so for each JointId.
 template <class Record> constexpr bool names_its_joints() {
   using Rules = RecordRules<Record>;
   const auto nothing = [](int) { return ""; };
@@ -66,8 +66,8 @@ template <class Record> constexpr bool names_its_joints() {
     return names_members<JointId, Record>(0, nothing);
   }
 }
-/// Whether a record has no ids but those of bodies and joints as its own members: what else is destroyed takes no
-/// record with it.
+/// Returns true if a record has no other ids than those of bodies and joints as its own members: destroying other
+/// things removes no record.
 template <class Record> constexpr bool names_bodies_and_joints_alone() {
   int named = 0;
   const auto count = [&]<class T>(const char*, const T&) {
@@ -77,7 +77,7 @@ template <class Record> constexpr bool names_bodies_and_joints_alone() {
   return count_ids<Record>() == named;
 }
 
-/// Whether the rules have `only_one` and `key` together, or neither.
+/// Returns true if the rules have `only_one` and `key` together, or neither.
 template <class Record> constexpr bool has_a_key_for_only_one() {
   using Rules = RecordRules<Record>;
   constexpr bool kKey = requires(const Record& record) { Rules::key(record); };
@@ -85,9 +85,9 @@ template <class Record> constexpr bool has_a_key_for_only_one() {
   return kKey == kOnlyOne;
 }
 
-/// Stands for the Forces of rules that are asked about and not called.
+/// Stands for the Forces of rules in checks that do not call them.
 struct NoForces;
-/// Whether the rules of a kind have those functions of Acts that its kActs names, and no others.
+/// Returns true if the rules of a kind have those functions of Acts that its kActs names, and no others.
 template <class Record> constexpr bool acts_as_it_says() {
   using Rules = RecordRules<Record>;
   constexpr bool kPushes = requires(const Record& r, NoForces& f) { Rules::act(r, f); };

@@ -11,16 +11,16 @@ namespace isostep {
 
 using SensorMountId = Id<struct SensorMountTag>;
 
-/// The sensor is where its carrier is: at `on`'s pose times the frame, as a step begins and ends. So a body gets a
-/// sensor with a filter and an id of its own in SensorEvents, without mass and contacts; the carrier keeps every bit of
-/// its motion. In the step the sensor has the carrier's velocity at its place; between steps it stands still. What else
-/// would move it - a pose or velocity that is set, a move, a character - is of no account.
-/// Seen:    as of any sensor, what is there as the step begins: a carrier that is put elsewhere sees there in the next
-///          step. Never the carrier itself. While that is disabled the sensor sees nothing.
+/// Mounts a sensor on a carrier: at `on`'s pose times the frame, as a step begins and ends. So a body gets a sensor
+/// with a filter and an id of its own in SensorEvents, without mass and contacts. The carrier keeps every bit of its
+/// motion. During the step the sensor has the carrier's velocity at its place, between steps it stands still. Other
+/// motion of the sensor - a pose or velocity that is set, a move, a character - has no effect.
+/// Seen:    as for any sensor, what is there as the step begins: if a carrier is put elsewhere, its sensor sees that
+///          place in the next step. Never the carrier itself. While that is disabled the sensor sees nothing.
 /// Sleep:   a sensor is always awake, so it sees on while its carrier sleeps, and wakes nobody.
-/// Rules:   the sensor is a kinematic body with BodyDefinition::sensor; one record a sensor; what a sensor is mounted
-///          on is not mounted itself. The record ends with either body; then the sensor stays where it is. While the
-///          sensor is disabled the record waits. At the edge of the world its centre is held within Limits::position().
+/// Rules:   the sensor is a kinematic body with BodyDefinition::sensor; one record a sensor; a carrier is not mounted
+///          itself. The record ends with either body; then the sensor stays where it is. While the sensor is disabled
+///          the record waits. At the edge of the world its centre is held within Limits::position().
 template <class S> struct SensorMount {
   BodyId sensor = {};
   BodyId on = {};                       // the carrier: of any type
@@ -51,7 +51,7 @@ template <class S> struct RecordRules<SensorMount<S>> : RecordDefaults<S> {
   }
   static constexpr OnlyOne only_one(const SensorMount<S>&) { return {"sensor", "a sensor that has no record yet"}; }
   static RecordKey key(const SensorMount<S>& m) { return {m.sensor.slot}; }
-  /// Neither of the two is mounted on and mounted.
+  /// A body cannot be both mounted and a carrier.
   static constexpr const char* kNoCarrier[] = {"a sensor that carries none", "a body that is not mounted itself"};
   static FaultReport fault_at(const SensorMount<S>&, const RecordPlace<S>& place) {
     return Checklist()

@@ -13,19 +13,19 @@ namespace isostep {
 
 using SurfaceVelocityId = Id<struct SurfaceVelocityTag>;
 
-/// SurfaceVelocity::part of a record for the whole body.
+/// The value of SurfaceVelocity::part in a record for the whole body.
 inline constexpr std::uint32_t kEveryPart = 0xffffffffu;
 
-/// The surface of a body moves while the body does not: friction drags what touches it towards the velocity that a
-/// rigid body of these two would have at the contact, as far as the coefficient and the load allow. The body itself may
-/// be static, kinematic or dynamic; a dynamic one is pushed back. It adds to Material::surface_velocity, which is the
-/// same in the world's axes.
-/// Parts: a record with a `part` is about that child of the body's shape alone, and stands there in place of the whole
-/// body's, also where it does not run. One record a body and one a part. A body that a record of a part names gets no
-/// shape without that part.
-/// A turning surface turns what lies on it and leads it round a circle: a sub-step aims at the end of its arc, as on a
-/// kinematic body that turns (carrying.hpp). A character rides on it.
-/// Sleep: a surface that runs keeps awake what touches it, what is held against a wall as well: the wall may go.
+/// Moves the surface of a body while the body stays: friction drags touching bodies towards the velocity that a rigid
+/// body with these two would have at the contact, as far as friction and load allow. The body may be static,
+/// kinematic or dynamic; a dynamic one is pushed back. It adds to Material::surface_velocity, which is the same in
+/// world axes.
+/// Parts: a record with a `part` is about that child of the body's shape alone, and replaces the body's record there,
+/// even if it does not run. One record a body and one a part. A body with a record of a part gets no shape without
+/// that part.
+/// A turning surface turns bodies that lie on it and leads them round a circle: a sub-step aims at the end of the
+/// arc, as on a kinematic body that turns (carrying.hpp). A character rides on it.
+/// Sleep: a running surface keeps touching bodies awake, even one that a wall holds: the wall may go.
 /// Limits: all that a body's surface adds at a point is held within Limits::speed(), axis by axis.
 template <class S> struct SurfaceVelocity {
   BodyId body = {};

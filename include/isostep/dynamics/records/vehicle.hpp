@@ -14,7 +14,7 @@ using VehicleId = Id<struct VehicleTag>;
 using WheelId = Id<struct WheelTag>;
 
 inline constexpr std::uint32_t kMostGears = 8;
-/// [rad/s] The fastest engine: geared by the largest ratio to what turns as fast as a body may. 8192 in Q16.16.
+/// [rad/s] The fastest engine: geared by the largest ratio to a body that turns as fast as it may. 8192 in Q16.16.
 template <class S> ISO_INLINE constexpr S fastest_engine() {
   return Limits<S>::mass_ratio() * Limits<S>::angular_speed();
 }
@@ -59,7 +59,7 @@ template <class S> struct VehicleSettings {
              brake_torque, handbrake_torque, ackermann, track_steer)
 };
 
-/// Input of a vehicle: it stays until the game sets another.
+/// The input of a vehicle. It lasts until the game sets another.
 template <class S> struct VehicleInput {
   S throttle = S(0);       // [1] -1 to 1
   S clutch = S(1);         // [1] 0: the engine runs alone, to 1: engaged
@@ -71,7 +71,7 @@ template <class S> struct VehicleInput {
   ISO_FIELDS(throttle, clutch, brake, handbrake, steer, gear)
 };
 
-/// State of a vehicle with a clutch: the step writes it.
+/// The state of a vehicle with a clutch, which the step writes.
 template <class S> struct VehicleState {
   S engine_spin = S(0);  // [rad/s] of its shaft, up to fastest_engine()
   S clutch_load = S(0);  // [N m] on the gears, in the last sub-step
@@ -124,7 +124,7 @@ template <class S> struct WheelSettings {
              brake_share, handbrake_share, axle, anti_roll, track)
 };
 
-/// State of a wheel: the step writes it. contact_body is null, and load, along and across 0, where it meets nothing.
+/// The state of a wheel, which the step writes. Without ground contact_body is null, and load, along and across are 0.
 template <class S> struct WheelState {
   S spin = S(0);     // [rad/s] about the axle, seen from the body
   S angle = S(0);    // [rad] that it has turned, 0 to 2 pi
@@ -145,7 +145,7 @@ template <class S> struct WheelState {
 
 namespace isostep::detail {
 
-/// [1] m r^2 / I: what an impulse at the rim does to its speed, to what it does to that of the body.
+/// [1] m r^2 / I: the ratio of the speed changes that an impulse at the rim gives the rim and the body.
 template <class S> ISO_INLINE S rim_give(S mass, S radius, S inertia) {
   return saturate_to<S>(product(radius, saturate_to<S>(product(mass, divide_to<S>(radius, inertia)))));
 }
@@ -246,7 +246,7 @@ template <class S> struct RecordRules<WheelSettings<S>> : RecordDefaults<S> {
   static constexpr NamedBodies<S> bodies(const WheelSettings<S>& w) {
     return named_point(w.body, w.hard_point, "hard_point");
   }
-  /// Tyre and body are within the range of masses that one row bears.
+  /// Checks that tyre and body are within the range of masses that one row bears.
   static FaultReport fault_at(const WheelSettings<S>& w, const RecordPlace<S>& place) {
     return Checklist()
         .in_range(rim_give(place.bodies[0]->mass, w.radius, w.inertia) <= Limits<S>::leverage(), "inertia",

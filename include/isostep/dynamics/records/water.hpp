@@ -12,18 +12,18 @@ namespace isostep {
 
 using WaterId = Id<struct WaterTag>;
 
-/// Dynamic bodies that are awake, of a category of the mask, whose boxes touch the region, are borne by the weight of
-/// the water in place of them: of each part of their shapes the exact volume below the surface, at its centre. What
-/// drag says is of the wet part alone: it slows its centre, and the body's turning, to those of the water.
-/// The surface is level, up is against the world's gravity; without gravity there is no surface and no force. A wave
+/// Acts on awake dynamic bodies with a category of the mask whose boxes touch the region. They are borne by the weight
+/// of the water that they displace: the exact volume of each part of their shapes below the surface, at its centre.
+/// Drag acts on the wet part alone: it slows its centre, and the body's rotation, to those of the water.
+/// The surface is level, up is against the world's gravity. Without gravity there is no surface and no force. A wave
 /// travels over it, height wave_height sin(2 pi (x / wave_length - t / wave_period)) with x along wave_direction, and
-/// carries the water round in circles (Airy's of deep water). A body meets it as the plane that touches it above or
-/// below the body's centre of mass, along whose normal it is borne: what is longer than a third of a wave has waves of
-/// its own to be built of several bodies.
-/// Waters add up. One that replaces stands in place of those of lower priority, as a lock or a tank in the sea, with a
-/// level, a density and a current of its own: a body whose centre of mass is in its region has this water and none of
-/// those, below the surface and above it. It acts on no body whose centre is outside, so that of two such regions side
-/// by side a body has one at a time. A ForceZone that replaces water hides that of lower priority.
+/// carries the water round in circles (Airy's, of deep water). A body meets it as the plane that touches it above or
+/// below the body's centre of mass, and is borne along the plane's normal. Build a body that is longer than a third of
+/// a wave of several bodies.
+/// Waters add up. One that replaces takes the place of those of lower priority, as a lock or a tank in the sea, with
+/// its own level, density and current. A body with its centre of mass in its region has this water and none of those,
+/// below the surface and above it; others are not affected, so that of two such regions side by side a body has one at
+/// a time. A ForceZone that replaces water hides that of lower priority.
 /// Source:  Archimedes; geometry/submersion.hpp. Millington 2007, pp. 222-225, has BuoyancyPoint.
 template <class S> struct Water {
   S surface_height = S(0);               // [m] along up, of the water at rest
@@ -57,15 +57,15 @@ namespace isostep::detail {
 
 inline constexpr int kMostWavePeriod = 1024;  // [s] its part in a sub-step still has digits
 
-/// Whether the water hides those below it at a point, from bodies of that category.
+/// Returns true if the water hides waters of lower priority at a point, from bodies of that category.
 template <class S> ISO_INLINE bool replaces(const Water<S>& water, std::uint32_t category, Vec3<S> point) {
   return water.replaces && (category & water.mask) != 0 && in_region<S>(water, {point, point});
 }
 
 inline constexpr double kTurn = 2 * kPi;  // [rad]
 
-/// Where in its circle a wave is after so many sub-steps of h [s]: the same error after an hour as after a second,
-/// for a sub-step's part of a turn is rounded once, to 2^-32 of it.
+/// Returns the angle of a wave after so many sub-steps of h [s]. The error after an hour is that after a second: the
+/// part of a turn in a sub-step is rounded once, to 2^-32 of a turn.
 template <class S> S wave_angle(std::uint64_t substeps, Step<S> h, S period) {
   const auto part = static_cast<std::uint64_t>(nearest_scaled(divide_to<Unit<S>>(h, period), 32));
   return from_lattice<S>(static_cast<std::int64_t>(substeps * part & 0xffffffffu), 32) * S(kTurn);
@@ -77,7 +77,7 @@ template <class S> struct WaterSurface {
   S depth;           // [m] of the point below it, along the normal
   Vec3<S> velocity;  // [m/s] of the water there
 };
-/// `clock`: of a sub-step.
+/// `clock`: that of a sub-step.
 template <class S, class Clock>
 WaterSurface<S> surface_at(const Water<S>& water, Vec3<S> at, Vec3<S> gravity, const Clock& clock) {
   using U = Unit<S>;
@@ -177,7 +177,7 @@ template <class S> struct RecordRules<Water<S>> : RecordDefaults<S> {
       forces.resistance.count(row);
     }
   }
-  /// The wet part of each body, as act() found it.
+  /// Slows the wet part of each body, as act() found it.
   template <class Forces> static void resist(const Water<S>& w, Forces& forces) {
     forces.wet.for_each_of(w, [&](const auto& wet) { resist(w, wet, forces); });
   }

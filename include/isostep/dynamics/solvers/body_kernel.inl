@@ -11,7 +11,7 @@
 namespace isostep {
 namespace {
 
-/// Order:   forces, damping, free turning; then moves. A lane does not depend on its neighbours.
+/// Integrates bodies: forces, damping, free turning; then moves. A lane does not depend on its neighbours.
 template <class S, int W, class Isa> struct BodyKernel {
   using L = Lanes<S, W, Isa>;
   using V = Lanes<Velocity<S>, W, Isa>;
@@ -24,7 +24,7 @@ template <class S, int W, class Isa> struct BodyKernel {
     Vec3<V> linear, angular;
   };
 
-  /// Rows of N numbers, N = 4 or 8, the first of each being `of(i)`.
+  /// Loads rows of N numbers, N = 4 or 8. `of(i)` is the first of each.
   template <int N, class T, class Of> static ISO_INLINE void load_rows(const Of& of, Lanes<T, W, Isa> (&out)[N]) {
     const T* rows[W];
     for (int i = 0; i < W; ++i) rows[i] = of(i);
@@ -54,7 +54,7 @@ template <class S, int W, class Isa> struct BodyKernel {
   static ISO_INLINE Quat<U> orientation(const BodyState<S>* states) {
     return load_rotation([states](int i) ISO_INLINE_LAMBDA -> const Quat<Unit<S>>& { return states[i].orientation; });
   }
-  /// The bodies of W that have the bit, one bit each. The factor brings bit 8 i of eight bytes to bit 56 + i.
+  /// Returns those of W bodies that have the bit, one bit each. The factor moves bit 8 i of eight bytes to bit 56 + i.
   static ISO_INLINE std::uint32_t which(const std::uint8_t* kinds, std::uint8_t bit) {
     constexpr int kBytes = W < 8 ? W : 8;
     std::uint32_t bits = 0;
@@ -74,7 +74,7 @@ template <class S, int W, class Isa> struct BodyKernel {
     return {round_product<V>(a.x, h), round_product<V>(a.y, h), round_product<V>(a.z, h)};
   }
 
-  /// Writes bodies into run.left as BodyKernels says.
+  /// Writes bodies into run.left: see BodyKernels.
   static ISO_INLINE void leave(const BodyRun<S>& run, std::size_t first, std::uint32_t rest, std::uint32_t odd,
                                std::size_t& left) {
     for (std::uint32_t i = 0; i < W && rest >> i != 0; ++i) {
@@ -112,7 +112,7 @@ template <class S, int W, class Isa> struct BodyKernel {
     m.angular = times(factor[1], m.angular);
   }
 
-  /// Turns solids that are slow; returns the bodies that have still to turn.
+  /// Turns slow solids. Returns the bodies that must still turn.
   static ISO_INLINE std::uint32_t turn(const BodyRun<S>& run, std::size_t first, std::uint32_t turns, H h, Motion& m) {
     const std::uint8_t* const kinds = run.kinds + first;
     const BodyProperties<S>* const properties = run.properties + first;
@@ -179,7 +179,7 @@ template <class S, int W, class Isa> struct BodyKernel {
     const U rotation[4] = {q.x, q.y, q.z, q.w};
     store_rows<4, Unit<S>>([states](int i) ISO_INLINE_LAMBDA { return &states[i].orientation.x; }, rotation, moves);
   }
-  /// The mean velocity over the sub-step: see BodyFlight.
+  /// Returns the mean velocity over the sub-step: see BodyFlight.
   static ISO_INLINE Vec3<V> mean_velocity(const BodyFlight<S>* flights, Vec3<V> v) {
     V flight[8];
     load_rows<8, Velocity<S>>([flights](int i) ISO_INLINE_LAMBDA { return &flights[i].fallen.x; }, flight);
@@ -201,7 +201,7 @@ template <class S, int W, class Isa> struct BodyKernel {
   }
 };
 
-/// The last bodies, fewer than W, take one lane each.
+/// The loops over bodies. The last ones, fewer than W, take one lane each.
 #define ISO_BODY_LOOP(NAME)                                                           \
   template <class S, int W, class Isa> std::size_t NAME##_of(const BodyRun<S>& run) { \
     std::size_t i = run.first, left = 0;                                              \

@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// Bits that say how a body is integrated.
+/// Bits that select how a body is integrated.
 namespace body_kind {
 inline constexpr std::uint8_t kDriven = 1;   // by forces and damping: it is dynamic
 inline constexpr std::uint8_t kDamped = 2;   // a factor of its BodyFactors is not one
@@ -25,15 +25,15 @@ inline constexpr std::uint8_t kTilted = 64;  // its principal axes are not those
 inline constexpr std::uint8_t kMet = 128;    // it has contacts in this step
 }  // namespace body_kind
 
-/// The parts of its velocities that damping leaves a body in a sub-step.
+/// The parts of a body's velocities that damping leaves in a sub-step.
 template <class S> struct BodyFactors {
   S linear_keep, angular_keep;  // [1]
   S reserved[2];                // 0: rows of four numbers
 };
 
-/// A body that nothing but gravity moves in a sub-step goes along a parabola: by half of what it gains less than its
-/// new velocity says. So its energy stays, whatever the sub-steps. Other forces may depend on where a body is: taken
-/// so, they would drive it. Rows of four numbers.
+/// A body that only gravity moves in a sub-step follows a parabola: it moves by the mean of its old and its new
+/// velocity, half of the gain less than the new one. So its energy stays, with any sub-steps. Other forces may depend
+/// on a body's place: treated like that, they would drive it. Rows of four numbers.
 template <class S> struct BodyFlight {
   Vec3<Velocity<S>> fallen;  // [m/s] velocity after a sub-step of gravity alone
   Velocity<S> pad0;
@@ -51,7 +51,7 @@ template <class S> struct BodyTurn {
   S pad2;
 };
 
-/// Bodies first..end-1 over one sub-step; each pointer is to what body 0 has.
+/// Bodies first..end-1 over one sub-step. Each pointer is to the data of body 0.
 template <class S> struct BodyRun {
   std::size_t first, end;
   Step<S> h;                             // [s]
@@ -70,10 +70,10 @@ template <class S> struct BodyRun {
   std::uint32_t* left;  // place for one number a body
 };
 
-/// Each returns how many bodies it leaves to be finished one by one; run.left[first...] names them in order, as 2 i or
-/// 2 i + 1 for body i.
-/// Velocities: forces, damping and free turning of slow solids. Left are what has still to turn, 2 i + 1, and bodies
-///             that are locked or, after they turned, rapid: 2 i.
+/// The kernels of one instruction set. Each call returns the number of bodies left to be finished one by one;
+/// run.left[first...] names them in order, as 2 i or 2 i + 1 for body i.
+/// Velocities: forces, damping and free turning of slow solids. Left are bodies that must still turn, 2 i + 1, and
+///             bodies that are locked or, after they turned, rapid: 2 i.
 /// Positions:  left are fast bodies, 2 i + 1, and other locked ones, 2 i: neither has moved.
 template <class S> struct BodyKernels {
   const char* name;
@@ -82,7 +82,7 @@ template <class S> struct BodyKernels {
   std::size_t (*integrate_positions)(const BodyRun<S>&);
 };
 
-/// The kernels for `simd`; those of one lane where there are none. Every scalar has its own full specialisation, a
+/// Returns the kernels for `simd`, or those of one lane if it has none. Every scalar has its own full specialisation, a
 /// strong symbol.
 template <class S> const BodyKernels<S>* body_kernels(Simd simd);
 

@@ -18,7 +18,7 @@ namespace isostep {
 /// Threads: ranges of bodies that do not meet may be integrated side by side.
 template <class S> class BodyRows {
  public:
-  /// Gathers velocities and masses of context.states once a step, without displacement. Sub-steps take 1 / rate
+  /// Gathers velocities and masses of context.states once a step, with zero displacement. Sub-steps take 1 / rate
   /// seconds. `binds_joints`: energy_bound.hpp.
   void gather(const StepContext<S>& context, std::int32_t rate, bool binds_joints);
 
@@ -28,20 +28,20 @@ template <class S> class BodyRows {
   }
   // These move bodies first..end-1 by a sub-step.
   void integrate_velocities(const StepContext<S>& context, std::size_t first, std::size_t end);
-  /// Returns whether contacts are to follow any of them.
+  /// Returns true if contacts must follow any of them.
   bool integrate_positions(const StepContext<S>& context, std::size_t first, std::size_t end);
 
-  /// Contacts follow the row's body, for it turns fast: contact_follow.hpp; any at all as the step began.
+  /// Returns true if contacts follow the row's body, because it turns fast: contact_follow.hpp.
   ISO_INLINE bool is_followed(const StepContext<S>& context, std::uint32_t row) const {
     const Velocity<S> turns = max_abs(rows_.velocity[row].angular);
     return row != 0 && angular_speed_to_renew<S>(context.hz, true) < turns &&
            is_uneven(context.properties[row - 1], context.hz, turns);
   }
   ISO_INLINE bool began_with_followed() const { return began_with_followed_; }
-  /// Renews the row's inertia about the world's axes.
+  /// Renews the row's inertia about world axes.
   void renew_inertia(const StepContext<S>& context, std::uint32_t row);
 
-  /// Free turning takes the row's angular velocity as it is: none of it is a push of the solver's (gyroscopic.hpp).
+  /// Makes free turning accept the row's angular velocity: no part of it is a push of the solver (gyroscopic.hpp).
   ISO_INLINE void accept_turning(const StepContext<S>& context, std::uint32_t row) {
     if (row == 0 || (kinds_[row - 1] & body_kind::kTurns) == 0) return;
     const Mat3<Unit<S>> axes = detail::world_axes(context.states[row - 1].orientation, context.properties[row - 1]);
@@ -50,14 +50,14 @@ template <class S> class BodyRows {
 
   /// Stores velocities in context.states, after integration.
   void store(const StepContext<S>& context, std::size_t first, std::size_t end) const;
-  /// The bound then holds the energy of all of them at once.
+  /// Returns true if an energy bound holds for all rows together.
   ISO_INLINE bool has_bound() const { return bound_.any(); }
   ISO_INLINE void hold_energy(const StepContext<S>& context) const { bound_.hold(context, rows_); }
 
   /// See rigid_solver.hpp.
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage);
 
-  /// [m/s] The velocity that forces are to add to a row in the sub-step.
+  /// [m/s] Returns the velocity that forces add to a row in the sub-step.
   ISO_INLINE Vec3<Velocity<S>> gain_of(const StepContext<S>& context, std::uint32_t row) const {
     if (!rows_.moves(row)) return Vec3<Velocity<S>>::zero();
     const Vec3<Velocity<S>> fall = flights_[row - 1].fall;

@@ -12,7 +12,7 @@ namespace isostep {
 
 namespace detail {
 
-/// Stops motion along and about locked axes, whatever pushed.
+/// Stops motion along and about locked axes.
 template <class V> ISO_INLINE void hold_locks(std::uint32_t flags, MotionRow<V>& row) {
   if ((flags & body_flag::kAllLocks) == 0) return;
   for (int axis = 0; axis < 3; ++axis) {
@@ -32,7 +32,7 @@ template <class S> ISO_INLINE std::uint8_t kind_of(const BodyProperties<S>& body
   return kind;
 }
 
-/// The pace of a body that is not slow.
+/// Returns the pace of a body that is not slow.
 template <class S> ISO_INLINE Pace pace_of(Velocity<S> angular_speed, std::int32_t hz, std::int32_t rate) {
   const Velocity<S> fast = max(angular_speed_to_follow<S>(rate), angular_speed_to_renew<S>(hz, false));
   return fast < angular_speed ? Pace::fast : Pace::brisk;
@@ -93,9 +93,9 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::
   }
 }
 
-/// The principal axes in the middle of the step, as the body turns now: contacts answer with one inertia for the whole
-/// of it. They answer late with that of its begin, and a barrel that rolls on its rim gains energy. A body that
-/// contacts follow has the axes of the first sub-step: they are renewed before the second.
+/// Returns the principal axes in the middle of the step, as the body turns now, since contacts use one inertia for the
+/// whole step. With the inertia of its start they respond late, and a barrel that rolls on its rim gains energy. A body
+/// that contacts follow has the axes of the first sub-step: they are renewed before the second.
 template <class S> Mat3<Unit<S>> BodyRows<S>::axes_in_the_middle(const StepContext<S>& context, std::size_t i) const {
   const BodyState<S>& state = context.states[i];
   const bool followed = is_followed(context, static_cast<std::uint32_t>(i + 1));
@@ -181,7 +181,7 @@ bool BodyRows<S>::integrate_positions(const StepContext<S>& context, std::size_t
   return any_followed;
 }
 
-/// Returns whether contacts are to follow the body.
+/// Limits the turn of a body. Returns true if contacts must follow the body.
 template <class S> bool BodyRows<S>::limit_turn(const StepContext<S>& context, std::size_t body) {
   if (context.properties[body].type != BodyType::dynamic) return false;
   MotionRow<Velocity<S>>& row = rows_.velocity[body + 1];
@@ -194,7 +194,7 @@ template <class S> bool BodyRows<S>::limit_turn(const StepContext<S>& context, s
   return is_followed(context, static_cast<std::uint32_t>(body + 1));
 }
 
-/// Does what the kernel does, for bodies that are locked or fast too.
+/// Does the same as the kernel, also for bodies that are locked or fast.
 template <class S> void BodyRows<S>::move(const StepContext<S>& context, std::size_t body) {
   using V = Velocity<S>;
   const Step<S> h = divide_to<Step<S>>(S(1), S(rate_));
@@ -218,7 +218,7 @@ template <class S> void BodyRows<S>::move(const StepContext<S>& context, std::si
       integrate(state.orientation, Vec3<Unit<S>>{turn(v.angular.x), turn(v.angular.y), turn(v.angular.z)});
 }
 
-/// A body that turns as easily about each axis stays so however it turns.
+/// Returns true if the body's inertia about world axes changes as it turns. With equal moments it never does.
 template <class S>
 bool BodyRows<S>::is_uneven(const BodyProperties<S>& body, std::int32_t hz, Velocity<S> angular_speed) {
   const Vec3<S> k = body.kappa;

@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// One row of the Jacobian that turns but does not push: angular parts only.
+/// One angular row of the Jacobian, which turns but does not push.
 /// Symbols: jacobian_a, jacobian_b = the row's angular parts; response_a, response_b = change of angular velocity per
 ///          impulse.
 template <class S, int W> struct AngularRow {
@@ -41,9 +41,9 @@ template <class S, int W> struct FrictionRow {
   ISO_FIELDS(row, direction, surface)
 };
 
-/// W contacts of P points each: two rows of friction and one of twist for the patch, P normal rows. W numbers of one
-/// width a field and nothing between, so that a block of one contact packs into a lane of a wide block word by word;
-/// the normal rows come last, so that fewer points are a shorter block.
+/// W contacts of P points each: two rows of friction and one of twist for the patch, P normal rows. Each field has W
+/// numbers of one width, without padding, so that a block of one contact packs into a lane of a wide block word by
+/// word. The normal rows come last, so that fewer points make a shorter block.
 template <class S, int W, int P> struct ContactBlock {
   S normal[3][W];  // [1] from a to b
   S share_a[W];    // [1] MassShare
@@ -69,14 +69,14 @@ template <class S, int W, int P> struct RollingBlock {
   ContactBlock<S, W, P> contact;
 };
 
-/// Size of a block of contacts of `points` points.
+/// Returns the size of a block of contacts with `points` points.
 template <class S, int W> ISO_INLINE constexpr std::size_t block_bytes(std::int32_t points, bool rolling) {
   const auto missing = static_cast<std::size_t>(kMaxContactPoints - points);
   return sizeof(ContactBlock<S, W, kMaxContactPoints>) - missing * sizeof(NormalRow<S, W>) +
          (rolling ? sizeof(RollingRows<S, W>) : 0);
 }
 
-/// The friction of one contact follows the surface velocity [m/s] of b against a. `words`: of its lane.
+/// Sets the surface velocity [m/s] of b against a in the friction rows of one contact. `words`: those of its lane.
 template <class S> ISO_INLINE void set_surface(unsigned char* words, std::size_t width, Vec3<Velocity<S>> surface) {
   using Block = ContactBlock<S, 1, kMaxContactPoints>;
   using Row = FrictionRow<S, 1>;
@@ -90,7 +90,7 @@ template <class S> ISO_INLINE void set_surface(unsigned char* words, std::size_t
   }
 }
 
-/// Its twist follows the surfaces' angular velocity [rad/s] of b against a.
+/// Sets the angular velocity [rad/s] of b's surface against a's in the twist row of one contact.
 template <class S> ISO_INLINE void set_spin(unsigned char* words, std::size_t width, Vec3<Velocity<S>> spin) {
   using Block = ContactBlock<S, 1, kMaxContactPoints>;
   using Row = AngularRow<S, 1>;
@@ -103,7 +103,7 @@ template <class S> ISO_INLINE void set_spin(unsigned char* words, std::size_t wi
   std::memcpy(words + width * offsetof(Block, spin), &along, sizeof(along));
 }
 
-/// The rows of SolverBodies that a block's lanes read, and those of them that they may write (one bit a lane).
+/// The rows of SolverBodies that a block's lanes read, and which of them they may write (one bit a lane).
 struct BlockBodies {
   static constexpr int kMaxWidth = 16;
   std::uint32_t a[kMaxWidth];

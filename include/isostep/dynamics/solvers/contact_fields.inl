@@ -11,8 +11,8 @@
 namespace isostep {
 namespace {
 
-/// Blocks hold words of W lanes and nothing else, so word k of lane l stands at k W + l: what is looked at is the same
-/// at every width, and builds whose processors have other lanes can be compared.
+/// A view of one lane of a block. Blocks are words of W lanes without padding: word k of lane l is at k W + l. So the
+/// view is the same at every width, and builds for CPUs with other lanes can be compared.
 template <class S> class LaneOfBlock {
  public:
   LaneOfBlock(void* block, std::size_t width, std::size_t lane, std::int32_t points, bool rolling)
@@ -26,7 +26,7 @@ template <class S> class LaneOfBlock {
     each_word([](unsigned char* own, unsigned char* shared) { std::memcpy(shared, own, sizeof(S)); });
   }
 
-  /// Visits all numbers, or, once they are prepared, only those that solving changes.
+  /// Visits all numbers or, if `solved`, only those that solving changes.
   template <class Visit> void visit(const Visit& visit, bool solved) {
     auto* words = rolling_ ? own_.bytes : own_.bytes + sizeof(RollingRows<S, 1>);
     auto& block = *reinterpret_cast<ContactBlock<S, 1, kMaxContactPoints>*>(own_.bytes + sizeof(RollingRows<S, 1>));

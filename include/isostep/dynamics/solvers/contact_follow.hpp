@@ -6,12 +6,12 @@
 
 namespace isostep {
 
-/// Contacts are prepared once a step. Where a body turns by a radian in it, they answer an impulse with an inertia
-/// about axes that have long turned: a rod is 600 times easier to turn about its length than across, and pushed along
-/// the one and turned about the other it gains energy out of nothing, in a step a hundred thousand times what it had.
-/// Rows that answer with the inertia of now (turn_by) and begin each sub-step from nothing only take energy, whatever
-/// their arms: a row pushes no more once nothing approaches along it. What presses overlaps apart is bounded elsewhere.
-/// Arms and normals stay: the place of a contact does not turn with what passes by it.
+/// A contact that follows a body which turns fast. Contacts are prepared once a step. If a body turns by a radian in
+/// it, they use an inertia about axes that have long turned: a rod is 600 times easier to turn about its length than
+/// across. Pushed along one and turned about the other it gains energy out of nothing, in one step a hundred thousand
+/// times its own. Rows with the present inertia (turn_by) that start each sub-step from zero impulse only take energy,
+/// at any arms: a row pushes no more once nothing approaches along it. The push against overlaps is bounded elsewhere.
+/// Arms and normals stay: the place of a contact does not turn with the body that passes by.
 template <class S> class FollowedContact : public ContactLane<S> {
   using Lane = ContactLane<S>;
   using typename Lane::Normal, typename Lane::Row, typename Lane::V;
@@ -20,7 +20,7 @@ template <class S> class FollowedContact : public ContactLane<S> {
   ISO_INLINE FollowedContact(unsigned char* words, std::size_t width, std::int32_t points, bool rolling)
       : Lane(words, width, points, rolling) {}
 
-  /// Forgets the warm start: impulses of before met other axes, and one pass would not take all of them back.
+  /// Forgets the warm start: old impulses refer to other axes, and one pass would not take all of them back.
   ISO_INLINE void forget_impulses() const {
     for (std::size_t p = 0; p < this->points(); ++p) {
       const std::size_t at = this->normal(p), total = at + offsetof(Normal, total_impulse);

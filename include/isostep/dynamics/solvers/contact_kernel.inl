@@ -13,11 +13,11 @@ namespace isostep {
 namespace {
 
 /// Source:  Catto 2024, Solver2D: Soft Step. Impulses are velocity changes of the reduced mass, so that every
-///          coefficient is near one whatever the masses.
-/// Symbols: n = normal from a to b, v, w = linear and angular velocity, d = displacement since the step began,
-///          lambda = impulse.
-/// Order:   biased, tangents then normals: what may not overlap has the last word. Relaxed, normals then tangents: a
-///          step's friction is bounded by the normal impulse that is left when the push is gone. Lanes never meet.
+///          coefficient is near one at any masses.
+/// Symbols: n = normal from a to b, v, w = linear and angular velocity, d = displacement since the step began, lambda =
+///          impulse.
+/// Order:   a biased pass solves tangents, then normals: non-penetration has the last word. A relaxed pass solves
+///          normals, then tangents: the normal impulse without the push bounds friction. Lanes never interact.
 template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
   using L = Lanes<S, W, Isa>;
   using V = Lanes<Velocity<S>, W, Isa>;
@@ -47,14 +47,14 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
   }
   template <class A> static ISO_INLINE V times(A a, V b) { return round_product<V>(a, b); }
 
-  /// b's angular part of the row minus a's. One product at a time: of an expression gcc keeps all of them.
+  /// Returns b's angular part of the row minus a's. One product at a time: gcc keeps all terms of a single expression.
   static ISO_INLINE auto angular_sum(const AngularRow<S, W>& row, const Motion& a, const Motion& b) {
     auto sum = product(L::load(row.jacobian_b[0]), b.angular[0]);
     for (int i = 1; i < 3; ++i) sum += product(L::load(row.jacobian_b[i]), b.angular[i]);
     for (int i = 0; i < 3; ++i) sum -= product(L::load(row.jacobian_a[i]), a.angular[i]);
     return sum;
   }
-  /// Speed (or displacement) of b against a along the row.
+  /// Returns the speed (or displacement) of b against a along the row.
   static ISO_INLINE V along(const S (&direction)[3][W], const AngularRow<S, W>& row, const Motion& a, const Motion& b) {
     auto sum = product(L::load(direction[0]), b.linear[0] - a.linear[0]);
     for (int i = 1; i < 3; ++i) sum += product(L::load(direction[i]), b.linear[i] - a.linear[i]);
@@ -77,7 +77,7 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     }
     turn(row, impulse, a, b);
   }
-  /// The change that brings an accumulated impulse to `wanted` within +-limit, stored.
+  /// Stores an accumulated impulse, `wanted` within +-limit. Returns its change.
   static ISO_INLINE V accumulate(AngularRow<S, W>& row, V wanted, V limit) {
     const V next = clamp(wanted, V::zero() - limit, limit);
     const V change = next - V::load(row.impulse);
@@ -140,10 +140,10 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     }
   }
 
-  /// A biased pass pushes overlap apart softly, at a bounded speed. A relaxed one does not, so that none of it stays as
-  /// speed. A gap may close in either, no more. An open gap of a contact that may bounce only gives back in a relaxed
-  /// pass: the next sub-step deals with what closes it, and sees it bounce. In all others that would stop one corner of
-  /// a flat fall and not another, which rounding says is open.
+  /// Solves the normals. A biased pass pushes overlaps apart softly, at a bounded speed. A relaxed pass does not, so
+  /// that no push stays as speed. In either a gap may at most close. An open gap of a contact that may bounce only
+  /// gives back impulse in a relaxed pass: if it closes, the next sub-step handles that and sees it bounce. In the
+  /// other passes this would stop one corner of a flat fall and not another that is open by rounding.
   template <bool Relax>
   static ISO_INLINE void solve_normals(ContactBlock<S, W, P>& c, const Shares& share, const PassLanes& pass,
                                        const Motion& da, const Motion& db, Motion& a, Motion& b) {

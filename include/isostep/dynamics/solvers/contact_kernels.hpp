@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// The values that one pass over the contacts needs.
+/// Holds the parameters of one pass over the contacts.
 template <class S> struct ContactPass {
   Softness<S> softness;
   S rate;                      // [1/s] sub-steps a second
@@ -31,7 +31,7 @@ template <class S> struct BlockRun {
   const MotionRow<Velocity<S>>* displacement;
 };
 
-/// Contacts of one shape that are to become blocks: everything of their state and geometry that solving needs.
+/// Contacts of one shape to be made into blocks, with all of their state and geometry that solving needs.
 template <class S> struct PrepareRun {
   void* blocks;         // as in BlockRun, to be filled
   BlockBodies* bodies;  // a block, to be filled
@@ -47,7 +47,7 @@ template <class S> struct PrepareRun {
   S most_bias;         // [m] but by no more than this
 };
 
-/// Blocks of one shape whose impulses go back to their contacts.
+/// Blocks of one shape whose impulses are stored in their contacts.
 template <class S> struct StoreRun {
   const void* blocks;
   std::int32_t count;   // contacts
@@ -58,7 +58,7 @@ template <class S> struct StoreRun {
   Velocity<S>* step_impulses;  // [m/s] a contact, what its points pushed over the step
 };
 
-/// Index of a kernel's variant: rolling * 4 + points - 1.
+/// The number of a kernel's variants; a variant's index is rolling * 4 + points - 1.
 inline constexpr int kContactVariants = 2 * kMaxContactPoints;
 
 template <class S> struct ContactKernels {
@@ -71,8 +71,8 @@ template <class S> struct ContactKernels {
   void (*relax[kContactVariants])(const BlockRun<S>&, const ContactPass<S>&);
 };
 
-/// The kernels for `simd`. Null when the processor or build lacks it; never for `best`. Every scalar has its own full
-/// specialisation, a strong symbol.
+/// Returns the kernels for `simd`. Null if the CPU or the build lacks it; never null for `best`. Every scalar has its
+/// own full specialisation, a strong symbol.
 template <class S> const ContactKernels<S>* contact_kernels(Simd simd);
 
 #define ISO_DECLARE_CONTACT_KERNELS(S)         \

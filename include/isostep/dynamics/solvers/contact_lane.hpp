@@ -10,14 +10,14 @@
 
 namespace isostep {
 
-/// Lanes:   one lane of a block of `width`, by the words of a block of one; the same bits at every width.
+/// One lane of a block of `width`, addressed like a block of one. Gives the same bits at every width.
 template <class S> class ContactLane {
  public:
-  /// `words`: of the contact's RollingRows if it has them, else of its ContactBlock.
+  /// `words`: those of the contact's RollingRows if it has them, else of its ContactBlock.
   ISO_INLINE ContactLane(unsigned char* words, std::size_t width, std::int32_t points, bool rolling)
       : words_(words), width_(width), points_(static_cast<std::size_t>(points)), rolling_(rolling) {}
 
-  /// kappa: mass times inverse inertia about the world's axes [1/m^2], of the two bodies now.
+  /// Renews the responses. kappa: mass times inverse inertia in world axes [1/m^2], of the two bodies now.
   ISO_INLINE void turn_by(const Mat3<S>& kappa_a, const Mat3<S>& kappa_b) const {
     const S share_a = get<S>(block() + offsetof(Block, share_a)), share_b = get<S>(block() + offsetof(Block, share_b));
     each_row([&](std::size_t at, std::size_t direction) ISO_INLINE_LAMBDA {

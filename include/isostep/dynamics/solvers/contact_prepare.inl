@@ -13,7 +13,7 @@
 namespace isostep {
 namespace {
 
-/// Every lane has the bits that W = 1 gives it: branches are selections, skipped where no lane needs them.
+/// Prepares W contacts. Every lane has the bits of W = 1: branches are selections, skipped if no lane needs them.
 /// Symbols: n = normal from a to b, arm = from a body's centre of mass to a point, kappa = mass times inverse inertia.
 template <class S, int W, class Isa> struct ContactPreparer {
   using L = Lanes<S, W, Isa>;
@@ -79,7 +79,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     separation = w[6];
     return {{w[0], w[1], w[2]}, {w[3], w[4], w[5]}};
   }
-  /// Reads from a word before the material, so that eight end with the record.
+  /// Reads from a word before the material, so that eight words end with the record.
   static ISO_INLINE Materials gather_material(const Geometry* const* geometry) {
     L w[8];
     gather<8>(
@@ -107,13 +107,13 @@ template <class S, int W, class Isa> struct ContactPreparer {
             less(L::zero(), m[0])};
   }
 
-  /// A bit for each contact that may bounce.
+  /// Returns a bit for each contact that may bounce.
   static ISO_INLINE std::uint32_t bouncing(const Geometry* const* geometry) {
     std::uint32_t bits = 0;
     ISO_UNROLL for (int i = 0; i < W; ++i) bits |= (S(0) < geometry[i]->material.restitution ? 1u : 0u) << i;
     return bits;
   }
-  /// A bit for each contact that did not touch in the last step.
+  /// Returns a bit for each contact that did not touch in the last step.
   static ISO_INLINE std::uint32_t fresh(const Contact<S>* const* contacts) {
     std::uint32_t bits = 0;
     ISO_UNROLL for (int i = 0; i < W; ++i) bits |= ((contacts[i]->flags & contact_flag::kTouching) == 0 ? 1u : 0u) << i;
@@ -130,13 +130,13 @@ template <class S, int W, class Isa> struct ContactPreparer {
 
   // ---- rows
 
-  /// The masses of the two bodies that a row of Jacobian meets.
+  /// The masses of the two bodies of a row of the Jacobian.
   struct RowMaker {
     const Mat3<L>& kappa_a;
     const Mat3<L>& kappa_b;
     L share_a, share_b;
 
-    /// Angular parts of a row whose speed is jacobian_b . response_b - jacobian_a . response_a, `linear` apart.
+    /// Fills angular parts of a row whose speed is jacobian_b . response_b - jacobian_a . response_a, without `linear`.
     ISO_INLINE void angular(Vec3<L> jacobian_a, Vec3<L> jacobian_b, L linear, V impulse, Row& row) const {
       const Vec3<L> response_a = (kappa_a * jacobian_a) * share_a;
       const Vec3<L> response_b = (kappa_b * jacobian_b) * share_b;
@@ -155,7 +155,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     }
   };
 
-  /// mass_share() of solver_body.hpp.
+  /// Computes mass_share() of solver_body.hpp.
   static ISO_INLINE void share_masses(const Body& a, const Body& b, L& share_a, L& share_b) {
     const L zero = L::zero(), one = L::broadcast(S(1)), half = L::broadcast(S(0.5));
     const L half_sum = half * a.mass + half * b.mass;  // the sum itself may not fit
@@ -164,7 +164,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     share_b = select(b.moves, select(a.moves, one - ratio, one), zero);
   }
 
-  /// v_b - v_a at the ends of two arms [m/s].
+  /// Returns v_b - v_a at the ends of two arms [m/s].
   static ISO_INLINE Vec3<V> relative_velocity(const Body& a, const Body& b, const Arms& arms) {
     const auto part = [&](int i, int j) ISO_INLINE_LAMBDA {
       return round_to<V>(product(b.angular_velocity[i], arms.b[j]) - product(b.angular_velocity[j], arms.b[i]) -
@@ -175,13 +175,13 @@ template <class S, int W, class Isa> struct ContactPreparer {
 
   // ---- tangents
 
-  /// A vector less its part along the normal.
+  /// Returns a vector without its part along the normal.
   static ISO_INLINE Vec3<V> flatten(Vec3<V> x, Vec3<U> n) {
     const V along = round_to<V>(dot_sum(x, n));
     return {x.x - round_to<V>(product(along, n.x)), x.y - round_to<V>(product(along, n.y)),
             x.z - round_to<V>(product(along, n.z))};
   }
-  /// tangents_of() of vec3.hpp.
+  /// Computes tangents_of() of vec3.hpp.
   static ISO_INLINE Tangents<U> any_tangents(Vec3<U> n) {
     const U half = U::broadcast(Unit<S>(0.5)), one = U::broadcast(Unit<S>(1)), minus = U::broadcast(Unit<S>(-1));
     const Mask negative = less(n.z, U::zero());
@@ -195,7 +195,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     return {{one + select(negative, -xx, xx), select(negative, -b, b), select(negative, n.x, -n.x)},
             {b, select(negative, minus, one) + yy, -n.y}};
   }
-  /// The first along a flat vector where one leads, else any.
+  /// Returns a basis whose first vector is along `lead` (which is flat) in lanes that lead; any basis in the others.
   static ISO_INLINE Tangents<U> basis_along(Mask leads, Vec3<V> lead, Vec3<U> n) {
     if (!any(leads)) return any_tangents(n);
     const Direction<V> t = direction_where(leads, lead.x, lead.y, lead.z);
@@ -205,8 +205,8 @@ template <class S, int W, class Isa> struct ContactPreparer {
     const Tangents<U> other = any_tangents(n);
     return {select(leads, first, other.t), select(leads, second, other.u)};
   }
-  /// The friction basis. Sliding: along the slip, for that is what friction opposes. Else along the friction that the
-  /// contact bears already; where there is neither, any. The kernel's cone is exact along the basis.
+  /// Returns the friction basis. A contact that slides takes the slip's direction, which friction opposes. Another
+  /// takes that of the friction it already bears, or any if there is none. The kernel's cone is exact along the basis.
   static ISO_INLINE Tangents<U> friction_basis(Vec3<U> n, Vec3<V> borne, V limit, Vec3<V> slip) {
     const Vec3<V> slide = flatten(slip, n);
     // [m/s] slower is the trembling of what sticks
@@ -219,8 +219,8 @@ template <class S, int W, class Isa> struct ContactPreparer {
 
   // ---- a block
 
-  /// [m] The patch's radius: 1.082 times the root mean square distance of the points from their middle. A square patch
-  /// under even pressure resists twisting as if all friction acted at 0.541 of its half diagonal.
+  /// [m] Returns the patch's radius: 1.082 times the root mean square distance of the points from their middle. A
+  /// square patch under even pressure resists twisting as if all friction acted at 0.541 of its half diagonal.
   static ISO_INLINE L patch_radius(const Vec3<L>* arms_b, Vec3<L> middle, int points, L share) {
     auto sum = SumOf<L, L>::zero();
     for (int p = 0; p < points; ++p) {
@@ -303,7 +303,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     }
   }
 
-  /// The row's radius is that of gyration or more, which keeps the coefficients near one however small the patch is.
+  /// The row's radius is at least that of gyration, which keeps the coefficients near one for any small patch.
   static ISO_INLINE void prepare_twist(Vec3<L> n, L patch, const Materials& material, V impulse, const RowMaker& make,
                                        Block& block) {
     const L zero = L::zero(), one = L::broadcast(S(1));

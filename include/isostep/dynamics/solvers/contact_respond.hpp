@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// Contacts that answer otherwise are changed after all were prepared, and those that give way are relieved after each
-/// pass: kernels know of neither, so that a world without them pays nothing.
+/// Changes contacts with a KindResponse after all contacts are prepared, and relieves those that give way after each
+/// pass. Kernels know of neither, so a world without such contacts pays nothing.
 template <class S> class RespondingContact : public ContactLane<S> {
   using Lane = ContactLane<S>;
   using typename Lane::Block, typename Lane::Rolling, typename Lane::Row, typename Lane::V;
@@ -16,15 +16,15 @@ template <class S> class RespondingContact : public ContactLane<S> {
  public:
   using Lane::Lane;
 
-  /// Shares of scaled masses add up to one, as true ones do: coefficients stay near one whatever the scales.
+  /// Replaces the mass shares. Shares of scaled masses add up to one too: coefficients stay near one at any scales.
   ISO_INLINE void respond(const ContactResponse<S>& response, const SolverMass<S>& a, const SolverMass<S>& b) const {
     const MassShare<S> share = response.share(a.mass, b.mass);
     this->put(this->block() + offsetof(Block, share_a), share.a);
     this->put(this->block() + offsetof(Block, share_b), share.b);
     this->turn_by(response.seen_a(a).kappa, response.seen_b(b).kappa);
   }
-  /// Gives back what the points press with beyond `most` [m/s] together, of each the same part, and of friction, twist
-  /// and rolling what is beyond the cone of the rest.
+  /// Reduces the normal impulses to `most` [m/s] together, all by one factor, and cuts friction, twist and rolling to
+  /// the cone of the rest.
   ISO_INLINE void relieve(V most, MotionRow<V>& a, MotionRow<V>& b) const {
     V load = V(0);
     for (std::size_t p = 0; p < this->points(); ++p) load = saturating_add(load, impulse_at(this->normal(p)));

@@ -18,29 +18,29 @@ namespace isostep {
 
 /// Source:  Millington 2010, Game Physics Engine Development, ch. 18; Baraff 1994, Fast contact force computation for
 ///          nonpenetrating rigid bodies, SIGGRAPH. Differs: velocities and impulses, not accelerations and forces.
-/// Method:  each sub-step every island is one DirectSystem: joints are equations, contacts may only push, friction is
-///          bounded by the load. Solved twice: with errors closed at a bounded speed, for positions, and without, so
-///          that none of that speed stays. Each time from the velocities that forces alone would give: impulses are a
-///          whole sub-step's, and those of the step before are no more than a guess at who pushes. Mechanisms and the
+/// Method:  each sub-step every island is one DirectSystem: joints are equations, contacts may only push, and the load
+///          bounds friction. It is solved twice: once with errors closed at a bounded speed, for positions, and once
+///          without, so that none of that speed stays. Each solve begins with the velocities that forces alone give:
+///          impulses are those of a whole sub-step, and the last ones only guess which rows push. Mechanisms and the
 ///          islands that they push are solved in turn, kMechanismSweeps times in all.
 /// Symbols: W = J M^-1/2 over powers of two (LinearSystem), so that K = W W^T is near one whatever the masses.
-/// Limits:  islands above kMostBlocks are swept by Gauss-Seidel over the same rows; where pivots come to no end within
-///          their share of kMostWork, a count, or what they find does not hold, what is bounded stays as it was swept
-///          and joints are solved for the rest: an island's step ends after some 25 ms of double a sub-step. unsolved()
-///          returns how many islands.
+/// Limits:  islands above kMostBlocks are swept by Gauss-Seidel over the same rows. If pivoting does not end within its
+///          share of kMostWork (a count), or its result is violated, bounded rows keep their swept answers and joints
+///          are solved for the rest: an island takes at most some 25 ms a sub-step in double. unsolved() counts such
+///          islands.
 ///          Friction is an octagon inside the cone, along the slip or the friction borne. Of a drive's two limits the
-///          nearer counts. Impulses that are stored are held within the speed limit. While tension is taken implicitly
+///          nearer counts. Stored impulses are held within the speed limit. While tension is taken implicitly
 ///          (joint_tension.hpp) bodies conserve momentum, not angular momentum.
-/// Order:   blocks stand in the order of joints, then contacts, of an island; islands touch nothing in common. One
-///          thread.
-/// Memory:  warm, what SparseCholesky allocates; islands whose contacts or joints are others are analysed anew.
+/// Order:   an island's blocks stand in the order of its joints, then of its contacts. Islands have no moving body in
+///          common. One thread.
+/// Memory:  warm, what SparseCholesky allocates: islands whose contacts or joints changed are analysed anew.
 template <class S> class DirectSolver {
  public:
   void colour_constraints(const StepContext<S>& context);
   void prepare(const StepContext<S>& context);
   void solve_substeps(const StepContext<S>& context);
   void store_impulses(const StepContext<S>& context);
-  /// Some solve was swept, or its pivots came to no end.
+  /// Returns the number of islands that were swept, or whose pivoting did not end, in some solve of the step.
   std::uint32_t unsolved() const;
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context);
 
@@ -52,33 +52,33 @@ template <class S> class DirectSolver {
   using V = Velocity<S>;
   using Block = ContactBlock<S, 1, kMaxContactPoints>;
 
-  /// Blocks of three rows that an island may have: with twice as many (a wall of 210 boxes, 1200) a factorisation takes
-  /// 8 ms and a wall that falls needs hundreds.
+  /// The most blocks of three rows of an island. With twice as many (a wall of 210 boxes has 1200) a factorisation
+  /// takes 8 ms and a falling wall needs hundreds.
   static constexpr std::uint32_t kMostBlocks = 600;
-  /// DirectSystem::work of an island, for each of a step's sub-steps: some 25 ms of double. Of a tower of 400 blocks
-  /// that stands they take 50 000, of a heap that falls into place ten times as much, of one in a corner any number. A
-  /// solve may take all that is left but kLeastPivots for each that comes.
+  /// The most DirectSystem::work of an island, times the step's sub-steps: some 25 ms each in double. A standing tower
+  /// of 400 blocks takes 50 000, a heap that falls into place ten times as much, one in a corner any number. A solve
+  /// may take all that is left, but must leave kLeastPivots for each later solve.
   static constexpr std::uint64_t kMostWork = 500'000;
 
-  /// biased: errors are closed; relaxed: they are left.
+  /// A biased pass closes errors; a relaxed pass leaves them.
   enum class Pass : std::uint32_t { biased, relaxed };
 
-  /// M^-1/2 of a body: root 2^root_exponent for what moves; times turn 2^turn_exponent, lower triangular, for turning.
+  /// M^-1/2 of a body: for motion root 2^root_exponent; for turning that times turn 2^turn_exponent, lower triangular.
   struct BodyRoot {
     N root;
     int root_exponent, turn_exponent;
     Mat3<N> turn;
   };
-  /// A row's Jacobian: its speed is linear . (v_b - v_a) + angular_b . w_b - angular_a . w_a  [m/s].
+  /// The Jacobian of a row, whose speed is linear . (v_b - v_a) + angular_b . w_b - angular_a . w_a  [m/s].
   struct Shape {
     Vec3<S> linear, angular_a, angular_b;
   };
-  /// One end of a row, its halves with exponents of their own.
+  /// One end of a row; each half has its own exponent.
   struct End {
     DirectMotion<N> part;
     int linear_exponent, angular_exponent;
   };
-  /// What lies behind a block of the system.
+  /// The bodies of a block of the system.
   struct Ends {
     std::uint32_t a, b;  // rows of SolverBodies
     Value reduced;       // [kg] reduced mass: what impulses are counted in

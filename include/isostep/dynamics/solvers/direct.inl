@@ -37,7 +37,7 @@ template <class S> void DirectSolver<S>::prepare(const StepContext<S>& context) 
   tension_.resize(bodies.mass.size(), Mat3<S>::diagonal(Vec3<S>::zero()));
 }
 
-/// Arms of contacts are those of the step's begin, joints' of now.
+/// Places the rows. Arms of contacts stay those of the step's begin; those of joints are current.
 template <class S> void DirectSolver<S>::place_rows(const StepContext<S>& context, Island& island) {
   if (island.begun && island.joints.empty()) return;
   linearise_joints(context, island);
@@ -48,8 +48,8 @@ template <class S> void DirectSolver<S>::place_rows(const StepContext<S>& contex
   island.system.assemble();
 }
 
-/// As contact_follow.hpp has it: what the answers are without stays what the bodies have, less what they give now.
-/// What joints hold follows as the next sub-step begins.
+/// Follows bodies that turn fast (contact_follow.hpp): free velocities become the current ones without the answers, by
+/// the new inertia. In islands with joints only the inertia changes now; the rows follow at the next sub-step.
 template <class S> void DirectSolver<S>::follow(const StepContext<S>& context, Island& island) {
   bool any = false;
   for (const std::uint32_t row : island.bodies) {
@@ -74,7 +74,7 @@ template <class S> void DirectSolver<S>::follow(const StepContext<S>& context, I
   island.system.assemble();
 }
 
-/// Of a contact's answers, out of the free velocities of bodies that it follows.
+/// Subtracts a contact's answers from the free velocities of bodies that it follows.
 template <class S>
 void DirectSolver<S>::take_back_turns(const StepContext<S>& context, Island& island, std::uint32_t k) {
   const std::uint32_t c = island.contacts[k];
@@ -98,7 +98,7 @@ void DirectSolver<S>::take_back_turns(const StepContext<S>& context, Island& isl
   for (std::uint32_t r = 0; r < 2; ++r) take(patch.rolling + r, rolling.rows[r]);
 }
 
-/// A common exponent, and room for answers that are larger.
+/// Chooses the exponent of an island's answers, with room for answers larger than what is asked.
 template <class S> void DirectSolver<S>::scale_right_sides(Island& island) {
   DirectSystem<N>& system = island.system;
   const std::uint32_t rows = 3 * system.block_count();
@@ -163,7 +163,7 @@ template <class S> void DirectSolver<S>::solve(const StepContext<S>& context, Is
   apply(island);
 }
 
-/// Velocities that the answers give.
+/// Sets velocities: the free ones plus what the answers give.
 template <class S> void DirectSolver<S>::apply(const Island& island) {
   for (std::uint32_t i = 0; i < island.bodies.size(); ++i) {
     const std::uint32_t row = island.bodies[i];
@@ -191,7 +191,7 @@ template <class S> std::uint32_t DirectSolver<S>::unsolved() const {
   return count;
 }
 
-/// Until joints that are taken implicitly are on the right pieces.
+/// Solves again until joints that are taken implicitly are on the right pieces.
 template <class S> void DirectSolver<S>::solve_tight(const StepContext<S>& context, Island& island) {
   solve(context, island, Pass::biased);
   for (int again = 0; again < detail::kMostPieceChanges && tighten(island); ++again) {
@@ -199,7 +199,7 @@ template <class S> void DirectSolver<S>::solve_tight(const StepContext<S>& conte
     solve(context, island, Pass::biased);
   }
 }
-/// What `act` does to velocities of bodies that mechanisms push, islands find beside their own answers.
+/// Runs `act` on velocities of bodies that mechanisms push, and adds its change of them to the free velocities.
 template <class S>
 template <class Act>
 void DirectSolver<S>::move_freely(const StepContext<S>& context, const Act& act) {
@@ -213,7 +213,7 @@ void DirectSolver<S>::move_freely(const StepContext<S>& context, const Act& act)
   act();
   for (const std::uint32_t row : context.mechanisms.bodies) add(row, false);
 }
-/// In turn with the islands that they push; of both the first sweep is done.
+/// Solves mechanisms in turn with the islands that they push. The first sweep of both is already done.
 template <class S> void DirectSolver<S>::solve_mechanisms(const StepContext<S>& context) {
   if (!context.mechanisms.any()) return;
   for (int sweep = 1; sweep < kMechanismSweeps; ++sweep) {

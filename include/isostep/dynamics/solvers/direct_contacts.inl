@@ -7,7 +7,7 @@
 namespace isostep {
 
 namespace detail {
-/// [1] The part of an overlap that is to be gone after the sub-step, at kPushSpeed or slower.
+/// [1] The part of an overlap that a sub-step closes, at most at kPushSpeed.
 template <class S> inline constexpr S kDirectContactShare = S(0.25);
 }  // namespace detail
 
@@ -73,7 +73,7 @@ void DirectSolver<S>::ask_contact(const StepContext<S>& context, Island& island,
   }
 }
 
-/// Points that pushed push again and friction at its limit stays there. Everything holds in a contact that is new.
+/// Guesses states: points that pushed push again, friction at its limit stays there. In a new contact friction holds.
 template <class S> void DirectSolver<S>::guess_contact(const StepContext<S>& context, Island& island, std::uint32_t k) {
   Block& block = block_of(context, island.contacts[k]);
   const DirectPatch<N>& patch = island.system.patches()[k];

@@ -6,8 +6,8 @@
 
 namespace isostep {
 
-/// Answers within bounds, from those that the pass began with, and the states that they imply: what exchanges that come
-/// to no end leave is of any size.
+/// Starts again from the answers that the pass began with, swept to lie within their bounds, and from the states that
+/// they imply: exchanges that do not end leave answers of any size.
 template <class N> void DirectSystem<N>::start_from_sweeps() {
   for (std::uint32_t r = 0; r < 3 * block_count(); ++r) row(r).answer = begin_[r];
   sweep(kSweeps);
@@ -24,7 +24,7 @@ template <class N> void DirectSystem<N>::start_from_sweeps() {
   }
 }
 
-/// Steps from `from` towards the answers as far as bounds allow; the row that stops it is held there.
+/// Steps from `from_` towards the answers as far as the bounds allow. The row that stops the step is held at its bound.
 template <class N> void DirectSystem<N>::step_within_bounds() {
   N most = N(1);
   std::uint32_t stop = 0;
@@ -53,7 +53,7 @@ template <class N> void DirectSystem<N>::step_within_bounds() {
   row(stop).answer = at_bound(row(stop));
 }
 
-/// One row at a time, x^T (K x / 2 - right) never rising: the primal active set method, which must end.
+/// Changes one row at a time, so that x^T (K x / 2 - right) never rises: the primal active set method, which ends.
 template <class N> bool DirectSystem<N>::descend() {
   from_.resize(blocks_.size());
   while (pivots_ < most_pivots_) {
@@ -79,7 +79,7 @@ template <class N> bool DirectSystem<N>::descend() {
   return false;
 }
 
-/// Solves the equations alone: bounded rows stay as they are, and joints take what that leaves.
+/// Solves the equations alone: bounded rows keep their answers, and joints take the rest.
 template <class N> void DirectSystem<N>::solve_equations() {
   for (DirectBlock<N>& block : blocks_) {
     for (DirectRow<N>& row : block.rows) {
@@ -92,7 +92,7 @@ template <class N> void DirectSystem<N>::solve_equations() {
   holds_ = false;
 }
 
-/// Solves without the answers found so far, which are of any size: sweeps from nothing stay near what is asked.
+/// Solves again without the answers found so far, which are of any size. Sweeps from zero stay near what is asked.
 template <class N> void DirectSystem<N>::solve_anew() {
   for (DirectBlock<N>& block : blocks_) {
     for (DirectRow<N>& row : block.rows) row.answer = row.last = N(0);

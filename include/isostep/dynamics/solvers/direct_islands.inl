@@ -58,7 +58,7 @@ template <class S> void DirectSolver<S>::add_joint(const JointConstraint<S>& joi
   island.joint_blocks.push_back(add_blocks(island, joint.row_a, joint.row_b, joint.block_count + joint.drive_count));
 }
 
-/// Tangents and twist; points by threes; two rows of rolling resistance.
+/// Adds a contact: a block of tangents and twist, blocks of three points, and one for two rows of rolling resistance.
 template <class S> void DirectSolver<S>::add_contact(const StepContext<S>& context, std::uint32_t c) {
   const ContactGeometry<S>& g = context.geometry[c];
   if (!bodies_.rows().moves(g.row_a) && !bodies_.rows().moves(g.row_b)) return;

@@ -9,19 +9,19 @@
 namespace isostep {
 
 namespace detail {
-/// [1] The part of an error that is to be gone after the sub-step: nothing has to converge, so half; all of it would
-/// answer the error of a curved path with its mirror image.
+/// [1] The part of an error that a sub-step closes. Nothing has to converge, so it is a half. All of it would answer
+/// the error of a curved path with its mirror image.
 template <class S> inline constexpr S kDirectJointShare = S(0.5);
 
-/// [1] The part of a limit's error that is to be gone after the sub-step, and the speed that limits close with [m/s]:
-/// half a metre a second turns a limb at ten radians a second.
+/// [1] The part of a limit's error that a sub-step closes, and the most speed that closes it [m/s]: half a metre a
+/// second turns a limb at ten radians a second.
 template <class S> inline constexpr S kDirectLimitShare = S(0.125);
 template <class S> inline constexpr Velocity<S> kDirectLimitSpeed = Velocity<S>(0.5);
 
-/// The rows of a drive's block.
+/// The rows in a drive's block.
 enum DriveRow : std::uint32_t { kSpringRow, kMotorRow, kLimitRow };
 
-/// The lower bound of a drive is the nearer one: the only one that a sub-step can reach.
+/// Returns true if a drive's lower bound is the nearer one: a sub-step can reach no other.
 template <class S> ISO_INLINE bool is_lower(const JointDrive<S>& drive) {
   if (!drive.bounded_above) return true;
   return drive.bounded_below && drive.position - drive.lower < drive.upper - drive.position;
@@ -94,7 +94,7 @@ void DirectSolver<S>::place_joint(const JointConstraint<S>& joint, Island& islan
   }
 }
 
-/// An implicit spring is a row that gives way: speed + spring_speed = -give impulse.
+/// Makes a row the implicit spring of a drive: speed + spring_speed = -give impulse.
 template <class S> void DirectSolver<S>::soften(Island& island, std::uint32_t r, const JointDrive<S>& drive) {
   const Value spring = System::value(drive.spring);
   const Value give = System::quotient(System::value(S(1)),
@@ -135,13 +135,13 @@ void DirectSolver<S>::ask_joint(const JointConstraint<S>& joint, Island& island,
   }
 }
 
-/// [m/s] most that a motor or servo gives in a sub-step.
+/// [m/s] Returns the most impulse that a motor or servo gives in a sub-step.
 template <class S> typename DirectSolver<S>::V DirectSolver<S>::most_impulse(const JointDrive<S>& drive) const {
   return detail::most_impulse(drive, divide_to<Step<S>>(S(1), S(rate_)));
 }
 
-/// Each drive is taken for being on the same piece of its law again. A limit that pushes leaves the motor no speed to
-/// reach: it gives all that it has.
+/// Guesses that each drive is on the same piece of its law again. A limit that pushes leaves the motor no speed to
+/// reach, so the motor gives all that it has.
 template <class S>
 void DirectSolver<S>::guess_joint(const JointConstraint<S>& joint, Island& island, std::uint32_t first) {
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
@@ -182,7 +182,7 @@ void DirectSolver<S>::keep_joint(JointConstraint<S>& joint, const Island& island
   }
 }
 
-/// Places the rows across rods anew that came to pull much harder: judge_sway(). Returns whether there are any.
+/// Places the rows across rods anew that now pull much harder (judge_sway()). Returns true if there are any.
 template <class S> bool DirectSolver<S>::tighten(Island& island) {
   bool any = false;
   for (std::size_t k = 0; k < island.joints.size(); ++k) {

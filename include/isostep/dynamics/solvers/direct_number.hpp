@@ -9,9 +9,9 @@
 
 namespace isostep {
 
-/// Fixed point shares exponents, floating point carries its own: there every exponent is 0, and so are these constants.
-///   kRoom  exponent that leaves a number half of its range
-///   kGain  exponent by which answers may exceed right-hand sides: loads of a thousand bodies fit, and 2^-42 is left
+/// Fixed point shares exponents. Floating point has its own: every exponent is 0 there, and so are these constants.
+/// kRoom  exponent that leaves a number half of its range
+/// kGain  exponent by which answers may exceed right-hand sides: loads of a thousand bodies fit, and 2^-42 is left
 template <class N> struct DirectNumber;
 
 template <class T> struct DirectNumber<Exact<T>> {
@@ -22,18 +22,18 @@ template <class T> struct DirectNumber<Exact<T>> {
   static ISO_INLINE Sum times(N a, N b) { return a * b; }
   static ISO_INLINE N rounded(Sum a) { return a; }
   static ISO_INLINE N sum(N a, N b) { return a + b; }
-  /// Least e for which |x| < 2^e.
+  /// Returns the least e for which |x| < 2^e.
   static ISO_INLINE int size(N) { return 0; }
-  /// x 2^n
+  /// Returns x 2^n.
   static ISO_INLINE N shifted(N x, int) { return x; }
   static ISO_INLINE N root(N x) { return sqrt(x); }
-  /// 1 / root x = the result 2^exponent
+  /// Computes 1 / root x = result 2^exponent.
   static ISO_INLINE N inverse_root(N x, int& exponent) {
     exponent = 0;
     return N(1) / sqrt(x);
   }
   static ISO_INLINE N quotient(N a, N b) { return a / b; }
-  /// An answer within its range.
+  /// The bound of an answer.
   static constexpr N kMost = N(0x1p500);
   static ISO_INLINE N bounded(N x) { return x; }
 };
@@ -70,7 +70,7 @@ template <> struct DirectNumber<Fixed<std::int64_t, 62>> {
   static ISO_INLINE N bounded(N x) { return clamp(x, -kMost, kMost); }
 };
 
-/// The part of a row of W, or of a body's motion, that turns and the one that moves.
+/// The linear and the angular part of a row of W, or of a body's motion.
 template <class N> struct DirectMotion {
   Vec3<N> linear, angular;
 
@@ -85,7 +85,7 @@ template <class N> ISO_INLINE auto product_sum(const DirectMotion<N>& a, const D
   return D::times(a.linear.x, b.linear.x) + D::times(a.linear.y, b.linear.y) + D::times(a.linear.z, b.linear.z) +
          D::times(a.angular.x, b.angular.x) + D::times(a.angular.y, b.angular.y) + D::times(a.angular.z, b.angular.z);
 }
-/// m += w x, held within the format.
+/// Computes m += w x, held within the format.
 template <class N> ISO_INLINE void add_scaled(DirectMotion<N>& m, const DirectMotion<N>& w, N x) {
   using D = DirectNumber<N>;
   const auto add = [x](N a, N b) ISO_INLINE_LAMBDA { return D::sum(a, b * x); };

@@ -23,7 +23,7 @@ template <class N> N DirectSystem<N>::clamped(const DirectRow<N>& row, N x) {
   return x;
 }
 
-/// The side on which a row ought to be.
+/// Returns the state that a row ought to have.
 template <class N>
 DirectState DirectSystem<N>::turned(const DirectRow<N>& row, N residual, N answer_slack, N right_slack) {
   const bool low = row.bound == DirectBound::above || row.bound == DirectBound::boxed;
@@ -110,7 +110,7 @@ template <class N> bool DirectSystem<N>::solve_free() {
   return true;
 }
 
-/// Finds what counts as zero: 2^-26 of the largest right-hand side, and what rounding leaves of the largest answer.
+/// Finds what counts as zero: 2^-26 of the largest right-hand side, and the rounding error of the largest answer.
 template <class N> void DirectSystem<N>::find_tolerances() {
   N right = N(0), answer = N(0);
   for (const DirectBlock<N>& block : blocks_) {
@@ -142,7 +142,7 @@ template <class N> std::uint32_t DirectSystem<N>::find_wrong() {
   return static_cast<std::uint32_t>(wrong_.size());
 }
 
-/// All that are wrong change sides, while that makes them fewer.
+/// Lets all wrong rows change sides, as long as that makes them fewer.
 template <class N> bool DirectSystem<N>::exchange() {
   std::uint32_t least = ~0u;
   for (int patience = kPatience; patience > 0 && pivots_ < most_pivots_;) {
@@ -156,13 +156,13 @@ template <class N> bool DirectSystem<N>::exchange() {
   return false;
 }
 
-/// Friction has many ways to share a load: held to one, it would find another side of its limits in each pass.
+/// Returns true if a pass takes back a row's compliance. Friction keeps its own: else its limits would never settle.
 template <class N> bool DirectSystem<N>::takes_back(const DirectRow<N>& row, bool firm) {
   if (row.bound == DirectBound::absent || row.bound == DirectBound::boxed) return false;
   return firm || row.bound == DirectBound::equal;
 }
 
-/// Returns whether the speeds to which rows yielded are worth another pass.
+/// Returns true if the speeds to which rows yielded are worth another pass.
 template <class N> bool DirectSystem<N>::yielded(bool firm) const {
   for (const DirectBlock<N>& block : blocks_) {
     for (const DirectRow<N>& row : block.rows) {
@@ -173,7 +173,7 @@ template <class N> bool DirectSystem<N>::yielded(bool firm) const {
   return false;
 }
 
-/// Each pass finds limits again and takes back the compliance of the last: rows no longer yield to what it answered.
+/// Solves in passes. Each finds the limits again and takes back the compliance of the last: rows stop yielding to it.
 template <class N> bool DirectSystem<N>::solve(bool firm, std::uint64_t most_work) {
   pivots_ = 0;
   const std::uint64_t most = most_work / elimination_work();
@@ -218,7 +218,7 @@ template <class N> bool DirectSystem<N>::solve(bool firm, std::uint64_t most_wor
   return false;
 }
 
-/// Holds answers within bounds, and finds the motions that they give.
+/// Holds answers within their bounds and computes the motions that they give.
 template <class N> void DirectSystem<N>::settle_answers() {
   for (DirectBlock<N>& block : blocks_) {
     for (DirectRow<N>& row : block.rows) row.answer = clamped(row, row.answer);
@@ -226,9 +226,9 @@ template <class N> void DirectSystem<N>::settle_answers() {
   gather_motions(false);
 }
 
-/// Returns whether rows that hold are off by more than twice what was asked of any. A joint that presses a body against
-/// an immovable one makes loads of thousands of times what is asked, and friction with them, whose limits never hold
-/// still: cut to the last, it no longer balances them. The way that is left to a contact asks for nothing.
+/// Returns true if rows that hold are violated by more than twice the most that is asked of any. A joint that presses a
+/// body against an immovable one makes loads, and friction, of thousands of times what is asked. Their limits never
+/// settle: cut to the last limit, friction no longer balances them. The way that is left to a contact asks for nothing.
 template <class N> bool DirectSystem<N>::is_violated() const {
   N asked = N(0), worst = N(0);
   for (const DirectBlock<N>& block : blocks_) {

@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// L of k = L L^T. A pivot that rounding left below 2^-40 of the largest, or too small for what stands beside it, is of
+/// Returns L of k = L L^T. A pivot that rounding left below 2^-40 of the largest, or too small for its row, belongs to
 /// an axis about which the body does not turn.
 template <class S> Mat3<typename DirectSolver<S>::N> DirectSolver<S>::lower_root(const Mat3<N>& k) {
   const N none = N(0);
@@ -80,7 +80,7 @@ template <class S> DirectMotion<typename DirectSolver<S>::N> DirectSolver<S>::br
           moved(end.part.angular, end.angular_exponent - exponent)};
 }
 
-/// Exponent for which the row's square is in (1/4, 1].
+/// Returns the exponent for which the row's square is in (1/4, 1].
 template <class S> int DirectSolver<S>::scale_of(const End& a, const End& b) {
   int most = -512;
   const auto see = [&](const Vec3<N>& v, int exponent) {
@@ -101,7 +101,7 @@ template <class S> int DirectSolver<S>::scale_of(const End& a, const End& b) {
   return most;
 }
 
-/// W of rows first..first + count - 1 of one block pair, with one exponent, least_exponent or above.
+/// Computes W of rows first..first + count - 1 of one block pair, with one exponent of at least least_exponent.
 template <class S>
 void DirectSolver<S>::place(Island& island, std::uint32_t first, std::uint32_t count, int least_exponent) {
   ends_.clear();
@@ -142,7 +142,7 @@ typename DirectSolver<S>::Value DirectSolver<S>::answer_of(const Island& island,
   return System::product(System::value(impulse), island.ends[r / 3].reduced);
 }
 
-/// [m/s] A row's impulse within the speed limit: as a state it must not wrap, and it is no more than a guess.
+/// [m/s] Returns a row's impulse, held within the speed limit: as a state it must not wrap, and it is only a guess.
 template <class S>
 typename DirectSolver<S>::V DirectSolver<S>::impulse_of(const Island& island, std::uint32_t r) const {
   const DirectRow<N>& row = island.system.row(r);

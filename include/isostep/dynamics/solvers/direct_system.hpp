@@ -21,7 +21,7 @@ enum class DirectBound : std::uint8_t {
 /// The state of a row in pivoting.
 enum class DirectState : std::uint8_t { free, at_low, at_high };
 
-/// A row of W = J M^-1/2, scaled so that |w|^2 is about one, and what is asked of it.
+/// A row of W = J M^-1/2, scaled so that |w|^2 is about one, with its right-hand side.
 template <class N> struct DirectRow {
   DirectMotion<N> ends[2];  // at the two bodies
   int exponent = 0;         // w, times 2^exponent, is the row unscaled
@@ -36,13 +36,13 @@ template <class N> struct DirectRow {
   N last = N(0);  // answer of the pass before
 };
 
-/// Three rows between two bodies; body 0 does not move.
+/// Three rows between two bodies. Body 0 does not move.
 template <class N> struct DirectBlock {
   std::uint32_t body[2];
   DirectRow<N> rows[3];
 };
 
-/// Rows whose limits follow from the load on a contact. Row r is row r % 3 of block r / 3.
+/// The rows of a contact whose limits follow from its load. Row r is row r % 3 of block r / 3.
 template <class N> struct DirectPatch {
   std::uint32_t first;   // tangent, tangent, twist
   std::uint32_t normal;  // the first of the normal rows
@@ -53,20 +53,20 @@ template <class N> struct DirectPatch {
   static constexpr std::uint32_t kNoRolling = ~0u;
 };
 
-/// Finds x: K x + soft x - right = 0 where x is within its bounds, >= 0 where it is at the lower, <= 0 at the upper
-/// one, for K = W W^T, whose entries two blocks have where they share a body.
+/// Finds x such that for K x + soft x - right: it is 0 where x is within its bounds, >= 0 where x is at the lower one
+/// and <= 0 where x is at the upper one. K = W W^T has entries only for blocks that share a body.
 /// Source:  Judice, Pires 1994, A block principal pivoting algorithm for large-scale strictly monotone linear
-///          complementarity problems, Computers and Operations Research 21(5): all rows that are wrong change sides.
-///          When that does not make them fewer, Gauss-Seidel finds another start, and from there rows change one at a
-///          time in descent: the primal active set method (Nocedal, Wright 2006, Numerical Optimization, sec. 16.5).
-/// Differs: bounds on both sides. Limits of friction are taken from the load and found again until they hold still; x
-///          of rows at their bounds goes to the right-hand side.
+///          complementarity problems, Computers and Operations Research 21(5): all wrong rows change sides. If that
+///          does not make them fewer, Gauss-Seidel finds another start, and from there rows change one at a time in
+///          descent: the primal active set method (Nocedal, Wright 2006, Numerical Optimization, sec. 16.5).
+/// Differs: bounds on both sides. Limits of friction are computed from the load until they settle; x of rows at their
+///          bounds goes to the right-hand side.
 /// Symbols: u = W^T x, the change of M^1/2 v. All of right, limit, answer and u share an exponent, which the caller
 ///          knows.
-/// Limits:  K has as many zero eigenvalues as rows are redundant, so every row gives way a little: under an impulse by
-///          kContactGive of the speed that the impulse would give its two bodies alone, an equation by kEquationGive.
-///          A box on a table sinks at 5 um/s in sub-steps of 1/120 s, of which 0.2 um stay where errors are closed.
-///          With less, exchanges on a wall of boxes no longer end.
+/// Limits:  K has as many zero eigenvalues as rows are redundant, so every row yields a little: under an impulse by
+///          kContactGive of the speed that the impulse would give its two bodies alone, an equation by kEquationGive. A
+///          box on a table sinks at 5 um/s in sub-steps of 1/120 s, of which 0.2 um stay where errors are closed. With
+///          less, exchanges on a wall of boxes no longer end.
 /// Order:   pivots follow from the rows alone; elimination as SparseCholesky.
 template <class N> class DirectSystem {
  public:
@@ -87,31 +87,31 @@ template <class N> class DirectSystem {
   ISO_INLINE DirectRow<N>& row(std::uint32_t r) { return blocks_[r / 3].rows[r % 3]; }
   ISO_INLINE const DirectRow<N>& row(std::uint32_t r) const { return blocks_[r / 3].rows[r % 3]; }
   ISO_INLINE std::vector<DirectPatch<N>>& patches() { return patches_; }
-  /// u of a body.
+  /// Returns u of a body.
   ISO_INLINE const DirectMotion<N>& motion(std::uint32_t body) const { return motions_[body]; }
 
-  /// Ties blocks, once all between bodies 0..body_count are there. More than most_blocks, and blocks that meet too many
-  /// others (a heap at one place) for kLeastPivots within most_work, are swept, never factorised.
+  /// Ties the blocks, once all between bodies 0..body_count are added. Systems of more than most_blocks, and those with
+  /// too many neighbours (a heap at one place) for kLeastPivots within most_work, are swept, never factorised.
   void tie(std::uint32_t body_count, std::uint32_t most_blocks, std::uint64_t most_work);
-  /// Assembles K from the rows as they are now.
+  /// Assembles K from the current rows.
   void assemble();
-  /// Multiplies answers and limits by 2^by: the exponent that they share becomes another.
+  /// Multiplies answers and limits by 2^by, for a change of the exponent that they share.
   void rescale(int by);
-  /// Guesses the state of a patch's friction from answers and load: at its limit or not; fresh: it holds.
+  /// Guesses the state of a patch's friction from answers and load: at its limit or not. With `fresh` it holds.
   void guess_friction(std::uint32_t patch, bool fresh);
-  /// Holds rows whose bound is now on the other side there.
+  /// Holds rows whose bound changed sides at their new bound.
   void settle();
-  /// Solves. False: no end was found within most_work, or one that does not hold. Then bounded answers are within
-  /// bounds, and joints hold unless all was swept, as often as that allows, and kLeastSweeps at least. Firm: contacts,
-  /// too, are not to yield, at the price of more passes. Equations never are.
+  /// Solves. Returns false if pivoting did not end within most_work or its result is violated: then answers are within
+  /// bounds, and joints hold. Too large systems are only swept, as often as most_work allows, kLeastSweeps times at
+  /// least. With `firm` contacts do not yield either, at the price of more passes. Equations never do.
   bool solve(bool firm, std::uint64_t most_work);
-  /// Sweeps by projected Gauss-Seidel from the answers so far.
+  /// Sweeps by projected Gauss-Seidel from the current answers.
   void sweep(int sweeps);
 
   ISO_INLINE int pivots() const { return pivots_; }  // of the last solve
-  /// The work of the least solve that is worth beginning.
+  /// Returns the work of the smallest solve that is worth beginning.
   ISO_INLINE std::uint64_t least_work() const { return kLeastPivots * elimination_work(); }
-  /// Products of blocks that the last solve took, near enough: some 50 ns each in double.
+  /// Returns about how many products of blocks the last solve took: some 50 ns each in double.
   ISO_INLINE std::uint64_t work() const { return work_; }
   ISO_INLINE bool is_swept() const { return too_large_; }
 

@@ -54,7 +54,7 @@ void DirectSystem<N>::tie(std::uint32_t body_count, std::uint32_t most_blocks, s
   last_pairs_ = pairs_;
 }
 
-/// Products of blocks in one factorisation, near enough: exact where every block meets every other.
+/// Returns about how many products of blocks a factorisation takes: exactly, if every block meets every other.
 template <class N> std::uint64_t DirectSystem<N>::elimination_work() const {
   const std::uint64_t pairs = pairs_.size();
   return pairs * pairs / (block_count() + 1) + block_count();
@@ -102,7 +102,7 @@ template <class N> void DirectSystem<N>::assemble() {
   }
 }
 
-/// True where a row's answer is not what it was taken for.
+/// Sets a limit. Returns true if the row's answer does not fit it.
 template <class N> bool DirectSystem<N>::set_limit(std::uint32_t r, N limit) {
   DirectRow<N>& of = row(r);
   const N moved = of.limit < limit ? limit - of.limit : of.limit - limit;
@@ -112,7 +112,7 @@ template <class N> bool DirectSystem<N>::set_limit(std::uint32_t r, N limit) {
   return limit * N(0x1p-5) + answer_slack_ < moved;
 }
 
-/// The cone as the contact kernels have it: an octagon inside it, exact along either tangent.
+/// Limits friction as the contact kernels do: to an octagon inside the cone, exact along both tangents.
 template <class N> bool DirectSystem<N>::limit_patch(const DirectPatch<N>& patch) {
   N load = N(0);
   for (std::uint32_t p = 0; p < patch.points; ++p) {

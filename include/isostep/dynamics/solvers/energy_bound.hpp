@@ -12,33 +12,33 @@
 
 namespace isostep {
 
-/// Contacts and joints do no work but what they take. Contacts are found once a step, and what rolls on an edge has
-/// left its arms, its normal's lever and its axes of inertia behind when the step ends: it sinks along the old ones and
-/// is pushed up along the new, for nothing. A barrel on its rim made twelve times its energy of that in forty seconds,
-/// a can that rocked a tenth more in twenty, whatever the sub-steps. So what a step made is taken from the motion as a
-/// whole: velocities and turns by one factor, which neither lifts a point off what it touches nor lets it slip, nor
-/// opens a joint.
-/// A group is what contacts and joints tie, up to kMost bodies: more hide what one of them makes. It lies on or hangs
-/// from what stands still: of any other the factor would take momentum. Groups with motors, springs or drives, on what
-/// moves, on belts, of mechanisms and of scaled masses are left alone: there energy comes and goes. What forces give
-/// counts as theirs.
-/// Semi-implicit Euler keeps T / 2 - g x + h g v / 2 of what joints hold, and not its energy. The bound holds for that
-/// quantity there: by the energy each swing would lose what the energy goes up and down by. A free fall keeps its
-/// energy. A solver that closes joints' errors by speeds that stay (pgs) needs what it makes: its groups with joints
-/// are left alone.
-/// Symbols: v = velocity, u = angular velocity about the principal axes, each times the axis' radius of gyration
-///          [m/s], T = sum of (m / M) (v^2 + u^2) [m^2/s^2] twice the kinetic energy by the group's mass M or more,
-///          x = part of T that is too much, g = gravity [m/s^2], h = a sub-step [s].
+/// Takes away energy that a step made. Contacts and joints do no work except to dissipate. But contacts are found once
+/// a step, and a body that rolls on an edge has left its arms, its normal's lever and its axes of inertia behind when
+/// the step ends: it sinks along the old ones and is pushed up along the new ones. At any number of sub-steps a barrel
+/// on its rim gained twelve times its energy in forty seconds, a rocking can a tenth in twenty. The bound scales the
+/// motion of a group, velocities and turns, by one factor, which neither lifts a point off what it touches nor lets it
+/// slip nor opens a joint.
+/// A group is what contacts and joints tie, up to kMost bodies: larger groups hide what one body makes. It lies on or
+/// hangs from what stands still: otherwise the factor would take momentum. Groups with motors, springs, drives or
+/// scaled masses, on moving bodies, on belts or with mechanisms are left alone, as energy comes and goes there. Work of
+/// forces counts as theirs.
+/// What joints hold keeps T / 2 - g x + h g v / 2 under semi-implicit Euler, not its energy: the bound holds for that
+/// quantity there, as by the energy each swing would lose the amplitude of its ripple. A free fall keeps its energy. A
+/// solver that closes joints' errors by speeds that stay (pgs) needs what it makes: its groups with joints are left
+/// alone.
+/// Symbols: v = velocity, u = angular velocity about the principal axes times their radii of gyration [m/s], T = sum of
+///          (m / M) (v^2 + u^2) [m^2/s^2] twice the kinetic energy by the group's mass M or more, x = part of T that is
+///          too much, g = gravity [m/s^2], h = a sub-step [s].
 template <class S> class EnergyBound {
   using V = Velocity<S>;
 
  public:
-  /// Finds the groups that are bound, and what they begin with. `h` [s] is a sub-step; `binds_joints`: see above.
+  /// Finds the groups that are bound, and their energies. `h` [s] is a sub-step; `binds_joints`: see above.
   void begin(const StepContext<S>& context, Step<S> h, bool binds_joints);
   ISO_INLINE bool any() const { return !groups_.empty(); }
-  /// Before the velocities of a sub-step: what forces are to give bodies first..end-1.
+  /// Adds the work that forces do on bodies first..end-1. Call it before a sub-step's velocities are integrated.
   void add_work(const StepContext<S>& context, const SolverBodies<S>& rows, std::size_t first, std::size_t end);
-  /// Call it as the step ends, of velocities in context.states.
+  /// Bounds the energies by the velocities in context.states. Call it as the step ends.
   void hold(const StepContext<S>& context, const SolverBodies<S>& rows) const;
 
  private:

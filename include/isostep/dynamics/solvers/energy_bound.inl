@@ -36,7 +36,7 @@ template <class S> void EnergyBound<S>::begin(const StepContext<S>& context, Ste
   for (const Group group : groups_) weigh(context, group);
 }
 
-/// Bodies that stand still do no work; all others that are not dynamic drive.
+/// Ties two bodies. Of bodies that are not dynamic those that stand still do no work; all others drive the group.
 template <class S>
 void EnergyBound<S>::tie(const StepContext<S>& context, std::uint32_t a, std::uint32_t b, std::uint8_t kind) {
   bool is_one = true;
@@ -94,7 +94,7 @@ template <class S> void EnergyBound<S>::find_groups(const StepContext<S>& contex
   begin_.resize(rows - 1);
 }
 
-/// Shares of the heaviest, times a power of two for which all together are no more than 1: one alone has all of itself.
+/// Finds the weights: roots of mass shares that sum to at most 1. The weight of a single body is 1.
 template <class S> void EnergyBound<S>::weigh(const StepContext<S>& context, Group group) {
   S heaviest = S(0);
   for (std::uint32_t i = group.first; i < group.end; ++i)
@@ -171,7 +171,7 @@ template <class S> Vec3<Velocity<S>> EnergyBound<S>::gravity_of(const StepContex
   const auto pull = [&](S g) { return saturate_to<V>(product(g, scale)) * weights_[body]; };
   return {pull(context.gravity.x), pull(context.gravity.y), pull(context.gravity.z)};
 }
-/// By how much h g v has grown, if not by a free fall.
+/// Returns by how much h g v has grown, except in free fall.
 template <class S>
 typename EnergyBound<S>::Energy EnergyBound<S>::lag_of(const StepContext<S>& context, std::size_t body) const {
   const auto over = [h = h_](V g) { return round_to<V>(product(g, h)); };
@@ -182,7 +182,7 @@ typename EnergyBound<S>::Energy EnergyBound<S>::lag_of(const StepContext<S>& con
   return dot_sum(step, change);
 }
 
-/// Held within a published limit, of which six squares fit: a pass may leave speeds beyond it.
+/// Holds it within a published limit, of which six squares fit: a pass may leave speeds beyond it.
 template <class S>
 typename EnergyBound<S>::Motion EnergyBound<S>::motion_of(const StepContext<S>& context, std::size_t body,
                                                           Vec3<V> velocity, Vec3<V> angular_velocity) const {

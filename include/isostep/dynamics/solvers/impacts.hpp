@@ -28,20 +28,20 @@ template <class S> struct TouchRow {
   Velocity<S> impulse;  // [m/s] >= 0
 };
 
-/// Source:  Poisson's law: what stopped an approach is given once more, times the restitution e. Smith et al. 2012,
-///          Reflections on Simultaneous Impact: all that meet at once are stopped at once, so that what is symmetric
-///          stays so, and what then meets anew bounces in a further round, as balls of a cradle do one after another.
+/// Source:  Poisson's law: the impulse that stopped an approach is given once more, times the restitution e. Smith et
+///          al. 2012, Reflections on Simultaneous Impact: all touches at one time are stopped at once, so that symmetry
+///          stays; what then meets anew bounces in a further round, as balls of a cradle do one after another.
 /// Symbols: e = restitution, met = speed at the impact, time = when it comes.
 /// Method:  a contact whose gap would close within the sub-step, faster than Settings::restitution_threshold, bounces
-///          when it closes: with the speed that forces gave it until then, and the bodies go on from that place. One
+///          when it closes: with the speed that forces gave it until then. The bodies go on from that place. A contact
 ///          that is found only when it overlaps bounced within the step before.
-///          Projected Gauss-Seidel finds what stops all touches. Along what it found, whether it came to an end or not,
-///          energy is a parabola of the scale: at s impulses of a group lose most, and at (1 + e) s they lose 1 - e^2
-///          of that. So no group of contacts gains energy, at any e and after any number of passes.
-///          Friction, within the cone of what each point bore, only takes.
+///          Projected Gauss-Seidel finds the impulses that stop all touches. Along these, converged or not, energy is a
+///          parabola of the scale: at s a group loses most, and at (1 + e) s it loses 1 - e^2 of that. So no group
+///          gains energy, at any e and after any number of passes.
+///          Friction, within the cone of what each point bore, only takes energy.
 /// Limits:  kMostRounds rounds, kMostWork rows: what meets then is stopped as if it had no restitution. Contacts that
 ///          bear only so much (KindResponse::most_force) do not bounce.
-/// Threads: one. Contacts that do not bounce cost nothing; order is that of the contacts.
+/// Threads: one. Contacts that do not bounce cost nothing. The order is that of the contacts.
 template <class S> class Impacts {
   using V = Velocity<S>;
   using Motion = MotionRow<V>;
@@ -49,11 +49,11 @@ template <class S> class Impacts {
  public:
   /// Begins a step, after bodies were gathered.
   void begin(const StepContext<S>& context, const SolverBodies<S>& bodies);
-  /// True if any contact of the step may bounce.
+  /// Returns true if any contact of the step may bounce.
   ISO_INLINE bool any() const { return !bouncing_.empty(); }
-  /// Solves bounces before the velocities of a sub-step are integrated, after its forces are known.
+  /// Solves bounces, before a sub-step integrates velocities and after its forces are known.
   void bounce(const StepContext<S>& context, BodyRows<S>& bodies);
-  /// Adds the impulses of bounces, after the solver has stored the contacts' own.
+  /// Adds the impulses of bounces, after the solver has stored those of contacts.
   void store(const StepContext<S>& context) const;
 
  private:
@@ -68,7 +68,7 @@ template <class S> class Impacts {
     S reduced;  // [kg]
     V given;    // [m/s] in the step
   };
-  /// Sums over touches, speeds over the fastest: of what stopped them (stopping) and of what they got (work, curve).
+  /// Sums over touches, of speeds over the fastest: of the stopping impulses (stopping) and those given (work, curve).
   struct Group {
     V fastest = V(0);   // [m/s]
     S heaviest = S(0);  // [kg]

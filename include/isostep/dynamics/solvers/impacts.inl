@@ -13,7 +13,7 @@ namespace detail {
 template <class S> ISO_INLINE Velocity<S> part_of(S part, Velocity<S> v) {
   return saturate_to<Velocity<S>>(product(part, v));
 }
-/// An impulse on the bodies of a row, where they move.
+/// Applies an impulse to the bodies of a row, where they move.
 template <class S>
 ISO_INLINE void push(const JointRow<S>& row, MassShare<S> share, Velocity<S> impulse, std::uint32_t a, std::uint32_t b,
                      SolverBodies<S>& bodies) {
@@ -62,7 +62,7 @@ template <class S> void Impacts<S>::bounce(const StepContext<S>& context, BodyRo
   }
 }
 
-/// Finds the contacts that bounce; after the first round only those on a body that the last one changed.
+/// Finds the contacts that bounce; after the first round only those on a body that the last round changed.
 template <class S> void Impacts<S>::find(const StepContext<S>& context, const BodyRows<S>& bodies, bool first) {
   touches_.clear();
   for (std::uint32_t i = 0; i < bouncing_.size(); ++i) {
@@ -103,9 +103,9 @@ void Impacts<S>::look_at(const StepContext<S>& context, const BodyRows<S>& bodie
   }
 }
 
-/// Finds if and when the gap [m] closes within the sub-step, or closed up to `before` sub-steps ago: by its mean speed
-/// until then, which forces change at a constant rate. What the solver's rows would stop must bounce, or it loses all
-/// of its speed: they take the speed at the sub-step's end for all of it, and round.
+/// Returns true if the gap [m] closes within the sub-step, or closed up to `before` sub-steps ago, and finds when: by
+/// the mean speed until then, which forces change at a constant rate. A touch that the solver's rows would stop must
+/// bounce, or it loses all of its speed: they take the speed at the sub-step's end for all of it, and round.
 template <class S> bool Impacts<S>::meets(V gap, V speed, V forced, std::int32_t rate, S before, TouchRow<S>& touch) {
   const V widest = divide_to<V>(S(64), S(rate));  // nothing farther apart meets within the sub-step
   const V way = saturate_to<V>(product(S(rate), clamp(gap, -widest, widest)));  // [m/s] to touch within a sub-step
@@ -124,7 +124,7 @@ template <class S> bool Impacts<S>::meets(V gap, V speed, V forced, std::int32_t
   return true;
 }
 
-/// The body as the contact sees it, with the inertia of now: one a few sub-steps old changes an impact's energy.
+/// Returns the body as the contact sees it, with its current inertia: one sub-steps old would change the energy.
 template <class S>
 SolverMass<S> Impacts<S>::seen(const StepContext<S>& context, const SolverBodies<S>& bodies, const Bouncing& of,
                                bool is_a) const {
@@ -140,7 +140,7 @@ SolverMass<S> Impacts<S>::seen(const StepContext<S>& context, const SolverBodies
   return is_a ? response->seen_a(body) : response->seen_b(body);
 }
 
-/// Touches of the same moving bodies, directly or through others, are one group.
+/// Forms groups: touches that share moving bodies, directly or through others, are in one group.
 template <class S> void Impacts<S>::group(const StepContext<S>& context, const SolverBodies<S>& bodies) {
   std::uint32_t locals = 0;
   const auto number = [&](std::uint32_t row) {
@@ -174,8 +174,8 @@ Velocity<S> Impacts<S>::speed_of(const TouchRow<S>& touch, const ContactGeometry
   return saturating_add(detail::along(touch.normal, bodies.velocity[g.row_a], bodies.velocity[g.row_b]), touch.forced);
 }
 
-/// Impulses that leave no touch closing, and push none that opens. A group has as many passes as it needs itself: what
-/// other islands do changes nothing of it.
+/// Finds impulses >= 0 after which no touch closes, and which are 0 at touches that open. Every group makes as many
+/// passes as it needs: other islands do not change it.
 template <class S> void Impacts<S>::stop(const StepContext<S>& context, SolverBodies<S>& bodies) {
   const auto count = static_cast<std::uint32_t>(touches_.size());
   for (int pass = 0; pass < kMostPasses && work_ < kMostWork; ++pass) {
@@ -195,7 +195,7 @@ template <class S> void Impacts<S>::stop(const StepContext<S>& context, SolverBo
     if (end_pass()) return;
   }
 }
-/// True if all groups are stopped: one touch is after a pass, several are when impulses hardly change any more.
+/// Returns true if all groups are stopped: one touch after one pass, several once impulses hardly change.
 template <class S> bool Impacts<S>::end_pass() {
   bool all = true;
   for (Group& group : groups_) {
@@ -207,7 +207,7 @@ template <class S> bool Impacts<S>::end_pass() {
   return all;
 }
 
-/// Gives the impulses that stopped them e times again; sums what that does to the energy of each group.
+/// Gives the stopping impulses e times again, and sums the energy that this adds to each group.
 template <class S> void Impacts<S>::give_back(const StepContext<S>& context, SolverBodies<S>& bodies) {
   for (TouchRow<S>& touch : touches_) {
     const ContactGeometry<S>& g = geometry_of(context, touch);
@@ -230,7 +230,7 @@ template <class S> void Impacts<S>::give_back(const StepContext<S>& context, Sol
   }
 }
 
-/// The energy of a group's impulses at a scale s is work s + curve s^2 / 2: least at -work / curve.
+/// The energy of a group's impulses at a scale s is work s + curve s^2 / 2, which is least at -work / curve.
 template <class S> void Impacts<S>::find_scales() {
   for (Group& group : groups_) {
     if (group.touches < 2) continue;  // exact but for rounding
@@ -267,7 +267,7 @@ void Impacts<S>::apply_scales(const StepContext<S>& context, SolverBodies<S>& bo
   }
 }
 
-/// Applies friction, within the cone of what each point bore.
+/// Applies friction, within the cone of the impulse that each point bore.
 template <class S> void Impacts<S>::rub(const StepContext<S>& context, SolverBodies<S>& bodies) {
   for (const TouchRow<S>& touch : touches_) {
     const ContactGeometry<S>& g = geometry_of(context, touch);

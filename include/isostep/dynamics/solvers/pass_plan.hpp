@@ -11,8 +11,8 @@
 
 namespace isostep {
 
-/// The number of pieces that some work is worth: one a thread, none smaller than `least`; four a thread for much work,
-/// so that little waits for one that is interrupted.
+/// Returns into how many pieces to divide work: one a thread, none smaller than `least`; four a thread for much work,
+/// so that little waits for an interrupted thread.
 ISO_INLINE std::uint32_t piece_count(std::uint32_t work, std::uint32_t least, std::uint32_t threads) {
   const std::uint32_t most = work / least;
   if (threads <= 1 || most <= 1) return 1;
@@ -20,8 +20,8 @@ ISO_INLINE std::uint32_t piece_count(std::uint32_t work, std::uint32_t least, st
   return pieces < kMaxPieces ? pieces : kMaxPieces;
 }
 
-/// Stages of a pass. Blocks that may be solved side by side, of one colour, are a group; groups keep their order. Small
-/// groups follow each other in one piece, for a stage costs all threads a meeting.
+/// The stages of a pass. Blocks of one colour, which may be solved side by side, are a group; groups keep their order.
+/// Small groups follow each other in one piece, for a stage costs a meeting of all threads.
 /// Unit of work: a row of a block, some 15 ns in float.
 class PassPlan {
  public:
@@ -32,13 +32,13 @@ class PassPlan {
   static constexpr std::uint32_t kLeastPiece = 32;  // [rows]: half a microsecond, four meetings
 
   void begin(std::uint32_t threads);
-  /// Blocks of one run with so many rows each. Runs of one group follow each other.
+  /// Adds the blocks of a run, of `rows` rows each. Runs of one group follow each other.
   void add(std::uint32_t group, std::uint32_t run, std::uint32_t blocks, std::uint32_t rows);
-  /// Blocks that are solved in their order, as part of one piece.
+  /// Adds blocks that are solved in their order, as part of one piece.
   void add_alone(std::uint32_t run, std::uint32_t blocks);
   void end();
 
-  /// Pieces of each stage.
+  /// Returns how many pieces each stage has.
   ISO_INLINE std::span<const std::uint32_t> stages() const { return pieces_of_; }
   ISO_INLINE std::span<const Slice> piece(std::uint32_t stage, std::uint32_t piece) const {
     const std::uint32_t at = first_piece_[stage] + piece;

@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// The joints of a step, in the order of the context's.
+/// The joints of a step, in the order of the context.
 template <class S> class PreparedJoints {
  public:
   ISO_INLINE void prepare(const StepContext<S>& context, const SolverBodies<S>& bodies) {
@@ -30,7 +30,7 @@ template <class S> class PreparedJoints {
     for (std::size_t i = 0; i < joints_.size(); ++i) store_joint(joints_[i], context.joint_states[i]);
   }
 
-  /// Adds the joints' impulses after each sub-step, where somebody asks for them.
+  /// Adds the joints' impulses of each sub-step to context.joint_impulses, if it is not empty.
   ISO_INLINE void add_impulses(const StepContext<S>& context) const {
     for (std::size_t i = 0; i < context.joint_impulses.size(); ++i) {
       if (joints_[i].holds) detail::add_impulses(joints_[i], context.joint_impulses[i]);
@@ -41,7 +41,7 @@ template <class S> class PreparedJoints {
   ISO_INLINE JointConstraint<S>& operator[](std::size_t i) { return joints_[i]; }
   ISO_INLINE std::span<JointConstraint<S>> all() { return joints_; }
 
-  /// Visits the joints; once solved, their impulses alone: solver_fields.inl.
+  /// Visits the joints; once solved, only their impulses: solver_fields.inl.
   template <class Visit> void visit_scratch(const Visit& visit, bool solved);
 
  private:

@@ -9,10 +9,10 @@
 
 namespace isostep {
 
-/// A solver keeps nothing from step to step but memory: what it has to remember are the impulses of contacts and
-/// joints, which are in the state. A step makes each call once, in this order, with one context. A solver may put off
-/// what a call does to a later one, so that threads are woken once, unless the context is watched.
-/// `visit_scratch(visit, stage, context)`, for tools alone, visits what a stage left for the next ones: fields.hpp.
+/// A solver keeps only memory from step to step; the impulses of contacts and joints, which it starts from, are in the
+/// state. A step makes each call once, in this order, with one context. A solver may put off the work of a call to a
+/// later one, so that threads are woken once, unless the context is watched.
+/// `visit_scratch(visit, stage, context)`, for tools only, visits what a stage left for the next ones: fields.hpp.
 template <class Solver, class S>
 concept RigidSolver = requires(Solver solver, const Solver& solved, const StepContext<S>& context) {
   solver.colour_constraints(context);  // takes bodies and joints over; decides in which order everything is solved

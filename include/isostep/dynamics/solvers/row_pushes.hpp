@@ -12,7 +12,7 @@
 
 namespace isostep {
 
-/// Two rows, solved at once: friction, or what resists rolling, or one row about the normal. Turns hold mass shares.
+/// Two rows that are solved at once: friction, rolling resistance, or one row about the normal. Turns hold mass shares.
 template <class S> struct TangentPair {
   JointRow<S> rows[2];
   S xx, xy, yy;            // [1] inverse of their coupling: what brings both to rest
@@ -27,7 +27,7 @@ namespace detail {
 
 template <class S> using Motion = MotionRow<Velocity<S>>;
 
-/// Bounds of what goes on within a pass: eight times the published ones, so that sums of two fit the format.
+/// Bounds of velocities within a pass: eight times the published ones, such that sums of two fit the format.
 template <class S> ISO_INLINE constexpr Velocity<S> passing_velocity() {
   return convert<Velocity<S>>(Limits<S>::speed()) * Velocity<S>(8);
 }
@@ -39,13 +39,13 @@ template <class V> ISO_INLINE constexpr Vec3<V> held(Vec3<V> v, V most) {
   return {clamp(v.x, -most, most), clamp(v.y, -most, most), clamp(v.z, -most, most)};
 }
 
-/// Speed, or displacement, of b against a along a row; beyond the format its end.
+/// Returns the speed or displacement of b against a along a row, saturated to the format.
 template <class S> ISO_INLINE Velocity<S> along(const JointRow<S>& row, const Motion<S>& a, const Motion<S>& b) {
   return saturate_to<Velocity<S>>(dot_sum(row.linear, b.linear - a.linear) + dot_sum(row.angular_b, b.angular) -
                                   dot_sum(row.angular_a, a.angular));
 }
 
-/// change times v, added to a velocity that stays within +-most.
+/// Returns a velocity plus `change` times v, held within +-most.
 template <class S>
 ISO_INLINE Vec3<Velocity<S>> pushed(Vec3<Velocity<S>> old, Vec3<S> v, Velocity<S> change, Velocity<S> most) {
   using V = Velocity<S>;
@@ -54,7 +54,7 @@ ISO_INLINE Vec3<Velocity<S>> pushed(Vec3<Velocity<S>> old, Vec3<S> v, Velocity<S
   };
   return {sum(old.x, v.x), sum(old.y, v.y), sum(old.z, v.z)};
 }
-/// An impulse along a row.
+/// Applies an impulse along a row.
 template <class S>
 ISO_INLINE void push(const JointRow<S>& row, MassShare<S> share, Velocity<S> impulse, Motion<S>& a, Motion<S>& b) {
   using V = Velocity<S>;
@@ -69,18 +69,18 @@ ISO_INLINE void push(const JointRow<S>& row, MassShare<S> share, Velocity<S> imp
   }
 }
 
-/// A row of two bodies' angular velocities, turns with the shares in them.
+/// Returns a row of two bodies' angular velocities, whose turns include the shares.
 template <class S>
 ISO_INLINE JointRow<S> weighed_row(Vec3<S> linear, Vec3<S> angular_a, Vec3<S> angular_b, const SolverMass<S>& a,
                                    const SolverMass<S>& b, MassShare<S> share) {
   return {linear, angular_a, angular_b, (a.kappa * angular_a) * share.a, (b.kappa * angular_b) * share.b};
 }
-/// The change of the speed along row i by an impulse along row j; `linear`: of the two rows' linear parts.
+/// Returns the change of speed along row i by an impulse along row j. `linear` is the part of the linear rows.
 template <class S> ISO_INLINE S coupling_of(const JointRow<S>& i, const JointRow<S>& j, S linear) {
   return linear + round_to<S>(dot_sum(i.angular_a, j.turn_a) + dot_sum(i.angular_b, j.turn_b));
 }
-/// Rows that push have a coupling of at least one. A turning row with less than an eighth has hardly a lever: it
-/// resists nothing.
+/// Returns a row's effective mass. Rows that push have a coupling of at least one. A turning row with less than an
+/// eighth has hardly a lever: it resists nothing.
 template <class S> ISO_INLINE S mass_of(S coupling) {
   return S(0.125) < coupling ? divide_to<S>(S(1), coupling) : S(0);
 }
@@ -98,9 +98,9 @@ template <class S> ISO_INLINE void invert_pair(TangentPair<S>& pair, S linear) {
 
 template <class V> struct PairChange { V x, y; };
 
-/// The change that brings a pair to rest; where that would leave a disc of radius `limit`, the one that brings the
-/// impulse towards the point of its rim that opposes the slip. There the step must be the same along both rows: the
-/// inverse coupling leads elsewhere, for a point off the centre is lighter across than along its arm.
+/// Returns the change that brings a pair to rest. If that would leave a disc of radius `limit`, returns the one towards
+/// the point of its rim that opposes the slip. There the step must be equal along both rows: the inverse coupling leads
+/// elsewhere, as a point off the centre is lighter across than along its arm.
 template <class S>
 ISO_INLINE PairChange<Velocity<S>> resting_change(const TangentPair<S>& pair, Velocity<S> limit, const Motion<S>& a,
                                                   const Motion<S>& b) {

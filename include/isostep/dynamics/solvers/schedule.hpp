@@ -44,13 +44,13 @@ template <class S> inline constexpr S kMostPenetrationBias = S(1.0 / 64);  // [m
 template <class S> inline constexpr S kDeepOverlap = S(1.0 / 64);  // [m]
 inline constexpr int kDeepRelaxations = 4;
 
-/// Soft step's contacts have this softness; so have struts beyond the end of their travel, in every solver.
+/// The softness of soft step's contacts, and of struts beyond the end of their travel in every solver.
 template <class S> Softness<S> contact_softness(S rate) {
   return soften(kContactAngle<S>, kContactDamping<S>, rate);
 }
 
-/// [1] The part of an error that Baumgarte's term asks to be closed in a step: Box2D's and Bullet's choice, below which
-/// errors stay and above which stacks jump.
+/// [1] The part of an error that Baumgarte's term closes in a step. Box2D and Bullet use it too: with less, errors
+/// stay, with more, stacks jump.
 template <class S> inline constexpr S kBaumgarte = S(0.2);
 
 }  // namespace detail
@@ -69,11 +69,11 @@ template <class S> Schedule<S> soft_step_schedule(const StepContext<S>& context)
 }
 
 /// Source:  Catto 2005, Iterative Dynamics with Temporal Coherence (GDC); Baumgarte 1972, Stabilization of constraints.
-///          The solver of most engines before 2023, for comparison: what closes a contact's error stays as speed.
-///          Joints lose theirs: it turned a body round its hinge faster with every step.
-/// Differs: joints are passed one after another, but for trees with a limit, a motor or a spring and without a loop,
-///          which are solved at once: one step of a sixtieth is too long for what those ask and neighbours take back.
-///          Of 60 random ones 23 gained energy or came apart.
+///          The solver of most engines before 2023, for comparison: the speed that closes a contact's error stays. That
+///          of joints is taken back: it turned a body round its hinge faster with every step.
+/// Differs: joints are solved one after another, except loop-free trees with a limit, a motor or a spring: these are
+///          solved at once. In a step of a sixtieth neighbours take back too much of what those ask: 23 of 60 random
+///          trees gained energy or came apart.
 template <class S> Schedule<S> pgs_schedule(const StepContext<S>& context) {
   const std::int32_t rate = integration_rate(SolverName::pgs, context.hz, context.substeps);
   const Softness<S> baumgarte = {detail::kBaumgarte<S> * S(rate), S(1), S(0)};

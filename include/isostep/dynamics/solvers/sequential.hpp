@@ -19,11 +19,11 @@
 namespace isostep {
 
 namespace detail {
-/// How deep a contact is as a step begins: it rests or touches; it overlaps by more than kDeepOverlap; it does so with
-/// a body that nothing moves.
+/// The depth of a contact as a step begins: it rests or touches (shallow); it overlaps by more than kDeepOverlap
+/// (deep); it does so with a body that nothing moves (pressed).
 inline constexpr std::uint32_t kShallow = 0, kDeep = 1, kPressed = 2, kDepths = 3;
 
-/// What a kernel's index says of its contacts.
+/// The shape of a kernel's contacts, from its index.
 struct Variant {
   std::int32_t points;
   bool rolling;
@@ -33,9 +33,9 @@ struct Variant {
 };
 }  // namespace detail
 
-/// Contacts are found once a step. Those that share no moving body get one colour and are solved side by side; joints
-/// are solved before them, in trees or one by one, and mechanisms before those. Schedule says the rest.
-/// Order:   that of rigid_solver.hpp. The calls from `prepare` on note what is to be done; the last one does all of it,
+/// The default solver. Contacts are found once a step. Those that share no moving body get one colour and are solved
+/// side by side. Joints are solved before them, in trees or one by one, and mechanisms before joints: see Schedule.
+/// Order:   that of rigid_solver.hpp. Calls from `prepare` on note what is to be done; the last one does all of it,
 ///          unless the context is watched.
 template <class S> class Sequential {
  public:
@@ -59,18 +59,18 @@ template <class S> class Sequential {
     std::uint32_t first_block, blocks;
     std::size_t offset;  // [bytes] in memory_
   };
-  /// Of order_.
+  /// A range of order_.
   struct Contacts {
     std::uint32_t first;
     std::int32_t count;
   };
-  /// Where the kernels read a contact.
+  /// The place where the kernels read a contact.
   struct Lane {
     unsigned char* words;
     std::size_t width;
     detail::Variant shape;
   };
-  /// What the pieces of one stage do.
+  /// The work of the pieces of a stage.
   enum class Work : std::uint32_t {
     prepare,
     respond,
@@ -103,7 +103,7 @@ template <class S> class Sequential {
     const PassPlan* plan;   // of contacts; null: bodies or joints
     std::uint32_t of_plan;  // its stage
   };
-  /// What every piece reads.
+  /// The data that every piece reads.
   struct Job {
     Sequential* solver;
     const StepContext<S>& context;

@@ -93,8 +93,8 @@ template <class S> void Sequential<S>::colour_constraints(const StepContext<S>& 
   plan_passes(context.runner);
 }
 
-/// Contacts that found no colour are one piece by themselves, however many they are: their order counts. A body counts
-/// as a row: to integrate it costs as much.
+/// Plans the passes. Contacts without a colour are one piece by themselves, however many they are, as their order
+/// counts. A body counts as a row: to integrate it costs as much.
 template <class S> void Sequential<S>::plan_passes(const TaskRunner& runner) {
   const auto rows_of = [](const Run& run) {
     const detail::Variant shape = detail::Variant::of(run.variant);
@@ -128,7 +128,7 @@ template <class S> std::size_t Sequential<S>::place_of(const Run& run, std::uint
   return run.offset + block * width * block_bytes<S, 1>(shape.points, shape.rolling);
 }
 
-/// The last block may have lanes left over.
+/// Returns the contacts of a slice, whose last block may have unused lanes.
 template <class S>
 typename Sequential<S>::Contacts Sequential<S>::contacts_of(const Run& run, const PassPlan::Slice& slice) {
   const auto width = static_cast<std::uint32_t>(run.kernels->width);
@@ -161,7 +161,7 @@ template <class S> void Sequential<S>::store_slice(const StepContext<S>& context
                       &order_[part.first], context.contacts.data(), context.step_impulses.data()});
 }
 
-/// Contacts as they lie in their blocks.
+/// Finds the lanes of carried and responding contacts in their blocks.
 template <class S> void Sequential<S>::find_lanes(const StepContext<S>& context) {
   carried_.resize(context.carried.size());
   responding_.resize(context.responses.size());
@@ -194,7 +194,7 @@ template <class S> void Sequential<S>::carry(const StepContext<S>& context) {
   }
 }
 
-/// Bodies that turn so fast are rare: where there is one, all contacts are looked through.
+/// Calls `act` for each contact of a body that turns too fast. Such bodies are rare: one of them makes it visit all.
 template <class S>
 template <class Act>
 void Sequential<S>::each_followed(const StepContext<S>& context, const Act& act) {
@@ -229,7 +229,7 @@ template <class S> void Sequential<S>::follow(const StepContext<S>& context) {
   respond(context);
 }
 
-/// Contacts that answer by other masses do so with the inertia of now, and bear what they bear in a sub-step.
+/// Makes contacts of other masses use the current inertia, and sets the most that they bear in a sub-step.
 template <class S> void Sequential<S>::respond(const StepContext<S>& context) {
   const std::vector<SolverMass<S>>& mass = bodies_.rows().mass;
   most_.resize(responding_.size());

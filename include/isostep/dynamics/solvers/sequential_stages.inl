@@ -27,7 +27,7 @@ void Sequential<S>::add_stage(Work work, std::uint32_t pieces, const PassPlan* p
 template <class S> void Sequential<S>::add_stages(Work work, const PassPlan& plan) {
   for (std::uint32_t i = 0; i < plan.stages().size(); ++i) add_stage(work, plan.stages()[i], &plan, i);
 }
-/// Over contacts; what they do not bear is given back at once.
+/// Adds a pass over contacts, followed by the relief of those that give way.
 template <class S> void Sequential<S>::add_pass(Work work, const PassPlan& plan, const StepContext<S>& context) {
   add_stages(work, plan);
   if (!context.responses.empty()) add_stage(Work::relieve, 1);
@@ -110,7 +110,7 @@ template <class S> void Sequential<S>::do_joints(const Job& job, Work work, std:
   }
 }
 
-/// Of mechanisms and joints in a pass: what a motor or a brake does to a coupling does not wait for the next sub-step.
+/// Returns how often a pass solves mechanisms and joints: a coupling feels a motor or a brake in the same sub-step.
 template <class S> std::int32_t Sequential<S>::rounds_of(const StepContext<S>& context) const {
   return context.mechanisms.couples ? max(1, kMechanismSweeps / schedule_.passes) : 1;
 }

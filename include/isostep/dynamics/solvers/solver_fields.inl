@@ -65,7 +65,7 @@ template <class S> template <class Visit> void PreparedJoints<S>::visit_scratch(
   });
 }
 
-/// Visits the rows that every solver has: its joints and its bodies.
+/// Visits the rows of every solver: joints and bodies.
 template <class S, class Visit>
 void visit_rows(const Visit& visit, SolverStage stage, PreparedJoints<S>& joints, BodyRows<S>& bodies) {
   if (stage == SolverStage::colour || stage == SolverStage::solve)
@@ -75,8 +75,8 @@ void visit_rows(const Visit& visit, SolverStage stage, PreparedJoints<S>& joints
 
 // ---- soft step and projected Gauss-Seidel
 
-/// Colours are seen in the order of the contacts; how many lanes a run is cut into and how many threads share it are
-/// this machine's own.
+/// Visits the colours in the order of the contacts. The number of lanes of a run and of threads that share it are this
+/// machine's own, and not visited.
 template <class S>
 template <class Visit>
 void Sequential<S>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>&) {

@@ -22,29 +22,29 @@
 
 namespace isostep {
 
-/// Renews StepContext::accelerations as a sub-step begins, where forces depend on how bodies lie and move. Called by
-/// one thread, before velocities are integrated over 1 / rate seconds. No function: they are the same throughout.
+/// Renews StepContext::accelerations as a sub-step begins, for forces that depend on how bodies lie and move. One
+/// thread calls it before it integrates velocities over 1 / rate seconds. A null function: accelerations are constant.
 template <class S> struct SubstepForces {
   void (*renew)(void* forces, const SolverBodies<S>& bodies, std::int32_t rate) = nullptr;
   void* forces = nullptr;
 };
 
-/// What a solver does with the rows of mechanisms, in a sub-step. Called by one thread, one after another.
+/// The calls by which a solver handles the rows of mechanisms in a sub-step. One thread makes them in this order.
 template <class S> struct MechanismCalls {
-  /// As velocities are integrated over 1 / rate seconds: rows as the bodies lie now, and their impulses of before.
+  /// Places rows for current positions, as velocities are integrated over 1 / rate seconds, and their last impulses.
   void (*place)(void* mechanisms, SolverBodies<S>& bodies, std::int32_t rate) = nullptr;
-  /// In turn with joints, before contacts.
+  /// Solves them in turn with joints, before contacts.
   void (*solve)(void* mechanisms, SolverBodies<S>& bodies, int sweeps) = nullptr;
-  /// Before positions, where joints are coupled: brakes and motors may slip, teeth do not.
+  /// Closes errors of joint couplings, before positions: brakes and motors may slip, teeth do not.
   void (*close)(void* mechanisms, SolverBodies<S>& bodies) = nullptr;
-  /// After positions: once more, so that nothing of the speed that closed errors stays.
+  /// Solves once more, after positions, so that no speed that closed errors stays.
   void (*relax)(void* mechanisms, SolverBodies<S>& bodies) = nullptr;
-  /// After all else: what turns without being a body, wheels and engines, has its speed.
+  /// Sets the speed of what turns without being a body (wheels, engines), after all else.
   void (*end)(void* mechanisms) = nullptr;
 };
 
-/// Rows of wheels and couplings. They are solved in turn with those of joints and contacts and change velocities as
-/// those do; what they have to remember is theirs.
+/// The rows of wheels and couplings. They are solved in turn with those of joints and contacts, and change velocities
+/// as those do. They keep their own memory.
 template <class S> struct MechanismRows {
   MechanismCalls<S> calls = {};
   void* mechanisms = nullptr;                  // null: there are none
@@ -59,18 +59,18 @@ template <class S> struct MechanismRows {
   ISO_INLINE void end() const { calls.end(mechanisms); }
 };
 
-/// [1] Sweeps over rows of mechanisms that a sub-step takes in all of its passes: with 8 what vehicles_test.cpp
-/// measures differs by less than a thousandth.
+/// [1] The number of sweeps over mechanism rows in all passes of a sub-step. With 8 the results of vehicles_test.cpp
+/// differ by less than a thousandth.
 inline constexpr int kMechanismSweeps = 4;
 
-/// No body turns by more than a radian in a step of integration [rad/s]: beyond, a turn is no longer small. What turns
-/// faster is slowed to that before it moves, and reported: to turn it less than its velocity says, or about another
-/// axis, would change its energy, of a rod by hundreds of times.
+/// The most that a body turns in a step of integration, a radian [rad/s]: beyond it a turn is not small. Faster bodies
+/// are slowed to it before they move, and reported: to turn a body less than its velocity says, or about another axis,
+/// would change its energy, of a rod by hundreds of times.
 template <class S> ISO_INLINE constexpr Velocity<S> angular_speed_limit(std::int32_t rate) {
   return convert<Velocity<S>>(min(Limits<S>::angular_speed(), S(rate)));
 }
 
-/// Awake bodies in order, the contacts between them and their joints in canonical order.
+/// The data of a step: awake bodies in order, contacts between them and their joints, in canonical order.
 template <class S> struct StepContext {
   std::span<BodyState<S>> states = {};
   std::span<const BodyProperties<S>> properties = {};
@@ -100,7 +100,7 @@ template <class S> struct StepContext {
   std::span<const ContactResponse<S>> responses = {};     // ascending by contact; none for `direct`
 };
 
-/// The calls of rigid_solver.hpp, for those who look at what each leaves.
+/// The calls of rigid_solver.hpp, for tools that inspect what each leaves.
 enum class SolverStage : std::uint32_t { colour, prepare, solve, store };
 
 namespace detail {

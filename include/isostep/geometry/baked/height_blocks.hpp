@@ -28,14 +28,14 @@ class HeightBlocks {
 
   /// Makes room for the blocks of a grid.
   void lay_out(const HeightGrid& grid);
-  /// Renews the spans of all blocks that hold the cells.
+  /// Renews the spans of all blocks that contain the cells.
   void refresh(const HeightCells& field, const CellRange& cells);
 
-  /// Of all cells.
+  /// Returns the span of all cells.
   ISO_INLINE HeightSpan span() const { return spans_.back(); }
   ISO_INLINE std::size_t memory() const { return spans_.size() * sizeof(HeightSpan); }  // [bytes]
-  /// The column from which row k may have triangles in the box: behind the largest block that has none, if i lies in
-  /// one.
+  /// Returns the first column >= i in row k that may have triangles in the box: the one behind the largest block around
+  /// i that has none, or i.
   ISO_INLINE std::uint32_t next_candidate(std::uint32_t i, std::uint32_t k, const CellBox& box) const {
     std::uint32_t next = i;
     for (std::uint32_t level = 0; level < levels_; ++level) {
@@ -45,8 +45,8 @@ class HeightBlocks {
     }
     return next;
   }
-  /// Descends into blocks of which overlaps(cells, span) is true, and calls visit(cells) for those of level 0, until it
-  /// returns false; takes first what lies first along the way.
+  /// Descends into the blocks for which overlaps(cells, span) is true, and calls visit(cells) for those of level 0, the
+  /// first along the way first, until visit returns false.
   template <class Overlaps, class Visit>
   ISO_INLINE bool traverse(GridVector way, Overlaps&& overlaps, Visit&& visit) const {
     const std::uint32_t first = (way.x < 0 ? 1u : 0u) + (way.z < 0 ? 2u : 0u);  // of a block's parts
@@ -65,7 +65,7 @@ class HeightBlocks {
 
  private:
   static constexpr int kLevels = 22;  // 2^23 cells along a side are 2^21 blocks, 2^0 at the top
-  /// A block leaves three of its parts waiting and goes on with the fourth.
+  /// A block leaves three of its parts waiting and continues with the fourth.
   static constexpr int kStack = 3 * kLevels + 1;
 
   struct Block {

@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// The heights of cells, both included; there are none where low is above high.
+/// The range of heights of cells, both ends included. An empty range has low above high.
 struct HeightSpan {
   std::int16_t low = INT16_MAX, high = INT16_MIN;
 
@@ -21,26 +21,26 @@ struct HeightSpan {
 struct CellRange {
   std::uint32_t low[2], high[2];
 };
-/// Such a rectangle from one height to another, both included.
+/// A rectangle of cells from one height to another, both included.
 struct CellBox : CellRange {
   std::int32_t low_height, high_height;
 
   ISO_INLINE bool misses(HeightSpan span) const {
     return span.is_empty() || span.low > high_height || span.high < low_height;
   }
-  /// Whether it meets a triangle of that corner, whose two others have these heights.
+  /// Returns true if it meets a triangle with that corner, whose two other vertices have heights in least..greatest.
   ISO_INLINE bool meets(std::int32_t least, std::int32_t greatest, std::int32_t corner) const {
     return (least <= high_height || corner <= high_height) && (greatest >= low_height || corner >= low_height);
   }
 };
 
-/// A view of what a field keeps. Input: the numbers of cells. Output: points, boxes and triangles, by their ids.
+/// A view of the data of a field. Input: the numbers of cells. Output: points, boxes and triangles, by their ids.
 struct HeightCells {
   const HeightGrid& grid;
   const std::int16_t* heights;    // by rows
   const std::uint8_t* materials;  // by cells
 
-  /// Whether the cell is neither a hole nor a ghost.
+  /// Returns true if the cell is neither a hole nor a ghost.
   ISO_INLINE bool is_solid(std::size_t cell) const { return materials[cell] < kGhostMaterial; }
   ISO_INLINE std::int32_t height(std::uint32_t i, std::uint32_t k) const {
     return heights[static_cast<std::size_t>(k) * grid.columns + i];
@@ -62,7 +62,7 @@ struct HeightCells {
     return {{pitch * cells.low[0], grid.steps_of(span.low), pitch * cells.low[1]},
             {pitch * (cells.high[0] + 1), grid.steps_of(span.high), pitch * (cells.high[1] + 1)}};
   }
-  /// visit(id) for the triangles of a cell that the box meets, until it returns false.
+  /// Calls visit(id) for the triangles of a cell that the box meets, until it returns false.
   template <class Visit>
   ISO_INLINE bool visit_cell(std::uint32_t i, std::uint32_t k, const CellBox& box, Visit&& visit) const {
     const std::uint32_t cell = k * grid.cells_x() + i;
@@ -72,7 +72,7 @@ struct HeightCells {
     if (box.meets(low, high, height(i, k)) && !visit(2 * cell)) return false;
     return !box.meets(low, high, height(i + 1, k + 1)) || visit(2 * cell + 1);
   }
-  /// visit(id) for both triangles of each cell whose box overlaps() says true of, until it returns false.
+  /// Calls visit(id) for both triangles of each cell whose box overlaps() accepts, until it returns false.
   template <class Overlaps, class Visit>
   ISO_INLINE bool visit_cells(const CellRange& cells, Overlaps&& overlaps, Visit&& visit) const {
     for (std::uint32_t k = cells.low[1]; k <= cells.high[1]; ++k) {

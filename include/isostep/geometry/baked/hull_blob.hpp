@@ -28,7 +28,7 @@ Result<BlobRef> hull_blob(std::span<const GridPoint> points, int exponent, BlobH
 Result<GridHull> read_hull(Bytes bytes);
 
 namespace detail {
-/// Returns true beyond the coarsest grid.
+/// Returns true if a magnitude is beyond the coarsest grid.
 template <class S> ISO_INLINE bool is_off_grids(S magnitude) {
   return exponent_above(magnitude) > 19 || floor_scaled(magnitude, 0) + 1 >= GridPoint::kLimit;
 }

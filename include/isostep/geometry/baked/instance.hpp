@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// The change of every point, in the geometry's own frame.
+/// A transformation of every point, in the geometry's own frame.
 struct Instance {
   bool mirror_x = false, mirror_y = false, mirror_z = false;  // the coordinate changes its sign
   int doublings = 0;                                          // then each is 2^doublings times as large; -1 halves

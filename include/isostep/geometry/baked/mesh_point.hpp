@@ -55,7 +55,7 @@ struct MeshBox {
   }
 };
 
-/// The dot product where 64 bits do not hold it.
+/// Returns the dot product, which 64 bits may not hold.
 ISO_INLINE constexpr Int128 wide_dot(GridVector a, GridVector b) {
   return Int128(a.x) * b.x + Int128(a.y) * b.y + Int128(a.z) * b.z;
 }

@@ -28,13 +28,13 @@ class MeshTree {
  public:
   static constexpr std::uint32_t kLeafTriangles = 6;
   static constexpr std::uint32_t kMaxTriangles = 1u << 22;
-  /// The most nodes above one another. 10 hold kMaxTriangles; the others are for uneven splits.
+  /// The most levels of nodes. 10 suffice for kMaxTriangles; the others are for uneven splits.
   static constexpr int kLevels = 16;
-  /// The triangles that fit below so many nodes above one another.
+  /// Returns how many triangles a tree of `levels` levels can hold.
   static ISO_INLINE constexpr std::uint64_t capacity(int levels) {
     return std::uint64_t{kLeafTriangles} << (2 * levels);
   }
-  /// A node leaves three of its children waiting and goes on with the fourth.
+  /// A node leaves three of its children waiting and continues with the fourth.
   static constexpr int kStack = 3 * kLevels + 1;
 
   // These are what the compiler would make, but without weak functions in the files that hold trees.
@@ -79,14 +79,14 @@ class MeshTree {
     return true;
   }
 
-  /// Calls visit(triangle) for all triangles of the leaves that overlaps(box) reaches. Ends when visit returns false.
+  /// Calls visit(triangle) for all triangles of leaves whose boxes overlaps() accepts. Ends when visit returns false.
   template <class Overlaps, class Visit> ISO_INLINE bool traverse(Overlaps&& overlaps, Visit&& visit) const {
     return traverse_in_order([](std::uint32_t node, std::uint32_t* stack, int& size)
                                  ISO_INLINE_LAMBDA { push(node, stack, size); },
                              overlaps, visit);
   }
-  /// traverse() that takes first, of a node's children, that whose box begins first along `way`, whose components are
-  /// below 2^32.
+  /// traverse() that visits the children of a node in the order in which their boxes begin along `way`, whose
+  /// components are below 2^32.
   template <class Overlaps, class Visit>
   ISO_INLINE bool traverse(GridVector way, Overlaps&& overlaps, Visit&& visit) const {
     return traverse_in_order([&](std::uint32_t node, std::uint32_t* stack, int& size)
@@ -141,7 +141,7 @@ class MeshTree {
     }
     return true;
   }
-  /// Both ends of both boxes are rounded down: that never turns an order round, so no boxes that touch are lost.
+  /// Both ends of both boxes are rounded down. That preserves order, so no touching boxes are missed.
   ISO_INLINE std::uint64_t every_lane(int axis, std::int64_t v) const { return 0x0001000100010001u * cell(axis, v); }
   ISO_INLINE std::uint64_t cell(int axis, std::int64_t v) const {
     return static_cast<std::uint64_t>(v - bounds_.low[axis]) >> shift_[axis];

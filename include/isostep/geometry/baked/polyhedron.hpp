@@ -25,7 +25,7 @@ template <class S> struct Polyhedron {
 
   ISO_INLINE std::uint32_t origin(std::uint32_t half_edge) const { return half_edges[half_edge].origin; }
   ISO_INLINE std::uint32_t edges() const { return directions.size(); }
-  /// Calls triangle(i, j, k) of vertices, for a face as a fan about its lowest.
+  /// Calls triangle(i, j, k) with vertices, for a face as a fan about its lowest.
   template <class Triangle> ISO_INLINE void visit_fan(std::uint32_t face, const Triangle& triangle) const {
     const std::uint32_t first = faces[face];
     std::uint32_t edge = half_edges[first].next;
@@ -34,7 +34,7 @@ template <class S> struct Polyhedron {
       edge = next;
     }
   }
-  /// Calls visit(half_edge) for all that leave a vertex, around it.
+  /// Calls visit(half_edge) for all half-edges that leave a vertex, around it.
   template <class Visit> ISO_INLINE void visit_spokes(std::uint32_t vertex, const Visit& visit) const {
     const std::uint32_t first = spokes[vertex];
     std::uint32_t half_edge = first;
@@ -45,7 +45,7 @@ template <class S> struct Polyhedron {
   }
 };
 
-/// A hull in a scalar: the memory that its Polyhedron shows.
+/// The memory behind the Polyhedron of a hull.
 template <class S> class HullSolid {
  public:
   HullSolid() = default;  // of nothing

@@ -41,8 +41,8 @@ struct GridRay {
     const std::int64_t scale = std::int64_t{1} << bits;
     return {p.x * scale - from.x, p.y * scale - from.y, p.z * scale - from.z};
   }
-  /// Tells by separating axes whether the way meets a box: the box's own axes, as far as `distant` of 2^30 of the way,
-  /// and the crosses of its edges with the way.
+  /// Returns true if the way meets a box, by separating axes: the box's axes (as far as `distant` of 2^30 of the way),
+  /// and the cross products of its edges with the way.
   ISO_INLINE bool meets(const MeshBox& box, std::int64_t distant) const {
     const std::int64_t scale = std::int64_t{1} << bits;
     const std::int64_t at[3] = {from.x, from.y, from.z}, to[3] = {way.x, way.y, way.z};
@@ -66,7 +66,7 @@ struct GridRay {
     std::int64_t at;  // in 2^-30 of the way; negative: the way does not pass it
     bool from_behind;
   };
-  /// The place where the way passes a triangle from its outward side, or from either.
+  /// Finds where the way passes a triangle from its outward side, or from both sides with `back_faces`.
   ISO_INLINE Entry enter(const TriangleCorners& triangle, bool back_faces) const {
     constexpr Entry kMissed = {-1, false};
     const GridVector p[3] = {on_grid(triangle.points[0]), on_grid(triangle.points[1]), on_grid(triangle.points[2])};
@@ -154,7 +154,7 @@ template <class G, class S> class SurfaceCrossing {
     if (meets_) grid_ = grid_ray(surface, ray, entry_, exit_);
   }
 
-  /// The first hit by fraction, then by id: places are finer than fractions, so the nearest place alone does not tell.
+  /// Returns the first hit by fraction, then by id. Places are finer than fractions: the nearest alone is not enough.
   ISO_INLINE LocalHit<S> first(const RayReach<S>& reach) const {
     std::int64_t most = most_of(reach.max_fraction), alike = -1;
     std::uint32_t triangle = kNoTriangle;
@@ -178,7 +178,7 @@ template <class G, class S> class SurfaceCrossing {
   }
 
  private:
-  /// Visits the triangles entered by `most`, which may become less on the way; the nearest first, as a rule.
+  /// Visits the triangles entered by `most`, which may shrink on the way, in general the nearest first.
   template <class Visit> ISO_INLINE void visit(bool back_faces, const std::int64_t& most, const Visit& found) const {
     if (!meets_ || most < 0) return;
     surface_.traverse(
@@ -192,7 +192,7 @@ template <class G, class S> class SurfaceCrossing {
   ISO_INLINE S fraction_of(std::int64_t at) const {
     return min((entry_ + (exit_ - entry_) * from_lattice<Unit<S>>(at, 30)) / ray_.length, S(1));
   }
-  /// A place no less than any whose fraction is not more: fractions ascend with places, so a guess needs one check.
+  /// Returns a bound of the places whose fraction is at most max_fraction. Fractions ascend with places: one check.
   ISO_INLINE std::int64_t most_of(S max_fraction) const {
     if (!meets_ || !(max_fraction < S(1)) || !(ray_.length > S(0))) return kWhole;
     if (fraction_of(0) > max_fraction) return -1;
@@ -203,7 +203,7 @@ template <class G, class S> class SurfaceCrossing {
   }
   /// [m] The distance beyond which two places have different fractions.
   ISO_INLINE S noise_of_fractions() const { return gap_noise(ray_.length) + resolution<S>() * ray_.length; }
-  /// An upper bound of the places that may have one fraction.
+  /// Returns an upper bound of the places that may have one fraction.
   ISO_INLINE std::int64_t most_alike() const {
     const S whole = exit_ - entry_, noise = noise_of_fractions();
     return noise < whole ? floor_scaled(divide_to<Unit<S>>(noise, whole), 30) + 1 : kWhole;

@@ -6,7 +6,7 @@
 
 namespace isostep::detail {
 
-/// How far a solid of revolution reaches along a direction, at each of its discs.
+/// The support of a solid of revolution along a direction, at each of its discs.
 template <class S> struct Reach {
   Vec3<Unit<S>> radial;  // [1] of the direction, across the axis; x where it has none
   Unit<S> across;        // [1] the direction's length across the axis
@@ -16,7 +16,7 @@ template <class S> struct Reach {
   ISO_INLINE S most() const { return max(of[0], of[1]); }
 };
 
-/// Where a solid of revolution is nearest to a point, in the half-plane of the point: x = away from the axis, y.
+/// The nearest point of a solid of revolution to a point, in the point's half-plane: x = away from the axis, y.
 template <class S> struct NearestInSection {
   S x, y;              // [m] on the surface
   S distance;          // [m] negative inside
@@ -25,7 +25,7 @@ template <class S> struct NearestInSection {
 
 /// The radii [m] of two discs on one axis, the lower one first.
 template <class S> struct DiscRadii { S low, high; };
-/// Of the hull of both, at y = -half and half: the point furthest along n.
+/// Returns the point of the hull of two discs, at y = -half and half, that is furthest along n.
 template <class S> ISO_INLINE Vec3<S> support_of_discs(DiscRadii<S> radii, S half, Vec3<Unit<S>> n) {
   const Direction<Unit<S>> d = direction_of(n.x, Unit<S>(0), n.z);
   const S narrower = (radii.low - radii.high) * d.length, rise = half * n.y;
@@ -33,8 +33,8 @@ template <class S> ISO_INLINE Vec3<S> support_of_discs(DiscRadii<S> radii, S hal
   const S radius = upper ? radii.high : radii.low;
   return {radius * d.x, upper ? half : -half, radius * d.z};
 }
-/// What of it looks along n: a disc that leans by a sine of `flat` at most, as sixteen points of its rim that turn with
-/// it, or the line of the side that reaches furthest.
+/// Finds the face that looks along n: a disc that leans by a sine of at most `flat`, as sixteen points of its rim that
+/// turn with the solid; otherwise the line of the side that reaches furthest.
 inline constexpr std::uint32_t kLowerEnd = 32, kUpperEnd = 33;  // of that line, which is no line of the solid's own
 template <class S>
 ISO_INLINE void find_face_of_discs(DiscRadii<S> radii, S half, Vec3<Unit<S>> n, Unit<S> flat, SolidFace<S>& face) {
@@ -57,7 +57,7 @@ ISO_INLINE void find_face_of_discs(DiscRadii<S> radii, S half, Vec3<Unit<S>> n, 
   face.add({radii.high * x, half, radii.high * z}, kUpperEnd);
 }
 
-/// Discs of radius radii[0] at y = -half and radii[1] <= radii[0] at y = half, and what lies between them.
+/// Discs of radius radii[0] at y = -half and radii[1] <= radii[0] at y = half, and the solid between them.
 template <class S> struct Revolved {
   using U = Unit<S>;
 
@@ -80,11 +80,11 @@ template <class S> struct Revolved {
     const Vec3<U> radial = d.length > U(0) ? Vec3<U>{d.x, U(0), d.z} : Vec3<U>{U(1), U(0), U(0)};
     return {radial, d.length, {radii[0] * d.length - rise, radii[1] * d.length + rise}};
   }
-  /// The point of a disc's rim in a direction across the axis.
+  /// Returns the point of a disc's rim in a direction across the axis.
   ISO_INLINE Vec3<S> rim(int end, Vec3<U> radial) const {
     return {radial.x * radii[end], end == 0 ? -half : half, radial.z * radii[end]};
   }
-  /// The k-th of sixteen points of a rim, which turn with the solid.
+  /// Returns the k-th of sixteen points of a rim, which turn with the solid.
   ISO_INLINE Vec3<S> rim_point(int end, int k) const {
     return rim(end, {cosine_of_sixteenths<S>(k), U(0), cosine_of_sixteenths<S>(k - 4)});
   }
@@ -102,7 +102,7 @@ template <class S> struct Revolved {
     return {t.position + Vec3<S>{low[0], low[1], low[2]}, t.position + Vec3<S>{high[0], high[1], high[2]}};
   }
 
-  /// Of the point at (x, y), x >= 0.
+  /// Returns the nearest point of the section to (x, y), x >= 0.
   ISO_INLINE NearestInSection<S> nearest(S x, S y) const {
     const S middle = (radii[0] + radii[1]) * S(0.5), from = x - middle;
     const S beside = round_to<S>(product(from, out) + product(y, up));  // above the side
@@ -149,9 +149,9 @@ template <class S> struct Revolved {
   }
 };
 
-/// The distance along a ray at which it enters a solid of revolution through its side: the zero of the height above the
-/// side, which is convex along the ray, by Newton's steps from outside; they never pass it.
-/// Error: a few steps of S; where the ray grazes the side, as far as the height there is rounded.
+/// Finds the distance along a ray at which it enters a solid of revolution through its side: the zero of the height
+/// above the side, which is convex along the ray, by Newton steps from outside, which never pass it.
+/// Error: a few steps of S; if the ray grazes the side, as far as the height there is rounded.
 template <class S>
 ISO_INLINE bool enter_side(const Revolved<S>& solid, const LocalRay<S>& ray, S from, S to, S& entry) {
   using U = Unit<S>;

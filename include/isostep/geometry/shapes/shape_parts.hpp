@@ -24,7 +24,7 @@ template <class S> ISO_INLINE constexpr ShapeFault fault_of_size(S size) {
   return ShapeFault::none;
 }
 
-/// c^2; a component beyond 9/8 counts as that: enough to be refused, and four of them fit the sum.
+/// Returns c^2. A component beyond 9/8 counts as 9/8: enough to be refused, and four squares fit the sum.
 template <class U> ISO_INLINE Sum<U> bounded_square(U c) {
   const U bounded = clamp(c, U(-1.125), U(1.125));
   return product(bounded, bounded);
@@ -36,7 +36,7 @@ template <class U> ISO_INLINE bool nearly_unit(U x, U y, U z, U w) {
   const Sum<U> norm = squared_norm(x, y, z, w);
   return norm > product(U(1), U(1 - 1.0 / 64)) && norm < product(U(1), U(1 + 1.0 / 64));
 }
-/// As close to one as the format can say.
+/// Returns true if the length is one, as close as the format can say.
 template <class U> ISO_INLINE bool is_unit(U x, U y, U z, U w) { return round_to<U>(squared_norm(x, y, z, w)) == U(1); }
 
 // ---- debug drawing
@@ -51,7 +51,7 @@ struct NoTriangle {
   template <class V> ISO_INLINE void operator()(V, V, V) const {}
 };
 
-/// cos(k pi / 8), for circles of sixteen lines.
+/// Returns cos(k pi / 8), for circles of sixteen lines.
 template <class S> ISO_INLINE constexpr Unit<S> cosine_of_sixteenths(int k) {
   constexpr Unit<S> kQuarter[5] = {Unit<S>(1), Unit<S>(0.9238795325112867), Unit<S>(0.7071067811865476),
                                    Unit<S>(0.3826834323650898), Unit<S>(0)};

@@ -23,8 +23,8 @@ template <class S> struct BlobDefinition {
   S attract_force = S(20);    // [N]
 };
 
-/// A material and a cohesion of the blob's own, and particles that fill the smallest square or cube of a lattice, along
-/// x, then y, then z.
+/// Makes a material and a cohesion of the blob's own, and particles that fill the smallest square or cube of a lattice:
+/// along x, then y, then z.
 template <class S> ParticleBody build(ParticleWorld<S>& world, const BlobDefinition<S>& definition);
 
 #define ISO_BLOB_OF(extern, S) extern template ParticleBody build<S>(ParticleWorld<S>&, const BlobDefinition<S>&);

@@ -24,20 +24,20 @@ template <class S> void remove(ParticleWorld<S>& world, ParticleBody& body) {
 
 namespace detail {
 
-/// The point `step` of `steps` on the way from a to b; b itself at the end.
+/// Returns the point `step` of `steps` on the way from a to b, and b itself at the end.
 template <class S> Vec3<S> on_the_way(Vec3<S> a, Vec3<S> b, std::uint32_t step, std::uint32_t steps) {
   if (step == 0) return a;
   return step == steps ? b : a + (b - a) * divide_to<Unit<S>>(S(step), S(steps));
 }
 
-/// Each command does nothing once one was refused.
+/// Makes a body by commands. After a refused command the others do nothing.
 template <class S> class BodyBuilder {
  public:
   explicit BodyBuilder(ParticleWorld<S>& world) : world_(world) {}
 
   bool good() const { return body_.fault == Fault::none; }
   void demand(bool condition) { fail_unless(condition, Fault::bad_argument); }
-  /// Places and edges, before they are added up.
+  /// Checks places and edges before they are added.
   void demand_places(std::initializer_list<Vec3<S>> places) {
     for (const Vec3<S> place : places) fail_unless(fault_of_position(place) == Fault::none, fault_of_position(place));
   }

@@ -23,9 +23,9 @@ template <class S> class ParticleSoftStep {
                    ParticleIntegration<S>& integration);
 
   void begin_step();
-  /// Integration, and the rows held.
+  /// Integrates, and holds the rows.
   void solve_substep();
-  /// Gives back, once after the step, the speed at which contacts and cables met, by their restitution.
+  /// Gives back the speed at which contacts and cables met, by their restitution. Called once after the step.
   void apply_restitution();
 
   template <class Visit> void visit_scratch(const Visit& visit);
@@ -41,7 +41,7 @@ template <class S> class ParticleSoftStep {
   void note_meetings();
   ISO_INLINE V meeting_speed(const Row& row, V there) const;
 
-  /// A touch is not: of its two sides the other is somebody else's to move, so its velocity has to.
+  /// Returns true if a row moves by the shift velocity. A touch does not: other code moves its other side, by velocity.
   static ISO_INLINE bool is_shifted(const Row& row) {
     return row.kind == ConstraintKind::contact && (row.b != kNoParticle || row.other != kNoParticle);
   }

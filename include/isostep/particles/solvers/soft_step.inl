@@ -57,8 +57,8 @@ template <class S> void ParticleSoftStep<S>::warm_start() {
   }
 }
 
-/// A biased pass solves friction before the normal, for what may not overlap has the last word; a relaxed pass the
-/// other way round.
+/// A biased pass solves friction before the normal, since non-penetration has the last word. A relaxed pass solves the
+/// normal first.
 template <class S> void ParticleSoftStep<S>::solve(bool biased) {
   for (Row& row : rows_.all()) {
     const Softness<S>& softness = !biased || is_shifted(row)            ? rigid_softness_
@@ -103,7 +103,7 @@ ISO_INLINE void ParticleSoftStep<S>::solve_normal(Row& row, const Softness<S>& s
   if (S(0) < row.restitution) note_work(row, speed, saturating_add(speed, given));
 }
 
-/// Overlap as a velocity that moves and does not last: the way of all contacts of a sub-step is planned in it.
+/// Pushes particles apart by a velocity that moves them and is then forgotten. All contacts of a sub-step share it.
 template <class S> ISO_INLINE void ParticleSoftStep<S>::push_apart(Row& row) {
   const Vec3<V> b = row.b == kNoParticle ? Vec3<V>::zero() : shift_[row.b];
   const V shift = saturate_to<V>(dot_sum(row.normal, b) - dot_sum(row.normal, shift_[row.a]));
@@ -129,7 +129,7 @@ template <class S> ISO_INLINE void ParticleSoftStep<S>::push_apart(Row& row) {
   if (row.b != kNoParticle) shift_.set(row.b, held_within(saturating_add(b, j * row.share_b), most));
 }
 
-/// Coulomb: against the slip, within a cone about the normal.
+/// Applies Coulomb friction against the slip, within a cone about the normal.
 template <class S> ISO_INLINE void ParticleSoftStep<S>::solve_friction(Row& row) {
   const Vec3<V> b = row.b == kNoParticle ? row.surface_velocity : state_.velocity[row.b];
   const Vec3<V> v = state_.velocity[row.a];
@@ -187,7 +187,7 @@ template <class S> ISO_INLINE Velocity<S> ParticleSoftStep<S>::meeting_speed(con
   if (V(0) < gain) return worked_speed<S>(max(saturating_add(came, gain * V(0.5)), V(0)), gain, ahead);
   return max(saturating_add(worked_speed<S>(max(came, V(0)), gain, ahead), gain), V(0));
 }
-/// Forces are looked at once more where something met that bounces.
+/// Notes the rows that met. Computes forces once more if something met that bounces.
 template <class S> void ParticleSoftStep<S>::note_meetings() {
   bool meets = false, bounces = false;
   for (const Row& row : rows_.all()) {

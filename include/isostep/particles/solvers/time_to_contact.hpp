@@ -7,8 +7,8 @@
 
 namespace isostep::detail {
 
-/// The time at which a point that moves from p by `way` comes within `radius` of the origin, as a share of the way; 1
-/// for never. Lengths are taken along and across the way, so that nothing is squared that might not fit.
+/// Returns the time at which a point that moves from p by `way` comes within `radius` of the origin, as a share of the
+/// way; 1 for never. Lengths are measured along and across the way, so no square overflows.
 template <class S> ISO_INLINE Unit<S> time_to_sphere(Vec3<S> p, Vec3<S> way, S radius) {
   using U = Unit<S>;
   const Heading<S> along = heading_of(way);
@@ -28,7 +28,7 @@ template <class S> ISO_INLINE Unit<S> time_to_plane(const Collider<S>& plane, Ve
   if (!(gap < closing)) return U(1);
   return S(0) < gap ? divide_to<U>(gap, closing) : U(0);
 }
-/// A line is a cylinder between two spheres.
+/// Treats a line as a cylinder between two spheres.
 template <class S> ISO_INLINE Unit<S> time_to_line(const Collider<S>& line, Vec3<S> p, Vec3<S> way, S radius) {
   using U = Unit<S>;
   const S reach = line.radius + radius;
@@ -43,7 +43,7 @@ template <class S> ISO_INLINE Unit<S> time_to_line(const Collider<S>& line, Vec3
   return S(0) <= there && there <= axis.length ? min(first, when) : first;
 }
 
-/// The time at which a point that moves from p by `way` comes within `radius` of scenery, as a share of the way.
+/// Returns the share of the way after which a point that moves from p by `way` comes within `radius` of scenery.
 template <class S> ISO_INLINE Unit<S> time_to_scenery(const Collider<S>& collider, Vec3<S> p, Vec3<S> way, S radius) {
   return collider.type == ColliderType::plane ? time_to_plane(collider, p, way, radius)
                                               : time_to_line(collider, p, way, radius);

@@ -48,13 +48,13 @@ template <class S> class WorstFirst {
   using V = Velocity<S>;
 
  public:
-  /// The number of iterations that the book allows an island of so many rows.
+  /// Returns the number of iterations that the book allows an island of `count` rows.
   static ISO_INLINE std::uint32_t default_iterations(std::uint32_t count) {
     return count > 0x7fffffffu ? 0xffffffffu : 2u * count;
   }
 
-  /// Looks at an island's rows in one call: half a second of them, and 64 a row. A pile takes 50; a crowd in one place
-  /// would take the cube of its number.
+  /// Returns the most looks at an island's rows in one call: half a second of them, and 64 a row. A pile takes 50; a
+  /// crowd in one place would take the cube of its number.
   static ISO_INLINE std::uint64_t most_looks(std::uint32_t count) { return (1u << 20) + std::uint64_t{64} * count; }
 
   /// Resolves rows after the integration of a sub-step, or between its velocity and its position. Returns how many rows
@@ -110,7 +110,7 @@ template <class S> class WorstFirst {
   ISO_INLINE void push(const Row& row, Sides sides, Vec3<V> change, Vec3<V> Point::*of, V most);
   ISO_INLINE void hit(Row& row, Sides sides, Vec3<V> change);
 
-  /// The more urgent, then the lower index.
+  /// Orders rows: first the more urgent, then the lower index.
   ISO_INLINE auto before() const {
     return [this](std::uint32_t i, std::uint32_t j) ISO_INLINE_LAMBDA {
       const Urgency& a = urgency_[i];

@@ -24,7 +24,7 @@ template <class S> ISO_INLINE Velocity<S> WorstFirst<S>::gained_speed(const Row&
   return saturate_to<V>(dot_sum(row.normal, b) - dot_sum(row.normal, points_[sides.a].gained));
 }
 
-/// C from the two displacements each time, so that it does not gather the roundings of every move.
+/// Computes C from the two displacements each time, so that the roundings of moves do not pile up.
 template <class S> ISO_INLINE Velocity<S> WorstFirst<S>::gap(const Row& row, Sides sides) const {
   // Half the range of Velocity<S> leaves the other half for displacements; what is farther off cannot meet in a step.
   const S limit = convert<S>(highest<V>()) * S(0.5);
@@ -38,7 +38,7 @@ template <class S> ISO_INLINE Velocity<S> WorstFirst<S>::fastest_of(const Row& r
   return max(max_abs(points_[sides.a].velocity), max_abs(velocity_of_b(row, sides)));
 }
 
-/// Friction that would stop what slides, kept within the cone, less the friction that there already is.
+/// Returns the change of friction that would stop the sliding, kept within the cone.
 template <class S>
 ISO_INLINE Vec3<Velocity<S>> WorstFirst<S>::friction_change(const Row& row, Sides sides, V speed) const {
   const Vec3<V> relative = velocity_of_b(row, sides) - points_[sides.a].velocity;
@@ -103,8 +103,8 @@ ISO_INLINE Velocity<S> WorstFirst<S>::bounced_speed(const Row& row, V former, V 
   return max(round_to<V>(product(row.restitution, met)) + gained, V(0));
 }
 
-/// Velocity, then friction within the cone that this opens, then position (pp. 111, 140, 115). Moves are applied to the
-/// particles at once and never kept: none can be applied twice.
+/// Applies velocity, then friction within the cone that this opens, then position (pp. 111, 140, 115). Moves are
+/// applied to the particles at once and never kept, so none can be applied twice.
 template <class S> void WorstFirst<S>::apply(Row& row, std::uint32_t index) {
   const Sides sides = sides_[index];
   const bool rod = row.kind == ConstraintKind::rod;
@@ -204,7 +204,7 @@ template <class S> void WorstFirst<S>::share_out(const Row* rows, std::uint32_t 
     budget.looks = most_looks(budget.rows) - budget.rows;
   });
 }
-/// The row's island has spent its budget: none of its rows is resolved again. Returns how many stay unsettled.
+/// Ends an island whose budget is spent: none of its rows is resolved again. Returns how many stay unsettled.
 template <class S> std::uint32_t WorstFirst<S>::leave_island(std::uint32_t row) {
   std::uint32_t unsettled = 0;
   for (std::uint32_t i = budgets_.budget_of(row).first_row; i != IslandBudgets::kNobody; i = budgets_.next_of(i)) {
@@ -216,7 +216,7 @@ template <class S> std::uint32_t WorstFirst<S>::leave_island(std::uint32_t row) 
   return unsettled;
 }
 
-/// Every row once, as it comes. Returns how many had something to do.
+/// Resolves every row once, in order. Returns how many had something to do.
 template <class S> std::uint32_t WorstFirst<S>::pass_over(Row* rows, std::uint32_t count) {
   std::uint32_t unsettled = 0;
   for (std::uint32_t i = 0; i < count; ++i) {

@@ -35,7 +35,7 @@ template <class S> class WorstFirstStep {
                  ParticleIntegration<S>& integration);
 
   void begin_step();
-  /// Integration, and the rows held.
+  /// Integrates, and holds the rows.
   void solve_substep();
 
  private:

@@ -35,8 +35,8 @@ template <class S> void WorstFirstStep<S>::solve_substep() {
   resolve();
 }
 
-/// The velocities of a sub-step without its way, which is kept apart: resolution stands between the two, so that
-/// gravity's way along a slope is friction's to undo.
+/// Integrates velocities and stores the way apart. Resolution happens between the two, so that friction may undo
+/// gravity's way along a slope.
 template <class S> void WorstFirstStep<S>::integrate_velocities() {
   before_ = state_.velocity;
   start_ = step_.displacement;
@@ -89,7 +89,7 @@ template <class S> void WorstFirstStep<S>::resolve_rows() {
   spend(resolver_.looks());
   for (Row& row : rows) row.impulse_seen = max(row.impulse_seen, row.impulse);
 }
-/// Looks at rows, of those that a step has.
+/// Subtracts looks from the budget of the step.
 template <class S> void WorstFirstStep<S>::spend(std::uint64_t looks) {
   if (looks_left_ <= looks && looks != 0) ++step_.report.spent;
   looks_left_ -= min(looks, looks_left_);
@@ -140,7 +140,7 @@ template <class S> void WorstFirstStep<S>::divide_way() {
   }
   travel(U(1));
 }
-/// Turns the way of particles whose velocity was resolved for the rest of the sub-step.
+/// Changes the way of particles whose velocity was resolved, for the rest of the sub-step.
 template <class S> void WorstFirstStep<S>::turn_ways(U left) {
   const auto turn = [&](std::uint32_t slot) {
     if (slot == kNoParticle || state_.velocity[slot] == before_[slot]) return;
@@ -152,7 +152,7 @@ template <class S> void WorstFirstStep<S>::turn_ways(U left) {
     turn(row.b);
   }
 }
-/// The share of what is left of the sub-step until the row's sides touch; 1: they do not, or they touch already.
+/// Returns the share of the rest of the sub-step until the row's sides touch; 1 if they never do or already touch.
 template <class S> Unit<S> WorstFirstStep<S>::time_to(const Row& row) const {
   const Vec3<S> a = step_.now[row.a], way_a = convert<S>(way_[row.a]);
   if (row.kind == ConstraintKind::contact && row.b != kNoParticle)
@@ -160,7 +160,7 @@ template <class S> Unit<S> WorstFirstStep<S>::time_to(const Row& row) const {
   if (row.other == kNoParticle || row.kind != ConstraintKind::contact) return U(1);
   return detail::time_to_scenery(state_.colliders.all()[row.other], a, way_a, row.radius);
 }
-/// Finds the time of the first contact that does not touch yet; false for none.
+/// Finds the time of the first contact that does not touch yet. Returns false if there is none.
 template <class S> bool WorstFirstStep<S>::find_next_contact(U& when) {
   bool any = false;
   when = U(1);
@@ -173,7 +173,7 @@ template <class S> bool WorstFirstStep<S>::find_next_contact(U& when) {
   }
   return any;
 }
-/// All particles a share of their way on; what is left of it shrinks.
+/// Moves all particles by a share of their way. The rest of the way shrinks.
 template <class S> void WorstFirstStep<S>::travel(U share) {
   for (std::uint32_t i = 0; i < state_.material.size(); ++i) {
     const Vec3<V> way = way_[i], part = way * share;

@@ -19,7 +19,7 @@ template <class S> class ParticleContacts {
 
   ParticleContacts(ParticleState<S>& state, ParticleStep<S>& step, PairSearch<S>& search, ParticleRows<S>& rows);
 
-  /// Links; contacts that may come about within the step, ascending by key, with the impulses they had; touches.
+  /// Finds links; contacts that may come about within the step, by ascending key, with their last impulses; touches.
   void find();
   /// Contacts that bore anything stay in the state, with their impulses where a solver `keeps_impulses` from step to
   /// step; events tell those that began, and what touched bodies got. Touches and pushes are used up.

@@ -67,7 +67,7 @@ template <class S> void ParticleContacts<S>::add_links() {
   }
 }
 
-/// Particles that collide with each other, pair by pair, ascending.
+/// Finds the particles that collide with each other, pair by pair, ascending.
 template <class S> void ParticleContacts<S>::find_pairs() {
   pairs_.clear();
   search_.clear();
@@ -101,7 +101,7 @@ template <class S> void ParticleContacts<S>::add_scenery(std::uint32_t slot, std
   }
 }
 
-/// The last step had it; `old` goes on to where it was or would be. Both lists ascend by key.
+/// Returns true if the last step had the contact. Advances `old` to its place. Both lists ascend by key.
 template <class S>
 ISO_INLINE bool ParticleContacts<S>::is_old(const ParticleContact<S>& contact, std::size_t& old) const {
   while (old < old_contacts_.size() && old_contacts_[old].key() < contact.key()) ++old;

@@ -50,7 +50,7 @@ template <class S> void ParticleFinish<S>::hold_at_edge(std::uint32_t slot, Vec3
   }
   ++step_.report.clamped_position;
 }
-/// A constraint of a stopped particle may bear impulses that are no numbers either.
+/// Sets impulses that are no numbers to 0: constraints of a stopped particle may have them.
 template <class S> void ParticleFinish<S>::forget_broken_impulses() {
   for (V& impulse : state_.link_impulses) {
     if (!is_finite(impulse)) impulse = V(0);

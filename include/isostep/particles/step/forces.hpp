@@ -19,11 +19,11 @@ template <class S> class ParticleForces {
  public:
   ParticleForces(ParticleState<S>& state, ParticleStep<S>& step, FreeFlight<S>& flight, ParticleSprings<S>& springs);
 
-  /// Reports what the game asked for beyond the limits.
+  /// Reports particles that the game pushed beyond the limits.
   void begin_step();
   /// Finds, once a step, which particles may come within each other's reach in it.
   void find_cohering(PairSearch<S>& search);
-  /// There are forces besides those of materials.
+  /// Returns true if there are forces besides those of materials.
   bool any() const;
   void accelerate();
 

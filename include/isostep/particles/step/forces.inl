@@ -30,7 +30,7 @@ template <class S> bool ParticleForces<S>::any() const {
 }
 
 namespace detail {
-/// The vector is as long as the format allows: one force or their sum was cut there.
+/// Returns true if a vector is as long as the format allows: it, or a sum, was cut.
 template <class S> ISO_INLINE bool is_cut(Vec3<S> a) {
   const S most = highest<S>();
   if (lies_within(a, most * S(0.5))) return false;  // the largest component of such a length is above 0.57 of it
@@ -52,7 +52,7 @@ template <class S> void ParticleForces<S>::accelerate() {
   }
 }
 
-/// force / m along the direction.
+/// Adds force / m along the direction.
 template <class S>
 ISO_INLINE void ParticleForces<S>::push(std::uint32_t slot, InverseMass<S> inverse_mass, Vec3<U> direction, S force) {
   step_.add_acceleration(slot, direction * saturate_to<S>(product(force, inverse_mass)));

@@ -23,16 +23,16 @@ template <class S> class FreeFlight {
 
   /// Computes the numbers of materials for a sub-step of this step.
   void prepare();
-  /// Accelerations are those of gravity and drag.
+  /// Sets the accelerations to those of gravity and drag.
   ISO_INLINE void accelerate() { kernels_->accelerate(run()); }
-  /// Velocities and displacements by one sub-step.
+  /// Advances velocities and displacements by one sub-step.
   ISO_INLINE void advance() { kernels_->advance(run()); }
-  /// All sub-steps at once, of particles that nothing joins.
+  /// Computes all sub-steps at once, for particles that nothing joins.
   ISO_INLINE void fly() { kernels_->fly(run()); }
-  /// Positions `now` follow displacements.
+  /// Updates the positions `now` from the displacements.
   ISO_INLINE void place() { kernels_->place(run()); }
-  /// Positions of the state follow displacements from slot `first` on. Returns where the first block begins in which
-  /// anything leaves the range or is no number, or the number of slots.
+  /// Moves the positions of the state by the displacements, from slot `first` on. Returns the begin of the first block
+  /// in which anything leaves the range or is no number, or the number of slots.
   ISO_INLINE std::uint32_t finish(std::uint32_t first) { return kernels_->finish(run(first)); }
 
   /// Sets the velocity of a particle that moves freely, with its material's damping.

@@ -20,25 +20,25 @@ template <class S> class ParticleIntegration {
   ParticleIntegration(ParticleState<S>& state, ParticleStep<S>& step, FreeFlight<S>& flight, ParticleForces<S>& forces,
                       StiffSprings<S>& stiff_springs);
 
-  /// Velocities become those with which particles move through the sub-step, and displacements follow them. With these
-  /// velocities constraints have to do; arrive() then makes them those of the sub-step's end. A second stage that saw
-  /// where forces alone would take the particles would feed the spring beside a rod with energy.
+  /// Computes the velocities with which particles move through the sub-step, and moves displacements by them.
+  /// Constraints work on these velocities; arrive() then sets those of the sub-step's end. A second stage, computed at
+  /// positions that forces alone would reach, would add energy to a spring beside a rod.
   void integrate(bool constrained);
-  /// The method's velocities at the end are not those of the way.
+  /// Returns true if the method's velocities at the end differ from those of the way.
   ISO_INLINE bool arrives() const {
     const Integrator integrator = state_.settings.integrator;
     return integrator == Integrator::velocity_verlet || integrator == Integrator::rk4;
   }
-  /// Makes the velocities those of the sub-step's end, for such a method.
+  /// Sets the velocities of the sub-step's end, for such a method.
   void arrive(bool constrained);
-  /// A sub-step of particles that springs and forces join, but no constraint.
+  /// Computes a sub-step of particles that springs and forces join, but no constraint.
   void fly();
 
-  /// Positions `now` follow displacements.
+  /// Updates the positions `now` from the displacements.
   ISO_INLINE void place() { flight_.place(); }
-  /// All forces where displacements have taken the particles, those of stiff springs too.
+  /// Computes all forces at the displaced positions, those of stiff springs too.
   void accelerate_all();
-  /// There are forces besides those of materials.
+  /// Returns true if there are forces besides those of materials.
   ISO_INLINE bool has_forces() const { return forces_.any(); }
 
  private:

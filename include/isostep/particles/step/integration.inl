@@ -46,8 +46,8 @@ template <class S> void ParticleIntegration<S>::accelerate_all() {
   stiff_springs_.pull();
 }
 
-/// Velocity Verlet as kick, drift, kick: half of the accelerations at the start, the way, half of those at its end.
-/// What depends on velocity is evaluated at the end with both halves of the first.
+/// Velocity Verlet as kick, drift, kick: half of the accelerations at the start, the way, half of those at the end.
+/// Terms that depend on velocity are evaluated at the end with both halves of the first.
 template <class S> void ParticleIntegration<S>::drift_verlet() {
   forces_.accelerate();
   first_ = step_.acceleration;
@@ -94,7 +94,7 @@ template <class S> void ParticleIntegration<S>::drift_rk4() {
     state_.velocity.set(i, mean);
   }
 }
-/// Adds a stage's slopes to the means, and moves on to where the next stage looks.
+/// Adds a stage's slopes to the means, and moves on to where the next stage is evaluated.
 template <class S> void ParticleIntegration<S>::add_stage(int stage) {
   const bool outer = stage == 0 || stage == 3;
   const Step<S> ahead = stage == 2 ? step_.h : step_.h * Step<S>(0.5);
@@ -111,7 +111,7 @@ template <class S> void ParticleIntegration<S>::add_stage(int stage) {
     state_.velocity.set(i, detail::pushed<S>(start_[i], a, ahead));
   }
 }
-/// rk4's velocities at the end are of where forces alone lead. What forces do elsewhere counts half, as Verlet has it.
+/// rk4's end velocities are those of the forces alone. What forces add elsewhere counts half, as in Verlet.
 template <class S> void ParticleIntegration<S>::turn_end() {
   flight_.place();
   forces_.accelerate();
@@ -122,7 +122,7 @@ template <class S> void ParticleIntegration<S>::turn_end() {
   }
 }
 
-/// Springs implicitly, by one system; all else as semi-implicit Euler has it.
+/// Integrates springs implicitly, by one system; everything else like semi-implicit Euler.
 template <class S> void ParticleIntegration<S>::integrate_implicit() {
   forces_.accelerate();
   const std::int32_t rate = state_.settings.hz * state_.settings.substeps;

@@ -27,7 +27,7 @@ template <class S> class PairSearch {
 
   /// Finds, before the first search of a step, how far springs may carry particles in it.
   void begin_step();
-  /// [m] The way that a particle may come in a step, more or less: what it meets sooner is found now.
+  /// [m] Returns about how far a particle may come in a step. What it meets within that is found now.
   ISO_INLINE S reach_of(std::uint32_t slot) const {
     using V = Velocity<S>;
     const Vec3<V> v = state_.velocity[slot];
@@ -36,15 +36,15 @@ template <class S> class PairSearch {
     return pulls_.empty() ? way : min(saturating_add(way, pulls_[slot]), ParticleLimits<S>::position());
   }
 
-  /// Some material has particles that collide with each other.
+  /// Returns true if some material has particles that collide with each other.
   bool any_collides() const;
   void clear();
-  /// Adds a particle, in ascending order of slots; `reach` [m] from where the particle is as the step begins.
+  /// Adds a particle, in ascending order of slots. `reach` [m] is from its position as the step begins.
   ISO_INLINE void add(std::uint32_t slot, S reach) {
     slots_.push_back(slot);
     reaches_.push_back(reach);
   }
-  /// Appends a << 32 | b of each pair a < b, ascending. Pairs beyond what settings allow are passed over and reported.
+  /// Appends a << 32 | b of each pair a < b, ascending. Pairs beyond the settings' limit are left out and reported.
   void find(std::vector<std::uint64_t>& pairs);
 
   template <class Visit> void visit_scratch(const Visit& visit);

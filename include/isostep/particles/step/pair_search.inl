@@ -15,7 +15,7 @@ template <class S> bool PairSearch<S>::any_collides() const {
   }
   return false;
 }
-/// Some particle may meet anything but touches and links.
+/// Returns true if a particle may meet something else than touches and links.
 template <class S> bool PairSearch<S>::may_meet() const {
   return any_collides() || !state_.colliders.all().empty() || !state_.cohesions.all().empty();
 }

@@ -8,7 +8,7 @@
 
 namespace isostep::detail {
 
-/// n.(v_b - v_a) [m/s], below 0 while they close.
+/// Returns n.(v_b - v_a) [m/s], below 0 while the sides close.
 template <class S>
 ISO_INLINE Velocity<S> separating_speed(const ParticleConstraint<S>& row, const Axes<Velocity<S>>& velocity) {
   using V = Velocity<S>;
@@ -16,7 +16,7 @@ ISO_INLINE Velocity<S> separating_speed(const ParticleConstraint<S>& row, const 
   return saturate_to<V>(dot_sum(row.normal, b) - dot_sum(row.normal, velocity[row.a]));
 }
 
-/// [m/s] that these accelerations add to the speed at which they close, in a sub-step.
+/// Returns [m/s] what accelerations add to the closing speed in a sub-step.
 template <class S>
 ISO_INLINE Velocity<S> closing_gain(const ParticleConstraint<S>& row, const Axes<S>& acceleration, Step<S> h) {
   using V = Velocity<S>;
@@ -27,7 +27,7 @@ ISO_INLINE Velocity<S> closing_gain(const ParticleConstraint<S>& row, const Axes
   return saturating_subtract(of_a, of_b);
 }
 
-/// A change of relative velocity, to each side its share. Equal masses get exactly opposite halves.
+/// Gives each side its share of a change of relative velocity. Equal masses get exactly opposite halves.
 template <class S> ISO_INLINE void give(ParticleConstraint<S>& row, Axes<Velocity<S>>& velocity, Vec3<Velocity<S>> j) {
   using V = Velocity<S>;
   const V most = passing_speed<S>();

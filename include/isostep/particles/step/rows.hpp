@@ -34,12 +34,12 @@ template <class S> class ParticleRows {
   ISO_INLINE std::span<Row> contacts() { return {rows_.data() + first_contact_, rows_.data() + first_touch_}; }
   ISO_INLINE std::span<Row> touches() { return {rows_.data() + first_touch_, rows_.data() + rows_.size()}; }
 
-  /// Normals and separations where particles are now: a passing particle must not meet the plane through where
-  /// something was.
+  /// Finds normals and separations at the current positions. A passing particle must not meet the plane through a point
+  /// where something was before.
   void look();
   /// Adds to each touched surface the velocity that a sub-step gives it.
   void accelerate_surfaces();
-  /// Moves each touched surface on at its own pace, as the impulses changed it.
+  /// Moves each touched surface at its own velocity, as the impulses changed it.
   void move_surfaces();
 
   template <class Visit> void visit_kinds(const Visit& visit);  // where each kind of row begins

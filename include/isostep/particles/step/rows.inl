@@ -46,7 +46,7 @@ template <class S> ISO_INLINE void ParticleRows<S>::look_at_contact(Row& row) co
   row.normal = way.length == S(0) ? Vec3<U>{U(0), U(1), U(0)} : way.direction;
   row.separation = way.length - row.radius;
 }
-/// A touched surface keeps its normal for the step.
+/// Keeps a touched surface's normal for the step.
 template <class S> ISO_INLINE void ParticleRows<S>::look_at_touch(Row& row) const {
   const V moved = saturate_to<V>(-dot_sum(row.normal, step_.displacement[row.a]));
   row.separation = -row.radius + convert<S>(saturating_add(moved, row.surface_moved));

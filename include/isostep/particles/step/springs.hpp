@@ -14,11 +14,11 @@ template <class S> class ParticleSprings {
  public:
   ParticleSprings(ParticleState<S>& state, ParticleStep<S>& step);
 
-  /// Lists, once a step, what pulls in it.
+  /// Lists the springs that pull, once a step.
   void prepare();
-  /// Adds what springs give their ends, where these are now.
+  /// Adds the accelerations of springs to their ends, at the current positions.
   void pull(const FlightKernels<S>& kernels);
-  /// Beyond its elastic limit a spring stays deformed: its rest length follows (Millington, ch. 6.1.2). Events tell.
+  /// Deforms springs beyond their elastic limit: their rest length follows (Millington, ch. 6.1.2). Events tell.
   void yield();
 
   template <class Visit> void visit_scratch(const Visit& visit);

@@ -12,7 +12,7 @@
 namespace isostep {
 
 namespace detail {
-/// v + a h, as far as velocities go.
+/// Returns v + a h, saturated to the format.
 template <class S> ISO_INLINE Velocity<S> pushed(Velocity<S> v, S a, Step<S> h) {
   using V = Velocity<S>;
   const V limit = passing_speed<S>();
@@ -28,7 +28,7 @@ template <class S> ISO_INLINE Vec3<Velocity<S>> travelled(Vec3<Velocity<S>> v, S
 }
 }  // namespace detail
 
-/// Arrays are by slot.
+/// The shared data of a step. Arrays are by slot.
 template <class S> struct ParticleStep {
   using V = Velocity<S>;
 
@@ -52,14 +52,14 @@ template <class S> struct ParticleStep {
     report = {};
   }
 
-  /// Sums of many forces end at the format's ends.
+  /// Adds an acceleration. Sums of many forces end at the format's ends.
   ISO_INLINE void add_acceleration(std::uint32_t slot, Vec3<S> a) {
     acceleration.set(slot, saturating_add(acceleration[slot], a));
   }
   ISO_INLINE void move_on(std::uint32_t slot, Vec3<V> way) {
     displacement.set(slot, held_within(saturating_add(displacement[slot], way), passing_distance<S>()));
   }
-  /// Displacements follow what constraints did to velocities in a sub-step: `before` is what they were without.
+  /// Moves displacements by the change that constraints made to velocities; `before` are the velocities without it.
   ISO_INLINE void follow_constraints(const Axes<V>& velocity, const Axes<V>& before) {
     for (std::uint32_t i = 0; i < velocity.size(); ++i)
       move_on(i, detail::travelled<S>(saturating_subtract(velocity[i], before[i]), h));

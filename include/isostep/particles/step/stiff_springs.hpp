@@ -13,10 +13,10 @@
 
 namespace isostep {
 
-/// A stiff spring moves its ends, after everything else has moved them as if it were not there, by what its motion
-/// differs from that: the exact one where nothing else holds its ends. A constraint would undo the velocity of the
-/// exact motion's end, which says nothing about the way, and give the energy back as displacement: there the spring is
-/// taken by backward Euler, whose end velocity is that of the way.
+/// Moves the ends of stiff springs after everything else moved them as if the spring were not there, by the difference
+/// to the spring's motion. That is the exact motion if nothing else holds its ends. A constraint would undo the end
+/// velocity of the exact motion, which says nothing about the way, and give back the energy as displacement: then the
+/// spring moves by backward Euler, whose end velocity is that of the way.
 template <class S> class StiffSprings {
  public:
   using V = Velocity<S>;
@@ -24,9 +24,9 @@ template <class S> class StiffSprings {
 
   StiffSprings(ParticleState<S>& state, ParticleStep<S>& step);
 
-  /// Chooses, once a step, how each moves, by whether constraints or other stiff springs hold its ends too.
+  /// Chooses the motion of each spring, once a step, by whether constraints or other stiff springs hold its ends too.
   void prepare(std::span<const ParticleConstraint<S>> rows);
-  /// Changes velocities and displacements of all ends after the integration of a sub-step.
+  /// Changes velocities and displacements of all ends, after the integration of a sub-step.
   void swing();
   /// Adds them as forces, which they otherwise are not.
   void pull();

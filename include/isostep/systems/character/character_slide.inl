@@ -6,12 +6,12 @@
 
 namespace isostep {
 
-/// The obstacles in a character's way, the firmest first: fixed ones, other walkers, bodies that are pushed aside.
+/// The obstacles of a character, the firmest first: fixed bodies, other characters, bodies that it pushes aside.
 namespace detail::obstacle {
 inline constexpr std::uint8_t kFixed = 0, kWalks = 1, kDynamic = 2;
 }
 
-/// [m] The way up to a skin before the obstacle that it met.
+/// [m] Returns the travel along a direction to one skin before the hit, half of it towards another character.
 template <class S> S CharacterWalk<S>::travel(const Hit& hit, const Direction<S>& along) const {
   const S cosine = -dot(convert<S>(detail::unit_of<S>(along)), hit.normal);
   const S room = along.length * hit.fraction - character_.skin / max(cosine, detail::kGrazing<S>);
@@ -25,14 +25,14 @@ template <class S> void CharacterWalk<S>::touch(BodyId body, Vec3<S> point, Vec3
   if (touch_count_ < detail::kMostPlanes) touches_[touch_count_++] = {body, point, normal};
 }
 
-/// The plane without its slope; a ceiling, and a plane that looks straight up, as it is.
+/// Returns the normal without its vertical part, as of a vertical wall. A nearly vertical normal stays as it is.
 template <class S> Vec3<Unit<S>> CharacterWalk<S>::upright(Vec3<Unit<S>> normal) const {
   const Vec3<S> across = flat(convert<S>(normal));
   const Direction<S> d = detail::heading<S>(across);
   return d.length > detail::kGrazing<S> ? detail::unit_of<S>(d) : normal;
 }
 
-/// The way along one plane, or along the edge between two; a corner of three ends it, and so would a way back.
+/// Clips a way to one plane, or to the edge of two. Returns zero in a corner of three, and for a way that leads back.
 template <class S> Vec3<S> CharacterWalk<S>::clipped(Vec3<S> way, const Planes& planes) {
   const auto against = [&](Vec3<S> v) {
     for (int i = 0; i < planes.count; ++i) {
@@ -60,13 +60,13 @@ template <class S> Vec3<S> CharacterWalk<S>::clipped(Vec3<S> way, const Planes& 
   return Vec3<S>::zero();
 }
 
-/// The way up or down a floor that is the same over the horizontal.
+/// Returns a way up or down a floor that has the same horizontal part.
 template <class S> Vec3<S> CharacterWalk<S>::along_floor(Vec3<S> way, Vec3<Unit<S>> normal) const {
   const S slope = dot(convert<S>(normal), up_);
   return slope < detail::kGrazing<S> ? way : way - convert<S>(up_) * (dot(way, normal) / slope);
 }
 
-/// The way on from a plane, which joins those met before.
+/// Adds a plane to those that the move has met. Returns the way, clipped to all of them.
 template <class S>
 Vec3<S> CharacterWalk<S>::turned(Vec3<S> way, Vec3<S> point, Vec3<Unit<S>> normal, Gait gait, Planes& planes) const {
   const bool steep = is_steep(normal);
@@ -75,8 +75,8 @@ Vec3<S> CharacterWalk<S>::turned(Vec3<S> way, Vec3<S> point, Vec3<Unit<S>> norma
   return clipped(steep || gait != Gait::walks ? way : along_floor(way, normal), planes);
 }
 
-/// Turns a way by what it touches, without a cast, what it runs into most first. Floors turn nobody who walks: the edge
-/// of the next tile is near, but not in the way.
+/// Clips a way to the planes that the character touches, without a cast, the most opposed plane first. A walking
+/// character ignores floors: the edge of the next tile is near, but not in the way.
 template <class S>
 Vec3<S> CharacterWalk<S>::turned_by(std::span<const NearContact<S>> touching, Vec3<S> way, Gait gait, Planes& planes) {
   const Vec3<S> asked = way;
@@ -120,7 +120,7 @@ auto CharacterWalk<S>::slide(Vec3<S> way, Gait gait, std::span<const NearContact
   return planes;
 }
 
-/// The edge of a step looks steep to what is round: then its face counts, a little further in.
+/// Returns true if the hit is walkable. An edge looks steep to a round shape: then the face a little further in counts.
 template <class S> bool CharacterWalk<S>::is_walkable(const Hit& hit) {
   if (!is_steep(hit.normal)) return true;
   const Vec3<S> across = flat(convert<S>(hit.normal));

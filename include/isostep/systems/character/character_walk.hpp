@@ -15,26 +15,26 @@ inline constexpr int kMostSlides = 5;   // casts of a move
 inline constexpr int kMostPlanes = 8;   // that a move runs along
 inline constexpr int kMostWaysOut = 8;  // moves out of an overlap, of each look at what is near
 inline constexpr int kMostLooks = 3;    // at what is near, on a way out
-/// [m] The way a step by which it leaves an overlap, besides that of its ground.
+/// [m] The most that a step moves a character out of overlaps, beside the motion of its ground.
 template <class S> inline constexpr S kMostWayOut = S(0.125);
-/// [m] A shorter way is rounding.
+/// [m] The shortest way that is more than rounding.
 template <class S> inline constexpr S kLeastWay = S(0x1p-16);
-/// [1] The least cosine by which a skin counts along a way.
+/// [1] The cosine between a way and a normal below which the way grazes the plane.
 template <class S> inline constexpr S kGrazing = S(0.125);
-/// [1] The part of a skin within which contacts touch.
+/// [1] The distance in skins within which a contact touches.
 template <class S> inline constexpr S kTouchingSkins = S(1.0625);
-/// [m] The gain of way on from which a step up is worth taking.
+/// [m] The least progress for which a character takes a step up.
 template <class S> inline constexpr S kWorthAStep = S(0x1p-10);
-/// [1] The least sine of the angle between two planes that have an edge.
+/// [1] The least sine of the angle between two planes that form an edge.
 template <class S> inline constexpr S kLeastEdge = S(1.0 / 64);
-/// [1] The part of a way of one metre into a plane that is rounding.
+/// [1] The part of a unit way into a plane that counts as rounding.
 template <class S> inline constexpr S kPlaneSlack = S(0x1p-10);
-/// [1] The cosine of the angle between normals of one plane.
+/// [1] The cosine above which two normals belong to one plane.
 template <class S> inline constexpr S kOnePlane = S(1 - 0x1p-12);
-/// [m] The height above step_height that is rounding.
+/// [m] The excess over step_height that counts as rounding.
 template <class S> inline constexpr S kStepSlack = S(0x1p-11);
 
-/// The direction [1], and `size` [m] along it.
+/// Returns the direction as a unit vector [1], and the vector of length `size` [m] along it.
 template <class S> ISO_INLINE Vec3<Unit<S>> unit_of(const Direction<S>& d) { return {d.x, d.y, d.z}; }
 template <class S> ISO_INLINE Vec3<S> along(const Direction<S>& d, S size) {
   return {size * d.x, size * d.y, size * d.z};
@@ -42,23 +42,23 @@ template <class S> ISO_INLINE Vec3<S> along(const Direction<S>& d, S size) {
 template <class S> ISO_INLINE Direction<S> heading(Vec3<S> v) { return direction_of(v.x, v.y, v.z); }
 }  // namespace detail
 
-/// A character as a step moves it: what it is, what it is to do, how it was left. The walk writes the last two.
+/// A character during a step: its settings, its input and its state. The walk writes the last two.
 template <class S> struct Walker : CharacterSettings<S>, CharacterInput<S>, CharacterState<S> {};
 
-/// A body that a character met and may push.
+/// A body that a character touched and may push.
 template <class S> struct CharacterTouch {
   BodyId body;
   Vec3<S> point;         // [m] world
   Vec3<Unit<S>> normal;  // [1] towards the character
 };
 
-/// The memory that walks use again, one after the other.
+/// Scratch memory, which walks use one after another.
 template <class S> struct WalkMemory {
   std::vector<NearContact<S>> contacts, first;  // as they are now, and as they were at the first look
 };
 
-/// Input:   a character, its body's pose, what is around it. Output: the character as the step leaves it, way(), what
-///          it touched on its way.
+/// Input:   a character, its body's pose, its surroundings. Output: the character as the step leaves it, way(), the
+///          bodies that it touched on its way.
 template <class S> class CharacterWalk {
  public:
   struct Place {
@@ -71,17 +71,17 @@ template <class S> class CharacterWalk {
   CharacterWalk(Surroundings<S>& around, const Place& place, std::span<const std::uint8_t> walks, WalkMemory<S>& memory,
                 Walker<S>& character);
 
-  /// `carried` [m]: how far the ground under its foot has moved.
+  /// `carried` [m]: the motion of the ground under its foot in the step.
   void run(Vec3<S> carried);
 
   ISO_INLINE Vec3<S> way() const { return at_ - start_; }
   ISO_INLINE std::span<const CharacterTouch<S>> touches() const { return {touches_, touch_count_}; }
-  /// [m] The foot's point on the ground, world.
+  /// [m] The point of the ground below the foot, world.
   ISO_INLINE Vec3<S> foot() const { return foot_; }
 
  private:
   using Hit = ObstacleHit<S>;
-  /// Planes that a move has met.
+  /// The planes that a move has met.
   struct Planes {
     Vec3<Unit<S>> normals[detail::kMostPlanes];
     Vec3<S> points[detail::kMostPlanes];  // [m] of what was met, world
@@ -115,8 +115,8 @@ template <class S> class CharacterWalk {
   // character_slide.inl
   std::optional<Hit> cast(Vec3<S> way) { return around_.cast(at_, way); }
   S travel(const Hit& hit, const Direction<S>& along) const;
-  /// Moves along `way` as far as it goes. A character that does not fall finds slopes upright that are too steep; one
-  /// that walks goes up the others as fast as on the level.
+  /// Moves along `way` as far as possible. Unless a character falls, steep slopes act as vertical walls. A walking one
+  /// keeps its horizontal speed on all other slopes.
   enum class Gait { falls, rises, walks };
   Planes slide(Vec3<S> way, Gait gait, std::span<const NearContact<S>> touching);
   Vec3<S> turned_by(std::span<const NearContact<S>> touching, Vec3<S> way, Gait gait, Planes& planes);

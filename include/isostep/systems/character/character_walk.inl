@@ -39,7 +39,7 @@ template <class S> void CharacterWalk<S>::run(Vec3<S> carried) {
   find_ground(walks, carried);
 }
 
-/// Gathers the surroundings for all casts of the step, as a rule.
+/// Gathers the surroundings that, as a rule, hold all casts of the step.
 template <class S> void CharacterWalk<S>::look_around(Vec3<S> carried) {
   const S out = detail::kMostWayOut<S> + S(4) * character_.skin;
   const bool stood = character_.footing == Footing::floor;
@@ -54,8 +54,8 @@ template <class S> void CharacterWalk<S>::look_for_contacts() {
   contacts_at_ = at_;
 }
 
-/// Pushes the character out of the planes of what is near, the deepest first; false: not out of all. A convex shape
-/// lies behind its plane wherever the character goes. Another character gives way too, so half is enough.
+/// Pushes the character out of the planes of near contacts, the deepest first. Returns false if it is not out of all. A
+/// convex obstacle stays behind its plane wherever the character goes. Another character moves too, so half is enough.
 template <class S> bool CharacterWalk<S>::push_out(std::uint8_t least_firm) {
   for (int way = 0; way < detail::kMostWaysOut; ++way) {
     const NearContact<S>* deepest = nullptr;
@@ -71,7 +71,7 @@ template <class S> bool CharacterWalk<S>::push_out(std::uint8_t least_firm) {
   return false;
 }
 
-/// True once a look at what is near finds no overlap. The contacts of the first look must be there.
+/// Returns true once the character overlaps no obstacle of that firmness. Needs the contacts of the first look.
 template <class S> bool CharacterWalk<S>::move_out(std::uint8_t least_firm, S most) {
   const Vec3<S> begin = at_;
   for (int look = 0;;) {
@@ -88,8 +88,8 @@ template <class S> bool CharacterWalk<S>::move_out(std::uint8_t least_firm, S mo
   }
 }
 
-/// Leaves overlaps. Dynamic bodies wait where all together leave no room, for the character's body pushes them out as
-/// well; and where others who walk leave none either, at least those that stay where they are remain outside.
+/// Leaves overlaps. If there is no room beside dynamic bodies, ignores them: the character's body pushes them out as
+/// well. If there is none beside other characters either, leaves at least the fixed bodies.
 template <class S> void CharacterWalk<S>::leave_overlaps(S most) {
   const Vec3<S> begin = at_;
   look_for_contacts();
@@ -106,7 +106,7 @@ template <class S> void CharacterWalk<S>::leave_overlaps(S most) {
   move_out(detail::obstacle::kFixed, most);
 }
 
-/// [m/s] The speed of a way of one step, held near the limit: ground that a command puts elsewhere carries by any way.
+/// [m/s] The velocity of a motion [m] in one step, within its limit: a command may move the ground by any distance.
 template <class S> Vec3<S> CharacterWalk<S>::speed_of(Vec3<S> way) const {
   const S hz = S(place_.hz);
   return held_within(way, Limits<S>::speed() / hz) * hz;
@@ -115,7 +115,7 @@ template <class S> void CharacterWalk<S>::set_velocity(Vec3<S> velocity) {
   character_.velocity = held_within(velocity, Limits<S>::speed());
 }
 
-/// It keeps the velocity of its ground.
+/// Jumps, and keeps the velocity of the ground.
 template <class S> void CharacterWalk<S>::take_off(Vec3<S> carried) {
   set_velocity(flat(character_.move) + speed_of(carried) + convert<S>(up_) * character_.jump);
   character_.jump = S(0);
@@ -139,21 +139,21 @@ template <class S> void CharacterWalk<S>::fly() {
   character_.velocity = clipped(character_.velocity, planes);
 }
 
-/// Walks along the ground: over the horizontal as fast as is asked for.
+/// Walks along the ground with the horizontal speed that is asked for. Steps up if a step blocks it.
 template <class S> void CharacterWalk<S>::walk() {
   const Vec3<S> ahead = flat(character_.move) * h_, from = at_;
   const Planes planes = slide(along_floor(ahead, character_.normal), Gait::walks, memory_.contacts);
   if (S(0) < character_.step_height && is_blocked_by_steps(planes, from)) step_up(from, ahead);
 }
 
-/// [m] The height that a step up lifts it by. A round shape stands on an edge with its lowest point below it.
+/// [m] The height that a step up lifts it. The lowest point of a round shape on an edge is below the edge.
 template <class S> S CharacterWalk<S>::rise_of(Vec3<S> from) const {
   const S sunk = max(floor_ - dot(from, up_) + place_.below, S(0));
   return character_.step_height + sunk + character_.skin;
 }
 
-/// Steps block a way that met something steep which would be farther away from a step higher up: not a wall, or
-/// somebody else, of which the point that was met is in the way there too. Both being convex, it then is so in between.
+/// Returns true if a steep obstacle would be further away one step higher. A wall or another character would not: where
+/// it was met it is in the way up there too and, since both shapes are convex, at every height between.
 template <class S> bool CharacterWalk<S>::is_blocked_by_steps(const Planes& planes, Vec3<S> from) const {
   const Vec3<S> lift = convert<S>(up_) * rise_of(from);
   for (int i = 0; i < planes.count; ++i) {
@@ -164,7 +164,7 @@ template <class S> bool CharacterWalk<S>::is_blocked_by_steps(const Planes& plan
   return false;
 }
 
-/// Steps up, on, and down again: the step is taken if it ends on a floor, no higher than a step, and farther on.
+/// Steps up, forward and down. Keeps the step if it ends on a floor, no higher than a step, and further on.
 template <class S> bool CharacterWalk<S>::step_up(Vec3<S> from, Vec3<S> way) {
   const Vec3<S> reached = at_;
   const std::size_t touched = touch_count_;
@@ -195,7 +195,7 @@ template <class S> bool CharacterWalk<S>::step_up(Vec3<S> from, Vec3<S> way) {
   return true;
 }
 
-/// Finds the ground. A character that walks follows it down by a step.
+/// Finds the ground. A walking character follows it down by up to a step.
 template <class S> void CharacterWalk<S>::find_ground(bool walks, Vec3<S> carried) {
   const bool rises = !walks && character_.skin < dot(character_.velocity, up_);
   const S reach = (walks ? character_.step_height : character_.skin) + character_.skin;
@@ -211,20 +211,20 @@ template <class S> void CharacterWalk<S>::find_ground(bool walks, Vec3<S> carrie
   if (nearby) foot_ = hit->point;
 }
 
-/// A body supports if it stays where it is, within two skins.
+/// Returns true if the body is fixed and within two skins.
 template <class S> bool CharacterWalk<S>::supports(const NearContact<S>& contact) const {
   return walks_[contact.body.slot] == detail::obstacle::kFixed && separation_of(contact) < character_.skin * S(2);
 }
-/// Several bodies support it, among those that were near as the step began.
+/// Returns true if several near contacts of the start of the step support the character.
 template <class S> bool CharacterWalk<S>::has_supports() const {
   int count = 0;
   for (const NearContact<S>& contact : memory_.contacts) count += supports(contact) ? 1 : 0;
   return 1 < count;
 }
 
-/// [1] The steepest way down that planes leave, as long as the sine of its slope; zero where they hold.
-/// Symbols: of all ways that lead into no plane it is the one nearest to straight down, so it is down itself, or down
-///          less its part into one plane, or its part along the edge of two.
+/// [1] The steepest way down that the planes allow, as long as the sine of its slope. Zero where they hold.
+/// Of all ways that lead into no plane it is nearest to straight down. So it is down itself, or down less its part
+/// into one plane, or its part along the edge of two planes.
 template <class S> Vec3<S> CharacterWalk<S>::slide_of(const Planes& planes) const {
   const Vec3<S> down = -convert<S>(up_);
   Vec3<S> steepest = Vec3<S>::zero();
@@ -248,8 +248,8 @@ template <class S> Vec3<S> CharacterWalk<S>::slide_of(const Planes& planes) cons
   return steepest;
 }
 
-/// Stands the character on several planes that bear it and are too steep one by one: between two slopes, in a pit, on a
-/// slope against a wall. They bear it as one plane would on which it slid as steeply. Its ground is the flattest.
+/// Stands the character on several planes that are too steep one by one: between two slopes, in a pit, on a slope
+/// against a wall. They bear it like one plane on which it would slide as steeply. Its ground is the flattest of them.
 template <class S> bool CharacterWalk<S>::stand_between() {
   around_.find_contacts(at_, character_.skin * S(2), memory_.contacts);
   contacts_at_ = at_;
@@ -275,7 +275,7 @@ template <class S> bool CharacterWalk<S>::stand_between() {
   return true;
 }
 
-/// Stands the character on a hit that is `gap` [m] below.
+/// Stands the character on a hit, which is `gap` [m] below it.
 template <class S> void CharacterWalk<S>::stand_on(const Hit& hit, S gap) {
   const S rise = dot(convert<S>(hit.normal), up_);
   at_ += convert<S>(up_) * (character_.skin / max(rise, S(0.5)) - gap);

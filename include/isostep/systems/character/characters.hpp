@@ -12,9 +12,9 @@
 
 namespace isostep {
 
-/// Input:   the world as the step leaves it, and the characters.
-/// Output:  their bodies' poses, what the records tell, and forces for the next step on what they push and stand on.
-/// Order:   all look at the world before any moves, slot by slot; then all are put where they go, likewise.
+/// Input:   the world at the end of the step, and the characters.
+/// Output:  their bodies' poses, the states of the records, forces for the next step on what they push and stand on.
+/// Order:   slot by slot, all walk in the world as it was before any moved. Then all are moved, slot by slot.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class Characters {
  public:
@@ -25,7 +25,7 @@ template <class S> class Characters {
   void update();
 
  private:
-  /// A force that acts for the next step.
+  /// A force that acts during the next step.
   struct Push {
     BodyId body;
     Vec3<S> force, point;  // [N], [m] world
@@ -37,7 +37,7 @@ template <class S> class Characters {
   };
   using Place = typename CharacterWalk<S>::Place;
   void walk(std::uint32_t slot);
-  /// The shape and pose that asks for its surroundings.
+  /// The shape and pose whose surroundings are asked for.
   struct Asking {
     ShapeId shape;
     Pose<S> pose;  // of the body's origin

@@ -24,7 +24,7 @@ bool is_solid_for(const BodyMap<S>& map, const Walker<S>& character, const BodyP
   const bool masked = (part.traits.filter_or(other.filter).category & character.mask) == 0;
   return !masked && parts_collide(part.traits, other.filter, map.shapes.children_of(own.shape)[0].traits, own.filter);
 }
-/// The part of its ground whose surface is nearest to its foot, of equals the first.
+/// Returns the part of its ground whose surface is nearest to its foot. The first of equals.
 template <class S> std::uint32_t part_under(const BodyMap<S>& map, const Walker<S>& character) {
   const BodyProperties<S>& ground = *map.properties_of(character.ground);
   const std::span<const Child<S>> parts = map.shapes.children_of(ground.shape);
@@ -40,7 +40,7 @@ template <class S> std::uint32_t part_under(const BodyMap<S>& map, const Walker<
   }
   return nearest;
 }
-/// The surface that it stands on: its part's record, else its body's; null where there is none.
+/// Returns the surface velocity under its foot: the record of the part, else that of the body, else null.
 template <class S>
 const SurfaceVelocity<S>* belt_under(const WorldState<S>& state, const BodyMap<S>& map, const Walker<S>& character) {
   const SurfaceVelocity<S>* of_body = nullptr;
@@ -56,7 +56,7 @@ const SurfaceVelocity<S>* belt_under(const WorldState<S>& state, const BodyMap<S
   }
   return of_body;
 }
-/// [m] a step by which the surface of the ground runs under its foot.
+/// [m] The motion of the belt under its foot in a step.
 template <class S>
 Vec3<S> carried_by_belt(const WorldState<S>& state, const BodyMap<S>& map, const Walker<S>& character) {
   const SurfaceVelocity<S>* const belt = belt_under(state, map, character);
@@ -65,7 +65,7 @@ Vec3<S> carried_by_belt(const WorldState<S>& state, const BodyMap<S>& map, const
   const Step<S> h = divide_to<Step<S>>(S(1), S(state.settings.hz));
   return to_matrix(map.origin_pose_at(belt->body.slot).orientation) * (speed * h);
 }
-/// [m] The way of the ground's point on which the character stands. Fixed ground does not move, but for belts.
+/// [m] The motion of the ground point under its foot in a step. Static ground moves by its belts only.
 template <class S>
 Vec3<S> carried_by_ground(const WorldState<S>& state, const BodyMap<S>& map, const Walker<S>& character) {
   if (!state.body_slots.holds(character.ground)) return Vec3<S>::zero();
@@ -74,7 +74,7 @@ Vec3<S> carried_by_ground(const WorldState<S>& state, const BodyMap<S>& map, con
   const Pose<S> pose = map.origin_pose_at(character.ground.slot);
   return pose.position + to_matrix(pose.orientation) * character.foot - character.foot_at + by_belt;
 }
-/// [N] The force of a push that ends at a speed: no more than `most`, and no faster than that after a step.
+/// [N] The force that adds the speed `lacks` [m/s] in one step, at most `most`. 0 if it lacks none.
 template <class S> S push_on(S mass, S lacks, std::int32_t hz, S most) {
   if (!(S(0) < lacks)) return S(0);
   const S change = lacks * S(hz);  // [m/s^2]
@@ -134,7 +134,7 @@ template <class S> void Characters<S>::walk(std::uint32_t slot) {
   moves_.push_back({slot, character, walk.way()});
 }
 
-/// The filter of bodies that the character meets.
+/// Returns a filter that sees the bodies which the character meets.
 template <class S> QueryFilter Characters<S>::seen_by(const Walker<S>& character) {
   QueryFilter filter;
   filter.mask = character.mask;
@@ -142,7 +142,7 @@ template <class S> QueryFilter Characters<S>::seen_by(const Walker<S>& character
   return filter;
 }
 
-/// Lists its ghosts, kinds that its own passes, and the one-way bodies that it is not above of.
+/// Lists its ghosts, the kinds that its own kind passes, and the one-way bodies that it is not above.
 template <class S> void Characters<S>::find_passed(const Walker<S>& character, const Asking& asking) {
   passed_.clear();
   passed_kinds_.clear();
@@ -161,8 +161,8 @@ template <class S> void Characters<S>::find_passed(const Walker<S>& character, c
   }
 }
 
-/// Judges by the highest point of the body along its axis; or, where the body is not flat, by what is near. A body that
-/// rises may have overtaken the character's lowest point in this step.
+/// Returns true if the character is above the highest point of the body along its axis or, at a body that is not flat,
+/// in front of its contacts. A rising body may have overtaken the character's lowest point in this step.
 template <class S>
 bool Characters<S>::is_above(const Walker<S>& character, const Asking& asking, const OneWay<S>& way) {
   if (character.footing == Footing::floor && character.ground == way.body) return true;
@@ -190,7 +190,7 @@ bool Characters<S>::is_above(const Walker<S>& character, const Asking& asking, c
   return in_front;
 }
 
-/// [m] The highest point along an axis in the body's frame, from its origin, of what the character meets.
+/// [m] The highest point of the body along an axis, both in its frame, over the parts that are solid for the character.
 template <class S> S Characters<S>::highest_of(const Walker<S>& character, BodyId body, Vec3<Unit<S>> axis) const {
   const Vec3<Unit<S>> y = {Unit<S>(0), Unit<S>(1), Unit<S>(0)};
   const Transform<S> upright = Transform<S>::of({Vec3<S>::zero(), rotation_between(axis, y)});
@@ -210,7 +210,7 @@ template <class S> Vec3<S> Characters<S>::local_to(BodyId body, Vec3<S> point) c
   return transposed_times(to_matrix(pose.orientation), point - pose.position);
 }
 
-/// Pushes bodies in its way, until they are as fast as the character wants to be.
+/// Pushes bodies in its way, up to the speed that the character wants.
 template <class S> void Characters<S>::push_touched(const CharacterWalk<S>& walk, const Walker<S>& character) {
   const Vec3<S> wanted = character.footing == Footing::floor ? character.move : character.velocity;
   for (const CharacterTouch<S>& touch : walk.touches()) {
@@ -224,7 +224,7 @@ template <class S> void Characters<S>::push_touched(const CharacterWalk<S>& walk
   }
 }
 
-/// Dynamic ground has its weight.
+/// Puts the character's weight on dynamic ground.
 template <class S> void Characters<S>::bear(const Walker<S>& character) {
   if (character.footing != Footing::floor) return;
   if (map_.properties_at(map_.location(character.ground.slot)).type != BodyType::dynamic) return;
@@ -235,8 +235,8 @@ template <class S> void Characters<S>::bear(const Walker<S>& character) {
   pushes_.push_back({character.ground, detail::along<S>(down, weight), character.foot_at});
 }
 
-/// Puts the body as a command that sets its pose does, but drawn on its way: it goes there, it does not appear. So its
-/// fat box stays where it is for as long as it holds the body.
+/// Moves the body like a command that sets its pose, but drawing interpolates the motion. So its fat box stays as long
+/// as it contains the body.
 template <class S> void Characters<S>::put(const Move& move) {
   if (move.way == Vec3<S>::zero()) return;
   const std::uint32_t slot = move.character.body.slot;

@@ -13,7 +13,7 @@
 namespace isostep {
 
 /// Input:   the step's contacts, the materials of their bodies, the records.
-/// Output:  what the records say of the contacts of their kinds, ascending by contact.
+/// Output:  the response of each contact whose kinds have a record, ascending by contact.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class ContactResponses {
  public:

@@ -11,13 +11,13 @@
 namespace isostep {
 
 /// Input:   a step's contacts with their geometry.
-/// Output:  the same without those that stop what slides from one tile, belt or part to the next one.
+/// Output:  the same without those that stop a body as it slides from one tile, belt or part to the next one.
 /// Keeps:   nothing from step to step but memory.
-/// Method:  a body rests on the plane of one contact, so in this step it gets no deeper than that. What lies behind the
-///          plane it cannot run into: a contact with that along another normal is that of a side or an edge which the
-///          surfaces beside hide. It is left out, or where it leans little gets the plane's normal, for what hangs over
-///          may need it to rest on. Two parts each behind the plane of the other are a ridge, and both count. Parts of
-///          static and kinematic bodies alone hide one another; triangles of one surface know their neighbours.
+/// Method:  a body rests on the plane of one contact, so it gets no deeper than that in this step, and cannot hit what
+///          lies behind the plane. A contact with that along another normal is with a side or an edge that the surfaces
+///          beside it hide. It is left out or, if it leans little, gets the normal of the plane: an overhanging body
+///          may rest on it. Two parts that are each behind the other's plane form a ridge: both count. Only parts of
+///          static and kinematic bodies hide one another. Triangles of one surface know their neighbours.
 template <class S> class FlushContacts {
  public:
   using U = Unit<S>;
@@ -32,14 +32,14 @@ template <class S> class FlushContacts {
   static constexpr double kLeans = 0.98;    // [1] cosine, of 11 degrees
   static constexpr S kFlush = S(0x1p-9);    // [m] what stands out by less is pushed over as overlap
 
-  /// A contact as the moving body sees it.
+  /// A contact, seen from its moving body.
   struct Seen {
     Vec3<U> normal;            // [1] out of the ground
     std::uint32_t mover, row;  // slot and row of the moving body
     std::uint32_t ground, leaf;
     S plane;  // [m] of the ground along the normal, from the moving body's centre of mass
   };
-  /// Its ground, seen from the moving body's centre of mass.
+  /// The ground part of a contact, relative to the moving body's centre of mass.
   struct Part {
     ShapeView<S> shape;
     Transform<S> at;

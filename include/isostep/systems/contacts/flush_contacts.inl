@@ -31,7 +31,7 @@ void FlushContacts<S>::update(std::vector<Contact<S>>& contacts, std::vector<Con
   geometry.resize(kept);
 }
 
-/// Chains the contacts of each moving body with what stands; others are chained to themselves. False: no body has two.
+/// Chains the contacts of each moving body with fixed ones, others to themselves. Returns false if no body has two.
 template <class S> bool FlushContacts<S>::chain(const std::vector<ContactGeometry<S>>& geometry) {
   const std::size_t bodies = state_.awake.properties.size();
   stands_.resize(bodies + 1);
@@ -71,7 +71,7 @@ template <class S> auto FlushContacts<S>::part_of(const Seen& seen) const -> Par
           detail::leaves_of_part(ground, leaf.child)};
 }
 
-/// True if it reaches no further along a normal than a plane does.
+/// Returns true if the part reaches no further along the normal than the plane.
 template <class S> bool FlushContacts<S>::is_behind(const Part& part, Vec3<U> normal, S plane) {
   S reach = -highest<S>();
   if (part.is_of_surface()) {

@@ -16,7 +16,7 @@
 
 namespace isostep {
 
-/// What records say of a step's contacts.
+/// Holds the rules that records set for the contacts of a step.
 template <class S> struct ContactRules {
   std::span<const std::uint64_t> apart = {};  // pairs of bodies that do not touch, ascending
   const Belts<S>* belts = nullptr;            // null: none
@@ -26,27 +26,27 @@ template <class S> struct ContactRules {
 /// Output:  WorldState::contacts, ascending by key, with the impulses of the contacts that they continue; their
 ///          geometry; the overlaps of sensors.
 /// Keeps:   nothing from step to step but memory.
-/// Method:  PartPairs gathers pairs of parts in groups. Each pair of a group fills a manifold of its own, so groups are
-///          collided in any order, and those of one flat surface joined; then manifolds are merged in order with the
-///          last step's contacts.
+/// Method:  PartPairs gathers pairs of parts in groups. Each pair fills a manifold of its own, so groups are collided
+///          in any order. Manifolds on one flat surface are joined. Then manifolds are merged, in order, with the
+///          contacts of the last step.
 template <class S> class NarrowPhase {
  public:
   ISO_INLINE NarrowPhase(WorldState<S>& state, const BodyMap<S>& map)
       : state_(state), map_(map), part_pairs_(state, map), flush_(state, map) {}
 
-  /// Returns how many pairs of compounds lack parts, because the budget is used up. A step with many pairs is shared
-  /// among the threads of `tools`.
+  /// Returns the number of compound pairs that lack parts because the budget is used up. A step with many pairs is
+  /// shared among the threads of `tools`.
   std::uint32_t update(std::span<const std::uint64_t> pairs, const StepTools<S>& tools,
                        const ContactRules<S>& rules = {});
 
   /// Parallel to the contacts.
   ISO_INLINE const std::vector<ContactGeometry<S>>& geometry() const { return geometry_; }
-  /// Of the last step.
+  /// The contacts of the last step.
   ISO_INLINE const std::vector<Contact<S>>& old_contacts() const { return old_contacts_; }
-  /// Ascending but for what bodies of higher slots see; SensorOverlaps takes them over.
+  /// Ascending, except where the sensor has the higher slot. SensorOverlaps takes them over.
   ISO_INLINE std::vector<SensorOverlap>& overlaps() { return overlaps_; }
 
-  /// As PartPairs has them.
+  /// See PartPairs::joined_pairs().
   ISO_INLINE std::span<const std::uint64_t> joined_pairs() const { return part_pairs_.joined_pairs(); }
 
   template <class Visit> void visit_scratch(const Visit& visit) {
@@ -74,7 +74,7 @@ template <class S> class NarrowPhase {
   void join_flat(const PairRun<S>& run) const;
   std::uint32_t join_flat(const PairRun<S>& run, std::uint32_t begin) const;
   bool lie_alike(const PartPair& x, const PartPair& y) const;
-  /// Whether one of the two is a sensor: they have no contact.
+  /// Returns true if one of the two parts is a sensor: such a pair has no contact.
   ISO_INLINE bool is_sensed(const PartPair& pair) const {
     const BodyFrame<S>&a = part_pairs_.frames()[pair.frame_a], &b = part_pairs_.frames()[pair.frame_b];
     return (a.senses || b.senses) && (is_sensor_leaf(a, pair.child_a) || is_sensor_leaf(b, pair.child_b));

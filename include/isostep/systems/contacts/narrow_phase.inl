@@ -14,7 +14,7 @@
 namespace isostep {
 
 namespace detail {
-/// Whether both have the same points in the same order, and no name twice: then every impulse stays where it is.
+/// Returns true if both have the same features in the same order, each once: then every impulse stays where it is.
 template <class S> ISO_INLINE bool has_same_points(const Contact<S>& old, const Contact<S>& contact) {
   const std::uint32_t *f = old.features, *g = contact.features;
   if (old.count != contact.count || f[0] != g[0] || f[1] != g[1] || f[2] != g[2] || f[3] != g[3]) return false;
@@ -23,8 +23,8 @@ template <class S> ISO_INLINE bool has_same_points(const Contact<S>& old, const 
   return distinct2 && distinct3 && (old.count < 4 || (f[0] != f[3] && f[1] != f[3] && f[2] != f[3]));
 }
 
-/// Points keep the impulse of their feature. What no feature claims is shared among the points that found none: when
-/// two boxes trade places as reference every feature changes at once, and the load they carry must not vanish with the
+/// Gives each point the impulse of its feature. Points without one share the impulses that no feature claims: when the
+/// reference box of a pair changes, all features change at once, and the load that they carry must not vanish with the
 /// names.
 template <class S> void inherit_impulses(const Contact<S>& old, Contact<S>& contact) {
   using V = Velocity<S>;
@@ -52,12 +52,12 @@ template <class S> void inherit_impulses(const Contact<S>& old, Contact<S>& cont
     if ((missing >> p & 1u) != 0) contact.normal_impulse[p] = share;
   }
 }
-/// The old contacts of two bodies with surfaces among their parts.
+/// Holds the old contacts of two bodies with surfaces among their parts.
 template <class S> struct TriangleContacts {
   std::span<const Contact<S>> of_bodies;
   bool surface_is_b;
 
-  /// A feature of a convex that goes from one triangle to the next: its name is the same, its contact another.
+  /// Returns the contact with a feature of the convex, also on another triangle: the feature keeps its name there.
   ISO_INLINE const Contact<S>* holder_of(const ContactKey& key, std::uint32_t feature, std::uint32_t& point) const {
     for (const Contact<S>& old : of_bodies) {
       if (surface_is_b ? old.key.child_a != key.child_a : old.key.child_b != key.child_b) continue;
@@ -68,8 +68,8 @@ template <class S> struct TriangleContacts {
     return nullptr;
   }
 };
-/// Points that touch and have no impulse take that of their feature on another triangle, and a contact without friction
-/// takes its share of that contact's.
+/// Gives touching points without impulse that of their feature on another triangle. A new contact also takes its share
+/// of the friction impulse there.
 template <class S>
 void inherit_across_edges(const TriangleContacts<S>& old, const ContactGeometry<S>& g, bool is_new,
                           Contact<S>& contact) {
@@ -126,7 +126,7 @@ template <class S> void NarrowPhase<S>::update_alone() {
   }
 }
 
-/// The same by threads: frames, collisions and merging side by side, what counts places in between one after another.
+/// Updates on threads: frames, collisions and merging run in parallel, serial stages between them count places.
 template <class S> void NarrowPhase<S>::update_shared(const TaskRunner& runner) {
   pieces_ = min(4 * static_cast<std::uint32_t>(runner.threads), kMaxPieces);
   const std::uint32_t stages[] = {pieces_, 1, pieces_, 1, pieces_};  // of run_piece
@@ -162,8 +162,8 @@ template <class S> void NarrowPhase<S>::run_piece(void* data, std::uint32_t stag
   });
 }
 
-/// Every pair fills its own count and manifold and reads frames alone: with room for all of them, groups may be
-/// collided at once.
+/// Collides one group. Every pair writes only its own count and manifold and reads only frames. With room for all
+/// manifolds, groups may run in parallel.
 template <class S>
 void NarrowPhase<S>::collide_group(std::size_t index, std::uint8_t* counts, Manifold<S>* manifolds) const {
   const PartGroup group = part_pairs_.group(index);
@@ -196,8 +196,8 @@ template <class S> void NarrowPhase<S>::collide_others(const PairRun<S>& run) co
   }
 }
 
-/// Joins the manifolds of a convex part on one flat piece of one material: the first of them becomes that of all, and
-/// the others have none.
+/// Joins the manifolds of a convex part on one flat surface of one material. The first of them becomes the manifold of
+/// all, the others become empty.
 template <class S> void NarrowPhase<S>::join_flat(const PairRun<S>& run) const {
   std::uint32_t i = run.begin;
   while (i < run.end) {
@@ -206,7 +206,7 @@ template <class S> void NarrowPhase<S>::join_flat(const PairRun<S>& run) const {
     i = (a.surfaces || b.surfaces) && !is_sensed(pair) ? join_flat(run, i) : i + 1;
   }
 }
-/// Joins those of two bodies; returns where those of the next two begin.
+/// Joins the manifolds of one pair of bodies. Returns the index at which the next pair begins.
 template <class S> std::uint32_t NarrowPhase<S>::join_flat(const PairRun<S>& run, std::uint32_t begin) const {
   constexpr S kTie = S(0x1p-12);  // [m] what lies level differs by less
   const PartPair& bodies = run.pairs[run.order[begin]];
@@ -234,7 +234,7 @@ template <class S> std::uint32_t NarrowPhase<S>::join_flat(const PairRun<S>& run
   }
   return end;
 }
-/// True if pairs of the same two bodies are of one convex part, and of triangles of one material and belt.
+/// Returns true if two pairs of the same bodies share the convex part, and the material and belt of their triangles.
 template <class S> bool NarrowPhase<S>::lie_alike(const PartPair& x, const PartPair& y) const {
   const std::vector<BodyFrame<S>>& frames = part_pairs_.frames();
   const bool of_a = frames[x.frame_a].surfaces;
@@ -295,7 +295,7 @@ ISO_INLINE void NarrowPhase<S>::fill_contact(const PartPair& parts, const Manifo
   if (!a.mixes_alone || !b.mixes_alone) settle_friction(parts, contact, g);
 }
 
-/// Of a contact of bodies that report, or of whose parts some do.
+/// Returns kReported if one of the two parts reports contacts, itself or through its body.
 template <class S>
 std::uint32_t NarrowPhase<S>::reported_flag(const BodyFrame<S>& a, const BodyFrame<S>& b, const ContactKey& key) const {
   const auto reports = [&](const BodyFrame<S>& body, std::uint32_t leaf) {
@@ -305,7 +305,7 @@ std::uint32_t NarrowPhase<S>::reported_flag(const BodyFrame<S>& a, const BodyFra
   return reports(a, key.child_a) || reports(b, key.child_b) ? contact_flag::kReported : 0u;
 }
 
-/// Of a contact of a material that does not mix alone: by its pair's record, if there is one, and as it slips.
+/// Sets the friction of a contact whose materials do not simply mix, from their pair's record and by the slip.
 template <class S>
 void NarrowPhase<S>::settle_friction(const PartPair& parts, const Contact<S>& contact, ContactGeometry<S>& g) const {
   using Arms = detail::ContactArms<S>;
@@ -334,7 +334,7 @@ void NarrowPhase<S>::settle_friction(const PartPair& parts, const Contact<S>& co
   surface.first_slip = slip_at({g.points[0].arm_a, g.points[0].arm_b});
   choose_friction(surface, contact.friction_impulse, g);
 }
-/// Those of the key's bodies, of which the cursor is among or beside.
+/// Returns the old contacts of the key's bodies. The cursor is among them or next to them.
 template <class S>
 std::span<const Contact<S>> NarrowPhase<S>::old_contacts_of(const ContactKey& key, std::size_t cursor) const {
   const auto same = [&](std::size_t i) {
@@ -346,8 +346,8 @@ std::span<const Contact<S>> NarrowPhase<S>::old_contacts_of(const ContactKey& ke
   return std::span(old_contacts_).subspan(begin, end - begin);
 }
 
-/// Makes room for a group's contacts behind those there are; notes which sensors it touches. Returns where they begin.
-/// Contacts are written over those of the step before the last: nothing is cleared first.
+/// Makes room for a group's contacts behind the existing ones, and notes sensor overlaps. Returns the first place.
+/// Contacts overwrite those of the step before the last, so nothing is cleared first.
 template <class S> std::size_t NarrowPhase<S>::place_group(std::size_t index, const std::uint8_t* counts) {
   const PartGroup group = part_pairs_.group(index);
   const std::vector<BodyFrame<S>>& frames = part_pairs_.frames();
@@ -368,7 +368,7 @@ template <class S> std::size_t NarrowPhase<S>::place_group(std::size_t index, co
   return first;
 }
 
-/// The manifolds of one group become contacts, in order, from `next` on.
+/// Turns the manifolds of one group into contacts, in order, from `next` on.
 template <class S>
 void NarrowPhase<S>::merge_group(std::size_t index, const std::uint8_t* counts, const Manifold<S>* manifolds,
                                  std::size_t next, std::size_t& old_cursor) {
@@ -381,7 +381,7 @@ void NarrowPhase<S>::merge_group(std::size_t index, const std::uint8_t* counts, 
   }
 }
 
-/// The first of the last step's contacts that any of a group's may continue.
+/// Returns the first of the last step's contacts that a pair of the group may continue.
 template <class S> std::size_t NarrowPhase<S>::first_old_contact(std::size_t index) const {
   const std::vector<BodyFrame<S>>& frames = part_pairs_.frames();
   const PartPair& part = part_pairs_.group(index).parts.front();

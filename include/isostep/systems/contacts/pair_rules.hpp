@@ -14,8 +14,8 @@
 namespace isostep {
 
 /// Input:   the state as a step begins, with the last step's contacts; the pairs of the broad phase, ascending.
-/// Output:  pairs that do not touch in the step, ascending; Ghost records without those that are apart by now, and with
-///          new ones of what overlaps a one-way body from the wrong side.
+/// Output:  pairs that do not touch in the step, ascending. Ghost records without those whose bodies are apart by now,
+///          and with new ones for bodies that overlap a one-way body from the wrong side.
 /// Order:   records end by slot, then begin by pair. Serial: few pairs meet a one-way body for the first time.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class PairRules {
@@ -35,7 +35,7 @@ template <class S> class PairRules {
     nearby,  // from the wrong side, hardly deeper than they touch: no contact
     passes   // from the wrong side
   };
-  /// The bodies of a pair, and what is one-way of them.
+  /// The bodies of a pair, and their one-way records.
   struct Meeting {
     const BodyState<S>*a, *b;  // null: it does not move
     const Way<S>*way_a, *way_b;

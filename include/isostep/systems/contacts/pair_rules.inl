@@ -11,8 +11,8 @@
 namespace isostep {
 
 namespace detail {
-/// [m] What overlaps less, from the wrong side, is only near yet: what slides onto a body from the floor beside it may
-/// meet its side first, for as long as that is less deep than the floor is.
+/// [m] A shallower overlap from the wrong side counts as near only: a body that slides from a floor onto the one beside
+/// it may meet its side first, as deep as it lies in the floor.
 template <class S> inline constexpr S kPassingDepth = S(0x1p-7);
 }  // namespace detail
 
@@ -50,7 +50,7 @@ template <class S> void PairRules<S>::end_ghosts() {
   for (const std::uint32_t slot : ended_) changed.remove_at(slot);
 }
 
-/// Pairs of kinds that pass each other.
+/// Adds the pairs of kinds that pass each other.
 template <class S> void PairRules<S>::add_kinds(std::span<const std::uint64_t> pairs) {
   kinds_.update(state_.records->kind_ghosts);
   if (kinds_.empty()) return;
@@ -60,7 +60,7 @@ template <class S> void PairRules<S>::add_kinds(std::span<const std::uint64_t> p
   }
 }
 
-/// A sensor and the body that it goes with; all pairs of one on a body that is disabled.
+/// Adds each sensor with its carrier, and all pairs of a sensor whose carrier is disabled.
 template <class S> void PairRules<S>::add_mounts(std::span<const std::uint64_t> pairs) {
   const std::vector<SensorMount<S>>& mounts = state_.records->sensor_mounts.all();
   bool any_blind = false;
@@ -80,7 +80,7 @@ template <class S> void PairRules<S>::add_mounts(std::span<const std::uint64_t> 
   }
 }
 
-/// [m] that a character keeps from what is in its way; 0 of other bodies.
+/// [m] The distance that a character keeps from obstacles. 0 for other bodies.
 template <class S> S PairRules<S>::skin_of(BodyId body) const {
   const auto& characters = state_.records->characters;
   const CharacterId id =
@@ -88,7 +88,7 @@ template <class S> S PairRules<S>::skin_of(BodyId body) const {
   return id ? characters.find(id)->skin : S(0);
 }
 
-/// Where both lie still their boxes alone are compared, for somebody may have put them elsewhere.
+/// Returns true if two bodies still meet. Compares only boxes if neither is awake: a command may have moved them.
 template <class S> bool PairRules<S>::still_meet(BodyId a, BodyId b) const {
   const std::uint32_t low = min(a.slot, b.slot), high = max(a.slot, b.slot);
   const Location at_low = map_.location(low), at_high = map_.location(high);
@@ -122,7 +122,7 @@ template <class S> void PairRules<S>::judge_pairs(std::span<const std::uint64_t>
   sort();
 }
 
-/// Not of ghosts, sleepers and sensors, nor of what has contacts already.
+/// Returns false for ghosts, sleepers, sensors and pairs that already have contacts.
 template <class S> bool PairRules<S>::may_judge(std::uint64_t key) const {
   const std::uint32_t a = pair_a(key), b = pair_b(key);
   const std::size_t ghost = lower_bound(ghosts_, [&](std::size_t i) { return apart_[i] < key; });
@@ -133,7 +133,7 @@ template <class S> bool PairRules<S>::may_judge(std::uint64_t key) const {
   return detail::contacts_of<S>(state_.contacts, a, b).empty();
 }
 
-/// One contact in front is enough: what lands on an edge of several parts touches their sides as well.
+/// Judges how a pair meets. One contact in front makes it solid: a body on an edge of several parts touches sides too.
 template <class S> typename PairRules<S>::Verdict PairRules<S>::judge(std::uint64_t key) const {
   if (!map_.is_pushed(pair_a(key), pair_b(key))) return Verdict::open;
   constexpr S kMargin = detail::kSpeculativeDistance<S>;
@@ -161,7 +161,7 @@ template <class S> typename PairRules<S>::Verdict PairRules<S>::judge(std::uint6
   return verdict;
 }
 
-/// Whether the bodies that are one-way stop the other one there.
+/// Returns true if the one-way bodies of the pair stop the other body at this manifold.
 template <class S>
 bool PairRules<S>::is_in_front(const Meeting& pair, const Manifold<S>& manifold, Vec3<S> from_a_to_b) const {
   ContactGeometry<S> g = {};

@@ -13,9 +13,9 @@
 
 namespace isostep {
 
-/// Pairs of parts that are collided and merged together: they fit in a core's cache. The lists are places in `parts`,
-/// ascending: of two plain spheres, of two plain boxes, of anything else. What a body meets of one with surfaces is in
-/// one group, so that triangles in one plane are known together.
+/// Pairs of parts that are collided and merged together, because they fit in a core's cache. The lists hold ascending
+/// places in `parts`: pairs of plain spheres, pairs of plain boxes, all others. A group has all pairs of a body with
+/// one that has surfaces, so that triangles in one plane are known together.
 struct PartGroup {
   static constexpr std::size_t kEnough = 256;  // pairs
   static constexpr std::size_t kMost = 4096;   // pairs, of a body on a fine mesh
@@ -25,29 +25,29 @@ struct PartGroup {
 };
 
 /// Input:   the state, the pairs of the broad phase in ascending order.
-/// Output:  frames and materials of the bodies; the pairs of parts, ascending by their contacts' keys. Pairs that a
-///          joint, a rule or the parts' own filters keep from colliding are left out, and some of a throng.
+/// Output:  frames and materials of the bodies; the pairs of parts, ascending by their contacts' keys. Leaves out pairs
+///          that a joint, a rule or the parts' own filters keep from colliding, and some of a throng.
 /// Keeps:   nothing from step to step but memory.
 /// Budget:  compounds may compare 64 pairs of parts and collide 2 for each pair of bodies that Settings::most_pairs
-///          allows: comparing takes a hundredth of what a contact takes. Beyond it every pair of bodies gets the same
+///          allows: a comparison costs a hundredth of a contact. Beyond the budget every pair of bodies gets the same
 ///          share.
 template <class S> class PartPairs {
  public:
   ISO_INLINE PartPairs(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
-  /// Calls in this order: begin, frame_awake_body for each awake body in any order or at once, gather.
+  /// Call in this order: begin, frame_awake_body for each awake body in any order or in parallel, gather.
   void begin(std::span<const std::uint64_t> apart = {});
   void frame_awake_body(std::size_t index);
-  /// Returns how many pairs of compounds lack parts, because the budget is used up.
+  /// Returns the number of compound pairs that lack parts because the budget is used up.
   std::uint32_t gather(std::span<const std::uint64_t> pairs);
-  /// The same, of the last `gather`.
+  /// Returns the result of the last `gather`.
   ISO_INLINE std::uint32_t cut_compounds() const { return cut_compounds_; }
 
   /// Pairs of bodies that joints and rules keep from colliding, ascending.
   ISO_INLINE std::span<const std::uint64_t> joined_pairs() const { return joined_pairs_; }
-  /// True if bodies begin in one place, so that gather() leaves out some of their pairs.
+  /// Returns true if bodies begin in one place, so that gather() leaves out some of their pairs.
   ISO_INLINE bool any_throng() const { return throng_.any(); }
-  /// Of awake bodies in their order, then of those that they might touch.
+  /// The frames of awake bodies in their order, then of the other bodies that they might touch.
   ISO_INLINE const std::vector<BodyFrame<S>>& frames() const { return frames_; }
   ISO_INLINE const std::vector<Material<S>>& materials() const { return materials_; }
   ISO_INLINE std::size_t groups() const { return groups_.size(); }
@@ -61,18 +61,18 @@ template <class S> class PartPairs {
   }
 
  private:
-  /// A body's place among the frames, and what tells how it collides: its PartKind and the bits below.
+  /// A body's place among the frames, and its collision traits: its PartKind and the bits below.
   struct Framed {
     static constexpr std::uint32_t kNone = 0xffffffffu;
     static constexpr std::uint32_t kSenses = 1u << 8, kAsleep = 1u << 9;
     std::uint32_t index = kNone;
     std::uint32_t traits = 0;
   };
-  /// Where all parts and each list stand when a group begins.
+  /// The sizes of all lists as a group begins.
   struct ListEnds {
     std::uint32_t parts, spheres, boxes, others;
   };
-  /// Two parts that are compared, and two that are collided.
+  /// Numbers of pairs of parts that may be compared, and that may be collided.
   struct Budget {
     std::uint64_t looks, parts;
   };

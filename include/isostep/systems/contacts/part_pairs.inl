@@ -26,7 +26,7 @@ template <class S> void PartPairs<S>::collect_joined_pairs(std::span<const std::
   stable_sort(joined_pairs_.data(), sort_scratch_.data(), static_cast<std::uint32_t>(joined_pairs_.size()), OwnKey{});
 }
 
-/// Frames of awake bodies come first, in their order; what they meet is added as it is met.
+/// Places the frames of awake bodies first, in their order. Frames of other bodies are added when they are met.
 template <class S> void PartPairs<S>::make_room_for_frames() {
   const std::size_t count = state_.awake.states.size();
   for (const std::uint32_t slot : framed_slots_) framed_[slot] = Framed{};
@@ -70,7 +70,7 @@ template <class S> void PartPairs<S>::find_throng(std::span<const std::uint64_t>
   if (!throng_.any()) return;
   for (const std::uint64_t key : pairs) throng_.count(framed_[pair_a(key)].index, framed_[pair_b(key)].index);
 }
-/// False: all together do not fit.
+/// Returns false if the pairs exceed the budget `all`.
 template <class S> bool PartPairs<S>::gather(std::span<const std::uint64_t> pairs, Budget each, Budget all) {
   parts_.clear();
   groups_.clear();
@@ -95,7 +95,7 @@ template <class S> bool PartPairs<S>::gather(std::span<const std::uint64_t> pair
   }
   return true;
 }
-/// Takes from `all` what it uses, at most `each`. False: more was there.
+/// Uses at most `each`, and takes it from `all`. Returns false if the pair needs more.
 template <class S> bool PartPairs<S>::gather_others(Framed at_a, Framed at_b, const Budget& each, Budget& all) {
   const std::uint32_t either = at_a.traits | at_b.traits;
   const bool sensor = (either & Framed::kSenses) != 0, asleep = (either & Framed::kAsleep) != 0;
@@ -119,7 +119,7 @@ template <class S> bool PartPairs<S>::gather_others(Framed at_a, Framed at_b, co
   all.parts -= most_parts - parts;
   return whole;
 }
-/// Sleepers and bodies that nothing pushes do not press on each other, but they are seen.
+/// Returns true if two parts are sensed, or press on each other. Sleepers and unpushed bodies are only sensed.
 template <class S>
 bool PartPairs<S>::meet(const BodyFrame<S>& a, std::uint32_t i, const BodyFrame<S>& b, std::uint32_t j,
                         bool presses) const {

@@ -10,7 +10,7 @@
 
 namespace isostep {
 
-/// Kernels of one instruction set, and the threads that help.
+/// Holds the kernels of one instruction set, and the threads that help.
 template <class S> struct StepTools {
   const ContactKernels<S>* contact_kernels;
   const PairKernels<S>* pair_kernels;
@@ -18,7 +18,7 @@ template <class S> struct StepTools {
   const BodyKernels<S>* body_kernels;
   TaskRunner runner;
 
-  /// False, and no change, where this processor or build lacks the instruction set.
+  /// Returns false, with no change, if the CPU or the build lacks the instruction set.
   ISO_INLINE bool use_simd(Simd simd) {
     const ContactKernels<S>* kernels = isostep::contact_kernels<S>(simd);
     if (kernels == nullptr) return false;

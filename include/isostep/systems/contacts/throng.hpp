@@ -11,21 +11,21 @@
 
 namespace isostep {
 
-/// Each of n bodies in one place overlaps all others. All n^2 / 2 contacts push at once, and what one relaxes another
-/// has pushed: a thousand crates leave at 70 m/s, and a step takes seconds. A few partners push a body out as well.
+/// Each of n bodies in one place overlaps all others. All n^2 / 2 contacts push at once, and each undoes what others
+/// did: a thousand crates leave at 70 m/s, and a step takes seconds. A few partners push a body out as well.
 /// Input:   a step's pairs and the frames of its awake bodies.
-/// Output:  which pairs are left out.
+/// Output:  the pairs that are left out.
 /// Method:  a pair is deep if its centres are nearer than kDeep of the smaller inner radius. Of the pairs of two bodies
-///          with more deep ones than kDeepest each, about kPartners a body are kept, by a hash of their slots: the
-///          choice is a function of the state, and stays the same while the throng does.
-/// Limits:  bodies of several parts, and what no contact moves, are none of a throng. Steps with fewer than kFew pairs
-///          a body are not looked at; bodies that touch are two inner radii apart, so a heap has no deep pairs.
+///          with more than kDeepest deep pairs each, about kPartners a body are kept, by a hash of their slots: a
+///          function of the state, which stays the same as long as the throng.
+/// Limits:  bodies of several parts, and bodies that no contact moves, belong to no throng. A step with fewer than kFew
+///          pairs a body is not searched. Bodies that touch are two inner radii apart: a heap has no deep pairs.
 template <class S> class Throng {
  public:
   /// Begins with the frames and properties of all awake bodies, in their order.
   void begin(std::span<const BodyFrame<S>> frames, std::span<const BodyProperties<S>> bodies, std::size_t pairs);
   ISO_INLINE bool any() const { return !members_.empty(); }
-  /// Counts a pair by its frames; after all pairs leaves_out() knows.
+  /// Counts a pair by its frames. Call it for all pairs before leaves_out().
   ISO_INLINE void count(std::uint32_t a, std::uint32_t b) {
     if (members_.size() <= max(a, b)) return;
     Member &of_a = members_[a], &of_b = members_[b];
@@ -37,7 +37,7 @@ template <class S> class Throng {
     ++of_b.deep;
   }
   bool leaves_out(std::uint32_t a, std::uint32_t b) const;
-  /// [1] Two balls of a throng with the same centre are pushed apart along it: along one axis all would pile up on it.
+  /// [1] The direction that separates two balls of a throng with one centre. Along one axis all would pile up on it.
   static Vec3<Unit<S>> way_apart(std::uint32_t slot_a, std::uint32_t slot_b);
 
  private:

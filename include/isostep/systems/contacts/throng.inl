@@ -13,7 +13,7 @@ namespace detail {
 ISO_INLINE Pcg32 draws_of_pair(std::uint32_t slot_a, std::uint32_t slot_b) {
   return Pcg32::seeded(std::uint64_t{slot_a} << 32 | slot_b);
 }
-/// [m] 0 of what has several parts.
+/// [m] The inner radius of a solid body of one part, 0 for all others.
 template <class S> S throng_reach(const BodyFrame<S>& body) {
   if (!body.plain || body.senses || body.surfaces) return S(0);
   if (body.kind == PartKind::sphere) return body.radius;

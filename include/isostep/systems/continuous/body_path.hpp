@@ -8,13 +8,13 @@
 
 namespace isostep {
 
-/// A part of the step as pieces count it.
+/// A piece of a path: its index, and the number of pieces.
 struct PathPiece {
   std::uint32_t index, count;
 };
 
-/// Its centre goes at constant speed; its turns go in pieces of less than half a turn each. What goes straight in the
-/// first piece is `centre` [m], in the body's frame; in the others it is the centre of mass.
+/// The motion of a body in a step. Its centre has constant speed; it turns in pieces of less than half a turn each. In
+/// the first piece the point `centre` [m] of the body's frame moves straight, later the centre of mass.
 template <class S> struct BodyPath {
   static constexpr std::uint32_t kMostPieces = 4;
   std::uint32_t pieces;
@@ -22,9 +22,9 @@ template <class S> struct BodyPath {
 
   ISO_INLINE const Pose<S>& from() const { return poses[0]; }
   ISO_INLINE const Pose<S>& to() const { return poses[pieces]; }
-  /// The pose after a fraction [1] of the path.
+  /// Returns the pose after a fraction [1] of the path.
   Pose<S> pose_after(Unit<S> fraction, Vec3<S> centre) const;
-  /// A piece of the path, which has one piece or as many.
+  /// Returns the motion in one piece. The path has one piece, or as many as piece.count.
   CoreMotion<S> motion_in(PathPiece piece, Vec3<S> centre) const;
 };
 

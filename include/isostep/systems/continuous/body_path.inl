@@ -7,22 +7,22 @@
 namespace isostep {
 
 namespace detail {
-/// b seen from a's frame.
+/// Returns pose b in the frame of a.
 template <class S> Pose<S> pose_from(const Pose<S>& a, const Pose<S>& b) {
   return {transposed_times(to_matrix(a.orientation), b.position - a.position),
           normalise(conjugate(a.orientation) * b.orientation)};
 }
-/// [1] The sine of half the angle of the turn from one pose to another.
+/// [1] Returns the sine of half the angle between the orientations of two poses.
 template <class S> Unit<S> half_turn(const Pose<S>& from, const Pose<S>& to) {
   const Quat<Unit<S>> turn = to.orientation * conjugate(from.orientation);
   return length(Vec3<Unit<S>>{turn.x, turn.y, turn.z});
 }
-/// [m] No point within `reach` of the frame's origin moves further along a straight line.
+/// [m] An upper bound of the straight distance that a point within `reach` of the frame's origin moves.
 template <class S> S most_motion(const CoreMotion<S>& motion, S reach) {
   const S chord = reach * half_turn(motion.start, motion.end);
   return length(motion.end.position - motion.start.position) + chord + chord;
 }
-/// a / b for 0 <= a <= b, b a power of two.
+/// Returns a / b for 0 <= a <= b, b a power of two.
 template <class S> ISO_INLINE Unit<S> share_of(std::uint32_t a, std::uint32_t b) {
   return divide_to<Unit<S>>(S(static_cast<std::int32_t>(a)), S(static_cast<std::int32_t>(b)));
 }

@@ -12,18 +12,18 @@ namespace isostep {
 
 /// Input:   the state after the solver, with fat boxes; the centres' poses as the step began; the pairs of bodies that
 ///          joints keep from colliding.
-/// Output:  poses of fast bodies that would have passed something, put back to where they first touch it, with their
-///          fat boxes; the broad phase knows of them. Velocities stay: the next step finds the contact.
+/// Output:  poses of fast bodies that would have tunnelled, put back to their first touch, with their fat boxes and
+///          proxies. Velocities stay: the next step finds the contact.
 /// Keeps:   nothing but memory.
 /// Method:  1. Dynamic bodies that move by more than half of the inner radii of their part and of the other one (which
-///             counts as 1 m at most) are swept against static and kinematic bodies, turns included; so is what
-///             a fast kinematic body meets. Who moves less is pushed out the way that it came, so it is swept only if
-///             it ends deep inside of what is fixed: by more than kTooDeep.
-///          2. Bullets are swept against the motions that all this left of other dynamic bodies but bullets, if they
-///             move against each other by more than half the bullet's inner radius. What one stops goes on with it to
-///             the end of the step, up to what is fixed. Nobody reads what another writes, so the order is free.
-///          3. Mechanisms of which a body was stopped stop as a whole (StoppedMechanisms).
-/// Parts:   StepMotion measures ways, ImpactFilter knows what lets bodies pass, PairSweep sweeps one against another,
+///             counts as 1 m at most) are swept against static and kinematic bodies, with rotation. So are bodies in
+///             the way of a fast kinematic body. Contacts push slower bodies out the way that they came: those are
+///             swept only if they end deeper than kTooDeep inside a fixed body.
+///          2. Bullets are swept against the resulting motions of other dynamic bodies except bullets, if they move
+///             against each other by more than half the bullet's inner radius. A stopped bullet goes on with its
+///             stopper to the end of the step, up to fixed bodies. No sweep reads what others write: any order will do.
+///          3. Mechanisms with a stopped body stop as a whole (StoppedMechanisms).
+/// Parts:   StepMotion measures motions, ImpactFilter knows what passes a body, PairSweep sweeps one against another,
 ///          FastBodies finds movers, FirstImpacts where one ends, StoppedBodies puts it there. Each knows those before.
 /// Limits:  two bodies may squeeze a third.
 template <class S> class ContinuousCollision {

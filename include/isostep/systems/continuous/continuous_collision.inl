@@ -33,7 +33,7 @@ template <class S> void ContinuousCollision<S>::cut(Mover<S>& mover, bool moving
   }
   bodies_.stop(mover.index, cut, moving);
 }
-/// A bullet that what is fixed has stopped goes on from there to where it was stopped; what comes still meets it.
+/// Cuts a bullet at moving bodies. If a fixed body stopped it before, sweeps only the way up to there.
 template <class S> void ContinuousCollision<S>::cut_bullet(Mover<S>& mover) {
   Mover<S> bullet = mover.fraction == Unit<S>(1) ? mover : motion_.measure(mover.index);
   cut(bullet, true);
@@ -42,7 +42,7 @@ template <class S> void ContinuousCollision<S>::cut_bullet(Mover<S>& mover) {
   mover.fraction = mover.fraction * bullet.fraction;
   mover.stopped = motion_.now(mover.index);
 }
-/// Stops a body on the way on which the one that stopped it carries it to the end of the step.
+/// Sweeps a stopped body against fixed ones, on the way that its stopper carries it to the end of the step.
 template <class S> void ContinuousCollision<S>::stop_at_what_is_fixed(std::uint32_t index, const Pose<S>& from) {
   Mover<S> carried = motion_.measure(index, {1, {from, motion_.now(index)}});
   carried.deep = true;

@@ -15,10 +15,10 @@ namespace isostep {
 
 /// Input:   the state after the solver, how its bodies moved, the broad phase.
 /// Output:  movers: dynamic bodies that move by more than half of the inner radii of their part and of the thinnest
-///          static or kinematic one, or end deep inside of what is fixed, or that a fast kinematic body meets; then
-///          bullets in the way of others. Fast kinematic bodies. Where dynamic bodies were beyond their fat boxes.
+///          static or kinematic one, or end deep inside a fixed body, or meet a fast kinematic body; then bullets in
+///          the way of others. Fast kinematic bodies. Boxes of dynamic bodies that were outside their fat boxes.
 /// Keeps:   nothing from step to step but memory.
-/// Order:   who ends deep and who is fast by index among the awake bodies, then who is met, then bullets.
+/// Order:   deep and fast bodies by index among the awake bodies, then bodies that were met, then bullets.
 template <class S> class FastBodies {
  public:
   /// A fast kinematic body.
@@ -33,21 +33,21 @@ template <class S> class FastBodies {
 
   /// Finds all movers but slow bullets.
   void find();
-  /// Adds slow bullets, after what is fixed has cut the movers. Returns false if there are no bullets at all.
+  /// Adds slow bullets. Call it when fixed bodies have cut the movers. Returns false if there are no bullets at all.
   bool find_bullets();
   ISO_INLINE std::span<Mover<S>> movers() { return movers_; }
   ISO_INLINE std::span<const Carrier> carriers() const { return carriers_; }
-  /// Who may meet a bullet where its fat box is not: boxes around their ways, by slot.
+  /// Boxes around the motions of bodies that may meet a bullet outside their fat boxes, by slot.
   ISO_INLINE const AabbTree<S>& comers() const { return comers_; }
-  /// Has mover_of() know the movers by index among the awake bodies.
+  /// Numbers the movers for mover_of(), by index among the awake bodies.
   void number();
-  /// Null: none.
+  /// Returns null if the body is no mover.
   ISO_INLINE const Mover<S>* mover_of(std::size_t index) const {
     return mover_of_[index] == 0 ? nullptr : &movers_[mover_of_[index] - 1];
   }
 
  private:
-  /// The least of all values that the filter of bodies has to know.
+  /// Values over all bodies that decide which of them are fast.
   struct Survey {
     S thinnest;  // [m] inner radius of what stops a body, up to kThick
     bool bullets, kinematic;

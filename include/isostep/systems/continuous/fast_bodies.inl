@@ -10,15 +10,15 @@
 namespace isostep {
 
 namespace detail {
-/// Around a body, exactly if it has few parts; else its fat box, which needs no look at them.
+/// Returns the exact box of a body with few parts, else its fat box, which needs no look at the parts.
 template <class S> Aabb<S> box_of_few(const BodyMap<S>& map, const BodyState<S>& state, const BodyProperties<S>& body) {
   if (map.shapes.tree_of(body.shape) != nullptr) return state.fat;
   const Transform<S> origin = Transform<S>::of(origin_pose(state, body));
   return bounds(map.shapes.children_of(body.shape), origin, map.shapes.contents());
 }
 
-/// Bodies no point of which moves by `motion` [m]. Most are, and a few comparisons tell: the centre has not moved by
-/// three quarters of it, nor do its ends turn by a quarter.
+/// Finds bodies of which no point moves by `motion` [m]. A few comparisons accept most: the centre moves by less than
+/// three quarters of it, and the ends turn by less than a quarter.
 template <class S> class SlowBodies {
  public:
   ISO_INLINE SlowBodies(S motion, std::int32_t hz)
@@ -40,14 +40,14 @@ template <class S> class SlowBodies {
   Sum<S> squared_, turning_;
 };
 
-/// A number that is not negative, as what Remembered keeps.
+/// Encodes a number, 0 or more, for Remembered.
 template <class S> ISO_INLINE std::uint64_t number_to_keep(S a) { return std::uint64_t{to_bits(a)} + 1; }
 template <class S> ISO_INLINE S number_kept(std::uint64_t kept) {
   return from_bits<S>(static_cast<RawBits<S>>(kept - 1));
 }
 }  // namespace detail
 
-/// Page by page, so that a body that is made costs its page.
+/// Returns the thinnest inner radius of static bodies, page by page: a new body renews its page only.
 template <class S> S FastBodies<S>::thinnest_static() const {
   const StaticBodies<S>& bodies = state_.static_bodies;
   return detail::number_kept<S>(bodies.remembered_of_all(1).get([&] {
@@ -64,7 +64,7 @@ template <class S> std::uint64_t FastBodies<S>::thinnest_of_page(std::size_t pag
   return detail::number_to_keep(least);
 }
 
-/// Kinematic bodies are few, and may sleep: then any shape may be one's.
+/// Surveys the bodies. Kinematic bodies are few, but may sleep: then any shape may belong to one.
 template <class S> typename FastBodies<S>::Survey FastBodies<S>::survey() const {
   Survey found = {thinnest_static(), false, false};
   if (!state_.sleeping.empty()) found.thinnest = min(found.thinnest, map_.shapes.least_thickness());
@@ -106,8 +106,8 @@ template <class S> void FastBodies<S>::find() {
   if (survey_.kinematic) find_met_by_kinematic(fast);
 }
 
-/// Marks, in mover_of_, those of the awake bodies `asked` without joints that end deep inside of something fixed.
-/// Whichever are fewer look for the others: a floor for a thousand that fall, one that falls for the walls of a town.
+/// Marks in mover_of_ those of the awake bodies `asked` without joints that end deep inside a fixed body. The smaller
+/// group searches for the other: a floor for a thousand falling bodies, a falling body for the walls of a town.
 template <class S> void FastBodies<S>::mark_deep(std::span<const std::uint32_t> asked) {
   mover_of_.assign(state_.awake.states.size(), 0);
   if (asked.empty()) return;
@@ -146,7 +146,7 @@ template <class S> void FastBodies<S>::mark_deep(std::span<const std::uint32_t> 
     });
   }
 }
-/// Contacts bring out what joints tie: a part that is put back lifts its mechanism or tears it.
+/// Unmarks bodies with joints. Contacts push those out: to put one part back lifts its mechanism or tears it.
 template <class S> void FastBodies<S>::leave_out_joined() {
   for (const JointProperties<S>& joint : state_.joints.properties) {
     if (!map_.is_enabled(joint)) continue;
@@ -169,7 +169,7 @@ template <class S> void FastBodies<S>::number() {
   for (std::size_t i = 0; i < movers_.size(); ++i) mover_of_[movers_[i].index] = static_cast<std::uint32_t>(i + 1);
 }
 
-/// They are swept too, against what comes towards them.
+/// Adds slow bullets in the way of other bodies: they are swept too.
 template <class S> bool FastBodies<S>::find_bullets() {
   if (!survey_.bullets) return false;
   number();
@@ -184,8 +184,8 @@ template <class S> bool FastBodies<S>::find_bullets() {
   }
   return true;
 }
-/// Dynamic bodies that were, in this step, where their fat box is not: it is left behind by what moves further than its
-/// margin, and is that of another pose where a body was put back.
+/// Finds dynamic bodies that were outside their fat box in this step. A body that moves further than the margin leaves
+/// it, and the box of one that was put back belongs to another pose.
 template <class S> void FastBodies<S>::find_comers() {
   comers_.clear();
   const detail::SlowBodies<S> are_slow(detail::kFatMargin<S>, state_.settings.hz);
@@ -198,7 +198,7 @@ template <class S> void FastBodies<S>::find_comers() {
   comers_.rebuild();
 }
 
-/// Those in the way of a kinematic body move as it sees them.
+/// Adds dynamic bodies in the way of fast kinematic bodies, relative to which they are fast.
 template <class S> void FastBodies<S>::find_met_by_kinematic(S least) {
   met_.clear();
   for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {

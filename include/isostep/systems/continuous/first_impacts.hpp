@@ -9,19 +9,19 @@
 
 namespace isostep {
 
-/// Input:   a mover; the broad phase and the FastBodies, who tell what is in its way.
-/// Output:  the end of its motion: the earliest of all impacts; ties go to the lowest slot, then part.
+/// Input:   a mover; the broad phase and FastBodies, which know what is in its way.
+/// Output:  the end of its motion: the earliest of all impacts. Ties go to the lowest slot, then part.
 /// Keeps:   nothing but memory.
-/// Touch:   a body that touches at the start is swept as a smaller one, deeper inside of it: an impact at time 0 is no
-///          reason to let the rest of it pass. Touching less deep than that of the first of them is not cut. What slips
-///          deeper where it was stopped goes on: see free_way().
+/// Touch:   a body that touches an obstacle at the start is swept as a smaller one, deeper inside it: an impact at time
+///          0 must not let the rest of the body pass. Contacts less deep than the first one are not cut. A body that
+///          slips deeper where it was stopped goes on: see free_way().
 template <class S> class FirstImpacts {
  public:
   ISO_INLINE FirstImpacts(const BodyMap<S>& map, const Proxies<S>& proxies, const StepMotion<S>& motion,
                           const ImpactFilter<S>& filter, const PairSweep<S>& pairs, const FastBodies<S>& fast)
       : map_(map), proxies_(proxies), motion_(motion), filter_(filter), pairs_(pairs), fast_(fast) {}
 
-  /// `moving`: by dynamic bodies that are no bullets; else by static and kinematic ones.
+  /// `moving`: finds impacts with dynamic bodies except bullets, otherwise with static and kinematic bodies.
   MotionCut<S> find(Mover<S>& mover, bool moving);
 
  private:

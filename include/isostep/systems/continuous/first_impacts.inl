@@ -8,7 +8,7 @@
 
 namespace isostep {
 
-/// The tree shows no less; what it shows beyond depends on its past, so the box alone decides.
+/// Finds obstacles by their fat boxes. The tree shows at least these; what it shows beyond depends on its history.
 template <class S> void FirstImpacts<S>::find_obstacles(const Mover<S>& mover, bool moving) {
   const Vec3<S> from = mover.from().position, way = mover.to().position - from;
   const Vec3<S> middle = (mover.around.low + mover.around.high) * S(0.5), half = mover.around.high - middle;
@@ -42,7 +42,7 @@ template <class S> MotionCut<S> FirstImpacts<S>::sweep(const Mover<S>& mover) co
   return cut;
 }
 
-/// The first obstacle at rest that the body touches at the start says where.
+/// Finds the point at which the mover touches its first obstacle at rest, at the start of the step.
 template <class S> bool FirstImpacts<S>::find_touch(Mover<S>& mover) const {
   for (const std::uint32_t slot : obstacles_) {
     if (motion_.is_at_rest(map_.location(slot)) && pairs_.find_touch(mover, slot)) return true;
@@ -50,8 +50,8 @@ template <class S> bool FirstImpacts<S>::find_touch(Mover<S>& mover) const {
   return false;
 }
 
-/// A body that touches at the start goes as if it turned about that point, not about its centre of mass. With its
-/// middle on a straight line a rod that tips over dips that end into the ground, and stays where it is for ever. All
+/// Finds the end of a motion. A body that touches at the start moves as if it turned about that point, not about its
+/// centre of mass. Otherwise the end of a rod that tips over dips into the ground, and the rod never moves. All
 /// obstacles see the same path.
 template <class S> MotionCut<S> FirstImpacts<S>::find(Mover<S>& mover, bool moving) {
   find_obstacles(mover, moving);

@@ -13,7 +13,7 @@
 
 namespace isostep {
 
-/// The rules of a step that a fast body heeds. Null tables are empty ones.
+/// Holds the rules of a step for fast bodies. A null table is an empty one.
 template <class S> struct ImpactRules {
   const Ways<S>* ways = nullptr;                // what they let pass they do not stop
   const ResponseTable<S>* responses = nullptr;  // what does not push back, or no harder than it may, does not stop
@@ -21,18 +21,18 @@ template <class S> struct ImpactRules {
 };
 
 /// Input:   the state; the pairs of bodies that joints keep from colliding; the rules.
-/// Output:  whether something may stop a body, by filters, joints, ghosts, one-way bodies and kinds.
+/// Output:  whether a body may stop another: by filters, joints, ghosts, one-way bodies and kinds.
 /// Keeps:   nothing.
-/// Symbols: `index` is that of the body that moves, among the awake ones; `slot` that of the other.
+/// Symbols: `index` is that of the moving body, among the awake bodies; `slot` that of the other one.
 template <class S> class ImpactFilter {
  public:
   ISO_INLINE ImpactFilter(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
   void begin(std::span<const std::uint64_t> joined, const ImpactRules<S>& rules);
-  /// `moving`: dynamic bodies that are no bullets; else static and kinematic ones.
+  /// `moving`: asks about dynamic bodies except bullets, otherwise about static and kinematic bodies.
   bool may_stop(std::uint32_t index, std::uint32_t slot, bool moving) const;
   bool is_pushed_back(std::uint32_t index, const Child<S>& part, std::uint32_t slot, const Child<S>& met) const;
-  /// `there`: the pose of the part's body after that fraction of the obstacle's piece.
+  /// `there`: the pose of the part's body at `fraction` of the obstacle's piece.
   bool is_passed(std::uint32_t index, const PlacedShape<S>& part, const Pose<S>& there, const PlacedShape<S>& met,
                  const Obstacle<S>& obstacle, Unit<S> fraction) const;
 

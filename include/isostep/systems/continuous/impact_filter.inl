@@ -31,7 +31,7 @@ template <class S> bool ImpactFilter<S>::may_stop(std::uint32_t index, std::uint
   return at == joined_.size() || joined_[at] != key;
 }
 
-/// A one-way body lets out what leaves it by their velocities at the step's end.
+/// Returns true if a one-way body lets the other one leave it, by their velocities at the end of the step.
 template <class S> bool ImpactFilter<S>::is_let_out(std::uint32_t index, std::uint32_t slot) const {
   const BodyState<S>& own = state_.awake.states[index];
   const Location at = map_.location(slot);
@@ -41,8 +41,8 @@ template <class S> bool ImpactFilter<S>::is_let_out(std::uint32_t index, std::ui
   return (of_other != nullptr && of_other->lets_out(velocity)) || (of_own != nullptr && of_own->lets_out(-velocity));
 }
 
-/// A one-way body lets the mover pass there if PairRules would: by the contact's normal, and never a pair that has
-/// contacts. Surfaces are solid here: what passes one leaves it.
+/// Returns true if a one-way body lets the mover pass there. Judges like PairRules: by the contact's normal, and a pair
+/// with contacts never passes. Surfaces are solid here: a body that passes one leaves it.
 template <class S>
 bool ImpactFilter<S>::is_passed(std::uint32_t index, const PlacedShape<S>& part, const Pose<S>& there,
                                 const PlacedShape<S>& met, const Obstacle<S>& obstacle, Unit<S> fraction) const {
@@ -66,14 +66,14 @@ bool ImpactFilter<S>::is_passed(std::uint32_t index, const PlacedShape<S>& part,
   return passes(of_other, -normal) || passes(of_own, normal);
 }
 
-/// The step's pairs name ghosts only where their boxes met as it began; their kinds tell of them everywhere.
+/// Returns true if their kinds pass each other. The step's ghost pairs cover only boxes that met as the step began.
 template <class S> bool ImpactFilter<S>::are_ghosts(std::uint32_t index, std::uint32_t slot) const {
   const std::uint32_t own = state_.awake.properties[index].material.kind;
   return rules_.ghosts->find(own, map_.properties_at(map_.location(slot)).material.kind) != nullptr;
 }
 
-/// A contact of the two parts pushes the body back if it presses as hard as it has to. Scales of masses count where
-/// both move.
+/// Returns true if contacts of the two parts push the body back with unlimited force. Mass scales count if both bodies
+/// are dynamic.
 template <class S>
 bool ImpactFilter<S>::is_pushed_back(std::uint32_t index, const Child<S>& part, std::uint32_t slot,
                                      const Child<S>& met) const {

@@ -11,14 +11,14 @@
 namespace isostep {
 
 /// Input:   the joints of awake bodies.
-/// Output:  of a body, the dynamic bodies that joints between such tie to it, its mechanism; the same as a tree.
+/// Output:  the mechanism of a body: all dynamic bodies that chains of joints connect with it; the same as a tree.
 /// Keeps:   nothing but memory.
-/// Order:   follows from that of bodies and joints alone.
+/// Order:   follows from the order of bodies and joints alone.
 template <class S> class JoinedBodies {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  /// A body of a tree. Its place follows from that of the joint's other body, which stands before it in the tree or is
-  /// moved by no joint.
+  /// A body of a tree. Its place follows from that of the joint's other body, which comes before it in the tree, or
+  /// which no joint moves.
   struct Link {
     std::uint32_t body;   // among the awake ones
     std::uint32_t joint;  // among those of the state; kNone: of the root
@@ -30,16 +30,16 @@ template <class S> class JoinedBodies {
   /// Takes the joints as they are now; no body is known yet.
   void begin();
   ISO_INLINE bool is_known(std::uint32_t body) const { return known_[body] != 0; }
-  /// Finds the mechanism of a body that is not known, among the awake ones; the body is its first.
+  /// Finds the mechanism of a body that is not known yet, by index among the awake bodies. The body comes first.
   std::span<const std::uint32_t> find(std::uint32_t body);
-  /// Joints tie what find() found to what they do not move: the world, static or kinematic bodies.
+  /// Returns true if joints tie the mechanism of find() to a body that they do not move, or to the world.
   bool is_held() const;
-  /// The tree of what find() found, each body once. It grows from joints with what joints do not move, or if there are
-  /// none, from `root`. A joint that closes a loop is left out.
+  /// Returns the tree of the mechanism of find(), each body once. It grows from joints with unmoved bodies or, without
+  /// those, from `root`. Leaves out joints that close a loop.
   std::span<const Link> tree_from(std::uint32_t root);
 
  private:
-  /// Calls visit(joint, the body is its b).
+  /// Calls visit(joint, is_b), where is_b tells that the body is the joint's b.
   template <class Visit> ISO_INLINE void each_joint(std::uint32_t body, const Visit& visit) const {
     for (std::uint32_t i = first_[body]; i < first_[body + 1]; ++i) visit(at_body_[i] / 2, at_body_[i] % 2 != 0);
   }

@@ -6,14 +6,14 @@
 
 namespace isostep {
 
-/// Its place among the awake ones; kNone for the world and for what joints do not move.
+/// Returns the index of a dynamic body among the awake ones. kNone: the world, or a body that joints do not move.
 template <class S> std::uint32_t JoinedBodies<S>::dynamic_at(std::uint32_t slot) const {
   if (slot == kNoBody) return kNone;
   const Location at = map_.location(slot);
   const bool moves = at.set == Location::kAwake && map_.properties_at(at).type == BodyType::dynamic;
   return moves ? at.index : kNone;
 }
-/// The body at the other end of the joint.
+/// Returns the body at the other end of the joint.
 template <class S> std::uint32_t JoinedBodies<S>::other_of(std::uint32_t joint, bool is_b) const {
   const JointProperties<S>& p = state_.joints.properties[joint];
   return dynamic_at(is_b ? p.body_a : p.body_b);

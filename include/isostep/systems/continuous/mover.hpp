@@ -30,7 +30,7 @@ template <class S> struct Mover : BodyPath<S> {
   ISO_INLINE Pose<S> way(Unit<S> of_step) const { return this->pose_after(of_step, centre); }
 };
 
-/// In a frame that is the world's or a kinematic body's.
+/// A body, in the frame of the world or of a kinematic body.
 template <class S> struct Obstacle {
   std::uint32_t slot;
   CoreMotion<S> motion;  // of the piece; its start is its end: at rest

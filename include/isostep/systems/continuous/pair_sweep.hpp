@@ -7,23 +7,23 @@
 
 namespace isostep {
 
-/// Input:   how both move, and what lets what pass.
-/// Output:  where the motion of the mover ends, if the other body stops it; where they touch or overlap.
+/// Input:   how both bodies move, and the rules by which they pass each other.
+/// Output:  the end of the mover's motion, if the other body stops it; where they touch or overlap.
 /// Keeps:   nothing.
-/// Method:  in pieces of both paths; against a kinematic body in that one's frame, and what hits it goes on with it to
-///          the end of the step. Parts that move against each other by no more than half of the inner radii of both are
-///          pushed out the way that they came, unless the mover ends deep.
+/// Method:  sweeps pieces of both paths. A sweep against a kinematic body takes place in its frame, and a mover that
+///          hits it goes on with it to the end of the step. Contacts push out parts that approach each other by no more
+///          than half of both inner radii, the way that they came, unless the mover ends deep.
 template <class S> class PairSweep {
  public:
   ISO_INLINE PairSweep(const WorldState<S>& state, const BodyMap<S>& map, const StepMotion<S>& motion,
                        const ImpactFilter<S>& filter)
       : state_(state), map_(map), motion_(motion), filter_(filter) {}
 
-  /// Moves the cut forward to where the body stops the mover, if that is sooner.
+  /// Shortens the cut if the body stops the mover sooner.
   void sweep(const Mover<S>& mover, std::uint32_t slot, MotionCut<S>& cut) const;
-  /// Returns true if the mover touches the body, which is at rest, at the start; where is its centre from now on.
+  /// Returns true if the mover touches the body, which is at rest, at the start. Sets the mover's centre to that point.
   bool find_touch(Mover<S>& mover, std::uint32_t slot) const;
-  /// True if an awake body overlaps one that is fixed, all of it inside of `box`, by more than kTooDeep.
+  /// Returns true if an awake body overlaps a fixed one by more than kTooDeep. `box` contains all of the fixed body.
   bool is_deep_in(std::uint32_t index, std::uint32_t slot, const Aabb<S>& box) const;
 
  private:

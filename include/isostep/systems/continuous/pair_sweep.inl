@@ -10,10 +10,10 @@
 namespace isostep {
 
 namespace detail {
-/// [m] A body that moves less is not deep inside of one that was too far away for a contact as the step began.
+/// [m] The least motion by which a body that was beyond contact distance can end deep inside another.
 template <class S> inline constexpr S kDeepMotion = kSpeculativeDistance<S> + kTooDeep<S>;
 
-/// The box around a part wherever it is on its way, with room for what nearly touches it.
+/// Returns the box around a part on all of its way, with room for what it nearly touches.
 template <class S> Aabb<S> swept_bounds(const PlacedShape<S>& part, const CoreMotion<S>& motion) {
   const auto at = [&](const Pose<S>& pose) { return bounds(part.shape, compose(Transform<S>::of(pose), part.at)); };
   const Aabb<S> own = bounds(part.shape, part.at);
@@ -21,7 +21,7 @@ template <class S> Aabb<S> swept_bounds(const PlacedShape<S>& part, const CoreMo
   const S bow = min(bow_of(motion, reach), reach + reach);
   return grown_with_slack<S>(merge(at(motion.start), at(motion.end)), bow + kSpeculativeDistance<S>);
 }
-/// True if a part ends deep in an obstacle. A box that is smaller by the depth spares most of the tests.
+/// Returns true if a part ends deep in an obstacle. A box smaller by that depth rejects most pairs first.
 template <class S>
 bool ends_deep(const PlacedShape<S>& part, const Pose<S>& end, const PlacedShape<S>& met, const Pose<S>& place) {
   const S deep = min(thickness<S>(part.shape) * S(0.5), kTooDeep<S>);
@@ -29,7 +29,7 @@ bool ends_deep(const PlacedShape<S>& part, const Pose<S>& end, const PlacedShape
   const Aabb<S> other = bounds(met.shape, compose(Transform<S>::of(place), met.at));
   return overlap(grow(box, -deep), other) && is_deep(part, end, met, place);
 }
-/// Ends a motion sooner: after `all` of it, at `there` in the world; `at_rest`: no kinematic body stops it.
+/// Shortens a motion to the fraction `all`, with the pose `there` in the world. `at_rest`: no kinematic body stops it.
 template <class S>
 void shorten(MotionCut<S>& cut, const FreeWay<S>& way, Unit<S> all, const Pose<S>& there, bool at_rest) {
   if (!way.is_held && all < cut.fraction) {
@@ -60,7 +60,7 @@ template <class S> void PairSweep<S>::sweep(const Mover<S>& mover, std::uint32_t
   for (std::uint32_t i = 0; i < mover.pieces; ++i)
     sweep_piece(mover, {i, mover.pieces}, mover.motion_of(i), obstacle, cut);
 }
-/// Sweeps against a body that moves. Both paths get as many pieces as the one that had to be divided more.
+/// Sweeps against a moving body. Both paths get as many pieces as the path that needs more.
 template <class S>
 void PairSweep<S>::sweep_against_moving(const Mover<S>& mover, std::uint32_t slot, std::size_t index,
                                         MotionCut<S>& cut) const {
@@ -78,9 +78,9 @@ void PairSweep<S>::sweep_against_moving(const Mover<S>& mover, std::uint32_t slo
     sweep_piece(mover, {i, pieces}, mover.motion_in({i, pieces}, mover.centre), obstacle, cut);
   }
 }
-/// Sweeps in the frame of a kinematic body, where what goes straight goes along a bow if that one turns: in pieces for
-/// which a quarter of the inner radius is no less than the bow, (2 w v + w^2 d) t^2 / 8 for turning by w, a speed of v
-/// and a distance of d.
+/// Sweeps in the frame of a kinematic body. If that turns, a straight way becomes an arc there. Pieces are so short
+/// that the arc departs from its chord by at most a quarter of the inner radius: (2 w v + w^2 d) t^2 / 8 for turning by
+/// w, a speed of v and a distance of d.
 template <class S>
 void PairSweep<S>::sweep_against_kinematic(const Mover<S>& mover, std::uint32_t slot, std::size_t index,
                                            MotionCut<S>& cut) const {
@@ -137,7 +137,7 @@ void PairSweep<S>::sweep_piece(const Mover<S>& mover, PathPiece piece, const Cor
   visit_parts(mover.index, motion, obstacle, sweep_parts);
 }
 
-/// The first child or triangle that it touches says where.
+/// Sets the mover's centre to the first child or triangle that it touches. Returns false if it touches none.
 template <class S> bool PairSweep<S>::find_touch(Mover<S>& mover, std::uint32_t slot) const {
   const CoreMotion<S> motion = mover.motion_of(0);
   const CoreMotion<S> still = {motion.start, motion.start, Vec3<S>::zero()};
@@ -169,7 +169,7 @@ template <class S> bool PairSweep<S>::is_deep_in(std::uint32_t index, std::uint3
   return found;
 }
 
-/// visit(part, part of the obstacle) where the boxes around their ways meet.
+/// Calls visit(part, part of the obstacle) for parts whose boxes meet on their ways.
 template <class S>
 template <class Visit>
 void PairSweep<S>::visit_parts(std::uint32_t index, const CoreMotion<S>& motion, const Obstacle<S>& obstacle,

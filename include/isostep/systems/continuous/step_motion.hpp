@@ -11,7 +11,7 @@
 namespace isostep {
 
 /// Input:   the state after the solver; the centres' poses as the step began.
-/// Output:  of an awake body its path, and the measures that a sweep of it goes by.
+/// Output:  the path of an awake body, and the measures that its sweep needs.
 /// Keeps:   nothing.
 template <class S> class StepMotion {
  public:
@@ -25,9 +25,9 @@ template <class S> class StepMotion {
   ISO_INLINE bool is_bullet(std::size_t index) const {
     return (state_.awake.properties[index].flags & body_flag::kBullet) != 0;
   }
-  /// A dynamic body that collides.
+  /// Returns true if the body is dynamic and has contacts.
   bool may_move(std::size_t index) const;
-  /// A body that stayed where it was.
+  /// Returns true if the body did not move.
   bool is_at_rest(Location at) const;
   BodyPath<S> path_of(std::size_t index) const;
   Mover<S> measure(std::size_t index) const { return measure(index, path_of(index)); }

@@ -11,7 +11,7 @@
 namespace isostep {
 
 namespace detail {
-/// A part of a body in the frame of its centre of mass, axes as the body's.
+/// Returns a part of a body, in a frame at its centre of mass with the body's axes.
 template <class S>
 PlacedShape<S> placed_part(const BodyMap<S>& map, const BodyProperties<S>& body, const Child<S>& child) {
   const Pose<S> at = {child.pose.position - body.local_centre, child.pose.orientation};
@@ -29,8 +29,8 @@ template <class S> bool StepMotion<S>::is_at_rest(Location at) const {
   return start_[at.index].position == body.centre && start_[at.index].orientation == body.orientation;
 }
 
-/// Two orientations do not tell a turn of more than half of one: the angular velocity does, where it leads from the
-/// first to the second.
+/// Finds the path of a body. Two orientations do not reveal a turn of more than half a turn. The angular velocity does,
+/// if it leads from the first to the second.
 template <class S> BodyPath<S> StepMotion<S>::path_of(std::size_t index) const {
   using U = Unit<S>;
   constexpr std::uint32_t kPieces = BodyPath<S>::kMostPieces;

@@ -11,19 +11,19 @@
 namespace isostep {
 
 /// Input:   an awake body by its index, and the end of its motion.
-/// Output:  its pose and velocity, its fat box; the broad phase knows of it. Velocities stay, for the next step finds
-///          the contact, but for what gravity did on the way left out, and for that of a middle into what is fixed.
+/// Output:  its pose and velocity, fat box and proxy. Its velocity stays, since the next step finds the contact, except
+///          for what gravity added on the way left out, and the speed of a stopped middle into a fixed body.
 /// Keeps:   nothing.
 template <class S> class StoppedBodies {
  public:
   ISO_INLINE StoppedBodies(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies)
       : state_(state), map_(map), proxies_(proxies) {}
 
-  /// `moving`: dynamic bodies stop it.
+  /// `moving`: a dynamic body stopped it.
   void stop(std::uint32_t index, const MotionCut<S>& cut, bool moving);
-  /// The pose alone: place() is to follow.
+  /// Sets the pose only. Call place() afterwards.
   void put_at(std::uint32_t index, const Pose<S>& pose);
-  /// Renews the fat box.
+  /// Renews the fat box and the proxy.
   void place(std::uint32_t index);
 
  private:

@@ -9,18 +9,18 @@
 namespace isostep {
 
 namespace detail {
-/// The angular velocity of a body whose orientation is put back: the same along its own axes. One that stayed in the
-/// world's axes would meet another inertia, and a rod at 300 rad/s six times its energy.
+/// Returns the angular velocity of a body whose orientation is put back: unchanged in its own axes. Kept in world axes,
+/// it would meet another inertia, and a rod at 300 rad/s would gain six times its energy.
 template <class S> Vec3<Velocity<S>> turned_back(const BodyState<S>& state, Quat<Unit<S>> orientation) {
   const Mat3<Unit<S>> back = to_matrix(normalise(orientation * conjugate(state.orientation)));
   return back * state.angular_velocity;
 }
-/// Puts the centre within the world: rounding and joints lead beyond its edge.
+/// Puts the centre inside the world: rounding and joints can lead beyond its edge.
 template <class S> ISO_INLINE void put_centre(BodyState<S>& state, Vec3<S> place) {
   state.centre = held_within(place, Limits<S>::position());
 }
-/// The velocity of a body that falls by `left_out` less: without what gravity [m/s^2] did on that part of its way. What
-/// keeps it would bounce higher than it fell. s' = sqrt(s^2 - 2 work), by its mean speed, so that no square has to fit.
+/// Returns the velocity without what gravity [m/s^2] added on the part `left_out` [m] of the way: with it a body would
+/// bounce higher than it fell. s' = sqrt(s^2 - 2 work), by the mean speed, so that no square has to fit.
 template <class S> Vec3<Velocity<S>> without_fall(Vec3<Velocity<S>> velocity, Vec3<S> gravity, Vec3<S> left_out) {
   using V = Velocity<S>;
   const Heading<S> down = heading_of(gravity);
@@ -60,8 +60,8 @@ template <class S> void StoppedBodies<S>::place(std::uint32_t index) {
   proxies_.place(state, body, true);
 }
 
-/// Contacts push a body out of a surface it lies in, except where its middle is in none: it may turn, and does not
-/// gather the speed of a fall. A body that `moving` ones stop keeps its speed: contacts share it with them.
+/// Stops the middle of a part. A body whose middle is beyond a surface is not pushed out, so it loses its speed into
+/// it; it may still turn. A body that a moving one stops keeps its speed: contacts share it between the two.
 template <class S> void StoppedBodies<S>::stop_middle(BodyState<S>& state, const MotionCut<S>& cut, bool moving) const {
   using V = Velocity<S>;
   detail::put_centre(state, cut.place - rotate(state.orientation, cut.middle));

@@ -13,11 +13,11 @@
 namespace isostep {
 
 /// Input:   the movers, cut to where each is stopped, and the joints.
-/// Output:  the poses of all bodies of a mechanism of which a mover was stopped.
+/// Output:  the poses of all bodies of a mechanism with a stopped mover.
 /// Keeps:   nothing but memory.
-/// Method:  each joint goes from how it was to how it would be as far as the first stopped body did of its way, and
-///          bodies are where joints have them, from the heaviest outwards, but none further from its own way than that
-///          is long. Points that joints hold together are closed.
+/// Method:  each joint moves by that fraction of its motion which the first stopped body did of its way. Bodies follow
+///          from the joints, from the heaviest outwards, but none deviates from its own way by more than the length of
+///          that way. Points that joints hold together are closed.
 template <class S> class StoppedMechanisms {
  public:
   ISO_INLINE StoppedMechanisms(const WorldState<S>& state, const BodyMap<S>& map, const StepMotion<S>& motion,
@@ -34,12 +34,12 @@ template <class S> class StoppedMechanisms {
 
  private:
   using Link = typename JoinedBodies<S>::Link;
-  /// The body of a mechanism that says how far all of it goes.
+  /// The body that limits how far its whole mechanism moves.
   struct Leader {
     std::uint32_t body;
     Unit<S> fraction;  // [1] of the step
   };
-  /// The poses of an end of a joint: as the step began, where the solver left it, and now.
+  /// The poses of one end of a joint: at the start of the step, after the solver, and now.
   struct Carriage {
     Pose<S> start, end, now;
   };

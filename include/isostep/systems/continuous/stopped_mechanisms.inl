@@ -11,13 +11,13 @@
 namespace isostep {
 
 namespace detail {
-/// Times that a mechanism is placed anew because a body of it would pass something: the way that a body goes with its
-/// joints and the one that it was swept along differ by the square of what they turn. In the first half joints are
-/// closed, which moves bodies even in no time.
+/// The most times that a mechanism is placed because a body of it would pass something: the way of a body with its
+/// joints differs from the way along which it was swept by the square of what they turn. The first half of the placings
+/// closes joints, which moves bodies even at fraction 0.
 inline constexpr int kMostPlacings = 8;
-/// [1] The least part of its way to where it is stopped that a mechanism keeps: less would be no way forward.
+/// [1] The least part of the way to where it is stopped that a mechanism keeps. With less it would make no progress.
 template <class S> inline constexpr Unit<S> kLeastPart = Unit<S>(0.125);
-/// The heaviest body; ties go to the first.
+/// Returns the heaviest body. Ties go to the first.
 template <class S>
 std::uint32_t heaviest_of(std::span<const std::uint32_t> bodies, std::span<const BodyProperties<S>> properties) {
   std::uint32_t heaviest = bodies[0];
@@ -26,7 +26,7 @@ std::uint32_t heaviest_of(std::span<const std::uint32_t> bodies, std::span<const
   }
   return heaviest;
 }
-/// [1] The share by which a joint may move a body that the other one holds: the lighter follows the heavier.
+/// [1] Returns the share by which a joint may move a body towards its other body: the lighter one follows the heavier.
 template <class S>
 Unit<S> share_of_pull(const WorldState<S>& state, const BodyMap<S>& map, const typename JoinedBodies<S>::Link& link) {
   const JointProperties<S>& joint = state.joints.properties[link.joint];
@@ -45,15 +45,15 @@ template <class S> Vec3<S> no_longer_than(Vec3<S> v, S most) {
   const S size = length(v);
   return most < size ? v * divide_to<Unit<S>>(most, size) : v;
 }
-/// [rad] Two bodies that turn by less in a step turn by less than half a turn against each other.
+/// [rad] Two bodies that turn by less in a step turn by less than half a turn relative to each other.
 template <class S> inline constexpr S kFarTurn = S(1.5);
 }  // namespace detail
 
-/// One body that stops alone is torn from the rest by what that still moves in this step: a limb of a ragdoll at 60 m/s
-/// by 0.4 m. If each went as far along its own straight way, whirling limbs would be apart by what arcs differ from
-/// chords, 0.17 m. So it is the joints that go part of their ways, and what they hold is held. As at an impact of one
-/// body, the rest of the step's time is lost. What nothing stopped stays as it is: who counts as fast depends on what
-/// other islands have, and islands do not.
+/// Stops mechanisms. If one body of a ragdoll stopped alone, the rest would tear from it in this step: a limb at 60 m/s
+/// by 0.4 m. If each body went the same fraction of its own straight way, whirling limbs would part by the difference
+/// of arcs and chords, 0.17 m. So the joints go a fraction of their motions, and held points stay held. As for a single
+/// body, the rest of the step's time is lost. A mechanism that nothing stopped stays as it is: fast bodies depend on
+/// other islands, results must not.
 template <class S> void StoppedMechanisms<S>::update() {
   if (fast_.movers().empty() || state_.joints.properties.empty()) return;
   joined_bodies_.begin();
@@ -64,8 +64,8 @@ template <class S> void StoppedMechanisms<S>::update() {
   }
 }
 
-/// A body that would pass something where joints have it becomes the one that they begin from. If that does not help,
-/// each goes its own way, which is free, and joints come apart: a mechanism that stood still instead would never lose
+/// Stops one mechanism. A body that would pass something where its joint puts it becomes the new root. If that does not
+/// help, each body goes its own free way, and joints come apart: a mechanism that stood still instead would never lose
 /// the speed that presses it against a wall.
 template <class S> void StoppedMechanisms<S>::stop(std::span<const std::uint32_t> mechanism) {
   const bool hangs = joined_bodies_.is_held();
@@ -94,7 +94,7 @@ template <class S> void StoppedMechanisms<S>::stop(std::span<const std::uint32_t
   }
 }
 
-/// Keeps the poses that the solver gave; bodies that were stopped are elsewhere by now.
+/// Keeps the poses that the solver found. Stopped bodies are elsewhere by now.
 template <class S> void StoppedMechanisms<S>::keep_ends(std::span<const std::uint32_t> mechanism) {
   for (const std::uint32_t body : mechanism) {
     const Mover<S>* const mover = fast_.mover_of(body);
@@ -102,7 +102,7 @@ template <class S> void StoppedMechanisms<S>::keep_ends(std::span<const std::uin
   }
 }
 
-/// The first that was stopped; ties go to the first in order.
+/// Finds the body that was stopped first. Ties go to the lowest index.
 template <class S>
 typename StoppedMechanisms<S>::Leader StoppedMechanisms<S>::leader_of(std::span<const std::uint32_t> mechanism) const {
   Leader first = {mechanism[0], Unit<S>(1)};
@@ -142,7 +142,7 @@ template <class S> void StoppedMechanisms<S>::place_tree(std::span<const Link> t
   }
 }
 
-/// The pose of a body after a fraction of the step that is no more than what is free of its own way.
+/// Returns the pose of a body after a fraction of the step, which is at most the free part of the body's own way.
 template <class S> Pose<S> StoppedMechanisms<S>::own_way(std::uint32_t body, Unit<S> fraction) {
   if (const Mover<S>* const mover = fast_.mover_of(body))
     return mover->fraction == fraction ? mover->stopped : mover->way(fraction);
@@ -150,8 +150,8 @@ template <class S> Pose<S> StoppedMechanisms<S>::own_way(std::uint32_t body, Uni
   return motion_.measure(body).way(fraction);
 }
 
-/// The pose that its joint gives a body after a fraction of the step, while the joint's other body is where it is now.
-/// `closes`: joints hold together what the solver left apart.
+/// Returns the pose that a joint gives a body after a fraction of the step, with its other body where that is now.
+/// `closes`: the joint closes the gap that the solver left.
 template <class S> Pose<S> StoppedMechanisms<S>::joined_pose(const Link& link, Unit<S> fraction, bool closes) {
   const JointProperties<S>& p = state_.joints.properties[link.joint];
   const Pose<S>& frame = link.is_b ? p.frame_b : p.frame_a;
@@ -170,7 +170,7 @@ template <class S> Pose<S> StoppedMechanisms<S>::joined_pose(const Link& link, U
   return held_by_locks(link.body, there, frame);
 }
 
-/// Two poses of a joint do not tell a turn of more than half of one: then the bodies' own turns count.
+/// Returns true if a body turns so far that two poses of a joint do not tell the turn.
 template <class S> bool StoppedMechanisms<S>::turns_far(std::uint32_t slot) const {
   if (slot == kNoBody || map_.location(slot).set != Location::kAwake) return false;
   const Vec3<S> spin = convert<S>(map_.state_at(map_.location(slot)).angular_velocity);
@@ -192,7 +192,7 @@ typename StoppedMechanisms<S>::Carriage StoppedMechanisms<S>::carriage_of(std::u
   return of;
 }
 
-/// A body one of whose frames is there, as far as its locked axes let it.
+/// Returns the pose of a body with one of its frames at `there`, as far as its locked axes allow.
 template <class S>
 Pose<S> StoppedMechanisms<S>::held_by_locks(std::uint32_t index, const Pose<S>& there, const Pose<S>& frame) const {
   const std::uint32_t flags = state_.awake.properties[index].flags;
@@ -213,8 +213,8 @@ Pose<S> StoppedMechanisms<S>::held_by_locks(std::uint32_t index, const Pose<S>& 
   return {position, orientation};
 }
 
-/// The part of its way from the start to where it is up to which a body passes nothing. What gets no deeper by it than
-/// contacts push out in a step is free, but for its middle.
+/// [1] Returns the part of the way to its place in which a body passes nothing. A shallow overlap, which contacts push
+/// out in a step, counts as free. For the middle of a part only a graze does.
 template <class S> Unit<S> StoppedMechanisms<S>::free_part(std::uint32_t body) {
   if (!motion_.may_move(body)) return Unit<S>(1);
   Mover<S> mover = motion_.measure(body);
@@ -227,7 +227,7 @@ template <class S> Unit<S> StoppedMechanisms<S>::free_part(std::uint32_t body) {
   };
   return min(part_of(cut.fraction, shallow), part_of(cut.fraction_of_middle, least));
 }
-/// The obstruction of the body with the least free part; ties go to the first of the tree. The root goes its own way.
+/// Returns the body with the least free part. Ties go to the first of the tree. The root's own way is free.
 template <class S>
 typename StoppedMechanisms<S>::Obstruction StoppedMechanisms<S>::worst_of(std::span<const Link> tree) {
   Obstruction worst = {tree[0].body, Unit<S>(1)};

@@ -12,8 +12,8 @@
 namespace isostep {
 
 /// Input:   a step's contacts and the Breakable records.
-/// Output:  marks in those records, and events, ascending by the record's slot; of several blows in a step the hardest,
-///          of equal ones the first.
+/// Output:  marks in those records, and events, ascending by the record's slot. Of several blows in a step the hardest
+///          counts, the first of equals.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class BreakEvents {
  public:

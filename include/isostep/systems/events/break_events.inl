@@ -27,7 +27,7 @@ template <class S> void BreakEvents<S>::collect(const SolvedContacts<S>& contact
   }
 }
 
-/// A pair's contacts, for both of its bodies.
+/// Weighs the contacts of a pair, for both of its bodies.
 template <class S> void BreakEvents<S>::weigh(const SolvedContacts<S>& contacts, std::size_t first, std::size_t end) {
   const S impulse = detail::normal_impulse(state_, contacts, first, end);
   const ContactKey& key = contacts.now[first].key;

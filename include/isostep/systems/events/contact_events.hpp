@@ -15,7 +15,7 @@
 
 namespace isostep {
 
-/// A step's contacts as the narrow phase and the solver leave them.
+/// Holds the contacts of a step after the narrow phase and the solver.
 template <class S> struct SolvedContacts {
   std::span<const Contact<S>> old, now;                // of the last step and of this one, ascending
   std::span<const ContactGeometry<S>> geometry;        // parallel to `now`
@@ -24,14 +24,14 @@ template <class S> struct SolvedContacts {
 };
 
 /// Input:   the contacts of two steps.
-/// Output:  events of their begin, with the impulse, and of their end, in order.
+/// Output:  events of contacts that began, with the impulse, and of contacts that ended, in order.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class ContactEvents {
  public:
   ISO_INLINE ContactEvents(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
-  /// Two bodies touch when any of their reported contacts carried an impulse. Appends to `events`, which may hold ends
-  /// that commands made.
+  /// Two bodies touch when a reported contact of them carried an impulse. Appends to `events`, which may already hold
+  /// ends that commands caused.
   void collect(const SolvedContacts<S>& contacts, Events<S>& events);
 
  private:

@@ -12,13 +12,13 @@
 namespace isostep {
 namespace detail {
 
-/// [kg] As solvers have it: 0 for what no impulse moves.
+/// [kg] The mass as solvers see it: 0 if no impulse moves the body.
 template <class S> ISO_INLINE S mass_of_row(const WorldState<S>& state, std::uint32_t row) {
   if (row == 0) return S(0);
   const BodyProperties<S>& body = state.awake.properties[row - 1];
   return body.type == BodyType::dynamic ? body.mass : S(0);
 }
-/// [kg m/s] Of contacts first..end-1 together, of those with the flag if there is one.
+/// [kg m/s] Returns the summed normal impulse of contacts first..end-1 that have all bits of `flag`.
 template <class S>
 ISO_INLINE S normal_impulse(const WorldState<S>& state, const SolvedContacts<S>& contacts, std::size_t first,
                             std::size_t end, std::uint32_t flag = 0) {
@@ -34,7 +34,7 @@ ISO_INLINE S normal_impulse(const WorldState<S>& state, const SolvedContacts<S>&
   const auto most = product(highest<S>(), Velocity<S>(1));
   return most < total ? highest<S>() : finite_of(round_to<S>(total));
 }
-/// The first of contacts first..end-1 that is reported and carried an impulse; `end`: none.
+/// Returns the first of contacts first..end-1 that is reported and carried an impulse, or `end`.
 template <class S>
 ISO_INLINE std::size_t first_touching(std::span<const Contact<S>> contacts, std::size_t first, std::size_t end) {
   constexpr std::uint32_t kBoth = contact_flag::kReported | contact_flag::kTouching;
@@ -44,7 +44,7 @@ ISO_INLINE std::size_t first_touching(std::span<const Contact<S>> contacts, std:
 
 }  // namespace detail
 
-/// Both lists ascend, so the events do, but for ends that commands made. Contacts that nobody asks for are passed over.
+/// Collects events in order, since both lists ascend; ends by commands are merged. Skips contacts that nobody reports.
 template <class S> void ContactEvents<S>::collect(const SolvedContacts<S>& contacts, Events<S>& events) {
   const std::span<const Contact<S>> old = contacts.old, now = contacts.now;
   constexpr std::uint64_t kNone = ~std::uint64_t{0};
@@ -71,7 +71,7 @@ template <class S> void ContactEvents<S>::collect(const SolvedContacts<S>& conta
   if (told) detail::sort_ends(events.contact_end, end_scratch_);
 }
 
-/// Of a pair that touches first in that contact.
+/// Returns the begin event of a pair whose first touching contact is `first`.
 template <class S>
 ContactBegin<S> ContactEvents<S>::begin_of(const SolvedContacts<S>& contacts, std::size_t first) const {
   const ContactEnd parts = ends_of(state_, map_, contacts.now[first].key);

@@ -11,7 +11,7 @@
 
 namespace isostep {
 
-/// Input:   contacts as the step solved them, the ContactReport records.
+/// Input:   solved contacts of the step, the ContactReport records.
 /// Output:  Events::contacts, ascending by contact, then by point.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class ContactPoints {

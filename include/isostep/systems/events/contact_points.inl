@@ -21,7 +21,7 @@ template <class S> void ContactPoints<S>::collect(const SolvedContacts<S>& conta
   }
 }
 
-/// The impulse of the step is known of the contact; its points share it as they share that of the last sub-step.
+/// Reports the points of a contact. They share its impulse of the step as they share that of the last sub-step.
 template <class S>
 void ContactPoints<S>::tell(const SolvedContacts<S>& contacts, std::size_t at, Events<S>& events) const {
   const Contact<S>& contact = contacts.now[at];

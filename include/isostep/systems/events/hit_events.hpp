@@ -11,16 +11,16 @@
 
 namespace isostep {
 
-/// Input:   the records; a step's contacts, as the narrow phase leaves them and again as the solver does.
-/// Output:  events, ascending by pair: of a pair's points that which closed fastest.
+/// Input:   the records; a step's contacts, after the narrow phase and again after the solver.
+/// Output:  events, ascending by pair, each with the point of the pair that closed fastest.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class HitEvents {
  public:
   ISO_INLINE HitEvents(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
-  /// Measures how fast contacts close, before the solver.
+  /// Measures how fast contacts close. Called before the solver.
   void measure(std::span<const ContactGeometry<S>> geometry);
-  /// Collects those that began to press, after it.
+  /// Collects contacts that began to press. Called after the solver.
   void collect(const SolvedContacts<S>& contacts, Events<S>& events);
 
  private:

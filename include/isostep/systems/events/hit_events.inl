@@ -63,7 +63,7 @@ template <class S> void HitEvents<S>::collect(const SolvedContacts<S>& contacts,
   });
 }
 
-/// The pair's contacts first..end-1.
+/// Reports the fastest of the pair's contacts first..end-1, if it exceeds a threshold.
 template <class S>
 void HitEvents<S>::tell(const SolvedContacts<S>& contacts, std::size_t first, std::size_t end,
                         Events<S>& events) const {

@@ -14,8 +14,8 @@
 
 namespace isostep {
 
-/// Input:   the JointLoad records; what the solver adds to impulses().
-/// Output:  the records' force and torque; joints that are broken are destroyed, and events tell it, ascending by the
+/// Input:   the JointLoad records; the impulses that the solver adds to impulses().
+/// Output:  force and torque in the records' states. Broken joints are destroyed and reported, ascending by the
 ///          record's slot.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class JointLoads {
@@ -23,9 +23,9 @@ template <class S> class JointLoads {
   ISO_INLINE JointLoads(WorldState<S>& state, const BodyMap<S>& map, Destruction<S>& destruction)
       : state_(state), map_(map), destruction_(destruction) {}
 
-  /// Returns zeros, one for each awake joint; empty where nobody measures one. Called once a step, before it is solved.
+  /// Returns zeros, one for each awake joint, or nothing if no joint is measured. Called before the solver of a step.
   std::span<JointImpulse<S>> impulses();
-  /// Measures loads and breaks joints, once the step's contacts and joints are no longer needed as they were.
+  /// Measures loads and breaks joints. Call it when the step no longer needs its contacts and joints.
   void update(Events<S>& events);
 
  private:

@@ -15,7 +15,7 @@ template <class S> std::span<JointImpulse<S>> JointLoads<S>::impulses() {
   return impulses_;
 }
 
-/// Writes what it bore. True: that breaks it.
+/// Writes the load of a joint. Returns true if the load breaks it.
 template <class S> bool JointLoads<S>::measure(const JointLoad<S>& load, JointLoadState<S>& state) const {
   const Location at = map_.joints.location(load.joint.slot);
   if (at.is_asleep()) return false;

@@ -12,14 +12,14 @@
 namespace isostep {
 
 /// Input:   WorldState::overlaps of the last step; those that the narrow phase found in this one; changed sensors.
-/// Output:  WorldState::overlaps; events of their begin and end, in order.
+/// Output:  WorldState::overlaps; events of overlaps that began and ended, in order.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class SensorOverlaps {
  public:
   ISO_INLINE SensorOverlaps(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
       : state_(state), map_(map), proxies_(proxies) {}
 
-  /// Leaves the last step's overlaps in `found`. Appends to `events`, which may hold ends that commands made.
+  /// Leaves the last step's overlaps in `found`. Appends to `events`, which may already hold ends that commands caused.
   void update(std::vector<SensorOverlap>& found, Events<S>& events);
 
  private:

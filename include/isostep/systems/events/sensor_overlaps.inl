@@ -20,7 +20,7 @@ struct ByPartsOfBoth {
 };
 }  // namespace detail
 
-/// Sensors that commands placed or changed, and that are still there.
+/// Lists the existing static sensors that commands placed or changed.
 template <class S> void SensorOverlaps<S>::list_changed() {
   changed_.clear();
   for (const BodyId sensor : state_.untold.sensors) {
@@ -32,8 +32,8 @@ template <class S> void SensorOverlaps<S>::list_changed() {
   stable_sort(changed_.data(), slot_scratch_.data(), static_cast<std::uint32_t>(changed_.size()), OwnKey{});
 }
 
-/// Overlaps of bodies neither of which is awake stay: the narrow phase does not look at them, because nothing moved but
-/// by a command.
+/// Keeps overlaps of two bodies that are not awake. The narrow phase does not see them, since only a command can move
+/// them.
 template <class S> void SensorOverlaps<S>::keep_unwatched(std::vector<SensorOverlap>& found) {
   list_changed();
   const auto is_changed = [&](std::uint32_t sensor) {
@@ -74,7 +74,7 @@ void SensorOverlaps<S>::find_sleepers(std::uint32_t sensor, std::vector<SensorOv
     return true;
   });
 }
-/// Whether a joint of a sleeper ties it to the sensor and keeps the two from touching.
+/// Returns true if a joint of the sleeper ties it to the sensor and keeps the two from colliding.
 template <class S> bool SensorOverlaps<S>::are_joined(std::uint32_t sensor, std::uint32_t sleeper) const {
   const SleepingIsland<S>& island = *state_.sleeping[map_.location(sleeper).set];
   for (const JointProperties<S>& joint : island.joints.properties) {
@@ -84,7 +84,7 @@ template <class S> bool SensorOverlaps<S>::are_joined(std::uint32_t sensor, std:
   }
   return false;
 }
-/// All parts of a sleeper that parts of the sensor see.
+/// Finds all parts of a sleeper that parts of the sensor detect.
 template <class S>
 void SensorOverlaps<S>::find_sleeper(std::uint32_t sensor, std::uint32_t other,
                                      std::vector<SensorOverlap>& found) const {

@@ -11,17 +11,17 @@
 
 namespace isostep {
 
-/// Input:   the shapes and poses of bodies as a sub-step finds them; the broad phase for what shields.
-/// Output:  points of bodies, and whether a static body stands before them.
+/// Input:   the shapes and poses of bodies as a sub-step finds them; the broad phase for static bodies.
+/// Output:  the points of bodies that blasts hit, and whether a static body shields them.
 /// Keeps:   nothing.
 template <class S> class BlastShields {
  public:
   ISO_INLINE BlastShields(const BodyMap<S>& map, const Proxies<S>& proxies, const SubstepBodies<S>& bodies)
       : map_(map), proxies_(proxies), bodies_(bodies) {}
 
-  /// [m] The way from a body's centre of mass to the point of its surface nearest to `from`; zero where it is inside.
+  /// [m] The vector from a body's centre of mass to its surface point nearest to `from`. Zero if `from` is inside.
   Vec3<S> exposed_point(std::uint32_t row, Vec3<S> from) const;
-  /// A static body stands between these points.
+  /// Returns true if a static body stands between these points.
   bool is_shielded(Vec3<S> from, Vec3<S> to) const;
 
  private:

@@ -12,13 +12,13 @@
 
 namespace isostep {
 
-/// Input:   what commands asked for since the last step, the force records, bodies as a sub-step finds them; the broad
-///          phase for what shields from explosions.
+/// Input:   the forces of commands since the last step, the force records, bodies as a sub-step finds them; the broad
+///          phase for bodies that shield from explosions.
 /// Output:  an acceleration for each awake body; the report's clamped_force. Explosions that ended are removed.
 /// Keeps:   nothing from step to step but memory.
-/// Order:   what commands asked for; the records that push, kind by kind (record_list.hpp), each kind ascending by
-///          slot, but zones and waters by (priority, slot); what zones put in place of gravity; the records that
-///          resist, in the same order; what fades. What a kind does stands in its file: Acts.
+/// Order:   the forces of commands; the records that push, kind by kind (record_list.hpp), each kind ascending by slot,
+///          but zones and waters by (priority, slot); the gravity that zones replace; the records that resist, in the
+///          same order; motion that fades. The file of a kind tells what it does: Acts.
 template <class S> class BodyForces {
  public:
   ISO_INLINE BodyForces(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
@@ -32,15 +32,15 @@ template <class S> class BodyForces {
   BodyForces(const BodyForces&) = delete;  // its parts know each other
   BodyForces& operator=(const BodyForces&) = delete;
 
-  /// Takes what commands left in the state.
+  /// Takes the forces that commands left in the state.
   void begin_step();
-  /// Bodies of which forces were cut, in any sub-step.
+  /// Reports the number of bodies whose forces were cut in any sub-step.
   void end_step(StepReport& report);
-  /// By awake body, or empty.
+  /// One per awake body, or empty.
   ISO_INLINE std::span<const Acceleration<S>> accelerations() const { return sums_.accelerations(); }
   SubstepForces<S> substeps();
-  /// The pull at each awake body beside gravity, as the step ends, whether something holds it or not: all but what
-  /// springs and water bear. Empty: nothing.
+  /// The pull on each awake body besides gravity at the end of the step, even if something holds the body. Contains all
+  /// accelerations except those of springs and water that bear it. Empty: no pulls.
   ISO_INLINE std::span<const Acceleration<S>> pulls() const { return sums_.pulls(); }
 
   template <class Visit> void visit_scratch(const Visit& visit) { sums_.visit_scratch(visit); }

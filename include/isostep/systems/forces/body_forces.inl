@@ -36,7 +36,7 @@ template <class S> void BodyForces<S>::renew(const SolverBodies<S>& bodies, std:
   bodies_.end_substep();
 }
 
-/// visit(registry, its RecordRules) of the kinds that act.
+/// Calls visit(registry, its RecordRules) for the kinds that act.
 template <class S> template <class Visit> void BodyForces<S>::for_each_kind(const Visit& visit) const {
   RecordStore<S>::members(
       [&]<class Record, class IdType>(const char*, const Registry<Record, IdType>& registry) {
@@ -61,7 +61,7 @@ template <class S> void BodyForces<S>::act_all() {
     }
   });
 }
-/// After all that pushes, of which this takes what bodies are about to do.
+/// Applies resisting forces, after all that push: they resist the velocities to which the pushing forces lead.
 template <class S> void BodyForces<S>::resist_all() {
   for_each_kind([&]<class Rules>(const auto& registry, const Rules&) {
     if constexpr (Rules::kActs == detail::Acts::slows) {
@@ -82,7 +82,7 @@ template <class S> void BodyForces<S>::resist_all() {
   resistance_.solve_fading();
 }
 
-/// Explosions that ended with this step are gone.
+/// Removes explosions that ended with this step.
 template <class S> void BodyForces<S>::remove_ended() {
   const auto& explosions = state_.records->explosions;
   for (std::uint32_t slot = 0; slot < explosions.all().size(); ++slot) {

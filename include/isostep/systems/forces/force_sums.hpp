@@ -12,40 +12,40 @@
 
 namespace isostep {
 
-/// Input:   what commands asked for since the last step; in each sub-step accelerations and forces, in some order.
-/// Output:  an acceleration for each awake body; what of it nothing bears; how many bodies had forces cut.
-/// Keeps:   what commands asked for, until the step ends.
-/// Bounds:  every sum, as every summand, is one that changes a velocity within its limits in a sub-step: Bounder.
+/// Input:   the forces of commands since the last step; in each sub-step accelerations and forces, in some order.
+/// Output:  an acceleration for each awake body; the part of it that nothing bears; how many bodies had forces cut.
+/// Keeps:   the forces of commands, until the step ends.
+/// Bounds:  every summand and every sum keeps the velocity within its limits in a sub-step: Bounder.
 template <class S> class ForceSums {
  public:
   ISO_INLINE ForceSums(WorldState<S>& state, const BodyMap<S>& map, const SubstepBodies<S>& bodies)
       : state_(state), map_(map), bodies_(bodies) {}
 
-  /// Takes what commands left in the state. Without that and without records that act there are no sums.
+  /// Takes the forces that commands left in the state. Without those, and without records that act, there are no sums.
   void begin_step(bool any_acts);
   void begin_substep();
   void end_substep();
-  /// By awake body, or empty.
+  /// One per awake body, or empty.
   ISO_INLINE const std::vector<Acceleration<S>>& accelerations() const { return accelerations_; }
-  /// The pull at each awake body beside gravity, as the step ends, whether something holds it or not: all but what
-  /// bears. Empty: nothing.
+  /// The pull on each awake body besides gravity at the end of the step, even if something holds the body. Contains all
+  /// accelerations except those added by bear(). Empty: no pulls.
   ISO_INLINE std::span<const Acceleration<S>> pulls() const { return pulls_; }
-  /// Bodies of which forces were cut, in any sub-step.
+  /// The number of bodies whose forces were cut in any sub-step.
   ISO_INLINE std::uint32_t cut_count() const { return cut_count_; }
 
   // By row of SolverBodies.
   void accelerate(std::uint32_t row, Vec3<S> acceleration);
-  /// A force [N] that acts at an arm from the centre of mass. What does not move is left alone.
+  /// Applies a force [N] at an arm from the centre of mass. Has no effect on a body that does not move.
   void push(std::uint32_t row, Vec3<S> force, Vec3<S> arm);
   ISO_INLINE void push(const BodyEnd<S>& end, Vec3<S> force) { push(end.row, force, end.arm); }
-  /// A motion [m/s], or a turning [rad/s], that fades at a rate [1/s].
+  /// Fades a motion [m/s], or a rotation [rad/s], at a rate [1/s].
   void slow(std::uint32_t row, Vec3<S> motion, S rate);
   void slow_turning(std::uint32_t row, Vec3<S> turning, S rate);
-  /// An act that bounds what it computes before it pushes tells here what its Bounder cut.
+  /// Notes what the caller's own Bounder cut. For forces that are bounded before they are pushed.
   void note_cut(std::uint32_t row, bool cut);
-  /// [m/s^2] That a body is accelerated by at most.
+  /// [m/s^2] The most that a body is accelerated by.
   S most() const;
-  /// What `act` adds holds bodies up or back: it is not among the pulls.
+  /// Calls `act`, whose accelerations hold bodies up or back and do not count as pulls.
   template <class Act> void bear(const Act& act);
 
   template <class Visit> void visit_scratch(const Visit& visit) { visit("accelerations", accelerations_); }

@@ -11,15 +11,15 @@
 
 namespace isostep {
 
-/// The Forces of act(), slow() and resist() of RecordRules, a parameter there: kinds know nothing of what is above
-/// them. Each part's header says what it offers:
-///   bodies      which rows there are and which of them move; a body's row, pose, mass, velocity, a point of it;
+/// The parameter Forces of act(), slow() and resist() in RecordRules. Kinds of records know nothing of the systems
+/// above them. The header of each part tells what it offers:
+///   bodies      the rows, and which of them move; a body's row, pose, mass, velocity, a point of it;
 ///               gravity, the clock
-///   sums        push(), accelerate(): what acts goes here, and nowhere else
+///   sums        push(), accelerate(): every force goes here, and nowhere else
 ///   zones       the wind at a point; whether zones or waters of higher priority hide something there
-///   resistance  of resist(): the velocity to resist, on which part of the mass. Of slow(): the rates of what fades
+///   resistance  for resist(): the velocity to resist, with which part of the mass. For slow(): rates of fading
 ///   wet         what a body displaces; whether a point is under water
-///   shields     which point of a body a blast meets, and what keeps it off
+///   shields     the point of a body that a blast hits, and whether a static body shields it
 template <class S> struct RecordForces {
   const SubstepBodies<S>& bodies;
   ForceSums<S>& sums;

@@ -9,21 +9,21 @@
 
 namespace isostep {
 
-/// Input:   the registry of a kind as a step begins; in its sub-steps the same records.
-/// Output:  their order, ascending by (priority, slot), and whether a higher one hides what a lower one does.
+/// Input:   the registry of a kind as a step begins; the same records in its sub-steps.
+/// Output:  their order, ascending by (priority, slot), and whether a higher record hides the effect of a lower one.
 /// Keeps:   nothing from step to step but memory.
 template <class Record> class RecordRanks {
  public:
   template <class IdType> void rank(const Registry<Record, IdType>& registry);
-  /// Calls visit(record), the lowest first.
+  /// Calls visit(record) from the lowest priority to the highest.
   template <class Visit> void for_each(const std::vector<Record>& all, const Visit& visit) const {
     for (const std::uint64_t rank : ranks_) visit(at(all, rank));
   }
-  /// Calls visit(record), the highest first.
+  /// Calls visit(record) from the highest priority to the lowest.
   template <class Visit> void for_each_down(const std::vector<Record>& all, const Visit& visit) const {
     for (std::size_t i = ranks_.size(); i-- > 0;) visit(at(all, ranks_[i]));
   }
-  /// A record of a higher priority hides(record).
+  /// Returns true if hides(record) holds for a record of higher priority.
   template <class Hides>
   bool is_hidden(const std::vector<Record>& all, std::int32_t priority, const Hides& hides) const {
     for (std::size_t i = ranks_.size(); i-- > 0;) {

@@ -11,14 +11,14 @@
 
 namespace isostep {
 
-/// Each force resists the velocity that the steady ones lead to, on its own equal part of the body's mass, so that many
-/// on one body are as stable as one (mass splitting: Tonge et al. 2012, SIGGRAPH) and their order does not matter: what
-/// is mirrored stays so.
-/// Input:   how many forces resist a body, and the rates at which it fades; then the sums of all that pushes.
-/// Output:  the velocities that those lead to, parts of masses, what a force that resists settles at; in the sums, what
-///          fades.
+/// Each force resists the velocity that the steady forces lead to, with an equal part of the body's mass. So many
+/// forces on one body are as stable as one (mass splitting: Tonge et al. 2012, SIGGRAPH), their order does not matter,
+/// and mirrored scenes stay mirrored.
+/// Input:   the number of forces that resist a body, and its rates of fading; then the sums of all pushing forces.
+/// Output:  the velocities that those lead to, parts of masses, the settled value of a resisting force; in the sums,
+///          the motion that fades.
 /// Keeps:   nothing from sub-step to sub-step but memory.
-/// Order:   count() and fade() of all that resists, take_steady(), the forces, solve_fading().
+/// Order:   count() and fade() of all resisting records, take_steady(), the forces, solve_fading().
 template <class S> class Resistance {
  public:
   using U = Unit<S>;
@@ -26,31 +26,31 @@ template <class S> class Resistance {
   ISO_INLINE Resistance(const SubstepBodies<S>& bodies, ForceSums<S>& sums) : bodies_(bodies), sums_(sums) {}
 
   void begin_substep();
-  /// A force is about to resist the body of a row.
+  /// Announces a force that resists the body of a row.
   void count(std::uint32_t row);
-  /// Rates [1/s] at which a body's motion and its turning fade: they add up, and resist together as one force.
+  /// Adds rates [1/s] at which a body's motion and rotation fade. They add up, and resist together as one force.
   void fade(std::uint32_t row, S linear, S angular);
-  /// The sums as they are now are the steady forces.
+  /// Takes the present sums as the steady forces.
   void take_steady();
   void solve_fading();
 
-  /// [m/s], [rad/s] The velocity that the sub-step would leave with the steady forces, before contacts and joints: what
-  /// resists motion resists that, so that it balances steady forces exactly.
+  /// [m/s], [rad/s] The velocity that the sub-step leads to with the steady forces, before contacts and joints.
+  /// Resisting forces act on this one, so that they balance steady forces exactly.
   Vec3<S> next_velocity(std::uint32_t row) const;
   Vec3<S> next_angular_velocity(std::uint32_t row) const;
-  /// [m/s] The velocity that a point will have.
+  /// [m/s] The velocity of a point after the sub-step.
   Vec3<S> next_velocity(const BodyEnd<S>& end) const;
-  /// [kg] The part of a body that each of its resisting forces has.
+  /// [kg] The part of a body's mass that each of its resisting forces gets.
   S mass_part(std::uint32_t row) const;
-  /// tensor v', where v' is what `velocity` (both of the frame `axes`) becomes by that force in the sub-step: v' = v +
-  /// h K tensor v', with K what the point gives way.
+  /// Returns tensor v', where v' is what the force makes of `velocity` in the sub-step (both in the frame `axes`): v' =
+  /// v + h K tensor v', with K the inverse mass at the point.
   Vec3<S> settled(const BodyEnd<S>& end, const Mat3<U>& axes, const Mat3<S>& tensor, Vec3<S> velocity) const;
-  /// Turns a body against a turning [rad/s] that would fade at a rate [1/s].
+  /// Slows a rotation [rad/s] that fades at a rate [1/s].
   void slow_turning(std::uint32_t row, Vec3<S> turning, S rate);
 
  private:
   static constexpr std::uint32_t kMostParts = 1024;  // of a body's mass
-  /// Rates at which motions fade [1/s].
+  /// Rates of fading [1/s].
   struct Rates {
     S linear, angular;
     ISO_INLINE bool any() const { return S(0) < linear || S(0) < angular; }

@@ -51,7 +51,7 @@ template <class S> Vec3<S> Resistance<S>::next_velocity(const BodyEnd<S>& end) c
   return next_velocity(end.row) + cross(next_angular_velocity(end.row), end.arm);
 }
 
-/// [1/s] The rate at which a motion that fades at `rate` is slowed, on its part of the body's mass.
+/// [1/s] The rate by which a sub-step slows a motion that fades at `rate`, on its part of the body's mass.
 template <class S> S Resistance<S>::slowed(std::uint32_t row, S rate) const {
   const S parts = S(static_cast<int>(min(max(parts_[row - 1], 1u), kMostParts)));
   return rate / (S(1) + saturate_to<S>(product(rate * bodies_.when().h, parts)));
@@ -60,7 +60,7 @@ template <class S> void Resistance<S>::slow_turning(std::uint32_t row, Vec3<S> t
   sums_.slow_turning(row, turning, slowed(row, rate));
 }
 
-/// The give of a body's point to a unit of force per mass, seen in a frame: kappa's part is dimensionless.
+/// Returns the inverse mass at a point of a body times its mass, in a frame. kappa makes it dimensionless.
 template <class S> Mat3<S> Resistance<S>::give_of(const BodyEnd<S>& end, const Mat3<U>& axes) const {
   const Mat3<S>& kappa = bodies_.mass(end.row).kappa;
   Mat3<S> columns;

@@ -22,8 +22,8 @@ template <class S> struct Wet {
 };
 
 /// Input:   the Water records, the shapes and poses of bodies as a sub-step finds them.
-/// Output:  what a body displaces below a surface; whether a point is under water.
-/// Keeps:   what each water, as it pushes, found that bodies displace, until the sub-step ends.
+/// Output:  the water that a body displaces below a surface; whether a point is under water.
+/// Keeps:   what bodies displace of each water, as it found when it pushed them, until the sub-step ends.
 template <class S> class WetBodies {
  public:
   ISO_INLINE WetBodies(const WorldState<S>& state, const BodyMap<S>& map, const Zones<S>& zones,
@@ -31,16 +31,16 @@ template <class S> class WetBodies {
       : state_(state), map_(map), zones_(zones), bodies_(bodies) {}
 
   void begin_substep();
-  /// All parts of a body together, at the sub-step's pose; overlaps count twice, as in its mass.
+  /// Returns what all parts of a body displace together, at the sub-step's pose. Overlaps count twice, as in its mass.
   Wet<S> displaced(std::uint32_t row, S density, const detail::WaterSurface<S>& surface) const;
   ISO_INLINE void keep(const Wet<S>& wet) { wet_.push_back(wet); }
-  /// Calls visit(wet) for what that water kept.
+  /// Calls visit(wet) for each body that displaces that water.
   template <class Visit> void for_each_of(const Water<S>& water, const Visit& visit) const {
     for (const Wet<S>& wet : wet_) {
       if (wet.water == &water) visit(wet);
     }
   }
-  /// The point of a body is under water, which flows so [m/s].
+  /// Returns true if a point of a body is under water. Sets `velocity` [m/s] to the flow of the water there.
   bool is_under_water(std::uint32_t row, Vec3<S> point, Vec3<S>& velocity) const;
 
  private:

@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// Priorities in the order of whole numbers, then slots.
+/// Ranks by priority, as signed numbers, then by slot.
 template <class Record>
 template <class IdType>
 void RecordRanks<Record>::rank(const Registry<Record, IdType>& registry) {

@@ -13,10 +13,10 @@
 namespace isostep {
 
 namespace detail {
-/// [m] Two points that come closer have no direction along which a coupling could hold them: in a sub-step at 10 m/s
-/// they pass each other.
+/// [m] The least distance of two coupled points. Closer points have no direction along which a coupling could hold
+/// them: in a sub-step at 10 m/s they pass each other.
 template <class S> inline constexpr S kLeastCoupledLength = S(1.0 / 32);
-/// [1] An answer of a row that is less is made of rounding.
+/// [1] The least response of a row that is more than rounding.
 template <class S> inline constexpr S kLeastGive = S(64) * resolution<S>();
 }  // namespace detail
 
@@ -27,7 +27,7 @@ template <class S> void CouplingRows<S>::place_ends(Run& run) const {
     term.ends = run.holds && S(0) < abs(term.push) && bound_end(term) && weigh_end(run, i);
   }
 }
-/// The limits of its joint, and for a length between points the least: a rope is drawn to its wheel, not through it.
+/// Bounds a row by the limits of its joint, and a length between points from below: a rope ends at its wheel.
 template <class S> bool CouplingRows<S>::bound_end(Term& term) const {
   const JointProperties<S>& joint = state_.joints.properties[term.index];
   JointDrive<S>& drive = term.joint.drives[0];
@@ -44,10 +44,10 @@ template <class S> bool CouplingRows<S>::bound_end(Term& term) const {
   term.high = bounds.high;
   return true;
 }
-/// Finds the impulses along the rows that change the speed of row `end` by one and the sum's by nothing. An impulse
-/// along row j changes the sum by s(j), and the impulses p change it by one: sum s(j) p(j) = 1. So an impulse of one
-/// along row `end`, less s(end) p, is s(j) p(j) along `end` and -s(end) p(j) along j, summed over the others alone: in
-/// that form nothing cancels, however heavy the others are. Only the ratios of their p count; the largest is one.
+/// Finds impulses along the rows that change the speed of row `end` by one and the speed of the sum by nothing. An
+/// impulse along row j changes the sum by s(j), and the impulses p change it by one: sum s(j) p(j) = 1. So an impulse
+/// of one along `end`, less s(end) p, is s(j) p(j) along `end` and -s(end) p(j) along j, summed over the others alone.
+/// In this form nothing cancels, however heavy the others are. Only the ratios of their p count; the largest is one.
 template <class S> bool CouplingRows<S>::weigh_end(Run& run, int end) const {
   const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
   Term& term = run.terms[end];
@@ -82,7 +82,7 @@ template <class S> bool CouplingRows<S>::weigh_end(Run& run, int end) const {
   return true;
 }
 
-/// By what the row's speed without it is beyond the end.
+/// Stops a row at its end: changes its speed by the excess beyond the end.
 template <class S> void CouplingRows<S>::stop(Run& run, Term& term, bool relaxes) {
   const V low = relaxes ? min(term.low, V(0)) : term.low, high = relaxes ? max(term.high, V(0)) : term.high;
   const JointMotion<S> motion = {bodies_->velocity[term.rows[0]], bodies_->velocity[term.rows[1]]};
@@ -96,7 +96,7 @@ template <class S> void CouplingRows<S>::stop(Run& run, Term& term, bool relaxes
   run.borne = borne;
   for (int i = 0; i < run.count; ++i) push(run.terms[i], saturate_to<V>(product(term.stop[i], change)));
 }
-/// A coupling with room between its bounds carries what it pulls with, not a push.
+/// Returns true if the coupling bears this impulse. With room between its bounds it bears one only while it pulls.
 template <class S> bool CouplingRows<S>::carries(const Run& run, V borne) const {
   if (run.is_equal()) return true;
   const V pulls = saturating_add(run.changed, run.borne), would = saturating_add(run.changed, borne);

@@ -15,22 +15,22 @@ namespace isostep {
 
 /// Input:   the Coupling records, the bodies in every sub-step.
 /// Output:  velocities of the bodies of coupled joints; the states of couplings.
-/// Keeps:   nothing from step to step but memory: what rows bore is in the states.
-/// Order:   couplings ascending by slot; those of a train share bodies, so each sweep solves all of them once.
-///          Rows that joints resist, of bodies in several joints or far from their axis, agree with those joints too
-///          slowly to be stable in turns: they close their error once, from nothing, before joints are solved. After
-///          each row come the ends of its joints, term by term.
+/// Keeps:   nothing from step to step but memory: the states hold the impulses of rows.
+/// Order:   couplings ascending by slot. Couplings of a train share bodies, so each sweep solves every coupling once.
+///          Rows that joints resist, of bodies in several joints or far from their axis, converge too slowly with those
+///          joints to be stable in turns: they close their error once, from zero impulse, before joints are solved.
+///          After each row come the ends of its joints, term by term.
 template <class S> class CouplingRows {
  public:
   using V = Velocity<S>;
 
   ISO_INLINE CouplingRows(WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
-  /// Finds those that act.
+  /// Lists the couplings that act.
   void begin_step();
-  /// Since then: whether there are any.
+  /// Returns true if begin_step() found any.
   ISO_INLINE bool any() const { return !runs_.empty(); }
-  /// visit(row) of the bodies of their joints.
+  /// Calls visit(row) for the bodies of their joints.
   template <class Visit> ISO_INLINE void for_each_row(const Visit& visit) const {
     for (const Run& run : runs_) {
       for (int i = 0; i < run.count; ++i) {
@@ -43,16 +43,16 @@ template <class S> class CouplingRows {
   void place(SolverBodies<S>& bodies, std::int32_t rate);
   void solve(int sweeps);
   void relax();
-  /// Writes the records.
+  /// Writes the states of the records.
   void end_step();
 
  private:
   static constexpr int kMostTerms = 3;
-  /// [1] The part of an error that a sub-step closes: as kBaumgarte, but of a sub-step.
+  /// [1] The part of an error that a sub-step closes: like kBaumgarte, but per sub-step.
   static constexpr S kBias = S(0.2);
-  /// [1] The part of what a row bore from which the next sub-step begins. Rows of the same joints agree slowly, by a
-  /// part e of their error in a sub-step. With a bias b and without a part k of what it bore, such an error x goes as
-  /// x''' + k x'' + e x' + e b x = 0, which grows for ever unless k > b.
+  /// [1] The part of its impulse with which a row warm starts in the next sub-step. Rows of the same joints converge
+  /// slowly, by a part e of their error in a sub-step. With a bias b and without a part k of the impulse, such an error
+  /// x follows x''' + k x'' + e x' + e b x = 0, which grows for ever unless k > b.
   static constexpr S kWarmth = S(0.75);
 
   /// A joint of a coupling.
@@ -86,7 +86,7 @@ template <class S> class CouplingRows {
     V changed;       // [m/s] by which this one has
     V borne;         // [m/s] likewise, for the ends of its joints
 
-    /// It pushes and pulls.
+    /// Returns true if the coupling both pushes and pulls.
     bool is_equal() const { return lower == upper; }
   };
 

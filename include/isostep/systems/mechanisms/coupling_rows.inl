@@ -29,7 +29,7 @@ template <class S> bool CouplingRows<S>::sleeps(const Coupling<S>& coupling) con
   }
   return false;
 }
-/// Whether all of its joints, which are awake, hold their bodies.
+/// Returns true if all of its joints, which are awake, are enabled.
 template <class S> bool CouplingRows<S>::acts(const Coupling<S>& coupling) const {
   for (const JointId joint : detail::joints_of(coupling).all) {
     if (joint && !map_.is_enabled(*map_.joints.properties_of(joint))) return false;
@@ -70,7 +70,7 @@ template <class S> void CouplingRows<S>::place(SolverBodies<S>& bodies, std::int
   }
   sweep(kMechanismSweeps, true, false);
 }
-/// Joints as the step finds them.
+/// Prepares joints and finds resisted rows, with the bodies where the step finds them.
 template <class S> void CouplingRows<S>::prepare() {
   prepared_ = true;
   for (Run& run : runs_) {
@@ -100,8 +100,8 @@ template <class S> bool CouplingRows<S>::is_resisted(const Run& run) const {
   }
   return false;
 }
-/// Returns true if the body is in another joint too, or has most of its inertia about the joint from its centre's
-/// distance.
+/// Returns true if the body is in another joint too, or if the distance of its centre from the axis makes up most of
+/// its inertia about the joint.
 template <class S> bool CouplingRows<S>::is_resisted(const Term& term, bool of_b) const {
   constexpr S kFar = S(2);  // [1] distance by radius of gyration: 1 + 4 times the inertia; rows are stable up to 6
   const std::uint32_t row = term.rows[of_b ? 1 : 0];
@@ -117,10 +117,10 @@ template <class S> bool CouplingRows<S>::is_resisted(const Term& term, bool of_b
 }
 
 template <class S> void CouplingRows<S>::solve(int sweeps) { sweep(sweeps, false, false); }
-/// Relaxes as often as a pass solves: couplings of the same joints agree slowly, and what is left of the speed that
-/// closed their errors is energy that nobody gave.
+/// Relaxes with as many sweeps as a pass: couplings of the same joints converge slowly, and a rest of the speed that
+/// closed their errors is energy out of nothing.
 template <class S> void CouplingRows<S>::relax() { sweep(kMechanismSweeps, false, true); }
-/// Solves those that joints resist, or the others.
+/// Solves the rows that joints resist, or the others.
 template <class S> void CouplingRows<S>::sweep(int times, bool resisted, bool relaxes) {
   for (int i = 0; i < times; ++i) {
     for (Run& run : runs_) {
@@ -137,7 +137,7 @@ template <class S> void CouplingRows<S>::end_step() {
   }
 }
 
-/// Rows and the sum as the bodies lie now.
+/// Computes the rows and the sum at the present poses.
 template <class S> void CouplingRows<S>::place(Run& run, const JointStep<S>& step) const {
   S sum = S(0);
   for (int i = 0; i < run.count; ++i) {
@@ -154,7 +154,7 @@ template <class S> void CouplingRows<S>::place(Run& run, const JointStep<S>& ste
   place_ends(run);
 }
 
-/// [1] Speed of row i by an impulse along row j, through the bodies that both have.
+/// [1] Returns the speed along row i that an impulse along row j causes through bodies they share.
 template <class S> S CouplingRows<S>::coupling_of(const Term& i, const Term& j) const {
   const JointRow<S>&from = j.joint.drives[0].row, &to = i.joint.drives[0].row;
   S sum = S(0);
@@ -173,12 +173,12 @@ template <class S> S CouplingRows<S>::coupling_of(const Term& i, const Term& j) 
   return sum;
 }
 
-/// [m] Of an angle; [1] of a length.
+/// [m] The lever of an angle. [1] for a length.
 template <class S> S CouplingRows<S>::lever_of(const Term& term) {
   return measure_of(term.joint.properties.type) == JointMeasure::angle ? term.joint.drives[0].radius : S(1);
 }
-/// How an impulse on the sum divides among the rows: each in the measure in which it moves, and all together so that
-/// the sum moves by one. What a body has in two of them is counted, for a sum that is pushed too far gains energy.
+/// Divides an impulse on the sum among the rows, each by the measure in which it moves, so that the sum moves by one.
+/// Counts a body in two of them: a sum that is pushed too far gains energy.
 template <class S> void CouplingRows<S>::weigh(Run& run) const {
   const auto times = [](S a, S b) { return saturate_to<S>(product(a, b)); };
   S own[kMostTerms];
@@ -215,7 +215,7 @@ template <class S> void CouplingRows<S>::weigh(Run& run) const {
   run.unit = divide_to<S>(divide_to<S>(times(mass(base), lever_of(base)), moved), base.ratio);
 }
 
-/// Between which speeds the sum stays within its bounds, or returns to them.
+/// Finds the speeds with which the sum stays within its bounds, or returns to them.
 template <class S> void CouplingRows<S>::bound(Run& run, S sum) const {
   if (!run.holds) return;
   int first = 0;
@@ -243,9 +243,9 @@ template <class S> void CouplingRows<S>::bound(Run& run, S sum) const {
   run.changed = clamp(saturate_to<V>(product(kWarmth, run.changed)), -run.most, run.most);
 }
 
-/// Of which no body gains more than an eighth of the speed, or of the turn, that forces may give it in a sub-step:
-/// alone, a light body on a long arm turns far more easily than its joint lets it, and several rows may turn one body.
-/// What is left is closed in the next sub-steps.
+/// Returns the change of the sum by which no body gains more than an eighth of the linear or angular speed that forces
+/// may give it in a sub-step. Alone, a light body on a long arm turns far more easily than its joint lets it, and
+/// several rows may turn one body. Later sub-steps close the rest.
 template <class S> Velocity<S> CouplingRows<S>::most_change(const Run& run) const {
   constexpr S kPart = S(0.125);
   S most = Limits<S>::speed();
@@ -271,7 +271,7 @@ template <class S> Velocity<S> CouplingRows<S>::most_change(const Run& run) cons
   return convert<V>(most);
 }
 
-/// What a load is in a sub-step, and the load of what the last one changed.
+/// Converts a load to the change of speed that it makes in a sub-step. load_of() converts the last change back.
 template <class S> Velocity<S> CouplingRows<S>::change_of(const Run& run, S load) const {
   if (run.unit == S(0)) return V(0);
   return divide_to<V>(divide_to<S>(load, run.unit), rate_);
@@ -280,7 +280,7 @@ template <class S> S CouplingRows<S>::load_of(const Run& run) const {
   return saturate_to<S>(product(run.unit, saturate_to<S>(product(rate_, saturating_add(run.changed, run.borne)))));
 }
 
-/// [m/s] Of the sum, in rows of the first term.
+/// [m/s] Returns the speed of the sum, in rows of the first term.
 template <class S> Velocity<S> CouplingRows<S>::speed_of(const Run& run) const {
   V speed = V(0);
   for (int i = 0; i < run.count; ++i) {
@@ -291,8 +291,8 @@ template <class S> Velocity<S> CouplingRows<S>::speed_of(const Run& run) const {
   }
   return speed;
 }
-/// By what the sum's speed without it is beyond its bounds: what is too much is given back. To relax is to push
-/// nothing back into its bounds.
+/// Changes the sum's speed by its excess beyond the bounds, without the change so far: too large a change is taken
+/// back. Relaxing pushes nothing back into its bounds.
 template <class S> void CouplingRows<S>::solve(Run& run, bool relaxes) {
   if (!run.holds) return;
   const V low = !relaxes ? run.low : run.is_equal() ? V(0) : min(run.low, V(0));

@@ -25,9 +25,9 @@ template <class S> class Mechanisms {
   Mechanisms& operator=(const Mechanisms&) = delete;
 
   void begin_step();
-  /// Since then. None, where nothing is awake that has wheels or is coupled.
+  /// Returns the rows of the step. Empty if no awake body has wheels or a coupling.
   MechanismRows<S> rows();
-  /// Writes the records.
+  /// Writes the states of the records.
   void end_step();
 
  private:

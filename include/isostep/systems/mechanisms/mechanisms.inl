@@ -38,7 +38,7 @@ template <class S> void Mechanisms<S>::list_bodies() {
   }
 }
 
-/// Twice what a body may have as the step begins and as much again, as forces keep it.
+/// Limits speeds to twice those that a body may have: once from the start of the step, once more from forces.
 template <class S> void Mechanisms<S>::keep_in_range(SolverBodies<S>& bodies) const {
   const Velocity<S> most = convert<Velocity<S>>(Limits<S>::speed()) * Velocity<S>(2);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {

@@ -14,15 +14,15 @@
 namespace isostep {
 
 /// Input:   the state after the solver; the poses of the awake bodies' centres as the step began; whom the solver cut.
-/// Output:  the same state with no number that is not finite and none beyond Limits<S>; what was changed, as counts in
-///          the report; fat boxes; the broad phase knows of them.
+/// Output:  the state with only finite numbers, all within Limits<S>; counts of changes in the report; fat boxes, and
+///          their proxies.
 /// Keeps:   nothing.
 template <class S> class BodyFinisher {
  public:
   ISO_INLINE BodyFinisher(WorldState<S>& state, const BodyMap<S>& map, Proxies<S>& proxies)
       : state_(state), map_(map), proxies_(proxies) {}
 
-  /// `cut`: of each awake body, whether the solver cut its speed in a sub-step already; empty for none.
+  /// `cut`: for each awake body, 1 if the solver cut its speed in a sub-step already. Empty for none.
   void finish(std::span<const Pose<S>> start, std::span<const std::uint8_t> cut, StepReport& report);
 
  private:

@@ -28,7 +28,7 @@ void BodyFinisher<S>::finish(std::span<const Pose<S>> start, std::span<const std
   if (report.stopped > 0) discard_bad_impulses();
 }
 
-/// A body with a number that is not finite stops where it was as the step began.
+/// Stops a body with a number that is not finite, and puts it back to its pose at the start of the step.
 template <class S>
 ISO_INLINE void BodyFinisher<S>::stop_if_not_finite(BodyState<S>& state, const Pose<S>& start, StepReport& report) {
   const auto& q = state.orientation;
@@ -63,7 +63,7 @@ ISO_INLINE bool BodyFinisher<S>::clamp_speed(BodyState<S>& state, const BodyProp
   return true;
 }
 
-/// A body at the edge of the world does not move on.
+/// Stops a body at the edge of the world.
 template <class S> ISO_INLINE void BodyFinisher<S>::clamp_position(BodyState<S>& state, StepReport& report) {
   const S edge = Limits<S>::position();
   if (!(edge < max_abs(state.centre))) return;
@@ -75,7 +75,7 @@ template <class S> ISO_INLINE void BodyFinisher<S>::clamp_position(BodyState<S>&
   ++report.clamped_position;
 }
 
-/// A body that was stopped leaves contacts and joints behind whose impulses are not finite either.
+/// Clears impulses that are not finite: a stopped body leaves contacts and joints with such impulses behind.
 template <class S> void BodyFinisher<S>::discard_bad_impulses() {
   using V = Velocity<S>;
   for (Contact<S>& contact : state_.contacts) {

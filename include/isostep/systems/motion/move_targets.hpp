@@ -13,15 +13,15 @@
 namespace isostep {
 
 namespace detail {
-/// The pose of the centre of mass as a body's origin is at the pose.
+/// Returns the pose of the centre of mass of a body whose origin is at `pose`.
 template <class S> ISO_INLINE Pose<S> centre_at(const Pose<S>& pose, Vec3<S> local_centre) {
   return centre_pose({pose.position, normalise(pose.orientation)}, local_centre);
 }
 }  // namespace detail
 
-/// Input:   the state as a step begins, with its moves; as its sub-steps are over; as it ends.
-/// Output:  velocities that lead to the targets; poses that are the targets; no velocity, and no such move.
-/// Keeps:   what it moves within a step.
+/// Input:   the state as a step begins, with its moves; after its sub-steps; as it ends.
+/// Output:  velocities that lead to the targets; poses at the targets; zero velocities, and those moves removed.
+/// Keeps:   the moves of the current step.
 template <class S> class MoveTargets {
  public:
   ISO_INLINE MoveTargets(WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}

@@ -22,7 +22,7 @@ template <class S> void MoveTargets<S>::begin_step() {
   }
 }
 
-/// Returns whether the velocity that it gives leads all the way.
+/// Sets the velocity towards the goal. Returns true if it leads all the way.
 template <class S> bool MoveTargets<S>::start(BodyState<S>& state, const Pose<S>& goal) const {
   using V = Velocity<S>;
   const Settings<S>& s = state_.settings;
@@ -42,7 +42,7 @@ template <class S> bool MoveTargets<S>::start(BodyState<S>& state, const Pose<S>
   return state.velocity == linear && state.angular_velocity == angular;
 }
 
-/// Sub-steps lead there but for what they round.
+/// Puts bodies exactly on their goals: sub-steps lead there except for rounding.
 template <class S> void MoveTargets<S>::arrive() {
   for (const Move& move : moves_) {
     if (!move.reaches) continue;

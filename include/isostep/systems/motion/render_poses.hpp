@@ -15,24 +15,24 @@ namespace isostep {
 
 /// Input:   the state as a step begins, and later.
 /// Output:  poses of all bodies that move or sleep.
-/// Keeps:   where the awake bodies were when the last step began.
+/// Keeps:   the poses of the awake bodies at the start of the last step.
 template <class S> class RenderPoses {
  public:
   ISO_INLINE explicit RenderPoses(const WorldState<S>& state) : state_(state) {}
 
-  /// Keeps the poses as a step begins.
+  /// Keeps the poses. Called at the start of a step.
   void keep_start();
-  /// The poses of the centres of the bodies that were awake, in their order.
+  /// The poses of the centres of the bodies that were awake at the start of the step, in their order.
   ISO_INLINE std::span<const Pose<S>> start() const { return start_poses_; }
-  /// A body that a command puts somewhere is drawn there, and not on the way from where its slot was before.
+  /// Draws a body where a command puts it, without interpolation from the former place of its slot.
   void start_here(const BodyState<S>& state);
-  /// The state was replaced: bodies are drawn where they are.
+  /// Forgets the old poses, because the state was replaced: bodies are drawn where they are.
   ISO_INLINE void forget() {
     start_poses_.clear();
     start_slots_.clear();
   }
 
-  /// Returns poses. `alpha` of 0: as the last step began; of 1: now.
+  /// Returns the interpolated poses. `alpha` 0: the start of the last step; 1: now.
   const std::vector<RenderPose>& fill(float alpha);
 
   template <class Visit> void visit_scratch(const Visit& visit) {

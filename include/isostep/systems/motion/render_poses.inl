@@ -38,7 +38,7 @@ template <class S> const std::vector<RenderPose>& RenderPoses<S>::fill(float alp
   return poses_;
 }
 
-/// Positions by straight line, orientations by normalised straight line. `start`: null where there is none.
+/// Interpolates positions linearly, and orientations linearly with normalisation. `start` is null if there is none.
 template <class S>
 void RenderPoses<S>::add(const BodyState<S>& state, const BodyProperties<S>& body, const Pose<S>* start, float alpha) {
   const auto number = [](auto x) { return static_cast<float>(to_double(x)); };

@@ -10,9 +10,9 @@
 namespace isostep {
 
 /// Input:   the state as a step begins, and as it ends; its SensorMount records.
-/// Output:  poses of the sensors that are enabled; their fat boxes, of which the broad phase knows; velocities within
-///          the step, and none as it ends.
-/// Order:   any: what carries is not carried.
+/// Output:  poses of the sensors that are enabled, their fat boxes and their proxies; velocities of these sensors
+///          within the step, which are zero at its end.
+/// Order:   any, since no carrier is itself carried.
 /// Keeps:   nothing.
 template <class S> class SensorMounts {
  public:

@@ -26,7 +26,7 @@ template <class S> void SensorMounts<S>::end_step() {
   });
 }
 
-/// Calls visit(state, properties, record) for the sensors that are enabled: a kinematic body never sleeps.
+/// Calls visit(state, properties, record) for enabled sensors. They are kinematic, so they never sleep.
 template <class S> template <class Visit> void SensorMounts<S>::for_each(const Visit& visit) {
   for (const SensorMount<S>& mount : state_.records->sensor_mounts.all()) {
     if (!mount.sensor) continue;
@@ -47,7 +47,7 @@ void SensorMounts<S>::put(BodyState<S>& sensor, const BodyProperties<S>& body, c
   proxies_.place(sensor, body, true);
 }
 
-/// Gives the sensor its carrier's velocity at its centre, as fast as bodies may be; none if the carrier is not awake.
+/// Gives the sensor its carrier's velocity at the sensor's centre, within the limits. Zero if the carrier is not awake.
 template <class S> void SensorMounts<S>::give_velocity(BodyState<S>& sensor, const SensorMount<S>& mount) const {
   using V = Velocity<S>;
   const Settings<S>& s = state_.settings;

@@ -19,21 +19,21 @@ namespace isostep {
 
 /// Input:   the state after a step: awake bodies with their sleep clocks, contacts and joints; their centres' poses as
 ///          the step began.
-/// Output:  sleep clocks; islands whose bodies have all rested for half a second, moved out of the awake arrays into
-///          WorldState::sleeping; the ids of their bodies. The body map and the broad phase know of it.
+/// Output:  sleep clocks; islands whose bodies have all rested for half a second, moved from the awake arrays to
+///          WorldState::sleeping, in the body map and the broad phase as well; the ids of their bodies.
 /// Keeps:   nothing from step to step but memory.
 template <class S> class IslandSleep {
  public:
   ISO_INLINE IslandSleep(WorldState<S>& state, BodyMap<S>& map, Proxies<S>& proxies)
       : state_(state), map_(map), proxies_(proxies) {}
 
-  /// Appends to `fell_asleep`. `start`: the pose of each awake body as the step began. Bodies that touch one of the
-  /// belts stay awake; null: there are none. `pulls`: the accelerations of each awake body beside gravity, or empty.
+  /// Appends to `fell_asleep`. `start`: the pose of each awake body as the step began. Bodies that touch one of `belts`
+  /// stay awake; null: there are none. `pulls`: the accelerations of each awake body besides gravity, or empty.
   void update(std::vector<BodyId>& fell_asleep, std::span<const Pose<S>> start, const Belts<S>* belts = nullptr,
               std::span<const Acceleration<S>> pulls = {});
 
-  /// Puts the island of an awake dynamic body to sleep at once, whatever its bodies were about to do; the next step
-  /// tells. False, and no change: one of them may not sleep.
+  /// Puts the island of an awake dynamic body to sleep at once, and drops its pending forces. The next step reports it.
+  /// Returns false, with no change, if one of its bodies may not sleep.
   bool put_to_sleep(std::uint32_t slot);
 
  private:

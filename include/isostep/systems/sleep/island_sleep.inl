@@ -13,19 +13,19 @@ namespace isostep {
 
 namespace detail {
 template <class S> inline constexpr S kSleepSpeed = S(0.05);  // [m/s] and [rad/s]
-/// [s] The time of a fall that counts as rest: thrown up, a body is slow for twice as long; the delay is longer.
+/// [s] The time of fall in which a body counts as at rest. Thrown up, it is slow twice as long: less than the delay.
 template <class S> inline constexpr S kSleepFall = S(0.1875);
-/// [m/s^2] and [rad/s^2] The least pull that counts: rounding of forces in balance leaves less.
+/// [m/s^2] and [rad/s^2] The least pull that counts. Rounding of balanced forces leaves less.
 template <class S> inline constexpr S kLeastPull = S(1.0 / 16384);
-/// [m/s] or [rad/s] The speed of a body at rest under a pull of more than `least` is lower.
+/// [m/s] or [rad/s] Returns the speed below which a body is at rest under `pull`, which counts if above `least`.
 template <class S> ISO_INLINE S rest_speed_under(Vec3<S> pull, S least) {
   const S size = max_abs(pull);
   return size <= least ? kSleepSpeed<S> : min(kSleepSpeed<S>, size * kSleepFall<S>);
 }
 inline constexpr std::uint32_t kStepsPerSleepDelay = 2;  // a second over this: half a second of rest
-/// Whether a step moved a body, which is slower than `limit` [m/s] and [rad/s], at twice that or more: what corrects
-/// positions moves it without velocity. Source: Box2D 3, positionSleepFactor. What coordinates and turns round to is no
-/// motion.
+/// Returns true if a step moved a slow body as if it had twice the speed `limit` [m/s] and [rad/s], or more:
+/// corrections of positions move it without velocity. Source: Box2D 3, positionSleepFactor. Rounding of coordinates and
+/// rotations is no motion.
 template <class S>
 ISO_INLINE bool is_corrected(const Pose<S>& start, const BodyState<S>& state, S limit, std::int32_t hz) {
   using U = Unit<S>;
@@ -52,7 +52,7 @@ void IslandSleep<S>::update(std::vector<BodyId>& fell_asleep, std::span<const Po
   if (mark_ready_islands()) move_marked_islands(fell_asleep);
 }
 
-/// Memory goes with how many bodies are awake, and not with when the first of them is ready to sleep.
+/// Allocates for the awake bodies now, so that memory does not depend on when the first of them is ready to sleep.
 template <class S> void IslandSleep<S>::make_room() {
   const std::size_t count = state_.awake.states.size();
   islands_.make_room(count);
@@ -74,7 +74,7 @@ template <class S> bool IslandSleep<S>::put_to_sleep(std::uint32_t slot) {
   return true;
 }
 
-/// Moves the islands whose `clock_` is 1.
+/// Puts the islands whose `clock_` is 1 to sleep.
 template <class S> void IslandSleep<S>::move_marked_islands(std::vector<BodyId>& fell_asleep) {
   asleep_.resize(state_.awake.states.size());
   move_contacts();
@@ -83,7 +83,7 @@ template <class S> void IslandSleep<S>::move_marked_islands(std::vector<BodyId>&
   list_islands();
 }
 
-/// [steps] The rest before an island falls asleep.
+/// [steps] The time of rest before an island falls asleep.
 template <class S> std::uint32_t IslandSleep<S>::delay() const {
   return static_cast<std::uint32_t>(state_.settings.hz) / detail::kStepsPerSleepDelay;
 }
@@ -110,7 +110,7 @@ void IslandSleep<S>::update_clocks(std::span<const Pose<S>> start, std::span<con
     state.sleep_clock = may && rests ? state.sleep_clock + (state.sleep_clock < 0xffffffffu ? 1u : 0u) : 0u;
   }
 }
-/// A blast may be on its way, and water with a wave moves again what it lets rest for a while.
+/// Stops clocks while an explosion exists, which may hit yet, and in water with waves, which move bodies after a rest.
 template <class S> void IslandSleep<S>::stop_clocks_by_forces() {
   const auto& explosions = state_.records->explosions;
   const auto& waters = state_.records->waters;
@@ -127,14 +127,14 @@ template <class S> void IslandSleep<S>::stop_clocks_by_forces() {
     if (moved) state.sleep_clock = 0;
   }
 }
-/// The material of a leaf's part.
+/// Returns the material of a leaf's part.
 template <class S>
 const Material<S>& IslandSleep<S>::surface_of(const BodyProperties<S>& body, std::uint32_t slot,
                                               std::uint32_t leaf) const {
   if (!map_.shapes.traits_of(body.shape).has(part_flag::kOwnMaterial)) return body.material;
   return map_.shapes.children_of(body.shape)[leaf_of(map_, slot, leaf).child].traits.material_or(body.material);
 }
-/// A body that rests on something that moves is not at rest: a drum or a conveyor carries it.
+/// Stops the clocks of bodies on a moving surface, as a drum or a conveyor: those do not rest.
 template <class S> void IslandSleep<S>::stop_clocks_of_carried(const Belts<S>* belts) {
   for (const Contact<S>& contact : state_.contacts) {
     const std::uint32_t slot_list[2] = {contact.key.body_a, contact.key.body_b};
@@ -151,7 +151,7 @@ template <class S> void IslandSleep<S>::stop_clocks_of_carried(const Belts<S>* b
     }
   }
 }
-/// A motor that runs carries its bodies, even if they seem to rest. One that a limit or a load stops does not.
+/// Stops the clocks of bodies of a running slow motor, even if they seem to rest. A limit or a load may stop the motor.
 template <class S> void IslandSleep<S>::stop_clocks_of_motors() {
   const S slow = S(4) * detail::kSleepSpeed<S>;  // of two bodies neither component of which is kSleepSpeed
   const auto is_slow = [slow](S speed) { return !(speed == S(0)) && abs(speed) < slow; };
@@ -183,13 +183,13 @@ template <class S> bool IslandSleep<S>::some_body_is_ready() const {
   return false;
 }
 
-/// The body is dynamic and awake.
+/// Returns true if the body is dynamic and awake.
 template <class S> bool IslandSleep<S>::is_dynamic(std::uint32_t slot) const {
   const Location at = map_.location(slot);
   return at.set == Location::kAwake && state_.awake.properties[at.index].type == BodyType::dynamic;
 }
 
-/// Finds islands: dynamic bodies that contacts and joints tie together.
+/// Finds islands: dynamic bodies connected by contacts, joints, springs, wheels and couplings.
 template <class S> void IslandSleep<S>::find_islands() {
   islands_.begin(state_.awake.states.size());
   const auto tie = [&](std::uint32_t a, std::uint32_t b) {
@@ -210,7 +210,7 @@ template <class S> void IslandSleep<S>::find_islands() {
   for (const Coupling<S>& coupling : state_.records->couplings.all()) tie_coupled(coupling);
 }
 
-/// Ties the bodies of all joints of a coupling.
+/// Joins the bodies of all joints of a coupling into one island.
 template <class S> void IslandSleep<S>::tie_coupled(const Coupling<S>& coupling) {
   std::uint32_t first = kNoBody;
   for (const JointId id : detail::joints_of(coupling).all) {
@@ -224,13 +224,13 @@ template <class S> void IslandSleep<S>::tie_coupled(const Coupling<S>& coupling)
   }
 }
 
-/// Calls visit(slot of a wheel's body, slot of the ground).
+/// Calls visit(slot of the wheel's body, slot of the ground) for each wheel on ground.
 template <class S> template <class Visit> void IslandSleep<S>::for_each_wheel_on_ground(const Visit& visit) const {
   detail::for_each_standing_wheel(
       state_, [&](BodyId body, const WheelState<S>& wheel) { visit(body.slot, wheel.contact_body.slot); });
 }
 
-/// Finds how long all bodies of an island have rested.
+/// Finds the least sleep clock of each island.
 template <class S> void IslandSleep<S>::find_island_clocks() {
   const std::size_t count = state_.awake.states.size();
   clock_.assign(count, 0xffffffffu);
@@ -256,7 +256,7 @@ template <class S> void IslandSleep<S>::find_island_clocks() {
   for_each_wheel_on_ground(keep_awake);
 }
 
-/// Sets `clock_` to 1 for islands that fall asleep, else to 0. False: there is none.
+/// Sets `clock_` to 1 for islands that fall asleep, to 0 for others. Returns false if none does.
 template <class S> bool IslandSleep<S>::mark_ready_islands() {
   const std::uint32_t least = delay();
   bool any = false;
@@ -269,7 +269,7 @@ template <class S> bool IslandSleep<S>::mark_ready_islands() {
   return any;
 }
 
-/// The island of the awake body at that index; null if it stays awake.
+/// Returns the sleeping island of the awake body at that index, or null if it stays awake.
 template <class S> SleepingIsland<S>* IslandSleep<S>::island_of(std::size_t index) {
   const std::uint32_t root = islands_.find(static_cast<std::uint32_t>(index));
   if (clock_[root] == 0) return nullptr;
@@ -333,7 +333,7 @@ template <class S> void IslandSleep<S>::move_bodies(std::vector<BodyId>& fell_as
   awake.properties.resize(kept);
 }
 
-/// Lists the islands in order of their first bodies.
+/// Adds the islands to the sleeping ones, in order of their first bodies.
 template <class S> void IslandSleep<S>::list_islands() {
   map_.relabel(state_.awake, Location::kAwake, 0);
   map_.joints.relabel(state_.joints, Location::kAwake, 0);

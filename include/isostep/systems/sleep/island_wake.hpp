@@ -14,9 +14,9 @@
 
 namespace isostep {
 
-/// Input:   the state, and which body or joint is about to change.
-/// Output:  the islands' bodies, contacts and joints among the awake ones, in canonical order, with sleep clocks of 0;
-///          WorldState::untold.woke; the body map and the broad phase know of it.
+/// Input:   the state, and the body or joint that is about to change.
+/// Output:  the islands' bodies, contacts and joints among the awake ones, in canonical order, with sleep clocks of 0,
+///          in the body map and the broad phase as well; WorldState::untold.woke.
 /// Keeps:   nothing from call to call but memory.
 template <class S> class IslandWake {
  public:
@@ -25,32 +25,32 @@ template <class S> class IslandWake {
 
   /// Wakes the island of a body, if it sleeps.
   void wake(std::uint32_t slot);
-  /// Wakes one island after another in this order, at the cost of one merge.
+  /// Wakes islands one after another in this order, with one merge.
   void wake(std::span<const std::uint32_t> slot_list);
   void wake_all();
-  /// Wakes islands that something awake and moving has a contact with, or something awake a wheel on, or that a fast
-  /// kinematic body is about to pass through. False: there was none. Waking brings new pairs, so the caller updates the
+  /// Wakes islands that an awake moving body touches, that an awake wheel stands on, or that a fast kinematic body is
+  /// about to pass through. Returns false if there are none. Woken bodies bring new pairs, so the caller updates the
   /// broad phase and calls again.
   bool wake_touched();
-  /// Wakes every island and every body that the body's fat box meets, that of its parts that are no sensors: what is
-  /// moved, changed or taken away may have held them up.
+  /// Wakes every island and resets every body whose box meets the box of the body's parts, sensors excepted: a body
+  /// that is moved, changed or removed may have held them up.
   void wake_touching(std::uint32_t slot);  // a sensor wakes nobody: it notes that the next step looks who sleeps in it
-  /// Wakes those that meet a box [m] that is about to change, or has; but not `slot`, which is what changes.
+  /// Does so for a box [m] that is about to change, or has changed, except for `slot`, the body that changes.
   void wake_touching(const Aabb<S>& box, std::uint32_t slot);
-  /// Wakes every island with a joint or spring to, or a contact or wheel on, a body that no island holds. Its box need
-  /// not meet theirs any more: a contact sleeps as the last step found it.
+  /// Wakes every island with a joint, spring, contact or wheel on a body that belongs to no island. Their boxes need
+  /// not meet any more: a contact sleeps as the last step found it.
   void wake_held_by(std::uint32_t slot);
-  /// Wakes every body with a wheel on that one inside of the box [m]: its own need not reach the ground.
+  /// Wakes every body with a wheel on that one inside the box [m]: the wheel's own body need not reach the ground.
   void wake_wheels_on(std::uint32_t slot, const Aabb<S>& box);
-  /// Wakes the joint's island and starts the sleep clocks of its bodies anew. Returns its index among the awake joints.
+  /// Wakes the joint's island and resets the sleep clocks of its bodies. Returns its index among the awake joints.
   std::uint32_t wake_joint(std::uint32_t slot);
-  /// Wakes a body that is about to be changed, and returns its state. Not of a static one.
+  /// Wakes a body that is about to change, and returns its state. Not for static bodies.
   BodyState<S>& wake_for_change(std::uint32_t slot);
-  /// An awake body rests anew: what held it may be gone, and the rest it had counted was on that.
+  /// Resets the sleep clock of an awake body: it rested on something that may be gone.
   void reset_clock(std::uint32_t slot);
 
  private:
-  /// A record of an island, to be sorted into the awake ones.
+  /// A record of an island, to be merged into the awake ones.
   struct Record {
     std::uint64_t key;  // its place among the awake ones
     const SleepingIsland<S>* island;

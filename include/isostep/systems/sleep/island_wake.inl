@@ -13,7 +13,7 @@
 namespace isostep {
 
 namespace detail {
-/// Merges two ascending runs from the back, in place: put(to, from_old, index) moves one record of either.
+/// Merges two ascending runs from the back, in place. put(to, from_old, index) moves one record of either.
 template <class OldIsLater, class Put>
 void merge_from_back(std::size_t old, std::size_t more, const OldIsLater& old_is_later, const Put& put) {
   for (std::size_t to = old + more; more > 0; --to) {
@@ -21,7 +21,7 @@ void merge_from_back(std::size_t old, std::size_t more, const OldIsLater& old_is
     put(to - 1, from_old, from_old ? --old : --more);
   }
 }
-/// In the order in which islands wake.
+/// Sorts slots into the order in which islands wake.
 inline void sort_slots(std::vector<std::uint32_t>& slot_list) {
   std::vector<std::uint32_t> scratch(slot_list.size());
   stable_sort(slot_list.data(), scratch.data(), static_cast<std::uint32_t>(slot_list.size()), OwnKey{});
@@ -57,8 +57,8 @@ template <class S> bool IslandWake<S>::wake_touched() {
   wake(touched_);
   return !touched_.empty();
 }
-/// What sleeps in the way of a kinematic body that goes as far in the step as it is thick: it would be beyond them
-/// before they touch.
+/// Finds sleepers in the way of a kinematic body that moves by its thickness or more in the step: it would be beyond
+/// them before they touch.
 template <class S> void IslandWake<S>::find_run_over(std::size_t index) {
   const BodyProperties<S>& body = state_.awake.properties[index];
   if (body.type != BodyType::kinematic || !map_.shapes.has_contacts(body)) return;
@@ -88,8 +88,8 @@ template <class S> void IslandWake<S>::find_run_over(std::size_t index) {
   detail::sort_slots(met);
   touched_.insert(touched_.end(), met.begin(), met.end());
 }
-/// Whether a part of the kinematic body comes near to one of the sleeper that it presses on. Parts that are as their
-/// bodies are not looked at.
+/// Returns true if a part of the kinematic body comes near a part of the sleeper that it collides with. Skips the test
+/// if no part of them has traits of its own.
 template <class S>
 bool IslandWake<S>::may_run_over(const BodyState<S>& state, Vec3<S> way, std::uint32_t sleeper) const {
   const BodyProperties<S>& body = map_.properties_at(map_.location(state.slot));
@@ -109,7 +109,7 @@ bool IslandWake<S>::may_run_over(const BodyState<S>& state, Vec3<S> way, std::ui
   }
   return false;
 }
-/// Whether one of the two sleeps and the other is awake, moves and touches it.
+/// Returns true if one of the two sleeps, and the other is awake, moves and touches it.
 template <class S> bool IslandWake<S>::is_touched(std::uint64_t pair) const {
   const Location a = map_.location(pair_a(pair)), b = map_.location(pair_b(pair));
   if (a.is_asleep() == b.is_asleep()) return false;
@@ -124,7 +124,7 @@ template <class S> bool IslandWake<S>::is_touched(std::uint64_t pair) const {
          !are_ghosts(state_, map_, pair_a(pair), pair_b(pair));
 }
 
-/// A sensor sees others and touches none.
+/// Returns true if the body is a sensor: it detects others and touches none.
 template <class S> bool IslandWake<S>::is_sensor(std::uint32_t slot) const {
   return map_.shapes.is_sensor(map_.properties_at(map_.location(slot)));
 }
@@ -202,7 +202,7 @@ template <class S> void IslandWake<S>::reset_clock(std::uint32_t slot) {
     state_.awake.states[map_.location(slot).index].sleep_clock = 0;
 }
 
-/// Takes an island off the list; the last one takes its place. Its bodies count as awake but are nowhere until
+/// Takes an island off the list, and the last one fills its place. Its bodies count as awake, but are in no array until
 /// `merge_woken`.
 template <class S> void IslandWake<S>::start_waking(std::uint32_t index) {
   const std::shared_ptr<const SleepingIsland<S>> island = state_.sleeping[index];
@@ -219,8 +219,8 @@ template <class S> void IslandWake<S>::start_waking(std::uint32_t index) {
   woken_.push_back(island);
 }
 
-/// Moves the bodies, joints and contacts of woken islands among the awake ones, in canonical order and in one pass
-/// over each array.
+/// Merges the bodies, joints and contacts of woken islands into the awake ones, in canonical order and in one pass over
+/// each array.
 template <class S> void IslandWake<S>::merge_woken() {
   if (woken_.empty()) return;
   merge_set(
@@ -241,7 +241,7 @@ template <class S> void IslandWake<S>::merge_woken() {
   woken_.clear();
 }
 
-/// Fills `records_` with one array of every woken island, in order. Returns how many records there are.
+/// Fills `records_` with one array of every woken island, in order. Returns the number of records.
 template <class S>
 template <class ArrayOf, class KeyOf>
 std::size_t IslandWake<S>::sort_records(const ArrayOf& array_of, const KeyOf& key_of) {
@@ -272,7 +272,7 @@ template <class S> template <class Set, class SetOf> void IslandWake<S>::merge_s
       });
 }
 
-/// Contacts of one pair lie in one island, ascending, and the sort keeps their order: the pair is key enough.
+/// Merges contacts. Those of a pair lie in one island, ascending, and the sort is stable: the pair suffices as key.
 template <class S> void IslandWake<S>::merge_contacts() {
   const auto pair_of = [](const Contact<S>& contact) { return pair_key(contact.key.body_a, contact.key.body_b); };
   std::vector<Contact<S>>& contacts = state_.contacts;

@@ -8,8 +8,8 @@
 namespace isostep {
 
 /// Input:   the records and inputs of vehicles, the wheels of a step, joined to tracks.
-/// Output:  spins and brakes of wheels that lead, in every sub-step; the states of vehicles.
-/// Keeps:   nothing: an engine in a step is of its group.
+/// Output:  rim speeds and brakes of leading wheels, in every sub-step; the states of vehicles.
+/// Keeps:   nothing: the group holds the engine of a step.
 template <class S> class DriveTrain {
  public:
   using V = Velocity<S>;
@@ -19,21 +19,21 @@ template <class S> class DriveTrain {
   ISO_INLINE DriveTrain(WorldState<S>& state, StepWheels<S>& wheels, const WheelTracks<S>& tracks)
       : state_(state), wheels_(wheels), tracks_(tracks) {}
 
-  /// How many turns of the engine's shaft each wheel's and track's is.
+  /// Sets the gear ratio from the engine's shaft to each wheel and track.
   void gear_up(Group& group);
-  /// Torque on the driven wheels or on the engine, and brakes: once in a sub-step.
+  /// Applies engine torque to the driven wheels, or to an engine with inertia, and sets brakes. Once a sub-step.
   void drive(Group& group);
-  /// Takes of the differences in speed of driven wheels and tracks; the torque that does it acts between them, and what
-  /// steering does not gear otherwise keeps what it turns with together.
+  /// Locks the differential: removes a part of the speed differences of driven wheels and tracks. The torque acts
+  /// between them, so they keep their common angular momentum, except for what steering gears otherwise.
   void lock(const Group& group);
-  /// The torque that ends the clutch's slip, or the most that it bears against that.
+  /// Applies the torque that ends the clutch's slip, or the most that the clutch bears.
   void engage(Group& group);
-  /// Writes what engines do.
+  /// Writes the states of engines.
   void end_step();
 
  private:
   using Engine = ClutchedEngine<S>;
-  /// What the wheels turn: the shaft of the engine, or the clutch's disc.
+  /// The shaft that the wheels turn: that of the engine, or the clutch's disc.
   struct Shaft {
     S speed;  // [rad/s]
     S give;   // [1/(kg m^2)] its change by a unit of angular impulse

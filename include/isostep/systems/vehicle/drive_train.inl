@@ -7,7 +7,7 @@
 
 namespace isostep {
 
-/// [1] By which steering multiplies the drive of a track.
+/// [1] Returns the factor by which steering scales the drive of a track.
 template <class S> S DriveTrain<S>::side_of(const Run& run, const Group& group) const {
   const WheelSettings<S>& w = wheels_.wheel(run);
   if (w.track == 0) return S(1);
@@ -44,13 +44,13 @@ template <class S> void DriveTrain<S>::begin_engine(Group& group) const {
   group.engine.clutch = was.clutch_load;
 }
 
-/// The rim's change of speed by a torque in a sub-step.
+/// Changes the speed of a rim by a torque over the sub-step.
 template <class S> void DriveTrain<S>::turn(const Run& run, V& rim, S torque) const {
   const S rate = detail::times(torque, divide_to<S>(wheels_.wheel(run).radius, run.inertia));  // [m/s^2]
   rim = saturating_add(rim, saturate_to<V>(product(rate, wheels_.h())));
 }
 
-/// How much the brakes can do.
+/// Sets the impulse that the brakes can apply.
 template <class S> void DriveTrain<S>::set_brakes(const Group& group) {
   using detail::times;
   const VehicleSettings<S>& set = wheels_.vehicle(group);
@@ -64,7 +64,7 @@ template <class S> void DriveTrain<S>::set_brakes(const Group& group) {
   }
 }
 
-/// With rims of that speed: rim_of(run) [m/s].
+/// Returns the shaft for wheels with the rim speeds rim_of(run) [m/s].
 template <class S>
 template <class Rim>
 auto DriveTrain<S>::shaft_of(const Group& group, const Rim& rim_of) const -> Shaft {
@@ -78,7 +78,7 @@ auto DriveTrain<S>::shaft_of(const Group& group, const Rim& rim_of) const -> Sha
   return shaft;
 }
 
-/// What throttle asks for, or what brings the shaft to engine_speed within the sub-step, where that is less.
+/// Returns the torque of the throttle, or that which brings the shaft to engine_speed in the sub-step if it is less.
 template <class S> S DriveTrain<S>::engine_torque(const Group& group, const Shaft& shaft) const {
   const VehicleSettings<S>& set = wheels_.vehicle(group);
   const S throttle = wheels_.input(group).throttle;
@@ -126,13 +126,13 @@ template <class S> void DriveTrain<S>::lock(const Group& group) {
   }
 }
 
-/// [rad/s] The engine's speed after a sub-step of that torque.
+/// [rad/s] Returns the engine's speed after a sub-step with that torque.
 template <class S> S DriveTrain<S>::spun(const Engine& engine, S speed, S torque) const {
   const S change = divide_to<S>(saturate_to<S>(product(torque, wheels_.h())), engine.inertia);
   return clamp(saturating_add(speed, change), -fastest_engine<S>(), fastest_engine<S>());
 }
 
-/// Throttle turns the engine, and the clutch bears what it bore in the sub-step before.
+/// Turns the engine by the throttle, and warm starts the clutch with its torque of the last sub-step.
 template <class S> void DriveTrain<S>::turn_engine(Group& group) {
   Engine& engine = group.engine;
   const S torque = engine_torque(group, {engine.spin, divide_to<S>(S(1), engine.inertia)});
@@ -142,7 +142,7 @@ template <class S> void DriveTrain<S>::turn_engine(Group& group) {
   bear(group, before);
 }
 
-/// The clutch bears that torque, in the whole sub-step: the engine loses it, the wheels get it.
+/// Sets the torque that the clutch bears over the whole sub-step: the engine loses it, the wheels get it.
 template <class S> void DriveTrain<S>::bear(Group& group, S torque) {
   Engine& engine = group.engine;
   const S more = saturating_subtract(torque, engine.clutch);
@@ -151,8 +151,8 @@ template <class S> void DriveTrain<S>::bear(Group& group, S torque) {
   push_shaft(group, more);
 }
 
-/// Method:  a row of engine and shaft as the wheels and their tyres leave it, with what it bears in all held within
-///          its bounds. It is solved in turn with the tyres, and begins with what it bore in the sub-step before.
+/// Method:  a row between engine and shaft, with the wheels as their tyres leave them. Its total impulse stays within
+///          its bounds. It is solved in turn with the tyres, and warm starts from the last sub-step.
 template <class S> void DriveTrain<S>::engage(Group& group) {
   Engine& engine = group.engine;
   if (engine.inertia == S(0) || !group.geared) return;
@@ -164,7 +164,7 @@ template <class S> void DriveTrain<S>::engage(Group& group) {
   bear(group, clamp(saturating_add(engine.clutch, more), -engine.most, engine.most));
 }
 
-/// A body whose engine's speed changes does not fall asleep.
+/// Writes the engine states. A body whose engine changes speed does not fall asleep.
 template <class S> void DriveTrain<S>::end_step() {
   constexpr S kChanging = S(0x1p-6);  // [rad/s] in a step
   for (const Group& group : wheels_.groups()) {

@@ -14,8 +14,8 @@
 namespace isostep {
 
 /// Input:   the records of wheels and vehicles; the bodies in every sub-step.
-/// Output:  runs, sorted by body, with what their records left, steered and paired by anti-roll bars; groups of them;
-///          the order in which a sweep takes them. VehicleRows and its parts write the rest of runs and groups.
+/// Output:  runs, sorted by body, with the states of their records, steered and paired by anti-roll bars; groups of
+///          runs; the order in which a sweep solves them. VehicleRows and its parts write the rest of runs and groups.
 /// Keeps:   nothing from step to step but memory.
 /// Order:   bodies ascending by slot, the wheels of each ascending by slot.
 template <class S> class StepWheels {
@@ -28,7 +28,7 @@ template <class S> class StepWheels {
   ISO_INLINE StepWheels(const WorldState<S>& state, const BodyMap<S>& map) : state_(state), map_(map) {}
 
   void list();
-  /// Of what their engines and their ground are.
+  /// Marks the groups whose sweeps may end early, by their engines and their ground.
   void find_who_ends_early();
   ISO_INLINE void begin_substep(SolverBodies<S>& bodies, std::int32_t rate) {
     bodies_ = &bodies;
@@ -40,7 +40,7 @@ template <class S> class StepWheels {
   ISO_INLINE std::span<const Run> runs() const { return runs_; }
   ISO_INLINE std::span<Run> runs_of(const Group& group) { return runs().subspan(group.first, group.end - group.first); }
   ISO_INLINE std::span<Group> groups() { return groups_; }
-  /// Of runs: the first wheels of all bodies, then the second, and so on.
+  /// The order of runs: the first wheels of all bodies, then the second, and so on.
   ISO_INLINE std::span<const std::uint32_t> order() const { return order_; }
 
   ISO_INLINE const WheelSettings<S>& wheel(const Run& run) const { return state_.records->wheels.all()[run.slot]; }

@@ -19,7 +19,7 @@ template <class S> void StepWheels<S>::list() {
   }
 }
 
-/// The wheels of awake bodies, sorted by body: counted, then placed.
+/// Lists the wheels of awake bodies, sorted by body: counts them, then places them.
 template <class S> void StepWheels<S>::list_runs() {
   const std::vector<WheelSettings<S>>& wheels = state_.records->wheels.all();
   first_.assign(state_.awake.states.size() + 2, 0);
@@ -62,7 +62,7 @@ template <class S> void StepWheels<S>::list_runs() {
   }
 }
 
-/// Whose wheels each group has, and the order in which a sweep takes them.
+/// Assigns wheels and vehicles to groups, and finds the order in which a sweep solves them.
 template <class S> void StepWheels<S>::list_groups() {
   for (std::uint32_t g = 0; g < groups_.size(); ++g) {
     for (Run& run : runs_of(groups_[g])) run.group = g;
@@ -82,15 +82,15 @@ template <class S> void StepWheels<S>::list_groups() {
     }
   }
 }
-/// Null: the body of that row has no wheels. By now first_ tells where its wheels end.
+/// Returns the group of a row's body, or null if it has no wheels. By now first_ holds the ends of the bodies' wheels.
 template <class S> auto StepWheels<S>::group_of(std::uint32_t row) -> Group* {
   const std::uint32_t end = first_[row];
   const bool has = row != 0 && end != 0 && runs_[end - 1].row == row;
   return has ? &groups_[runs_[end - 1].group] : nullptr;
 }
 
-/// Neither those that stand on what moves, nor what they stand on, nor those that a differential's lock or a clutch
-/// changes.
+/// Marks groups of which only the own wheels change the result: not groups on moving ground, nor their ground, nor
+/// those with a differential lock or a clutch.
 template <class S> void StepWheels<S>::find_who_ends_early() {
   for (Group& group : groups_) {
     const bool locks = group.vehicle != Run::kNone && S(0) < vehicle(group).differential_lock;
@@ -103,7 +103,7 @@ template <class S> void StepWheels<S>::find_who_ends_early() {
   }
 }
 
-/// Of wheels with one number the first two.
+/// Pairs the wheels of an axle by its anti-roll bar: the first two with its number.
 template <class S> void StepWheels<S>::join_bars(const Group& group) {
   for (std::uint32_t i = group.first; i < group.end; ++i) {
     for (std::uint32_t j = i + 1; j < group.end && runs_[i].partner == Run::kNone; ++j) {
@@ -116,8 +116,8 @@ template <class S> void StepWheels<S>::join_bars(const Group& group) {
   }
 }
 
-/// With d and x of a wheel before and beside the middle of those that are not steered, and the angle a of a wheel at
-/// d: its axle points to the centre d / tan a beside that middle, for ackermann 1.
+/// Steers wheels. A wheel lies d before and x beside the middle of the unsteered ones. For ackermann 1 its axle points
+/// to the centre, d / tan a beside that middle, where a is the angle of a wheel at d with x = 0.
 template <class S> void StepWheels<S>::steer(const Group& group) {
   if (group.vehicle == Run::kNone) return;
   const S turned = input(group).steer, ackermann = vehicle(group).ackermann;

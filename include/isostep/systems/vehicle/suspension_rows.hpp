@@ -9,8 +9,8 @@
 namespace isostep {
 
 /// Input:   the wheels of a step and the ground that they stand on, the bodies in every sub-step.
-/// Output:  velocities of bodies and their ground; of runs, what the sub-step finds.
-/// Keeps:   how soft the end of travel is in the sub-step.
+/// Output:  velocities of bodies and their ground; the results of the sub-step in the runs.
+/// Keeps:   the softness of the end of travel in the sub-step.
 template <class S> class SuspensionRows {
  public:
   using U = Unit<S>;
@@ -21,12 +21,12 @@ template <class S> class SuspensionRows {
       : state_(state), wheels_(wheels), tracks_(tracks) {}
 
   void begin_substep();
-  /// Where the wheel's middle is on its way down, so that it touches the ground's plane; and the rows there, with what
-  /// they bore in the sub-step before. `turn` is that of the body.
+  /// Places the wheel's middle so that the wheel touches the ground's plane, computes the rows there and warm starts
+  /// them from the last sub-step. `turn` is the rotation of the body.
   void place(Run& run, const Mat3<U>& turn);
-  /// True if that changed its impulses by more than kSettled. What relaxes pushes nothing out of the end of its travel.
+  /// Returns true if that changed its impulses by more than kSettled. Relaxing pushes nothing out of an end of travel.
   bool solve(Run& run, bool relaxes);
-  /// Spin and slip; of a track's leader before those of the others.
+  /// Computes spin and slip. A track's leader goes before its other wheels.
   void end(Run& run) const;
 
  private:

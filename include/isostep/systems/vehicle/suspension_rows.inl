@@ -51,7 +51,7 @@ template <class S> void SuspensionRows<S>::place(Run& run, const Mat3<U>& turn) 
   move(run, run.across, motion, run.push_across);
 }
 
-/// Spring, damper, bar and stop at a length, and the tyre's grip.
+/// Computes spring, damper, bar and stop at a length, and the tyre's grip.
 template <class S> void SuspensionRows<S>::compress(Run& run, S length) const {
   using detail::times;
   const WheelSettings<S>& w = wheels_.wheel(run);
@@ -74,12 +74,12 @@ template <class S> void SuspensionRows<S>::compress(Run& run, S length) const {
   run.strut.stop = min(saturate_to<V>(product(-room, pace)), detail::kPushSpeed<S>);
 }
 
-/// [m/s] The speed along a row. Row 0 does not move.
+/// [m/s] Returns the speed along a row. Row 0 does not move.
 template <class S>
 ISO_INLINE Velocity<S> SuspensionRows<S>::speed_of(const Run& run, const Row& row, const MotionRow<V>& body) const {
   return run.ground == 0 ? row.speed(body) : row.speed(body, wheels_.bodies().velocity[run.ground]);
 }
-/// [m/s] The speed along a row without the impulse that it has made so far.
+/// [m/s] Returns the speed along a row without the row's impulse so far.
 template <class S>
 ISO_INLINE Velocity<S> SuspensionRows<S>::without(const Run& run, const Row& row, V impulse,
                                                   const MotionRow<V>& body) const {
@@ -91,7 +91,7 @@ ISO_INLINE void SuspensionRows<S>::move(const Run& run, const Row& row, MotionRo
   else row.push(body, wheels_.bodies().velocity[run.ground], impulse);
 }
 
-/// What the strut pushes, of the length and speed that it leads to itself.
+/// Solves the strut implicitly: its force follows from the length and speed after the sub-step.
 template <class S> ISO_INLINE void SuspensionRows<S>::press(Run& run, MotionRow<V>& body, bool relaxes) {
   using detail::times;
   const V others = without(run, run.up, run.load, body);
@@ -135,7 +135,7 @@ template <class S> bool SuspensionRows<S>::solve(Run& run, bool relaxes) {
   return most < abs(run.load - load) || most < abs(run.push_along - along) || most < abs(run.push_across - across);
 }
 
-/// How far it turns in the sub-step.
+/// Rolls the wheel by its rim speed over the sub-step.
 template <class S> void SuspensionRows<S>::roll(Run& run) const {
   constexpr S kTurn = S(6.28318530717958647692);
   const V fastest = convert<V>(min(Limits<S>::surface_speed(), Limits<S>::speed() + Limits<S>::speed()));
@@ -147,7 +147,7 @@ template <class S> void SuspensionRows<S>::roll(Run& run) const {
   if (run.angle < S(0)) run.angle += kTurn;
 }
 
-/// [1] Of this sub-step and the ones before.
+/// [1] Returns the mean of the slip in this sub-step and the slip of the sub-steps before.
 template <class S> S SuspensionRows<S>::slip_of(const Run& run) const {
   const S before = run.slip * S(0.5);
   if (!run.touches) return before;

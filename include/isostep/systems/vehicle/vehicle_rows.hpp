@@ -16,12 +16,12 @@
 namespace isostep {
 
 /// Input:   wheels and vehicles, the bodies in every sub-step; the broad phase, for the ground below each wheel: once a
-///          step, and in every sub-step where it is no plane as far as the wheel gets in the step.
+///          step, and in every sub-step if it is not one plane as far as the wheel gets in the step.
 /// Output:  velocities of awake bodies and their ground; the states of wheels and vehicles.
-/// Keeps:   nothing from step to step but memory: what rows bore is in the states.
-/// Order:   that of StepWheels. Each sweep solves all wheels once, so that wheels of bodies which stand on one another
-///          agree too: the first wheels of all bodies, then the second, and so on, for wheels of one body wait for each
-///          other's results, and those of two bodies do not.
+/// Keeps:   nothing from step to step but memory: the states hold the impulses of rows.
+/// Order:   that of StepWheels. Each sweep solves every wheel once, so that bodies which stand on one another converge
+///          too: the first wheels of all bodies, then the second, and so on. Wheels of one body wait for each other's
+///          results, those of two bodies do not.
 template <class S> class VehicleRows {
  public:
   ISO_INLINE VehicleRows(WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies)
@@ -34,11 +34,11 @@ template <class S> class VehicleRows {
   VehicleRows(const VehicleRows&) = delete;  // its parts know each other
   VehicleRows& operator=(const VehicleRows&) = delete;
 
-  /// Finds the ground.
+  /// Lists wheels and finds their ground.
   void begin_step();
-  /// Since then: whether there are wheels of awake bodies.
+  /// Returns true if begin_step() found wheels of awake bodies.
   ISO_INLINE bool any() const { return !wheels_.runs().empty(); }
-  /// visit(row) of bodies with wheels and of those that they stand on.
+  /// Calls visit(row) for bodies with wheels, and for the bodies they stand on.
   template <class Visit> ISO_INLINE void for_each_row(const Visit& visit) const {
     for (const Run& run : wheels_.runs()) {
       visit(run.row);
@@ -50,7 +50,7 @@ template <class S> class VehicleRows {
   void solve(int sweeps);
   void relax();
   void end();
-  /// Writes the records.
+  /// Writes the states of the records.
   void end_step();
 
  private:

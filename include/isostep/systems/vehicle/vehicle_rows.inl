@@ -34,14 +34,14 @@ template <class S> void VehicleRows<S>::place(SolverBodies<S>& bodies, std::int3
   }
 }
 
-/// A group that ends early is done once a sweep changes nothing, for in a pass only its own wheels move it.
+/// Solves wheels. A group that ends early is done once a sweep changes nothing, since only its own wheels move it.
 template <class S> void VehicleRows<S>::solve(int sweeps) {
   for (int i = 0; i < sweeps; ++i) {
     for (Group& group : wheels_.groups()) group.done = i > 0 && group.ends_early && !group.changed;
     sweep(false);
   }
 }
-/// Solves the groups that closed an error by speed, which only the end of a travel does. The others are solved already.
+/// Relaxes the groups that closed an error by speed, which only the end of travel does. The others are solved already.
 template <class S> void VehicleRows<S>::relax() {
   bool any = false;
   for (Group& group : wheels_.groups()) {
@@ -79,7 +79,7 @@ template <class S> void VehicleRows<S>::end_step() {
   train_.end_step();
   for (const Run& run : wheels_.runs()) write(run);
 }
-/// What turns does not fall asleep.
+/// Writes the state of a wheel. A body with a turning wheel does not fall asleep.
 template <class S> void VehicleRows<S>::write(const Run& run) {
   WheelState<S>& w = state_.parts.wheel_states[run.slot];
   const S mass = state_.awake.properties[run.row - 1].mass;

@@ -12,9 +12,9 @@
 namespace isostep {
 
 /// Input:   the wheels of a step and the broad phase; the bodies in sub-steps.
-/// Output:  of runs, the ground that they stand on: its plane and friction, and whether it is that plane for the whole
-///          step.
-/// Keeps:   what is near each body with wheels, until the step ends.
+/// Output:  the ground that each run stands on: its plane, its friction, and whether the ground is that plane for all
+///          of the step.
+/// Keeps:   the bodies near each body with wheels, until the step ends.
 template <class S> class WheelGround {
  public:
   using U = Unit<S>;
@@ -27,9 +27,9 @@ template <class S> class WheelGround {
       : state_(state), map_(map), casts_(state, map, proxies, faults_), wheels_(wheels) {}
 
   ISO_INLINE void begin_step() { near_.clear(); }
-  /// Below all wheels of a body, from one look around them.
+  /// Finds the ground below all wheels of a body, with one query around them.
   void find(Group& group);
-  /// The ground where the wheel has got to in the sub-step, of those that need it; whether any does.
+  /// Finds the ground at the present place of wheels on uneven ground. Returns true if there are such wheels.
   bool follow();
 
  private:
@@ -38,18 +38,18 @@ template <class S> class WheelGround {
   static constexpr S kLevel = S(1.0 / 64);      // [1] of the radius: the ground is a plane that differs by no more
   static constexpr S kAround = S(0.125);        // [m] what sub-steps make of a way that velocities do not tell
 
-  /// The place of a wheel's suspension.
+  /// The pose of a wheel's suspension.
   struct Stance {
     Vec3<S> hard_point;  // [m] world
     Vec3<U> down;        // [1] world
   };
-  /// The way of the sphere that looks for ground: from a radius above the highest to a radius below the lowest that the
-  /// wheel's middle gets.
+  /// The way of the sphere that searches for ground: from a radius above the highest position of the wheel's middle to
+  /// a radius below the lowest.
   struct Search {
     Vec3<S> start, way;  // [m] world
     Aabb<S> box;         // [m] world, around it
   };
-  /// The ground that a wheel stands on.
+  /// The ground below a wheel.
   struct Ground {
     BodyId body = {};         // null: no ground
     std::uint32_t child = 0;  // of its shape

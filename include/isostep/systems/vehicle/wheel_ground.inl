@@ -7,12 +7,12 @@
 
 namespace isostep {
 
-/// Whether parts of the two might collide.
+/// Returns true if parts of the two bodies may collide.
 template <class S> bool WheelGround<S>::bears(std::uint32_t body, std::uint32_t ground) const {
   const BodyProperties<S>&a = state_.awake.properties[body - 1], &b = map_.properties_at(map_.location(ground));
   return (b.flags & body_flag::kCollide) != 0 && should_collide(a.filter, map_.shapes.filter_of(b));
 }
-/// The first that is not held from the start and is not too steep.
+/// Returns the first hit that is not inside at the start and not too steep.
 template <class S>
 template <class Hits>
 auto WheelGround<S>::first_that_bears(const Hits& hits, Vec3<U> down) -> Ground {
@@ -32,7 +32,7 @@ template <class S> auto WheelGround<S>::search_of(const Run& run, const Stance& 
   const Vec3<S> start = at.hard_point + at.down * first, along = at.down * way;
   return {start, along, grow(Aabb<S>{min(start, start + along), max(start, start + along)}, w.radius)};
 }
-/// Adds what is there to what the wheels of a body might stand on.
+/// Lists the bodies in a box on which the wheels of a body might stand.
 template <class S> void WheelGround<S>::look_around(Group& group, const Aabb<S>& box) {
   const BodyProperties<S>& body = state_.awake.properties[group.row - 1];
   QueryFilter filter;
@@ -49,7 +49,7 @@ template <class S> void WheelGround<S>::look_around(Group& group, const Aabb<S>&
   near_.resize(kept);
   group.end_near = static_cast<std::uint32_t>(kept);
 }
-/// A sphere looks for it, and a ray where what the sphere meets is not level enough.
+/// Finds ground with a sphere, and with a ray if the sphere hits nothing level enough.
 template <class S> auto WheelGround<S>::ground_below(const Run& run, const Stance& at) -> Ground {
   const Search search = search_of(run, at);
   Group& group = wheels_.groups()[run.group];
@@ -83,7 +83,7 @@ template <class S> void WheelGround<S>::stand_on(Run& run, const Ground& ground)
   run.mu_across = sqrt(saturate_to<S>(product(wheels_.wheel(run).grip_across, friction)));
 }
 
-/// [m] Of the suspension, where the wheel touches that plane; free_length over no ground.
+/// [m] Returns the length of the suspension with the wheel on that plane, or free_length without ground.
 template <class S> S WheelGround<S>::length_over(const Run& run, const Stance& at, const Ground& ground) const {
   const WheelSettings<S>& w = wheels_.wheel(run);
   const U facing = ground.body ? -dot(at.down, ground.normal) : U(0);
@@ -91,7 +91,7 @@ template <class S> S WheelGround<S>::length_over(const Run& run, const Stance& a
   const S height = dot(at.hard_point - ground.point, ground.normal) - w.radius;
   return min(w.free_length, divide_to<S>(height, facing));
 }
-/// [m] How far it goes in this step, across the suspension; by its ground's motion if that is known.
+/// [m] Returns the motion of the wheel in this step across the suspension, relative to its ground if that is known.
 template <class S> Vec3<S> WheelGround<S>::way_of(const Run& run, const Stance& at) const {
   const BodyState<S>& state = state_.awake.states[run.row - 1];
   Vec3<V> speed = detail::velocity_at<S>(&state, at.hard_point - state.centre);
@@ -99,8 +99,8 @@ template <class S> Vec3<S> WheelGround<S>::way_of(const Run& run, const Stance& 
   const Vec3<S> way = convert<S>(speed) / S(state_.settings.hz);
   return way - at.down * dot(way, at.down);
 }
-/// True if the plane found where the step begins is not that of the ground further on. A bump that is higher than a
-/// 32nd of the radius is met by one of the looks at least, for a wheel is wider than it is long.
+/// Returns true if the plane at the start of the step does not hold for the ground further on. At least one look meets
+/// a bump higher than a 32nd of the radius, since a wheel is wider than it is long.
 template <class S> bool WheelGround<S>::is_uneven(const Run& run, const Stance& at, const Ground& ground) {
   const S radius = wheels_.wheel(run).radius;
   const Vec3<S> way = way_of(run, at);

@@ -12,7 +12,7 @@ namespace isostep {
 
 namespace detail {
 template <class S> ISO_INLINE S times(S a, S b) { return saturate_to<S>(product(a, b)); }
-/// [1] cosine of the tilt of the ground's plane, seen from the suspension; a wheel does not stand on a steeper one.
+/// [1] The least cosine between the suspension and the ground's normal. A wheel does not stand on steeper ground.
 template <class U> inline constexpr U kLeastFacing = U(0.25);
 }  // namespace detail
 

@@ -6,8 +6,8 @@
 
 namespace isostep {
 
-/// Input:   the wheels of a step, and what their tyres push.
-/// Output:  which wheel leads a track: its run has what all of it share; the spin of any wheel in a sub-step.
+/// Input:   the wheels of a step, and the impulses of their tyres.
+/// Output:  the leading wheel of each track: its run has what all of it share; the spin of any wheel in a sub-step.
 /// Keeps:   nothing.
 template <class S> class WheelTracks {
  public:
@@ -18,12 +18,12 @@ template <class S> class WheelTracks {
 
   ISO_INLINE WheelTracks(const WorldState<S>& state, StepWheels<S>& wheels) : state_(state), wheels_(wheels) {}
 
-  /// The first wheel of each track leads: its spin is that of the track, with the inertia of all as its axle feels it.
+  /// Joins the wheels of tracks. The first wheel leads: it has the track's spin, and all its inertia, about its axle.
   void join(const Group& group);
   ISO_INLINE bool leads(const Run& run) const { return &wheels_.runs()[run.leader] == &run; }
-  /// As the wheel's own tyre finds it: with what the other tyres of its track do.
+  /// Returns the spin as the wheel's own tyre finds it: with the impulses of the other tyres of its track.
   detail::WheelSpin<S> spin_of(const Run& run) const;
-  /// [m/s] Of the rim after the sub-step.
+  /// [m/s] Returns the speed of the rim after the sub-step.
   V end_of(const Run& run) const;
 
  private:

@@ -20,7 +20,7 @@ template <class S> void WheelTracks<S>::join(const Group& group) {
     }
   }
 }
-/// What the two turn with together, about their axles and for their radii, they keep.
+/// Joins a wheel to its leader. Both keep their common angular momentum, about their axles and scaled to their radii.
 template <class S> void WheelTracks<S>::join(Run& leader, Run& run) {
   const S radius = wheels_.wheel(leader).radius;
   run.to_leader = divide_to<S>(radius, wheels_.wheel(run).radius);
