@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/collision/narrowphase/cropped_box.hpp"
 #include "isostep/collision/narrowphase/half_space_pairs.inl"
 #include "isostep/collision/narrowphase/rounded.inl"
 #include "isostep/collision/narrowphase/solid_faces.inl"
@@ -49,10 +50,17 @@ template <class S>
 void collide_solids(ShapeView<S> a, const Transform<S>& ta, ShapeView<S> b, const Transform<S>& tb, S margin,
                     Manifold<S>& out) {
   out.clear();
-  const detail::SolidView<S> of_a = detail::solid_of(a), of_b = detail::solid_of(b);
-  const Transform<S> turn_a = {Vec3<S>::zero(), ta.rotation}, b_from_a = {tb.position - ta.position, tb.rotation};
+  Primitive<S> near_a = a.primitive, near_b = b.primitive;
+  Transform<S> turn_a = {Vec3<S>::zero(), ta.rotation}, b_from_a = {tb.position - ta.position, tb.rotation};
+  detail::crop_wide_box(near_a, turn_a, b, b_from_a);
+  detail::crop_wide_box(near_b, b_from_a, a, turn_a);
+  const Vec3<S> origin = ta.position + turn_a.position;
+  b_from_a.position -= turn_a.position;
+  turn_a.position = Vec3<S>::zero();
+  const ShapeView<S> view_a(near_a, a.content), view_b(near_b, b.content);
+  const detail::SolidView<S> of_a = detail::solid_of(view_a), of_b = detail::solid_of(view_b);
   detail::collide_cores(of_a, turn_a, of_b, b_from_a, margin + of_a.radius + of_b.radius, out);
-  for (int i = 0; i < out.count; ++i) out.points[i].position += ta.position;
+  for (int i = 0; i < out.count; ++i) out.points[i].position += origin;
   if (of_a.radius + of_b.radius > S(0)) detail::grow_cores(out, of_a.radius, of_b.radius, margin);
 }
 
