@@ -559,15 +559,15 @@ typedef struct iso_f32_settings {
   uint8_t reserved1[3];
   iso_solver solver;
   uint32_t id_space; /* 0..255, in every id: worlds of one game with spaces of their own refuse each other's */
-  /* [1] kLeastPairs..kMostPairs: pairs of bodies whose boxes meet that a step looks at. Each takes up to 2 kB and
-     some microseconds; a heap of equal bodies has eight a body, so the default is met by 65 000 of them awake at
-     once, more than a core steps in real time. Beyond it a step leaves out pairs, those last that hold bodies up,
-     and reports StepReport::crowded (crowd.hpp). Twice as many pairs of compounds' parts are collided,
+  /* [1] kLeastPairs..kMostPairs: the most pairs of bodies with overlapping boxes that a step handles. Each takes up
+     to 2 kB and some microseconds. A heap of equal bodies has eight a body: the default suffices for 65 000 awake
+     bodies, more than a core steps in real time. Beyond it a step leaves out pairs, last those that hold bodies up,
+     and reports StepReport::crowded (crowd.hpp). Of compounds' parts twice as many collide:
      StepReport::cut_compounds. */
   int32_t most_pairs;
   iso_projection projection; /* of worst_first; other solvers take any and use none */
-  /* [m/s] 0..Limits::speed(): bodies that meet more slowly do not bounce. Rest is a rain of small bounces without
-     it; bodies that nothing presses together bounce above a sixteenth of it. */
+  /* [m/s] 0..Limits::speed(): bodies that meet more slowly do not bounce. Without it, rest is a rain of small
+     bounces. Bodies that nothing presses together bounce above a sixteenth of it. */
   float restitution_threshold;
   uint8_t reserved2[4];
 } iso_f32_settings;

@@ -7,8 +7,8 @@
 
 namespace isostep {
 
-/// Keeps origins together, and b does not twist about z against a: two shafts turn at one speed at any bend. kCone
-/// limits the angle between the z axes, which is 149 degrees at most.
+/// Keeps the frames' origins together, and b does not twist about z against a: two shafts turn at one speed at any
+/// bend. The angle between the z axes never exceeds 149 degrees; kCone limits it to less.
 template <class S> struct ConstantVelocityJoint : detail::PointJoint<S> {
   static constexpr JointType kType = JointType::constant_velocity;
   static constexpr std::uint32_t kFlags = joint_flag::kCollideConnected | joint_flag::kCone;

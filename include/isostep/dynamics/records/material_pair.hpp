@@ -15,7 +15,7 @@ using MaterialPairId = Id<struct MaterialPairTag>;
 
 /// A row of the world's table of pairs. Where a surface of one kind meets one of the other, these numbers replace the
 /// mix of the two materials. Their anisotropy and their belts still count. The order of the kinds does not matter: a
-/// second record of the same two is refused. A record with kinds of 0 has no effect.
+/// second record of the same two is refused, and so is a kind of 0.
 template <class S> struct MaterialPair {
   std::uint32_t kind_a = 0, kind_b = 0;  // Material::kind, 1 or more
   S friction = S(0.6);                   // [1] of what slides

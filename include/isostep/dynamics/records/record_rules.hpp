@@ -46,8 +46,8 @@ enum class Wakes {
 
 /// The effects of a kind on bodies in a sub-step. Its rules have the functions that its enumerator names and no others,
 /// or RecordStore does not compile (rule_checks.hpp). They are `template <class Forces> static void`, where Forces is
-/// RecordForces<S> (systems/forces/record_forces.hpp): a parameter, since that is a layer above a kind's file. Kinds
-/// that slow have a priority: the highest record is asked first.
+/// RecordForces<S> (systems/forces/record_forces.hpp): a parameter, since that is a layer above a kind's file. A kind
+/// that slows has a priority, by which its records are asked: the highest first.
 enum class Acts {
   not_here,            // it only tells, or other systems read it
   pushes,              // act(record, Forces&): whatever else acts

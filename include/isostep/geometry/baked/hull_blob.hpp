@@ -36,7 +36,7 @@ Error bad_hull_point(std::size_t index, const char* expected);
 }  // namespace detail
 
 /// Makes the hull of points [m]. They are rounded to the finest grid that holds all of them: 2^-16 m up to 8 m from the
-/// origin, 2^-15 m up to 16 m, and so on to 1 m below 524 287 m.
+/// origin, 2^-15 m up to 16 m, and so on: 1 m up to 524 287 m.
 /// Errors: as above; ErrorCode::invalid for a coordinate that is not finite or beyond the grid, with its point's index.
 template <class S>
 ISO_INLINE Result<BlobRef> hull_blob(std::span<const Vec3<S>> points, BlobHome home = BlobHome::carried) {

@@ -11,7 +11,7 @@ namespace isostep {
 /// Writes the newest inputs as a frame of a match recording: nothing if none changed; else a mask of those that did,
 /// and for each its size + 1 and its bytes, or 0 for an absent player.
 void write_match_frame(std::span<const InputStream> inputs, std::vector<std::uint8_t>& out);
-/// Appends such a frame to all players' inputs. Returns false if the bytes are none; then some may be appended.
+/// Appends such a frame to all players' inputs. Returns false for malformed bytes; some inputs may be appended then.
 bool read_match_frame(Bytes bytes, std::span<InputStream> inputs);
 
 class ReplayCore : public SessionCore {
