@@ -17,7 +17,7 @@ const read = kept => kept.map(records => [
 {
   const world = iso.createWorld();
   const traits = {flags: PartFlags.ownFilter | PartFlags.ownMaterial, filter: {group: 3}, material: {friction: 0.25}};
-  const floor = world.addCompound([{kind: 'box', shape: {half: [4, 0.5, 4]}, pose: {position: [0, -0.5, 0]}, traits}]);
+  const floor = world.addCompound([{kind: 'box', shape: {halfExtents: [4, 0.5, 4]}, pose: {position: [0, -0.5, 0]}, traits}]);
   world.createBody({shape: floor});
   const ball = world.createBody({type: 'dynamic', shape: world.addShape('sphere', {radius: 0.5}), position: [0, 0.5, 0]});
   for (let i = 0; i < 60; ++i) world.step();

@@ -113,8 +113,9 @@ export class Calls {
       if (struct.sized) view.setUint32(0, size, true);
       const {write, places} = this.layout(name);
       for (const [key, kind] of struct.fields) {
-        if (kind === 'quat') write(view, 0, {[key]: [0, 0, 0, 1]});  // of zeros it is no turn
-        if (kind in interfaceSchema.structs) {
+        if (kind === 'quat') {
+          write(view, 0, {[key]: [0, 0, 0, 1]});  // of zeros it is no turn
+        } else if (kind in interfaceSchema.structs) {
           defaults.set(this.#defaultsOf(kind, this.layout(kind).size), places.get(key));
         }
       }
