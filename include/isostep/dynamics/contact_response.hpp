@@ -21,7 +21,7 @@ template <class S> struct ContactResponse {
 
   ISO_FIELDS(contact, mass_a, mass_b, inertia_a, inertia_b, most_force)
   /// Returns mass_share() of masses over their scales. With u = m_b / (m_a + m_b) it is s_a u / (s_a u + s_b (1 - u)).
-  /// As none is between 0 and 2^-8, the sum is 2^-9 or more if neither is 0.
+  /// No share is between 0 and 2^-8, so the sum is 2^-9 or more if neither is 0.
   ISO_INLINE MassShare<S> share(S of_a, S of_b) const {
     const MassShare<S> whole = mass_share(of_a, of_b);
     if (!(of_a > S(0)) || !(of_b > S(0)) || mass_a == mass_b) return whole;

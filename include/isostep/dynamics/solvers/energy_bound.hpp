@@ -22,7 +22,7 @@ namespace isostep {
 /// hangs from what stands still: otherwise the factor would take momentum. Groups with motors, springs, drives or
 /// scaled masses, on moving bodies, on belts or with mechanisms are left alone, as energy comes and goes there. Work of
 /// forces counts as theirs.
-/// What joints hold keeps T / 2 - g x + h g v / 2 under semi-implicit Euler, not its energy: the bound holds for that
+/// A jointed body keeps T / 2 - g x + h g v / 2 under semi-implicit Euler, not its energy: the bound holds for that
 /// quantity there, as by the energy each swing would lose the amplitude of its ripple. A free fall keeps its energy. A
 /// solver that closes joints' errors by speeds that stay (pgs) needs what it makes: its groups with joints are left
 /// alone.

@@ -9,7 +9,7 @@
 
 namespace isostep {
 
-/// In: what guests say of their states. Out: the stage of each repair, and who is told of it. It keeps nothing: Guest,
+/// In: the guests' reports on their states. Out: the stage of each repair, and who learns it. It keeps nothing: Guest,
 /// Inquiry and MachineViews do.
 class RepairDesk {
  public:

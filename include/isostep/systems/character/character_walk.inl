@@ -223,7 +223,7 @@ template <class S> bool CharacterWalk<S>::has_supports() const {
 }
 
 /// [1] The steepest way down that the planes allow, as long as the sine of its slope. Zero where they hold.
-/// Of all ways that lead into no plane it is nearest to straight down. So it is down itself, or down less its part
+/// It is the way nearest to straight down of all that lead into no plane. So it is down itself, or down less its part
 /// into one plane, or its part along the edge of two planes.
 template <class S> Vec3<S> CharacterWalk<S>::slide_of(const Planes& planes) const {
   const Vec3<S> down = -convert<S>(up_);
