@@ -64,7 +64,7 @@ TYPED_TEST(WorstFirstQueues, change_no_bit_of_a_heap_in_any_projection) {
       ASSERT_EQ((hash_of_step<S, SortedOrder>(w)), expected) << frame;
       ASSERT_EQ((hash_of_step<S, LinearSearch>(w)), expected) << frame;
     }
-    EXPECT_GE(w.counts().contacts, 14u);
+    EXPECT_GE(w.counts().contacts, 10u);
   }
 }
 

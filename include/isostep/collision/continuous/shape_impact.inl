@@ -6,6 +6,7 @@
 #include "isostep/collision/continuous/shape_impact.hpp"
 #include "isostep/collision/continuous/surface_impact.hpp"
 #include "isostep/collision/continuous/time_of_impact.hpp"
+#include "isostep/collision/narrowphase/cropped_box.hpp"
 #include "isostep/collision/narrowphase/shape_core.hpp"
 
 namespace isostep {
@@ -24,6 +25,30 @@ TimeOfImpact<S> impact_with(const Shape& shape, const Transform<S>& at, const Co
                             const ConvexCore<S>& core, const CoreMotion<S>& motion, S target) {
   const ShapeCore<S> other(shape, at, S(0));
   return time_of_impact(core, motion, other.core(), of_shape, target);
+}
+
+/// Crops a box that does not turn to what is near the core's way: the noise of a distance grows with the box.
+template <class S>
+TimeOfImpact<S> impact_with(const Box<S>& box, const Transform<S>& at, const CoreMotion<S>& of_box,
+                            const ConvexCore<S>& core, const CoreMotion<S>& motion, S target) {
+  Vec3<S> half = box.half_extents;
+  Transform<S> frame = at;
+  CoreMotion<S> of_frame = of_box;
+  if (of_box.start.orientation == of_box.end.orientation) {
+    const Transform<S> t = compose(Transform<S>::of(of_box.start), at);
+    const Vec3<S> way = of_box.end.position - of_box.start.position;
+    const CoreMotion<S> seen = {motion.start, {motion.end.position - way, motion.end.orientation}, motion.centre};
+    const CroppedBox<S> kept = cropped(half, swept_box(t, core, seen, target));
+    if (!(kept.half == half)) {
+      half = kept.half;
+      const Vec3<S> middle = to_world(t, kept.middle);
+      frame.position = of_frame.centre = Vec3<S>::zero();
+      of_frame.start.position = middle;
+      of_frame.end.position = middle + way;
+    }
+  }
+  const ShapeCore<S> other(Box<S>{half}, frame, S(0));
+  return time_of_impact(core, motion, other.core(), of_frame, target);
 }
 
 template <class S> ISO_INLINE S thickness_of(const HalfSpace<S>&) { return kThick<S>; }

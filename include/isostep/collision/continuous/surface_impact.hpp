@@ -8,15 +8,6 @@
 
 namespace isostep::detail {
 
-template <class S> Aabb<S> box_of(const ConvexCore<S>& core, const Transform<S>& at) {
-  const Vec3<S> first = to_world(at, core.vertices[0]);
-  Aabb<S> box = {first, first};
-  for (const Vec3<S>& v : core.vertices) {
-    const Vec3<S> p = to_world(at, v);
-    box = {min(box.low, p), max(box.high, p)};
-  }
-  return grow(box, core.radius);
-}
 /// Returns the box around all that a core passes, in the frame that leads to the world by `t`, grown by `margin`: its
 /// boxes at both ends and the bow between them, within the ball in which it turns. The ball of a core far from its
 /// body's middle would hold a thousand times the triangles.

@@ -31,11 +31,16 @@ template <class S> class SweptCore {
     const Quat<U> turn = end * conjugate(start);
     const Vec3<F> sine = {convert<F>(turn.x), convert<F>(turn.y), convert<F>(turn.z)};
     sines = sine + sine;
+    const Vec3<F> axis = transposed_times(to_matrix(start), sine);  // in the core's frame: its vertices turn about it
     reach = F(0);
-    for (const Vec3<F>& v : core.vertices) reach = max(reach, length(v - centre));
+    F turned = F(0);  // [m] the largest distance of a vertex from the axis, times the sine
+    for (const Vec3<F>& v : core.vertices) {
+      reach = max(reach, length(v - centre));
+      turned = max(turned, length(cross(axis, v - centre)));
+    }
     // c is the tangent of a quarter of the turn; the angular speed is 4 c and its change 16 c^3 at most.
-    const F c = length(sine) / (F(1) + convert<F>(turn.w));
-    bend = c * c * (F(1) + c) * reach * F(16.25);
+    const F share = F(1) + convert<F>(turn.w), c = length(sine) / share;
+    bend = c * (F(1) + c) * (turned / share) * F(16.25);
   }
 
   ISO_INLINE Transform<F> at(U t) const {

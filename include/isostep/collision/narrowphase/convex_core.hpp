@@ -5,6 +5,7 @@
 #include <concepts>
 
 #include "isostep/geometry/baked/polyhedron.hpp"
+#include "isostep/math/aabb.hpp"
 #include "isostep/math/transform.hpp"
 #include "isostep/scalar/finer.hpp"
 
@@ -34,6 +35,17 @@ template <class S> class PolyhedronCore {
 };
 
 namespace detail {
+
+/// Returns the bounds of a core in the frame that `at` leads to.
+template <class S> Aabb<S> box_of(const ConvexCore<S>& core, const Transform<S>& at) {
+  const Vec3<S> first = to_world(at, core.vertices[0]);
+  Aabb<S> box = {first, first};
+  for (const Vec3<S>& v : core.vertices) {
+    const Vec3<S> p = to_world(at, v);
+    box = {min(box.low, p), max(box.high, p)};
+  }
+  return grow(box, core.radius);
+}
 
 template <class Out, class T> ISO_INLINE Vec3<Out> finer_of(Vec3<T> v) {
   return {finer<Out>(v.x), finer<Out>(v.y), finer<Out>(v.z)};

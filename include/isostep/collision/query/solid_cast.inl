@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/collision/narrowphase/cropped_box.hpp"
 #include "isostep/collision/narrowphase/shape_core.hpp"
 #include "isostep/collision/query/ball_cast.hpp"
 #include "isostep/collision/query/plane_cast.hpp"
@@ -16,6 +17,12 @@ template <class S> ISO_INLINE SolidHit<S> of_whole_shape(const CastHit<S>& hit) 
   return {hit.fraction, hit.normal, hit.point, hit.inside, 0, 0};
 }
 
+/// Crops a wide box, whose frame is `t`, to what is near the way of a cast.
+template <class S> ISO_INLINE void crop_to_way(Box<S>& box, Transform<S>& t, const SolidCast<S>& cast) {
+  const Aabb<S> start = box_of(cast.core, relative(t, cast.start));
+  const Vec3<S> way = transposed_times(t.rotation, cast.motion.translation);
+  crop_to(box.half_extents, t, {min(start.low, start.low + way), max(start.high, start.high + way)});
+}
 /// Casts against a box by nearest points in closed form. Undecided if there are none.
 template <class S>
 ISO_INLINE RoundCast cast_at_box(const SolidCast<S>& cast, const Box<S>& box, const Transform<S>& t, CastHit<S>& hit) {
@@ -43,14 +50,17 @@ bool cast_whole(const SolidCast<S>& cast, const ShapeView<S>& shape, const Trans
       return cast_plane(cast.core, cast.start, visited.normal, visited.offset, t, cast.motion, hit);
     } else if constexpr (kIsSolid<Shape>) {
       RoundCast by_segments = RoundCast::undecided;
+      Shape solid = visited;
+      Transform<S> at = t;
       if constexpr (std::same_as<Shape, Box<S>>) {
-        by_segments = cast_at_box(cast, visited, t, hit);
+        crop_to_way(solid, at, cast);
+        by_segments = cast_at_box(cast, solid, at, hit);
         if (by_segments != RoundCast::undecided) return by_segments == RoundCast::hit;
       }
-      const ShapeCore<S> other(visited, S(0));
-      if constexpr (!std::same_as<Shape, Box<S>>) by_segments = cast_at_core(cast, other.core(), t, hit);
+      const ShapeCore<S> other(solid, S(0));
+      if constexpr (!std::same_as<Shape, Box<S>>) by_segments = cast_at_core(cast, other.core(), at, hit);
       if (by_segments != RoundCast::undecided) return by_segments == RoundCast::hit;
-      return cast_convex(cast.core, cast.start, other.core(), t, cast.motion, hit);
+      return cast_convex(cast.core, cast.start, other.core(), at, cast.motion, hit);
     } else {
       return false;
     }
