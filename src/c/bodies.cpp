@@ -322,3 +322,4 @@ ISO_NUMBERED(f32, float, float)
 ISO_NUMBERED(f64, double, double)
 ISO_NUMBERED(q16, Q16_16, std::int32_t)
 ISO_NUMBERED(q32, Q32_32, std::int64_t)
+#undef ISO_NUMBERED

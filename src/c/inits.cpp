@@ -71,3 +71,8 @@ ISO_NUMBERS(f32, float, float)
 ISO_NUMBERS(f64, double, double)
 ISO_NUMBERS(q16, Q16_16, std::int32_t)
 ISO_NUMBERS(q32, Q32_32, std::int64_t)
+#undef ISO_FAMILY
+#undef ISO_F32
+#undef ISO_F64
+#undef ISO_Q16
+#undef ISO_Q32

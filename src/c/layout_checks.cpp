@@ -51,3 +51,7 @@ static_assert(ISO_JOINT_TYPE_SIX_AXIS == static_cast<int>(JointType::six_axis));
 static_assert(ISO_SHAPE_TYPE_CONE == static_cast<int>(ShapeType::cone));
 
 }  // namespace isostep::c
+#undef ISO_F32
+#undef ISO_F64
+#undef ISO_Q16
+#undef ISO_Q32

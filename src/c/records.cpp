@@ -109,6 +109,8 @@ ISO_NUMBERED(f32, float, float)
 ISO_NUMBERED(f64, double, double)
 ISO_NUMBERED(q16, Q16_16, std::int32_t)
 ISO_NUMBERED(q32, Q32_32, std::int64_t)
+#undef ISO_FAMILY
+#undef ISO_NUMBERED
 
 iso_status iso_break_bodies(iso_world* world, uint32_t most, iso_break_report* report) {
   constexpr const char* kCall = "break_bodies";

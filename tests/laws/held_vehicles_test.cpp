@@ -106,7 +106,6 @@ TYPED_TEST_SUITE(HeldVehicles, AllScalars);
 
 /// The tyres push by the engine's torque, the wall bears it, and nothing turns or creeps.
 TYPED_TEST(HeldVehicles, under_power_stand_at_a_wall) {
-  using S = TypeParam;
   for (const bool tracked : {false, true}) {
     for (const SolverName solver : kBuiltSolvers) {
       for (std::uint64_t seed = 0; seed < kVehicles; ++seed) {
@@ -131,7 +130,6 @@ TYPED_TEST(HeldVehicles, under_power_stand_at_a_wall) {
 
 /// With more than the tyres bear they push by friction times the weight and spin.
 TYPED_TEST(HeldVehicles, with_more_power_than_grip_spin_their_wheels_at_a_wall) {
-  using S = TypeParam;
   for (const SolverName solver : kBuiltSolvers) {
     for (std::uint64_t seed = 0; seed < kVehicles; ++seed) {
       SCOPED_TRACE(named(solver, "vehicle " + std::to_string(seed)));
@@ -150,7 +148,6 @@ TYPED_TEST(HeldVehicles, with_more_power_than_grip_spin_their_wheels_at_a_wall) 
 }
 
 TYPED_TEST(HeldVehicles, with_locked_brakes_stay_on_a_slope) {
-  using S = TypeParam;
   for (const bool tracked : {false, true}) {
     for (const SolverName solver : kBuiltSolvers) {
       for (std::uint64_t seed = 0; seed < kVehicles; ++seed) {

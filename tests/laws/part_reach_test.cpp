@@ -239,7 +239,9 @@ TYPED_TEST(PartReachLaws, a_sensor_that_is_put_over_a_sleeper_does_not_see_its_g
     d.sensor = true;
     d.material.kind = 1;
     const BodyId zone = this->w.create(d);
-    if (ghosts) ASSERT_TRUE(this->w.add(KindGhost<S>{1, 2}));
+    if (ghosts) {
+      ASSERT_TRUE(this->w.add(KindGhost<S>{1, 2}));
+    }
     ASSERT_TRUE(settle(this->w));
     ASSERT_TRUE(this->w.set_pose(zone, {Vec3<S>::zero(), Quat<Unit<S>>::identity()}));
     this->w.step();

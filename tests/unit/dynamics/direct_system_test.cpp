@@ -197,7 +197,7 @@ TYPED_TEST(DirectSystemOf, FrictionIsBoundedByTheLoad) {
     this->bound(1, DirectBound::boxed);
     this->bound(2, DirectBound::above);
     this->system_.patches().clear();
-    this->system_.patches().push_back({0, 2, 1, DirectPatch<N>::kNoRolling, number<N>(0.5), N(0), 0, 0});
+    this->system_.patches().push_back({0, 2, 1, DirectPatch<N>::kNoRolling, number<N>(0.5), N(0), N(0), 0, 0, 0});
     this->system_.tie(this->bodies_, 1000, kWork);
     this->system_.assemble();
     this->system_.guess_friction(0, true);

@@ -9,7 +9,7 @@
 #include "unit/dynamics/joint_world.hpp"
 
 namespace isostep {
-namespace {
+inline namespace direct_world {
 
 /// Boxes on flat ground or on one another, and joints. Gravity may lean: a floor is then a slope.
 template <class S> class DirectWorld {
@@ -135,5 +135,5 @@ template <class S> class DirectWorld {
   }
 };
 
-}  // namespace
+}  // namespace direct_world
 }  // namespace isostep

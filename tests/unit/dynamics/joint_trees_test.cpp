@@ -211,7 +211,9 @@ TYPED_TEST(JointTreesTest, DrivenTreesOfOneShapeAreOnDifferentPieces) {
       differ = differ || world.impulses[i].pieces != world.impulses[i % joints].pieces;
   }
   EXPECT_TRUE(differ);
-  if (tree_kernels<S>(Simd::best)->width > 1) EXPECT_LT(world.trees.batch_count(), 21u);
+  if (tree_kernels<S>(Simd::best)->width > 1) {
+    EXPECT_LT(world.trees.batch_count(), 21u);
+  }
 }
 
 TYPED_TEST(JointTreesTest, BatchesMayComeInAnyOrder) {

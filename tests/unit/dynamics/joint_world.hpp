@@ -14,7 +14,7 @@
 #include "isostep/dynamics/joints/joint_tree.hpp"
 
 namespace isostep {
-namespace {
+inline namespace joint_world {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -189,5 +189,5 @@ template <class S> class JointWorld {
 /// `fine` for every scalar but Q16.16, whose lengths are 15 um apart.
 template <class S> double tolerance(double fine, double coarse) { return std::is_same_v<S, Q16_16> ? coarse : fine; }
 
-}  // namespace
+}  // namespace joint_world
 }  // namespace isostep

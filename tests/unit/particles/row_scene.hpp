@@ -12,7 +12,7 @@
 #include "isostep/scalar/math.hpp"
 
 namespace isostep {
-namespace {
+inline namespace row_scene {
 
 struct D3 {
   double x, y, z;
@@ -119,5 +119,5 @@ template <class S> double unit_of(double size) {
 
 using Scalars = testing::Types<float, double, Q16_16, Q32_32>;
 
-}  // namespace
+}  // namespace row_scene
 }  // namespace isostep

@@ -7,7 +7,7 @@
 #include "unit/particles/step_scene.hpp"
 
 namespace isostep {
-namespace {
+inline namespace solver_scene {
 
 /// Rows are made by hand; `Solver` is the system under test.
 template <class S, template <class> class Solver> struct SolverScene : StepScene<S> {
@@ -45,5 +45,5 @@ template <class S, template <class> class Solver> struct SolverScene : StepScene
   }
 };
 
-}  // namespace
+}  // namespace solver_scene
 }  // namespace isostep

@@ -7,7 +7,7 @@
 #include "unit/particles/row_scene.hpp"
 
 namespace isostep {
-namespace {
+inline namespace step_scene {
 
 /// A scene without gravity; its one material has no damping, and nothing collides. Numbers go in and come out as
 /// doubles.
@@ -73,5 +73,5 @@ template <class S> double grain(double size) {
   return kIsFixed<S> ? to_double(resolution<S>()) : to_double(resolution<S>()) * size;
 }
 
-}  // namespace
+}  // namespace step_scene
 }  // namespace isostep

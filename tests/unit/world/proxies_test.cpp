@@ -35,7 +35,9 @@ template <class S> class ProxiesOf : public ::testing::Test {
   }();
   StoredShapes<S> shapes = [] {
     StoredShapes<S> one;
-    one.push_back(std::make_shared<const StoredShape<S>>(StoredShape<S>{.traits = {.any_solid = true}}));
+    StoredShape<S> shape = {};
+    shape.traits = {.any_solid = true};
+    one.push_back(std::make_shared<const StoredShape<S>>(shape));
     return one;
   }();
   std::vector<Contact<S>> contacts;

@@ -20,7 +20,7 @@ template <class S> struct BridgeDefinition {
   S support_length = S(3);                             // [m] of the outermost support cables
   S support_growth = S(0.5);                           // [m] that each pair further in has more
   S support_restitution = S(0.5);                      // [1]
-  ParticleMaterialId material;                         // null: the default material
+  ParticleMaterialId material = {};                    // null: the default material
 };
 
 /// Particle 2 c + r is the one of column c, from -x to +x, and row r, from -z to +z. Links: 2 (columns - 1) deck cables

@@ -18,8 +18,8 @@ template <class S> struct ClothDefinition {
   std::uint32_t columns = 17, rows = 17;  // particles, at least 2
   S mass = S(17);                         // [kg] of the whole
   ClothPins pins = ClothPins::two_corners;
-  SpringKind<S> structural, shear, bend;
-  ParticleMaterialId material;  // null: the default material
+  SpringKind<S> structural = {}, shear = {}, bend = {};
+  ParticleMaterialId material = {};  // null: the default material
 };
 
 /// Particle r columns + c is the one of row r, column c. Springs, all at rest as they are made: structural along the

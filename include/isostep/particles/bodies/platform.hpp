@@ -12,7 +12,7 @@ namespace isostep {
 template <class S> struct PlatformDefinition {
   Vec3<S> foot = {S(0), S(0), S(0)};  // [m] the middle of the foot
   S mass = S(1);                      // [kg] of a particle
-  ParticleMaterialId material;        // null: the default material
+  ParticleMaterialId material = {};   // null: the default material
 };
 
 /// Particles: the foot's at (0, 0, +-1), the left end's at (-3, 2, +-1), the right end's at (4, 2, +-1) [m], each time

@@ -15,7 +15,7 @@ template <class S> struct RopeDefinition {
   LinkType type = LinkType::cable;  // rods longer than the particles' distance begin with an error
   S restitution = S(0);             // [1] of cables
   bool pin_start = true, pin_end = false;
-  ParticleMaterialId material;  // null: the default material
+  ParticleMaterialId material = {};  // null: the default material
 };
 
 /// Particles from start to end, evenly on the straight line; link i joins particles i and i + 1.

@@ -13,8 +13,9 @@ template <class S> struct SoftBoxDefinition {
   Vec3<S> size = {S(1), S(1), S(1)};                // [m] its edges
   std::uint32_t columns = 4, rows = 4, layers = 4;  // particles along x, y, z, at least 2
   S mass = S(8);                                    // [kg] of the whole
-  SpringKind<S> structural, face, space;            // along the edges of a cell, across its faces, through its middle
-  ParticleMaterialId material;                      // null: the default material
+  SpringKind<S> structural = {}, face = {},
+                space = {};          // along the edges of a cell, across its faces, through its middle
+  ParticleMaterialId material = {};  // null: the default material
 };
 
 /// Particle (l rows + r) columns + c is the one of layer l, row r, column c, each upwards along its axis. Springs, at
