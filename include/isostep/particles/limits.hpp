@@ -61,8 +61,8 @@ template <> struct ParticleLimits<double> {
 /// [m/s] Slower than this nothing bounces (Millington, p. 358): rest would be a rain of small bounces.
 template <class S> inline constexpr Velocity<S> kLeastBounce = Velocity<S>(0.25);
 
-/// [m/s] The error that rounding alone may leave of a speed: a resolved row is within 4 units of Velocity<S> of its aim
-/// by the roundings of two particles, three axes and the normal; for float, units of what was added.
+/// [m/s] Returns the error that rounding may leave in a row's speed: 4 units of Velocity<S> (two particles, three axes,
+/// the normal), times 4 to spare. Floats round relative to `fastest`, the largest speed that was added.
 template <class S> ISO_INLINE constexpr Velocity<S> speed_tolerance(Velocity<S> fastest) {
   using V = Velocity<S>;
   return V(16) * (resolution<V>() + round_to<V>(product(resolution<Unit<S>>(), fastest)));

@@ -19,11 +19,11 @@ template <class F> struct CoreHit {
   F gap = F(0);          // [m] of a miss: what is at least left at the start, along the normal
   bool is_open = false;  // the search does not tell: the cores are so near at the start that they may overlap
 };
-/// [m] The shortest way out of an overlap of cores.
+/// The shortest translation that parts two cores which overlap.
 template <class F> struct CoreWayOut {
-  F depth;
-  Vec3<Unit<F>> normal;
-  Vec3<F> on_b;
+  F depth;               // [m] its length
+  Vec3<Unit<F>> normal;  // [1] from a to b: b leaves along it
+  Vec3<F> on_b;          // [m] the deepest point of b's core
 };
 
 /// The size of a core, which a cast needs beside its search.
@@ -63,7 +63,7 @@ template <class S> struct CoreCast {
 
   /// Runs the cast. The search knows both cores:
   ///   nearest(at, enough)  with b at a position, as GjkDistance; it may end early if enough(separation, distance)
-  ///   way_out(size)        of cores of that size, at the place of the last `nearest`; nothing: it cannot tell
+  ///   way_out(size)        the way out of the overlap that `nearest` saw last; `size` [m] bounds the cores; or none
   template <class Search> ISO_INLINE CoreHit<F> run(Search& search) const {
     constexpr int kMostRounds = 32;
     constexpr F kEnough = F(0.5);  // of a distance: a plane that far away is worth a step before the best is found

@@ -23,25 +23,26 @@ template <class S> struct ResolverTerms {
   std::uint64_t looks = ~std::uint64_t{0};  // at rows; when they are over, one pass ends the call
 };
 
+/// Resolves the most urgent of all rows, again and again, as the book does: contacts, cables, rods and friction.
 /// Source:  Millington 2007, ch. 7.1-7.2 (impulses, linear projection, resting contacts, order), p. 140 (friction).
 /// Symbols: v_s = n.(v_b - v_a) [m/s] separating speed; C [m] = separation + n.(d_b - d_a); e = restitution;
-///          g = n.(gained_b - gained_a), the part of v_s that this sub-step's forces made; N = impulse of this call.
-///          f = v_s - min(g, 0), how fast they came; p = -C, as deep as they overlap; h = the time that g took.
+///          g = n.(gained_b - gained_a), the part of v_s that this sub-step's forces made; N = impulse of this call;
+///          f = v_s - min(g, 0), the closing speed without g; p = -C, the depth; h = the time that g took.
 ///          Bounce: v_s' = max(0, e sqrt(f^2 - 2 p |g| / h) + min(g, 0)), so that one sub-step's gravity does not
 ///          bounce; where velocities lag, f has half of |g| more.
-/// Order:   first what moves wrongly, by speed: contacts and cables that touch and close, rods that change length,
-///          friction that has to change. Then what only overlaps, by depth: projection changes no speed, so it cannot
-///          undo what came first. Ties go to the lowest index.
-/// Differs: of what came back the book takes no g off and pays nothing for the way out of an overlap, against the
-///          forces: both add energy at each bounce.
-///          The deepest overlap first, where the book takes the lowest v_s: two slow contacts that push each other to
-///          and fro would keep a deep one waiting. What an impulse takes from g it takes from both sides' share of g,
-///          so gravity that comes through a stack is known as gravity by its upper contacts. Friction has a total
-///          within the cone mu N, is a vector, and is looked at whenever a neighbour moves, not only when its contact
-///          is the worst. A contact or cable with C above 0 waits; once it has touched it counts till the call ends.
-/// Cost:    O(log rows) for each row that shares a movable particle with the resolved one; where hundreds share one, a
-///          call ends after most_looks(), and after terms.looks. Then every row is resolved once, in their order: a
-///          caller who puts scenery after all else of a particle loses nothing through it. No allocation once warm.
+/// Order:   first wrong velocities, the largest first: contacts and cables that touch and close, rods that change
+///          length, friction that must change. Then overlaps, the deepest first: moving particles apart changes no
+///          velocity, so it cannot undo the first part. Ties go to the lowest index.
+/// Differs: the book subtracts neither g from the speed of a bounce nor the work of leaving an overlap against the
+///          forces: both add energy at each bounce. It takes the row of lowest v_s first, also among overlaps: two
+///          slow contacts that push each other to and fro would keep a deep one waiting. Here an impulse lowers g of
+///          both its particles, so the upper contacts of a stack tell gravity from an impact. Friction is a vector
+///          within the cone mu N of the call's total, and is looked at whenever a neighbour moves, not only when its
+///          contact is the worst. A contact or cable with C above 0 waits; once it has touched it counts to the end of
+///          the call.
+/// Cost:    O(log rows) for each row that shares a movable particle with the resolved one. Where hundreds share one,
+///          the search ends after most_looks() or terms.looks, and every row is resolved once more in the rows' order,
+///          so a particle's contacts with scenery should come last. No allocation once warm.
 /// Limits:  relative speeds and C beyond the ends of Velocity<S> count as those ends; velocities and displacements are
 ///          held within passing_speed() and passing_distance().
 template <class S> class WorstFirst {
