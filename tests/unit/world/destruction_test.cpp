@@ -19,7 +19,7 @@ template <class S> class Destructions : public ::testing::Test {
       contact.flags = contact_flag::kTouching | contact_flag::kReported;
       systems.state.contacts.push_back(contact);
     }
-    systems.state.overlaps = {{balls[2].slot, balls[0].slot}};
+    systems.state.overlaps = {{balls[2].slot, balls[0].slot, 0, 0}};
     systems.state.forces = {{balls[2].slot, 0, vec<S>(1, 0, 0), vec<S>(0, 0, 0)}};
   }
   World<S>& made() {
