@@ -1,6 +1,7 @@
 // Solids on boxes far wider than they are: the floor's distant corners cost the contact no digits.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <string>
 
 #include "random/dice.hpp"
 #include "random/hull.hpp"
@@ -11,7 +12,7 @@
 namespace isostep::test {
 namespace wide_floors_test {
 
-/// What a second of motion along a floor comes to.
+/// Measures of one second along a floor.
 struct Course {
   double way = 0;  // [1] of what its speed makes of it
   double hop = 0;  // [m] above the floor, most
@@ -26,6 +27,16 @@ template <class S> class WideFloors : public ::testing::Test {
  protected:
   static double widest() { return std::min(8000.0, 0.9 * to_double(Limits<S>::extent())); }  // [m] half extent
 
+  /// Calls visit(seed, half extent [m]) for floors from `narrow` to the widest.
+  template <class Visit> static void visit_floors(std::uint64_t seeds, double narrow, const Visit& visit) {
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+      for (const double wide : {narrow, 400.0, widest()}) {
+        if (wide > widest()) continue;
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", " + std::to_string(wide) + " m");
+        visit(seed, wide);
+      }
+    }
+  }
   /// [m] The height of the lowest point of a cylinder, or of a cone whose apex is up, in its frame.
   static double lowest(const Pose<S>& pose, bool is_cone, double radius, double half) {
     const D3 axis = real(rotate(pose.orientation, Vec3<S>{S(0), S(1), S(0)}));
@@ -114,28 +125,20 @@ template <class S> class WideFloors : public ::testing::Test {
 TYPED_TEST_SUITE(WideFloors, AllScalars);
 
 TYPED_TEST(WideFloors, bear_as_narrow_ones_do) {
-  const std::uint64_t seeds = sampled(60u, 12u);
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    for (const double wide : {20.0, 400.0, this->widest()}) {
-      if (wide > this->widest()) continue;
-      const Found found = this->drop(seed, wide);
-      EXPECT_LT(found.deepest, 0.1) << "seed " << seed << ", " << wide << " m";
-      EXPECT_LT(found.sunk, 0.02) << "seed " << seed << ", " << wide << " m";
-      EXPECT_LT(found.gained, 0.04) << "seed " << seed << ", " << wide << " m";
-    }
-  }
+  this->visit_floors(sampled(60u, 12u), 20, [&](std::uint64_t seed, double wide) {
+    const Found found = this->drop(seed, wide);
+    EXPECT_LT(found.deepest, 0.1);
+    EXPECT_LT(found.sunk, 0.02);
+    EXPECT_LT(found.gained, 0.04);
+  });
 }
 
 TYPED_TEST(WideFloors, stop_nothing_that_rolls_or_slides) {
-  const std::uint64_t seeds = sampled(100u, 20u);
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    for (const double wide : {100.0, 400.0, this->widest()}) {
-      if (wide > this->widest()) continue;
-      const Course found = this->run_along(seed, wide);
-      EXPECT_NEAR(found.way, 1, 0.02) << "seed " << seed << ", " << wide << " m";
-      EXPECT_LT(found.hop, 0.01) << "seed " << seed << ", " << wide << " m";
-    }
-  }
+  this->visit_floors(sampled(100u, 20u), 100, [&](std::uint64_t seed, double wide) {
+    const Course found = this->run_along(seed, wide);
+    EXPECT_NEAR(found.way, 1, 0.02);
+    EXPECT_LT(found.hop, 0.01);
+  });
 }
 
 TYPED_TEST(WideFloors, are_met_where_they_are_by_casts) {

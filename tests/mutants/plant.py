@@ -41,35 +41,44 @@ CHANGES = [
     ("bound", r"\b2\b(?![.xu])", "3"),
 ]
 LVALUE = r"[A-Za-z_][\w.\->\[\]]*(?:\([\w, ]*\)[\w.\->\[\]]*)*"
+# Statements of one line; `what` is the part that changes.
 FORMS = {
-    "return": re.compile(r"^(\s+)return ([^{}]+);$"),
-    "assign": re.compile(r"^(\s+)(" + LVALUE + r" [-+*|&]?= )([^={};][^{};]*);$"),
-    "declare": re.compile(r"^(\s+(?:const )?[A-Za-z_][\w:<>]* \w+ = )([^{};]+);$"),
-    "if": re.compile(r"^(\s+(?:\} else )?if \()([^{};]+)(\)(?: \{| [^{}]*;)?)$"),
-    "drop": re.compile(r"^(\s+)(" + LVALUE + r"(?: [-+*|&]?= [^{};]+|\([^{};]*\)));$"),
+    "return": re.compile(r"^(?P<before>\s+)return (?P<what>[^{}]+);$"),
+    "assign": re.compile(r"^(?P<before>\s+)(?P<to>" + LVALUE + r" [-+*|&]?= )(?P<what>[^={};][^{};]*);$"),
+    "declare": re.compile(r"^(?P<before>\s+(?:const )?[A-Za-z_][\w:<>]* \w+ = )(?P<what>[^{};]+);$"),
+    "if": re.compile(r"^(?P<before>\s+(?:\} else )?if \()(?P<what>[^{};]+)(?P<after>\)(?: \{| [^{}]*;)?)$"),
+    "drop": re.compile(r"^(?P<before>\s+)(?P<what>" + LVALUE + r"(?: [-+*|&]?= [^{};]+|\([^{};]*\)));$"),
 }
 
 
-def balanced(text):
+def depths(text):
+    """Yields each character and how many brackets are open after it."""
     depth = 0
     for c in text:
         depth += (c in "([") - (c in ")]")
-        if depth < 0:
-            return False
-    return depth == 0
+        yield c, depth
 
 
-def sites_of(path, text):
+def balanced(text):
+    open_after = [depth for _, depth in depths(text)]
+    return min(open_after) >= 0 and open_after[-1] == 0
+
+
+def one_value(expression):
+    """Returns false for `a = 1, b = 2`: a comma outside of brackets."""
+    return all(c != "," or depth > 0 for c, depth in depths(expression))
+
+
+def sites_of(text):
     """Yields (line number, form, match) for each statement of one line that is not a macro's."""
     before = "{"
     for number, line in enumerate(text.split("\n")):
         bare = re.sub(r"\s*//.*$", "", line)
         begins = before.endswith((";", "{", "}", ":", ")", "else")) and not before.startswith("#")
-        if begins and not bare.endswith("\\") and "ISO_ASSERT" not in bare and "static_assert" not in bare:
+        if begins and not re.search(r"\\$|ISO_ASSERT|static_assert|constexpr", bare):
             for form, pattern in FORMS.items():
                 found = pattern.match(bare)
-                if found and all(balanced(part) for part in found.groups()[1 if form != "declare" else 0:] if form != "if") \
-                        and (form != "if" or balanced(found.group(2))) and "constexpr" not in bare:
+                if found and balanced(found["what"]):
                     yield number, form, found
         if bare.strip():
             before = bare.strip()
@@ -86,39 +95,26 @@ def changed(expression, draw):
 
 def mutant_at(form, found, id, draw):
     """Returns (kind, line with the switch, statement that the mutant has), or None."""
-    on = f"isostep::mutant({id})"
+    on, before, what = f"isostep::mutant({id})", found["before"], found["what"]
     if form == "drop":
-        indent, statement = found.groups()
-        return "dropped line", f"{indent}{{ if (!{on}) {statement}; }}", ""
-    expression = found.groups()[-1] if form in ("return", "assign", "declare") else found.group(2)
-    made = changed(expression, draw)
-    if made is None or (form == "declare" and not one_value(expression)):
+        return "dropped line", f"{before}{{ if (!{on}) {what}; }}", ""
+    made = changed(what, draw)
+    if made is None or (form == "declare" and not one_value(what)):
         return None
     kind, other = made
     if form == "return":
-        return kind, f"{found.group(1)}{{ if ({on}) return {other}; return {expression}; }}", f"return {other};"
+        return kind, f"{before}{{ if ({on}) return {other}; return {what}; }}", f"return {other};"
     if form == "assign":
-        indent, to = found.group(1), found.group(2)
-        return kind, f"{indent}{{ if ({on}) {to}{other}; else {to}{expression}; }}", f"{to}{other};"
+        return kind, f"{before}{{ if ({on}) {found['to']}{other}; else {found['to']}{what}; }}", f"{found['to']}{other};"
     if form == "declare":
-        return kind, f"{found.group(1)}{on} ? ({other}) : ({expression});", f"{found.group(1).strip()} {other};"
-    return kind, f"{found.group(1)}{on} ? ({other}) : ({expression}){found.group(3)}", f"if ({other})"
-
-
-def one_value(expression):
-    """Returns false for `a = 1, b = 2`: a comma outside of brackets."""
-    depth = 0
-    for c in expression:
-        depth += (c in "([") - (c in ")]")
-        if c == "," and depth <= 0:
-            return False
-    return True
+        return kind, f"{before}{on} ? ({other}) : ({what});", f"{before.strip()} {other};"
+    return kind, f"{before}{on} ? ({other}) : ({what}){found['after']}", f"if ({other})"
 
 
 def drawn(tree, seed, count, without):
     files = sorted(p for folder in FOLDERS for p in (tree / folder).rglob("*")
                    if p.suffix in (".hpp", ".inl", ".cpp") and not re.search(r"describe/|lanes_(wasm|neon)", str(p)))
-    sites = [(p, *site) for p in files for site in sites_of(p, p.read_text())]
+    sites = [(p, *site) for p in files for site in sites_of(p.read_text())]
     draw = random.Random(seed)
     draw.shuffle(sites)
     mutants, taken, candidate = [], set(), 0

@@ -30,7 +30,8 @@ struct Task {
 
 /// What one function does about the float environment.
 struct Body {
-  std::string file = {}, rounds = {};  // of its last instruction that rounds
+  std::string file = {};
+  std::string rounds = {};  // its last instruction that rounds
   bool sets = false;
 
   void take(const Instruction& instruction) {

@@ -26,29 +26,24 @@ TimeOfImpact<S> impact_with(const Shape& shape, const Transform<S>& at, const Co
   const ShapeCore<S> other(shape, at, S(0));
   return time_of_impact(core, motion, other.core(), of_shape, target);
 }
-
 /// Crops a box that does not turn to what is near the core's way: the noise of a distance grows with the box.
 template <class S>
 TimeOfImpact<S> impact_with(const Box<S>& box, const Transform<S>& at, const CoreMotion<S>& of_box,
                             const ConvexCore<S>& core, const CoreMotion<S>& motion, S target) {
-  Vec3<S> half = box.half_extents;
-  Transform<S> frame = at;
-  CoreMotion<S> of_frame = of_box;
   if (of_box.start.orientation == of_box.end.orientation) {
     const Transform<S> t = compose(Transform<S>::of(of_box.start), at);
     const Vec3<S> way = of_box.end.position - of_box.start.position;
     const CoreMotion<S> seen = {motion.start, {motion.end.position - way, motion.end.orientation}, motion.centre};
-    const CroppedBox<S> kept = cropped(half, swept_box(t, core, seen, target));
-    if (!(kept.half == half)) {
-      half = kept.half;
+    const CroppedBox<S> kept = cropped(box.half_extents, swept_box(t, core, seen, target));
+    if (!(kept.half == box.half_extents)) {
       const Vec3<S> middle = to_world(t, kept.middle);
-      frame.position = of_frame.centre = Vec3<S>::zero();
-      of_frame.start.position = middle;
-      of_frame.end.position = middle + way;
+      const Quat<Unit<S>> turn = of_box.start.orientation;
+      const CoreMotion<S> of_kept = {{middle, turn}, {middle + way, turn}, Vec3<S>::zero()};
+      const Transform<S> turned = {Vec3<S>::zero(), at.rotation};
+      return impact_with<S, Box<S>>({kept.half}, turned, of_kept, core, motion, target);
     }
   }
-  const ShapeCore<S> other(Box<S>{half}, frame, S(0));
-  return time_of_impact(core, motion, other.core(), of_frame, target);
+  return impact_with<S, Box<S>>(box, at, of_box, core, motion, target);
 }
 
 template <class S> ISO_INLINE S thickness_of(const HalfSpace<S>&) { return kThick<S>; }
