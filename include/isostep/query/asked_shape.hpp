@@ -22,7 +22,7 @@ template <class S>
 FaultReport fault_of_shape(const WorldState<S>& state, const QueryShape<S>& shape, const Pose<S>& pose);
 /// Returns the placed shape, which fault_of_shape() has accepted.
 template <class S> AskedShape<S> asked_of(const BodyMap<S>& map, const QueryShape<S>& shape, const Pose<S>& pose);
-/// [m] How far a shape of the world reaches from its frame's origin along a direction.
+/// [m] Returns how far a shape of the world reaches from its frame's origin along a direction.
 template <class S>
 S reach_of(const BodyMap<S>& map, ShapeId shape, const Quat<Unit<S>>& orientation, Vec3<Unit<S>> along);
 

@@ -15,7 +15,7 @@
 namespace isostep {
 
 namespace detail {
-/// [m] What a plane separates by so much stays separate despite rounding.
+/// [m] A plane that separates by so much separates despite rounding.
 template <class S> inline constexpr S kClearlyParted = S(0x1p-9);
 /// [m] Boxes are met this much sooner than what is in them. Casts are exact only to `gap_noise`, and the slack of
 /// SweepTest follows from the region, beyond which big boxes reach.

@@ -24,9 +24,9 @@ class LineJudge {
   void judge();
   /// Returns true, once, if no delay covers the guest's line.
   static bool loses(Guest& guest, bool is_covered, Time now);
-  /// [frames] How early `player`'s inputs reach all others. `is_slow`: machines are at their limit.
+  /// [frames] Returns how early `player`'s inputs reach all others. `is_slow`: machines are at their limit.
   Frame slack_of(int player, Frame current, bool is_slow) const;
-  /// [frames] The same, as the player's own guest is told it.
+  /// [frames] Returns that slack as the player's own guest is told it.
   Frame told_slack(const Guest& guest, int player, Frame current, bool is_slow) const;
   /// [us] The round trip of the guest in the match that is farthest away.
   Time longest_round_trip() const;
