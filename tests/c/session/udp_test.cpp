@@ -53,7 +53,8 @@ TEST(CUdp, TwoPlayTheSameMatch) {
     EXPECT_EQ(iso_udp_destroy(ports[n]), ISO_OK);
     EXPECT_EQ(iso_session_destroy(sessions[n]), ISO_OK);
   }
-  EXPECT_EQ(iso_udp_destroy(host_port), ISO_NOT_ALIVE);
+  for (iso_udp* port : ports) EXPECT_EQ(iso_udp_port(port), 0);  // also of the one that was opened last
+  for (iso_udp* port : ports) EXPECT_EQ(iso_udp_destroy(port), ISO_NOT_ALIVE);
 }
 
 /// A machine over UDP whose packets have a key; 0: none.
