@@ -1,14 +1,13 @@
-// Looks into object files for weak symbols that a linker could take from a user's file.
+// Looks into object files for weak symbols that a linker could take for those of files with other flags.
 // SPDX-License-Identifier: MIT
 //
 // symbols consumer NM OBJDUMP OBJECT...   a user's files leave no weak function of ours behind
-// symbols library NM OBJECT...            no weak function of ours is in two objects; kernels' objects have none at all
+// symbols kernels NM OBJECT...            objects that are compiled for one instruction set have no weak function
 
 #include <cxxabi.h>
 
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 #include <regex>
 #include <set>
 #include <string>
@@ -26,8 +25,6 @@ void report(const std::string& where, const std::string& what) {
   std::printf("%s: %s\n", where.c_str(), what.c_str());
   ++findings;
 }
-
-bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
 struct Symbol {
   char kind;         // of nm: W weak function, V weak object, u unique object
@@ -148,20 +145,11 @@ void check_consumer(const std::string& nm, const std::string& objdump, const std
   }
 }
 
-void check_library(const std::string& nm, const std::vector<std::string>& objects) {
-  std::map<std::string, std::string> homes;
+void check_kernels(const std::string& nm, const std::vector<std::string>& objects) {
   for (const std::string& object : objects) {
-    const bool kernel =
-        contains(object, "kernels_avx") || contains(object, "kernels_sse") || contains(object, "kernels_neon");
-    std::set<std::string> names;  // an object may hold a constructor two or three times over
     for (const Symbol& symbol : defined_symbols(nm, object)) {
-      if (!symbol.is_weak() || symbol.name.rfind("DW.ref.", 0) == 0) continue;
-      if (kernel && symbol.kind == 'W') report(object, "compiled for one instruction set, has the weak " + symbol.name);
-      if (is_ours(symbol) && !is_constant(symbol) && !is_structor(symbol.name)) names.insert(symbol.name);
-    }
-    for (const std::string& name : names) {
-      const auto [home, fresh] = homes.insert({name, object});
-      if (!fresh) report(object, name + " is also in " + home->second);
+      if (symbol.kind == 'W' && symbol.name.rfind("DW.ref.", 0) != 0)
+        report(object, "compiled for one instruction set, has the weak " + symbol.name);
     }
   }
 }
@@ -172,7 +160,7 @@ int main(int count, char** arguments) {
   const std::vector<std::string> words(arguments + 1, arguments + count);
   const std::string mode = words.empty() ? "" : words[0];
   if (mode == "consumer" && count > 4) check_consumer(words[1], words[2], {words.begin() + 3, words.end()});
-  else if (mode == "library" && count > 3) check_library(words[1], {words.begin() + 2, words.end()});
-  else return std::fprintf(stderr, "symbols consumer|library TOOL... FILE...\n"), 64;
+  else if (mode == "kernels" && count > 3) check_kernels(words[1], {words.begin() + 2, words.end()});
+  else return std::fprintf(stderr, "symbols consumer|kernels TOOL... FILE...\n"), 64;
   return findings == 0 ? 0 : 1;
 }

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "isostep/collision/continuous/shape_impact.inl"
-#include "no_step.hpp"
+#include "own_world.hpp"
 
 using namespace isostep;
 using Buffer = std::vector<std::uint8_t>;

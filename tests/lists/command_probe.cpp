@@ -4,7 +4,7 @@
 #define ISOSTEP_OWN_SCALARS
 #include <cstdio>
 
-#include "no_step.hpp"
+#include "own_world.hpp"
 
 using namespace isostep;
 

@@ -1,5 +1,5 @@
-// A program of the tests that includes this compiles World<float> from its copy of the headers. What a step needs
-// beside that it says itself: own_step.hpp or no_step.hpp.
+// A program of the tests that includes this compiles World<float> from its copy of the headers. Its kernels are those
+// of the library, which know nothing of records and commands. One that takes steps includes own_step.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -22,6 +22,10 @@
 #include "isostep/world/world.inl"
 
 namespace isostep {
+template <> const BodyKernels<float>* body_kernels<float>(Simd);
+template <> const ContactKernels<float>* contact_kernels<float>(Simd);
+template <> const PairKernels<float>* pair_kernels<float>(Simd);
+template <> const TreeKernels<float>* tree_kernels<float>(Simd);
 ISO_FOR_EACH_COMMAND(ISO_INSTANTIATE_EXECUTE, float)
 ISO_BROKEN_RULE_OF(, float)
 }  // namespace isostep
