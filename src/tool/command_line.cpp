@@ -11,6 +11,7 @@
 #include "tool/demo/commands.hpp"
 #include "tool/diff/commands.hpp"
 #include "tool/lab/commands.hpp"
+#include "tool/lab/published/published_report.hpp"
 #include "tool/lab/report/report.hpp"
 #include "tool/lab/tolerance.hpp"
 #include "tool/run/commands.hpp"
@@ -148,6 +149,7 @@ class ToolCommands {
     lab->callback([this, lab] {
       if (!lab->get_subcommands().empty()) return;
       if (lab_.all && lab->count("--limit") == 0) lab_.limit = lab::ReportOptions{}.limit;
+      if (lab_.published && lab->count("--limit") == 0) lab_.limit = lab::PublishedOptions{}.limit;
       line_.choose([this] { return command_lab(lab_); });
     });
     lab->require_subcommand(0, 1);
@@ -164,8 +166,10 @@ class ToolCommands {
 
   void add_lab_report(CLI::App* lab) {
     lab->add_flag("--all", lab_.all, "instead of one scene the report: every scene and trial, report.html in --out");
-    lab->add_flag("--short", lab_.is_short, "with --all: a small set of them");
-    lab->add_option("--peers", lab_.peers, "with --all: the program that runs other engines (isostep_peers)");
+    lab->add_flag("--short", lab_.is_short, "with --all or --published: a small set of them");
+    lab->add_flag("--published", lab_.published, "instead of one scene the published comparisons, repeated");
+    lab->add_flag("--full", lab_.full, "with --published: steps below a millisecond too");
+    lab->add_option("--peers", lab_.peers, "with --all or --published: the program that runs other engines");
   }
   void add_lab_sweep(CLI::App* lab) {
     lab->add_option("scene", lab_.scene, "a named scene, or a scene file");

@@ -21,7 +21,7 @@ NEAREST = [
     (r"/particles/", "unit_particles"), (r"/session/", "unit_session|session_.*"), (r"/collision/", "unit_collision"),
     (r"^src/c/", "c|c_.*|python_.*"), (r"^scalar/", "unit_scalar.*|unit_lanes.*|unit_exact.*"),
     (r"/state/", "unit_state|reject"), (r"/book/", "unit_book"), (r"/geometry/", "unit_geometry"),
-    (r"/math/", "unit_math"), (r"/core/", "unit_core"), (r"/effects/", "unit_effects"),
+    (r"/math/", "unit_math"), (r"/core/", "unit_core"), (r"/(effects|fracture)/", "unit_effects"),
     (r"/(dynamics|articulation)/", "unit_dynamics"), (r"", "unit_world"),
 ]
 # Then all of these. What compares hashes alone comes last: it finds that something changed, not what is wrong.

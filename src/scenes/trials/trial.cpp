@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "families.hpp"
+#include "scenes/published/published.hpp"
 
 namespace isostep::scenes {
 
@@ -22,7 +23,8 @@ const Trial* find_trial(std::string_view name) {
   for (const Trial& trial : trials()) {
     if (name == trial.name) return &trial;
   }
-  return nullptr;
+  const PublishedTest* const published = find_published_test(name);
+  return published == nullptr ? nullptr : &published->trial;
 }
 
 bool is_over(const Scene& scene, const Sight& sight) {

@@ -39,7 +39,7 @@ struct Trial {
 
 /// Every trial, family after family.
 std::span<const Trial> trials();
-/// Returns null for a name that no trial has.
+/// Finds one of these, or of the published tests (published/published.hpp). Returns null for a name that neither has.
 const Trial* find_trial(std::string_view name);
 
 /// A run that looks so has been through all of a trial, whatever the rate of its steps.

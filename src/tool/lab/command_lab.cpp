@@ -7,6 +7,7 @@
 #include "sweep.hpp"
 #include "tool/common/files.hpp"
 #include "tool/common/tool.hpp"
+#include "tool/lab/published/published_report.hpp"
 #include "tool/lab/report/report.hpp"
 
 namespace isostep::tool {
@@ -26,9 +27,25 @@ int command_lab_all(const LabOptions& options) {
   return lab::write_lab_report(report);
 }
 
+int command_lab_published(const LabOptions& options) {
+  if (!options.scene.empty() || options.all)
+    throw ToolError(exit_status::kUsage, "lab: --published is of the published tests alone");
+  if (options.out.empty()) throw ToolError(exit_status::kUsage, "lab: --published needs a directory (--out)");
+  lab::PublishedOptions report;
+  report.out = options.out;
+  report.is_short = options.is_short;
+  report.full = options.full;
+  report.fresh = options.fresh;
+  report.jobs = options.jobs;
+  report.limit = options.limit;
+  report.peers = options.peers;
+  return lab::write_published_report(report);
+}
+
 }  // namespace
 
 int command_lab(const LabOptions& options) {
+  if (options.published) return command_lab_published(options);
   if (options.all) return command_lab_all(options);
   if (options.scene.empty())
     throw ToolError(exit_status::kUsage, "lab: a scene is missing (isostep scenes lists them; --all: every one)");

@@ -19,8 +19,8 @@ struct LabOptions {
   std::string out = "build/lab";  // directory, or empty
   std::string csv;                // file, or empty
   bool json = false;
-  // Instead of one scene the report, see lab/report/report.hpp.
-  bool all = false, is_short = false;
+  // Instead of one scene the report, see lab/report/report.hpp, or that of lab/published.
+  bool all = false, is_short = false, published = false, full = false;
   std::string peers;  // program that runs the peers, or empty
 };
 int command_lab(const LabOptions& options);

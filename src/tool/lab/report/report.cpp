@@ -3,14 +3,13 @@
 #include "report.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
-#include <thread>
 
 #include "charts.hpp"
 #include "isostep/core/version.hpp"
 #include "page.hpp"
+#include "peer_program.hpp"
 #include "tool/common/files.hpp"
 #include "tool/common/tool.hpp"
 #include "tool/lab/commands.hpp"
@@ -92,15 +91,8 @@ class ReportWriter {
 
   /// The program resumes by itself; its lines are read whether it was there or not.
   void run_peers() {
-    if (!options_.peers.empty()) {
-      const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-      const int jobs = options_.jobs > 0 ? options_.jobs : static_cast<int>(cores);
-      const std::string command = shell_quoted(options_.peers) + " --out " + shell_quoted(in("peers.jsonl")) +
-                                  " --jobs " + std::to_string(jobs) + " --limit " + std::to_string(options_.limit);
-      const int status = std::system(command.c_str());
-      stop_if_interrupted();
-      if (status != 0) std::cerr << "isostep: " << options_.peers << " failed: peers are as far as they are kept\n";
-    }
+    if (!options_.peers.empty())
+      run_peer_program({options_.peers, "", in("peers.jsonl"), options_.jobs, options_.limit});
     std::vector<LabResult> peers;
     for (LabRecord& record : read_records(in("peers.jsonl"))) {
       if (is_asked(record.result.point.scene)) peers.push_back(std::move(record.result));

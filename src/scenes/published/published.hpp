@@ -1,0 +1,42 @@
+// Published comparisons of engines: their scenes, their measures, and the figures that their authors found.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "scenes/trials/trial.hpp"
+
+namespace isostep::scenes {
+
+/// What an engine of that year showed at a rate of steps.
+struct PublishedFigure {
+  const char* engine;
+  int hz;         // [1/s]
+  double figure;  // in the trial's unit
+};
+/// What isostep promises to show at a rate of steps, and what it aims at.
+struct PublishedBar {
+  int hz;  // [1/s]
+  double must, aim;
+};
+
+struct PublishedTest {
+  Trial trial;                 // whose bar is the widest must
+  const char* source;          // the publication
+  int year;                    // of its figures
+  const char* settings;        // how theirs were run, where that is not how ours are
+  std::span<const int> rates;  // [1/s] of the published steps, the longest first
+  std::span<const PublishedFigure> figures;
+  std::span<const PublishedBar> bars;
+};
+
+/// Every published test, source after source.
+const std::vector<PublishedTest>& published_tests();
+/// Returns null for a name that none has.
+const PublishedTest* find_published_test(std::string_view name);
+
+std::span<const PublishedTest> sim_benchmark_tests();
+
+}  // namespace isostep::scenes

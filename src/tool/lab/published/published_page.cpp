@@ -1,0 +1,146 @@
+// Tables of the published tests.
+// SPDX-License-Identifier: MIT
+#include "published_page.hpp"
+
+#include <algorithm>
+
+#include "standing.hpp"
+#include "tool/lab/report/html.hpp"
+
+namespace isostep::tool::lab {
+namespace {
+
+using scenes::PublishedBar;
+using scenes::PublishedTest;
+
+constexpr char kHead[] = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light">
+<title>isostep: published comparisons</title>
+<style>
+body { font: 15px/1.5 system-ui, sans-serif; color: #24292f; background: #fff;
+  max-width: 1240px; margin: 0 auto; padding: 1rem; }
+h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.5rem; }
+p { color: #57606a; max-width: 50rem; }
+svg { max-width: 100%; height: auto; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-size: 13px; }
+th, td { border: 1px solid #d0d7de; padding: 2px 7px; text-align: left; }
+th { background: #f6f8fa; }
+</style>
+</head>
+<body>
+)";
+
+bool is_double(const Standing& s) { return s.is_default && s.engine.find(" double,") != std::string::npos; }
+bool is_fixed(const Standing& s) { return s.is_default && s.engine.find(" q32.32,") != std::string::npos; }
+
+const PublishedBar* bar_at(const PublishedTest& test, int hz) {
+  const auto found =
+      std::find_if(test.bars.begin(), test.bars.end(), [&](const PublishedBar& b) { return b.hz == hz; });
+  return found == test.bars.end() ? nullptr : &*found;
+}
+
+std::string figure_of(const Standing& s) { return s.ended ? short_number(s.figure) : s.reason; }
+
+/// The rates at which something of ours was run.
+std::vector<int> rates_of(const PublishedTest& test, const std::vector<LabResult>& results) {
+  std::vector<int> rates;
+  for (const int hz : test.rates) {
+    const std::vector<Standing> all = standings_of(test, hz, results);
+    if (std::any_of(all.begin(), all.end(), [](const Standing& s) { return s.ours; })) rates.push_back(hz);
+  }
+  return rates;
+}
+
+/// A line an engine, a pair of columns a step: error and CPU time.
+std::string table_of(const PublishedTest& test, const std::vector<LabResult>& results) {
+  const std::vector<int> rates = rates_of(test, results);
+  std::vector<std::vector<std::string>> cells(1, {"engine"});
+  for (const int hz : rates) {
+    cells[0].push_back("error, steps of " + step_text(hz));
+    cells[0].push_back("CPU s a second");
+  }
+  const auto line_of = [&](const std::string& engine) -> std::vector<std::string>& {
+    for (auto& line : cells) {
+      if (line[0] == escaped(engine)) return line;
+    }
+    cells.push_back({escaped(engine)});
+    cells.back().resize(cells[0].size());
+    return cells.back();
+  };
+  for (std::size_t n = 0; n < rates.size(); ++n) {
+    for (const Standing& s : standings_of(test, rates[n], results)) {
+      std::vector<std::string>& line = line_of(s.engine);
+      line[1 + 2 * n] = escaped(figure_of(s));
+      line[2 + 2 * n] = s.published || !s.ended ? "" : short_number(s.seconds);
+    }
+  }
+  return html_table(cells);
+}
+
+std::string heading_of(const PublishedTest& test) {
+  std::string text = std::string(test.trial.description) + ". Error: " + test.trial.measure + " [" + test.trial.unit +
+                     "]. " + test.source + " " + std::to_string(test.year) + ".";
+  if (test.settings[0] != '\0') text += std::string(" Their settings: ") + test.settings + ".";
+  return text;
+}
+
+const Standing* best_other(const std::vector<Standing>& standings) {
+  const auto found = std::find_if(standings.begin(), standings.end(), [](const Standing& s) { return !s.ours; });
+  return found == standings.end() || !found->ended ? nullptr : &*found;
+}
+const Standing* find(const std::vector<Standing>& standings, bool (*chosen)(const Standing&)) {
+  const auto found = std::find_if(standings.begin(), standings.end(), chosen);
+  return found == standings.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string published_page(const std::vector<LabResult>& results) {
+  std::string text = kHead;
+  text +=
+      "<h1>Published comparisons, repeated</h1>\n<p>Scenes and measures are the authors', and so are the figures with "
+      "a "
+      "year. All other engines ran here, one thread each. Smaller errors are better. Seconds of another year's machine "
+      "are not compared.</p>\n";
+  text += published_svg(results);
+  for (const PublishedTest& test : scenes::published_tests()) {
+    text += std::string("<section id=\"") + test.trial.name + "\">\n<h2>" + escaped(test.trial.number) + "</h2>\n<p>" +
+            escaped(heading_of(test)) + "</p>\n" + table_of(test, results) + "</section>\n";
+  }
+  return text + "</body>\n</html>\n";
+}
+
+std::string published_summary(const std::vector<LabResult>& results) {
+  std::vector<std::vector<std::string>> cells = {
+      {"test", "step", "error", "must", "aim", "double", "q32.32", "best other engine", "our place"}};
+  for (const PublishedTest& test : scenes::published_tests()) {
+    for (const int hz : rates_of(test, results)) {
+      const std::vector<Standing> all = standings_of(test, hz, results);
+      const PublishedBar* const bar = bar_at(test, hz);
+      const Standing* const best = best_other(all);
+      const auto figure = [&](bool (*chosen)(const Standing&)) {
+        const Standing* const s = find(all, chosen);
+        return s == nullptr ? std::string("-") : figure_of(*s);
+      };
+      const auto place = [&](bool (*chosen)(const Standing&)) {
+        const int at = place_of(all, chosen);
+        return at == 0 ? std::string("-") : std::to_string(at);
+      };
+      cells.push_back({test.trial.number, step_text(hz), std::string(test.trial.measure) + " [" + test.trial.unit + "]",
+                       bar == nullptr ? "" : short_number(bar->must), bar == nullptr ? "" : short_number(bar->aim),
+                       figure(is_double), figure(is_fixed),
+                       best == nullptr ? "-" : best->engine + " " + short_number(best->figure),
+                       place(is_double) + ", " + place(is_fixed)});
+    }
+  }
+  return "# Published comparisons, in short\n\nWritten by `./isostep lab --published`. Our figures are those of a "
+         "world's own settings; places are among all engines, ours as one, in double and in q32.32.\n\n" +
+         markdown_table(cells);
+}
+
+}  // namespace isostep::tool::lab

@@ -1,0 +1,19 @@
+// The published tests as people read them: a page, a table in Markdown, and a picture.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tool/lab/result.hpp"
+
+namespace isostep::tool::lab {
+
+/// One page that needs nothing else: the picture, and a table a test with a line an engine.
+std::string published_page(const std::vector<LabResult>& results);
+/// Per test and step our figures, what they must be and what we aim at, the best other engine, and our place.
+std::string published_summary(const std::vector<LabResult>& results);
+/// A line an engine, a column a test: a mark at its error, beside it the CPU time of a simulated second.
+std::string published_svg(const std::vector<LabResult>& results);
+
+}  // namespace isostep::tool::lab
