@@ -13,7 +13,7 @@ report() { "$tool" lab --published --short --out "$out" "$@" >"$dir/out" 2>"$dir
 # A peer's record in the file that the report reads: better than we are, or without a number.
 mkdir "$out"
 record() { # TEST HZ STATE FIGURE ENGINE
-  printf '{"scene":"simbenchmark_%s","engine":"%s","scalar":"","solver":"","model":"rigid","hz":%s,"substeps":0,"state":"%s","reason":"","frames":600,"ms":0.05,"ms_mean":0.05,"penetration":0,"penetration_mean":0,"joint_error":0,"energy_gain":0,"energy_loss":0,"unrest":0,"deviation":-1,"faults":0,"judged":true,"survived":false,"figure":%s,"stood":true,"version":"x"}\n' \
+  printf '{"scene":"simbenchmark_%s","engine":"%s","scalar":"","solver":"","model":"rigid","hz":%s,"substeps":0,"state":"%s","reason":"","frames":600,"ms":0.05,"ms_mean":0.05,"penetration":0,"penetration_mean":0,"joint_error":0,"energy_gain":0,"energy_loss":0,"unrest":0,"signorini":null,"coulomb":null,"dissipation":null,"deviation":-1,"faults":0,"judged":true,"survived":false,"figure":%s,"stood":true,"version":"x"}\n' \
     "$1" "$5" "$2" "$3" "$4"
 }
 {

@@ -5,6 +5,7 @@
 #include "result.hpp"
 #include "scenes/measure.hpp"
 #include "scenes/particles/particle_measure.hpp"
+#include "scenes/residuals.hpp"
 #include "scenes/sight.hpp"
 #include "subject.hpp"
 
@@ -19,6 +20,7 @@ template <class S> class ParticleRun {
   scenes::Energy energy() const;
   double joint_error() const { return scenes::largest_link_error(world_); }
   scenes::Overlap overlap() const;
+  scenes::ContactResiduals residuals() const { return {kUnknown, kUnknown, kUnknown, 0}; }
   scenes::Sight sight(int faults) const;
 
  private:

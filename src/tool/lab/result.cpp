@@ -38,6 +38,9 @@ template <class Result, class Visit> void each_field(Result& result, Visit&& vis
   visit("energy_gain", result.energy_gain);
   visit("energy_loss", result.energy_loss);
   visit("unrest", result.unrest);
+  visit("signorini", result.signorini);
+  visit("coulomb", result.coulomb);
+  visit("dissipation", result.dissipation);
   visit("deviation", result.deviation);
   visit("faults", result.faults);
   visit("judged", result.judged);

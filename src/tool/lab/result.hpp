@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,9 @@ inline constexpr const char* kDone = "done";
 inline constexpr const char* kSlow = "slow";
 inline constexpr const char* kRefused = "refused";
 
+/// What was not measured: null in JSON.
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
 struct LabResult {
   LabPoint point;
   std::string state = kDone;
@@ -45,6 +49,9 @@ struct LabResult {
   double energy_gain = 0;                 // [J/kg] largest rise of total energy above the start over the run
   double energy_loss = 0;                 // [J/kg] start less end
   double unrest = 0;                      // [J/kg] kinetic, mean of the last second
+  double signorini = kUnknown;            // [m/s] scenes::ContactResiduals at the end; of rigid bodies of ours
+  double coulomb = kUnknown;              // [m/s]
+  double dissipation = kUnknown;          // [m/s]
   double deviation = -1;                  // [m] of bodies from the reference after 1 s, root mean square; < 0: unknown
   int faults = 0;                         // numbers that had to be mended
   bool judged = false, survived = false;  // of trials

@@ -8,6 +8,7 @@
 #include "isostep/store/state.hpp"
 #include "result.hpp"
 #include "scenes/build.hpp"
+#include "scenes/residuals.hpp"
 #include "scenes/script.hpp"
 #include "scenes/sight.hpp"
 #include "subject.hpp"
@@ -46,6 +47,7 @@ template <class S> class RigidRun {
     return world_.state().joint_slots.entries().empty() ? 0 : scenes::largest_joint_error(world_);
   }
   scenes::Overlap overlap() const { return scenes::measure_overlap(world_); }
+  scenes::ContactResiduals residuals() const { return scenes::measure_residuals(world_); }
   scenes::Sight sight(int faults) const { return scenes::sight_of(world_, faults); }
 
  private:

@@ -92,6 +92,10 @@ template <class Run> class Watch {
     const scenes::Overlap overlap = run_.overlap();
     result_.penetration = overlap.worst;
     result_.penetration_mean = overlap.mean;
+    const scenes::ContactResiduals residuals = run_.residuals();
+    result_.signorini = residuals.signorini;
+    result_.coulomb = residuals.coulomb;
+    result_.dissipation = residuals.dissipation;
     const double mass = start_.mass > 0 ? start_.mass : 1;
     const scenes::Sight end = run_.sight(result_.faults);
     result_.energy_gain = gain_ / mass;

@@ -95,6 +95,9 @@ std::string json_of(const RunReport& r) {
                                      {"awake", r.awake},
                                      {"penetration_max", r.penetration_max},
                                      {"joint_error_max", r.joint_error_max},
+                                     {"signorini", r.residuals.signorini},
+                                     {"coulomb", r.residuals.coulomb},
+                                     {"dissipation", r.residuals.dissipation},
                                      {"energy_start", r.energy_start},
                                      {"energy_end", r.energy_end},
                                      {"asleep_at", nullptr},
@@ -120,6 +123,8 @@ std::string table_of(const RunReport& r) {
   text += line("penetration   %.3f mm worst, %.3f mm mean of pairs closer than 1 cm", 1e3 * r.penetration_max,
                1e3 * r.penetration_mean);
   text += line("joint error   %.4f mm worst over the run", 1e3 * r.joint_error_max);
+  text += line("contact laws  Signorini %.2g, Coulomb %.2g, dissipation %.2g m/s off", r.residuals.signorini,
+               r.residuals.coulomb, r.residuals.dissipation);
   text += line("energy        %.6g J at the start, %.6g J at the end; unrest %.3g J/kg", r.energy_start, r.energy_end,
                r.unrest);
   text += r.asleep_at < 0 ? line("asleep        no") : line("asleep        at frame %d", r.asleep_at);

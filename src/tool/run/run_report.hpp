@@ -9,6 +9,7 @@
 
 #include "isostep/particles/particle_world.hpp"
 #include "isostep/state/hash.hpp"
+#include "scenes/residuals.hpp"
 #include "scenes/trials/trial.hpp"
 #include "tool/common/step_times.hpp"
 
@@ -46,6 +47,7 @@ struct RunReport : AnyRunReport {
   std::uint32_t contacts = 0, points = 0, bodies = 0, awake = 0;  // at the end
   double joint_error_max = 0;                                     // [m] over the run
   int asleep_at = -1;  // first frame, from 0, that ends with nobody awake; -1: none
+  scenes::ContactResiduals residuals;  // at the end
   std::optional<TrialReport> trial;
   std::optional<int> lost;     // bodies that are not where a benchmark scene keeps them, at the end
   std::optional<int> through;  // bullets that passed what was in their way, of scenes that are about them

@@ -63,6 +63,7 @@ template <class S> class RigidWatch {
     const scenes::Overlap overlap = scenes::measure_overlap(world);
     report.penetration_max = overlap.worst;
     report.penetration_mean = overlap.mean;
+    report.residuals = scenes::measure_residuals(world);
     report.energy_end = scenes::measure_energy(world).total();
     if (trial_) report.trial = TrialReport{&trial_->trial(), trial_->verdict(), trial_->over()};
     if (!benchmark_.empty()) {

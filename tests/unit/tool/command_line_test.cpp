@@ -167,7 +167,8 @@ TEST_F(CommandLine, ReportsOneJsonObjectWithTheMembersOfTheManual) {
                           "\"ms_mean\":",           "\"ms_p99\":",           "\"ms_max\":",
                           "\"ms_median_settled\":", "\"contacts\":5",        "\"points\":20",
                           "\"bodies\":6",           "\"awake\":5",           "\"penetration_max\":",
-                          "\"joint_error_max\":0",  "\"energy_start\":",     "\"energy_end\":",
+                          "\"joint_error_max\":0",  "\"signorini\":",        "\"coulomb\":0.0",
+                          "\"dissipation\":",       "\"energy_start\":",     "\"energy_end\":",
                           "\"asleep_at\":null",     "\"faults\":0",          "\"lost\":0}\n"}) {
     const std::size_t found = answer.out.find(key, at);
     ASSERT_NE(found, std::string::npos) << key << " in " << answer.out;

@@ -32,6 +32,9 @@ LabResult full_result() {
   r.energy_gain = -0.0;
   r.energy_loss = -3e-7;
   r.unrest = 2e-9;
+  r.signorini = 1e-3;
+  r.coulomb = 0;
+  r.dissipation = 3e-5;
   r.deviation = 123456.789;
   r.faults = 2;
   r.judged = r.survived = true;
@@ -50,7 +53,8 @@ TEST(LabRecord, ReadsBackAsItWasWritten) {
   EXPECT_EQ(read.result.frames, 7);
   for (const auto member : {&LabResult::ms, &LabResult::ms_mean, &LabResult::penetration, &LabResult::penetration_mean,
                             &LabResult::joint_error, &LabResult::energy_gain, &LabResult::energy_loss,
-                            &LabResult::unrest, &LabResult::deviation, &LabResult::figure})
+                            &LabResult::unrest, &LabResult::signorini, &LabResult::coulomb, &LabResult::dissipation,
+                            &LabResult::deviation, &LabResult::figure})
     EXPECT_EQ(read.result.*member, written.*member);
   EXPECT_EQ(read.result.faults, 2);
   EXPECT_TRUE(read.result.judged && read.result.survived);
