@@ -262,7 +262,7 @@ std::span<const PublishedTest> sim_benchmark_tests() {
        kRollingRates,
        kRollingOnAxis,
        kRollingBars},
-      {{"simbenchmark_rolling_diagonal", "rolling, 60°", "the same, pulled 60 degrees from the axis",
+      {{"simbenchmark_rolling_diagonal", "rolling 60°", "the same, pulled 60 degrees from the axis",
         "mean square error of velocity", "m^2/s^2", 4.1e-7, rolling_diagonally, judge_diagonal},
        kSource,
        2018,

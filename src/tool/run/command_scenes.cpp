@@ -1,4 +1,4 @@
-// isostep scenes: lists the named scenes and the trials, or writes them as files.
+// isostep scenes: lists the named scenes, the trials and the published tests, or writes them as files.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdio>
@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "scenes/published/published.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/trials/trial.hpp"
 #include "tool/common/files.hpp"
@@ -43,12 +44,18 @@ void print_table() {
   }
 }
 
-void print_trials() {
+/// Trials, and the published tests, which are trials too.
+std::vector<scenes::Trial> published_trials() {
+  std::vector<scenes::Trial> list;
+  for (const scenes::PublishedTest& test : scenes::published_tests()) list.push_back(test.trial);
+  return list;
+}
+void print_trials(const char* title, std::span<const scenes::Trial> trials) {
   std::size_t width = 0;
-  for (const scenes::Trial& trial : scenes::trials()) width = std::max(width, std::string_view(trial.name).size());
-  std::printf("\n%-*s %6s %6s %7s %7s %9s  %s\n", static_cast<int>(width), "trial", "number", "frames", "bodies",
+  for (const scenes::Trial& trial : trials) width = std::max(width, std::string_view(trial.name).size());
+  std::printf("\n%-*s %6s %6s %7s %7s %9s  %s\n", static_cast<int>(width), title, "number", "frames", "bodies",
               "joints", "bar", "what, and what is measured");
-  for (const scenes::Trial& trial : scenes::trials()) {
+  for (const scenes::Trial& trial : trials) {
     const SceneRow row = RigidGames::row(trial.name, trial.description);
     char bar[32];
     std::snprintf(bar, sizeof bar, "%.3g %s", trial.bar, trial.unit);
@@ -63,17 +70,24 @@ nlohmann::ordered_json json_of(const SceneRow& row) {
   json["description"] = row.description;
   return json;
 }
-void print_json() {
+nlohmann::ordered_json json_of(std::span<const scenes::Trial> trials) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const SceneRow& row : scene_rows()) list.push_back(json_of(row));
-  nlohmann::ordered_json trials = nlohmann::ordered_json::array();
-  for (const scenes::Trial& trial : scenes::trials()) {
+  for (const scenes::Trial& trial : trials) {
     nlohmann::ordered_json json = json_of(RigidGames::row(trial.name, trial.description));
     json.update(nlohmann::ordered_json{
         {"number", trial.number}, {"measure", trial.measure}, {"unit", trial.unit}, {"bar", trial.bar}});
-    trials.push_back(json);
+    list.push_back(json);
   }
-  std::cout << nlohmann::ordered_json{{"scenes", list}, {"trials", trials}}.dump(1) << "\n";
+  return list;
+}
+void print_json() {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const SceneRow& row : scene_rows()) list.push_back(json_of(row));
+  std::cout << nlohmann::ordered_json{{"scenes", list},
+                                      {"trials", json_of(scenes::trials())},
+                                      {"published", json_of(published_trials())}}
+                   .dump(1)
+            << "\n";
 }
 
 }  // namespace
@@ -83,7 +97,8 @@ int command_scenes(const ScenesOptions& options) {
   if (options.json) print_json();
   else if (options.write.empty()) {
     print_table();
-    print_trials();
+    print_trials("trial", scenes::trials());
+    print_trials("published", published_trials());
   }
   return exit_status::kOk;
 }

@@ -40,8 +40,8 @@ struct Bench {
 
 std::vector<Trial> all_of_these() {
   std::vector<Trial> list;
-  for (const auto& family : {motion_trials(), friction_trials(), recovery_trials(), spring_trials(), loop_trials(),
-                             bounce_trials(), fixed_point_trials()}) {
+  for (const auto& family : {motion_trials(), friction_trials(), contact_law_trials(), recovery_trials(),
+                             spring_trials(), loop_trials(), bounce_trials(), fixed_point_trials()}) {
     list.insert(list.end(), family.begin(), family.end());
   }
   return list;
