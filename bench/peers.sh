@@ -1,11 +1,12 @@
 #!/bin/sh
 # The peers that the benchmarks can do without: brought where that is possible, else a line each says what is left out.
-# usage: peers.sh BUILD_DIRECTORY. Debian's as root by apt, Rapier by npm into the build directory. ISOSTEP_NO_INSTALL=1:
-# nothing is brought.
+# usage: peers.sh BUILD_DIRECTORY. Debian's as root by apt, others by npm into the build directory.
+# ISOSTEP_NO_INSTALL=1: nothing is brought.
 # SPDX-License-Identifier: MIT
 set -u
 build=$1
-rapier='rapier3d-simd-compat@0.20.0 rapier3d-deterministic-compat@0.21.0'
+node_peers='@dimforge/rapier3d-simd-compat@0.20.0 @dimforge/rapier3d-deterministic-compat@0.21.0
+  @babylonjs/havok@1.3.14 jolt-physics@1.1.0 physx-js-webidl@2.7.3 @mujoco/mujoco@3.14.0'
 
 say() { printf '%s\n' "$*" >&2; }
 have() { command -v "$1" >/dev/null 2>&1; }
@@ -37,15 +38,19 @@ if [ -n "$packages" ] && may_install && have apt-get && [ "$(id -u)" = 0 ]; then
   rm -f "$build/CMakeCache.txt" # so that CMake looks again
 fi
 for package in $(missing); do say "$package is not installed: what needs it is left out"; done
+# 385 MB for one engine of the laboratory: whoever wants that installs it.
+if ! have pkg-config || ! pkg-config --exists dart; then
+  say "libdart-collision-bullet-dev is not installed: DART is left out"
+fi
 
-for package in $rapier; do
-  name=${package%@*} version=${package#*@}
-  at=$build/npm/node_modules/@dimforge/$name/package.json
+for package in $node_peers; do
+  name=${package%@*} version=${package##*@}
+  at=$build/npm/node_modules/$name/package.json
   grep -qs "\"version\": \"$version\"" "$at" && continue
   if may_install && have npm; then
-    say "npm install @dimforge/$package"
-    npm install --prefix "$build/npm" --no-audit --no-fund --loglevel=error "@dimforge/$package" >&2
+    say "npm install $package"
+    npm install --prefix "$build/npm" --no-audit --no-fund --loglevel=error "$package" >&2
   fi
-  [ -f "$at" ] || say "@dimforge/$package is not installed: Rapier is left out"
+  [ -f "$at" ] || say "$package is not installed: it is left out"
 done
 exit 0

@@ -1,4 +1,4 @@
-// isostep_peers: scenes and trials in Bullet, ODE and Rapier, as lines of the laboratory's results.
+// isostep_peers: scenes, trials and published tests in other engines, as lines of the laboratory's results.
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "processes.hpp"
 #include "scene_bench/program.hpp"
 #include "scenes/named.hpp"
+#include "scenes/published/published.hpp"
 #include "scenes/trials/trial.hpp"
 
 namespace isostep::bench {
@@ -17,6 +18,9 @@ namespace {
 struct Arguments {
   std::vector<std::string> scenes;   // none: S1 to S9 and every trial
   std::vector<std::string> engines;  // none: all
+  std::vector<int> rates;            // [1/s] none: those of the scene
+  int most_hz = 10000;               // [1/s] higher ones are left out
+  bool published = false;
   std::string out = "peers.jsonl";
   double limit = 20;
   int jobs = 1;
@@ -33,17 +37,36 @@ std::vector<std::string> all_scenes() {
   return names;
 }
 
+std::vector<std::string> scenes_of(const Arguments& arguments) {
+  if (arguments.scenes.empty() && !arguments.published) return all_scenes();
+  std::vector<std::string> names = arguments.scenes;
+  if (!arguments.published) return names;
+  for (const scenes::PublishedTest& test : scenes::published_tests()) names.push_back(test.trial.name);
+  return names;
+}
+
+/// A published test has the rates of its publication, what is ours the rate of games.
+std::vector<int> rates_of(const Arguments& arguments, const std::string& scene) {
+  if (!arguments.rates.empty()) return arguments.rates;
+  const scenes::PublishedTest* published = scenes::find_published_test(scene);
+  if (published == nullptr) return {60};
+  return {published->rates.begin(), published->rates.end()};
+}
+
 std::vector<PeerJob> jobs_of(const Arguments& arguments) {
-  const std::vector<Maker> makers = peer_makers();
+  const std::vector<Maker> makers = all_peer_makers();
   for (const std::string& name : arguments.engines) {
     const bool is_there = std::any_of(makers.begin(), makers.end(), [&](const Maker& m) { return m.name == name; });
     if (!is_there) throw CLI::ValidationError("--engines", "no engine " + name + " here");
   }
   std::vector<PeerJob> jobs;
-  for (const std::string& scene : arguments.scenes.empty() ? all_scenes() : arguments.scenes) {
+  for (const std::string& scene : scenes_of(arguments)) {
     if (!scenes::find_scene(scene)) throw CLI::ValidationError("--scenes", "no scene " + scene);
-    for (const Maker& maker : makers) {
-      if (arguments.engines.empty() || holds(arguments.engines, maker.name)) jobs.push_back({scene, maker});
+    for (const int hz : rates_of(arguments, scene)) {
+      if (hz > arguments.most_hz) continue;
+      for (const Maker& maker : makers) {
+        if (arguments.engines.empty() || holds(arguments.engines, maker.name)) jobs.push_back({scene, maker, hz});
+      }
     }
   }
   return jobs;
@@ -88,8 +111,8 @@ void run(const Arguments& arguments) {
   work.done = [&](std::size_t i, const ProcessEnd& end) {
     const LabRecord record = record_of(jobs[i], end);
     file << to_line(record) << "\n" << std::flush;
-    std::fprintf(stderr, "peers %zu/%zu: %s %s %s %s\n", ++count, jobs.size(), jobs[i].scene.c_str(),
-                 jobs[i].maker.name, record.result.state.c_str(), record.result.reason.c_str());
+    std::fprintf(stderr, "peers %zu/%zu: %s %s %d/s %s %s\n", ++count, jobs.size(), jobs[i].scene.c_str(),
+                 jobs[i].maker.name, jobs[i].hz, record.result.state.c_str(), record.result.reason.c_str());
   };
   in_processes(work);
   if (!file.flush()) throw std::runtime_error("cannot write " + arguments.out);
@@ -100,11 +123,17 @@ void run(const Arguments& arguments) {
 
 int main(int count, char** words) {
   isostep::bench::Arguments arguments;
-  CLI::App app("Scenes and trials in Bullet, ODE and Rapier, as lines of the laboratory's results");
+  CLI::App app("Scenes, trials and published tests in other engines, as lines of the laboratory's results");
+  std::string engines;
+  for (const auto& maker : isostep::bench::all_peer_makers()) engines += maker.name + std::string(", ");
   app.add_option("--scenes", arguments.scenes, "Names, separated by commas; none: S1 to S9 and every trial")
       ->delimiter(',');
-  app.add_option("--engines", arguments.engines, "rapier-simd, rapier-det, bullet, ode, separated by commas; none: all")
-      ->delimiter(',');
+  app.add_flag("--published", arguments.published, "Every published test, beside --scenes");
+  app.add_option("--engines", arguments.engines, engines + "separated by commas; none: all")->delimiter(',');
+  app.add_option("--hz", arguments.rates, "[1/s] Rates of steps, separated by commas; none: 60, a published test's own")
+      ->delimiter(',')
+      ->check(CLI::Range(10, 10000));
+  app.add_option("--most-hz", arguments.most_hz, "[1/s] Higher rates are left out")->check(CLI::Range(10, 10000));
   app.add_option("--out", arguments.out, "File to which lines are added; what it holds is not run again")
       ->capture_default_str();
   app.add_option("--limit", arguments.limit, "[s] CPU time of a run, then it is given up as slow")

@@ -9,6 +9,7 @@
 #include "isostep/state/hash.hpp"
 #include "scenes/bars.hpp"
 #include "scenes/named.hpp"
+#include "scenes/published/published.hpp"
 #include "scenes/scene_file.hpp"
 #include "tool/lab/run_point.hpp"
 
@@ -19,15 +20,32 @@ using scenes::Scene;
 using scenes::Sight;
 using tool::lab::LabResult;
 
-constexpr int kSecond = 60;  // [frames]
+constexpr double kFrame = 1.0 / 60;  // [s] of which a record's times are
 
 Scene scene_of(const PeerJob& job) {
   std::optional<Scene> scene = scenes::find_scene(job.scene);
   if (!scene) throw scenes::SceneError("", "no scene " + job.scene);
   return std::move(*scene);
 }
-int frames_of(const Scene& scene) {
-  return static_cast<int>(static_cast<long long>(scene.frames) * kSecond / scene.hz);
+/// The scene of the job's rate. A script counts frames, so it has the rate of its scene.
+Scene at_rate(const Scene& scene, int hz) {
+  if (scene.script != scenes::Script::none && hz != scene.hz) {
+    throw scenes::SceneError("", "a scene with a script runs at its own rate of steps");
+  }
+  Scene made = scene;
+  made.frames = tool::lab::frames_at(scene, -1, hz);
+  made.hz = hz;
+  return made;
+}
+/// What a run is held against, beside the scene.
+std::string bars_of(const std::string& scene) {
+  const scenes::Trial* trial = scenes::find_trial(scene);
+  if (trial == nullptr) return "";
+  std::string text = to_text(trial->bar) + trial->measure;
+  const scenes::PublishedTest* published = scenes::find_published_test(scene);
+  if (published == nullptr) return text;
+  for (const auto& bar : published->bars) text += std::to_string(bar.hz) + to_text(bar.must) + to_text(bar.aim);
+  return text;
 }
 
 std::string hash_of(const std::string& text) {
@@ -62,8 +80,10 @@ class Notes {
   int counted_ = 0;
 };
 
-void measure_end(const Engine& engine, const std::vector<double>& times, LabResult& result) {
+/// `times`: [ms] of each step.
+void measure_end(const Engine& engine, std::vector<double> times, LabResult& result) {
   if (times.empty()) return;
+  for (double& ms : times) ms *= kFrame * result.point.hz;
   result.ms = median(std::vector<double>(times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end()));
   for (const double ms : times) result.ms_mean += ms / static_cast<double>(times.size());
   try {
@@ -106,30 +126,30 @@ void judge_end(const Careful& careful, const scenes::Judge* judge, const Sight& 
 /// Ends early where numbers are no numbers any more, for nothing that counts comes after.
 void run(const PeerJob& job, double limit, LabResult& result) {
   const Careful& careful = careful_of(job.scene, limit);  // prepared
-  const Scene& scene = careful.subject.scene;
   const scenes::Trial* trial = careful.subject.trial;
-  const std::unique_ptr<scenes::Judge> judge = trial == nullptr ? scenes::benchmark_judge(scene) : trial->judge(scene);
+  const std::unique_ptr<scenes::Judge> judge =
+      trial == nullptr ? scenes::benchmark_judge(careful.subject.scene) : trial->judge(careful.subject.scene);
+  const Scene scene = at_rate(careful.subject.scene, job.hz);
   const std::unique_ptr<Engine> engine = job.maker.make(scene, {});
   Sight sight = engine->sight();
   Notes notes(sight);
   if (judge) judge->see(sight);
   std::vector<double> times;
   double spent = 0;  // [ms]
-  const int frames = frames_of(scene);
-  for (int frame = 0; frame < frames && sight.faults == 0 && spent < 1e3 * limit; ++frame) {
+  for (int frame = 0; frame < scene.frames && sight.faults == 0 && spent < 1e3 * limit; ++frame) {
     engine->before_step(frame);
     times.push_back(engine->timed_steps(1));
     spent += times.back();
     sight = engine->sight();
-    notes.see(sight, frame >= frames - kSecond, result);
+    notes.see(sight, frame >= scene.frames - scene.hz, result);
     if (judge && sight.faults == 0) judge->see(sight);
-    if (frame + 1 == std::min(kSecond, frames) && careful.reference.exists) {
+    if (frame + 1 == std::min(scene.hz, scene.frames) && careful.reference.exists) {
       result.deviation = tool::lab::deviation_of(sight, careful.reference.second);
     }
   }
   result.frames = static_cast<int>(times.size());
   measure_end(*engine, times, result);
-  if (result.frames < frames && sight.faults == 0) result.state = tool::lab::kSlow;
+  if (result.frames < scene.frames && sight.faults == 0) result.state = tool::lab::kSlow;
   else judge_end(careful, judge.get(), sight, result);
 }
 
@@ -137,11 +157,9 @@ void run(const PeerJob& job, double limit, LabResult& result) {
 
 LabRecord empty_record(const PeerJob& job) {
   LabRecord record;
-  record.result.point = {job.scene, job.maker.name, "", "", "rigid", kSecond, 0};
+  record.result.point = {job.scene, job.maker.name, "", "", "rigid", job.hz, 0};
   record.result.state = tool::lab::kRefused;
-  const scenes::Trial* trial = scenes::find_trial(job.scene);
-  const std::string bar = trial == nullptr ? "" : to_text(trial->bar) + trial->measure;
-  record.version = "peers 1 " + hash_of(scenes::write_scene(scene_of(job)) + bar);
+  record.version = "peers 1 " + hash_of(scenes::write_scene(scene_of(job)) + bars_of(job.scene));
   return record;
 }
 

@@ -1,4 +1,4 @@
-// One scene or trial in one peer, as a record of the laboratory.
+// One scene, trial or published test in one peer, as a record of the laboratory.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,15 +12,16 @@ namespace isostep::bench {
 using tool::lab::LabRecord;
 
 struct PeerJob {
-  std::string scene;  // a named scene's or a trial's
+  std::string scene;  // a named scene's, a trial's or a published test's
   Maker maker;
+  int hz;  // [1/s] rate of steps
 };
 /// A record with point and version, of a run that never began: it is written when a process does not come back.
 LabRecord empty_record(const PeerJob& job);
 
 /// Prepares what all engines' runs of the scene need and is the same for them: before their processes begin.
 void prepare(const PeerJob& job, double limit);
-/// Steps of 1/60 s for as long as the scene runs; given up as slow after `limit` [s] of CPU time in steps.
+/// Steps of 1/hz s for as long as the scene runs; given up as slow after `limit` [s] of CPU time in steps.
 LabRecord run_peer(const PeerJob& job, double limit);
 
 }  // namespace isostep::bench

@@ -13,13 +13,12 @@ btTransform frame_of_x(const PeerEnd& end) {
   return frame(end) * btTransform(btQuaternion(btVector3(0, 1, 0), -SIMD_HALF_PI));
 }
 
-/// Bullet's angles are those of a against b: ours the other way round.
-std::unique_ptr<btTypedConstraint> hinge(const PeerJoint& joint, btRigidBody& a, btRigidBody& b) {
+/// Bullet's angles are those of a against b: ours the other way round. Its motor has an impulse a step.
+std::unique_ptr<btTypedConstraint> hinge(const PeerJoint& joint, btRigidBody& a, btRigidBody& b, double hz) {
   auto made = std::make_unique<btHingeConstraint>(a, b, frame(joint.on_a), frame(joint.on_b));
   if (joint.is_limited) made->setLimit(bt(-joint.upper), bt(-joint.lower));
   else made->setLimit(1, -1);  // none
-  constexpr double kStep = 1.0 / 60;
-  if (joint.has_motor) made->enableAngularMotor(true, bt(-joint.motor_speed), bt(joint.motor_force * kStep));
+  if (joint.has_motor) made->enableAngularMotor(true, bt(-joint.motor_speed), bt(joint.motor_force / hz));
   return made;
 }
 std::unique_ptr<btTypedConstraint> slider(const PeerJoint& joint, btRigidBody& a, btRigidBody& b) {
@@ -46,10 +45,10 @@ std::unique_ptr<btTypedConstraint> ball(const PeerJoint& joint, btRigidBody& a, 
 
 }  // namespace
 
-std::unique_ptr<btTypedConstraint> bullet_joint(const PeerJoint& joint, btRigidBody& a, btRigidBody& b) {
+std::unique_ptr<btTypedConstraint> bullet_joint(const PeerJoint& joint, btRigidBody& a, btRigidBody& b, double hz) {
   switch (joint.type) {
     case JointType::ball: return ball(joint, a, b);
-    case JointType::hinge: return hinge(joint, a, b);
+    case JointType::hinge: return hinge(joint, a, b, hz);
     case JointType::fixed: return std::make_unique<btFixedConstraint>(a, b, frame(joint.on_a), frame(joint.on_b));
     case JointType::slider: return slider(joint, a, b);
     case JointType::distance: throw scenes::SceneError("", "Bullet has no distance joint");

@@ -72,12 +72,18 @@ struct Maker {
 /// Every engine that can be run: our scalars, then peers.
 std::vector<Maker> makers();
 
-/// Those that are not ours.
+/// Those of the scene benchmark that are not ours.
 std::vector<Maker> peer_makers();
+/// Those, and what only the laboratory runs: more engines, and engines at their most careful.
+std::vector<Maker> all_peer_makers();
 
 std::unique_ptr<Engine> make_bullet(const scenes::Scene& scene, const EngineOptions& options);
+std::unique_ptr<Engine> make_bullet_best(const scenes::Scene& scene, const EngineOptions& options);
 std::unique_ptr<Engine> make_ode(const scenes::Scene& scene, const EngineOptions& options);
-/// The makers of the packages that npm has brought.
-std::vector<Maker> rapier_makers();
+std::unique_ptr<Engine> make_ode_best(const scenes::Scene& scene, const EngineOptions& options);
+std::unique_ptr<Engine> make_dart(const scenes::Scene& scene, const EngineOptions& options);
+/// The makers of the packages that npm has brought: those of the benchmark, or all the others.
+enum class NodeRows { benchmark, others };
+std::vector<Maker> node_makers(NodeRows rows);
 
 }  // namespace isostep::bench

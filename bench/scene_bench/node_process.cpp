@@ -8,31 +8,29 @@
 #include <unistd.h>
 
 #include <bit>
+#include <iterator>
 
 #include "scenes/scene.hpp"
 
 extern char** environ;
 
 namespace isostep::bench {
-namespace {
 
-static_assert(std::endian::native == std::endian::little, "rapier.mjs writes little-endian doubles");
+static_assert(std::endian::native == std::endian::little, "node_peer.mjs writes little-endian doubles");
 
-constexpr char kScript[] = ISOSTEP_BENCH_SOURCE_DIR "/scene_bench/rapier.mjs";
-
-std::size_t bytes_of(ssize_t count) {
-  if (count <= 0) throw scenes::SceneError("", "rapier.mjs has ended; what it said is above");
+std::size_t NodeProcess::bytes_of(std::ptrdiff_t count) const {
+  if (count <= 0) throw scenes::SceneError("", script_ + " has ended; what it said is above");
   return static_cast<std::size_t>(count);
 }
 
-}  // namespace
-
-NodeProcess::NodeProcess(std::string package) {
+NodeProcess::NodeProcess(const std::string& script, std::string package, std::string variant) : script_(script) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw scenes::SceneError("", "no socket");
   socket_ = ends[0];
-  std::string words[] = {"node", "--no-liftoff", kScript, std::move(package)};  // optimised before the first step
-  char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
+  std::string words[] = {"node", "--no-liftoff",  // optimised before the first step
+                         ISOSTEP_BENCH_SOURCE_DIR "/scene_bench/" + script, std::move(package), std::move(variant)};
+  char* arguments[std::size(words) + 1] = {};
+  for (std::size_t i = 0; i < std::size(words); ++i) arguments[i] = words[i].data();
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, ends[1], 0);

@@ -10,10 +10,11 @@
 
 namespace isostep::bench {
 
-/// `node rapier.mjs PACKAGE`, which ends when its socket does. What fails is a SceneError.
+/// `node SCRIPT PACKAGE VARIANT`, which ends when its socket does. What fails is a SceneError.
 class NodeProcess {
  public:
-  explicit NodeProcess(std::string package);
+  /// `script`: beside this file; `package`: a directory.
+  NodeProcess(const std::string& script, std::string package, std::string variant);
   ~NodeProcess();
   NodeProcess(const NodeProcess&) = delete;
   NodeProcess& operator=(const NodeProcess&) = delete;
@@ -21,6 +22,9 @@ class NodeProcess {
   std::vector<double> ask(const nlohmann::json& request, std::size_t count);
 
  private:
+  std::size_t bytes_of(std::ptrdiff_t count) const;
+
+  std::string script_;
   int socket_ = -1;
   pid_t pid_ = 0;
 };

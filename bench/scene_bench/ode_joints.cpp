@@ -54,25 +54,25 @@ dJointID weld(dWorldID world, const OdePlace& at) {
   dJointSetFixed(made);
   return made;
 }
-dJointID distance(dWorldID world, const PeerJoint& joint, const OdePlace& at) {
+dJointID distance(dWorldID world, const PeerJoint& joint, const OdePlace& at, double hz) {
   if (!joint.is_spring && joint.lower != joint.upper) throw scenes::SceneError("", "ODE has no rope");
   const dJointID made = dJointCreateDBall(world, nullptr);
   dJointAttach(made, at.a, at.b);
   dJointSetDBallAnchor1(made, at.on_a.x, at.on_a.y, at.on_a.z);
   dJointSetDBallAnchor2(made, at.on_b.x, at.on_b.y, at.on_b.z);
   dJointSetDBallDistance(made, joint.is_spring ? joint.rest : joint.upper);
-  if (joint.is_spring) soften(made, joint.stiffness / 60, joint.damping);
+  if (joint.is_spring) soften(made, joint.stiffness / hz, joint.damping);
   return made;
 }
 
 }  // namespace
 
-void add_ode_joint(dWorldID world, const PeerJoint& joint, const OdePlace& at) {
+void add_ode_joint(dWorldID world, const PeerJoint& joint, const OdePlace& at, double hz) {
   switch (joint.type) {
     case JointType::ball: ball(world, joint, at); return;
     case JointType::hinge: hinge(world, joint, at); return;
     case JointType::fixed: weld(world, at); return;
-    case JointType::distance: distance(world, joint, at); return;
+    case JointType::distance: distance(world, joint, at, hz); return;
     case JointType::slider: slider(world, joint, at); return;
     case JointType::cylindrical:
     case JointType::planar:

@@ -15,7 +15,7 @@ struct OdePlace {
   Vec3<double> axis;        // [1]
 };
 /// Throws SceneError with the reason where ODE has none.
-void add_ode_joint(dWorldID world, const PeerJoint& joint, const OdePlace& at);
+void add_ode_joint(dWorldID world, const PeerJoint& joint, const OdePlace& at, double hz);
 /// Wheels on parallel axes; each place is that of its hinge.
 void add_ode_gear(dWorldID world, const PeerGear& gear, const OdePlace& a, const OdePlace& b);
 

@@ -36,7 +36,10 @@ Peer::Peer(const scenes::Scene& scene) : scene_(scene), gravity_(peer_gravity(sc
     bodies_.back().fast = fast && body.type == BodyType::dynamic;
   }
   for (const scenes::SceneJoint& joint : scene.joints) joints_.push_back(peer_joint(joint, bodies_));
-  for (const scenes::SceneRecord& record : scene.records) gears_.push_back(peer_gear(record, scene.joints));
+  for (const scenes::SceneRecord& record : scene.records) {
+    if (record.kind == "thruster") forces_.push_back(peer_force(record, scene.bodies));
+    else gears_.push_back(peer_gear(record, scene.joints));
+  }
 }
 
 void Peer::before_step(int frame) {
@@ -78,7 +81,7 @@ int Peer::faults() const {
 
 scenes::Sight Peer::sight() const {
   scenes::Sight sight;
-  sight.time = frames_ / 60.0;
+  sight.time = frames_ / hz();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Motion at = motion(i);
     const bool dynamic = bodies_[i].type == BodyType::dynamic;

@@ -14,8 +14,8 @@ struct Motion {
   bool awake;
 };
 
-/// Bodies, joints, gears, the scripts that exchange bodies or hit one. The rest of what a scene may say is
-/// refused by a SceneError.
+/// Bodies, joints, gears, constant forces, the scripts that exchange bodies or hit one. The rest of what a scene may
+/// say is refused by a SceneError.
 class Peer : public Engine {
  public:
   explicit Peer(const scenes::Scene& scene);
@@ -30,7 +30,9 @@ class Peer : public Engine {
   const std::vector<PeerBody>& bodies() const { return bodies_; }
   const std::vector<PeerJoint>& joints() const { return joints_; }
   const std::vector<PeerGear>& gears() const { return gears_; }
+  const std::vector<PeerForce>& forces() const { return forces_; }
   Vec3<double> gravity() const { return gravity_; }
+  double hz() const { return scene_.hz; }  // [1/s] rate of steps
   bool allow_sleep() const { return scene_.allow_sleep; }
 
   virtual Motion motion(std::size_t body) const = 0;
@@ -51,6 +53,7 @@ class Peer : public Engine {
   std::vector<PeerBody> bodies_;
   std::vector<PeerJoint> joints_;
   std::vector<PeerGear> gears_;
+  std::vector<PeerForce> forces_;
   Vec3<double> gravity_;
   int frames_ = 0;
 };

@@ -232,7 +232,9 @@ PeerJoint peer_joint(const scenes::SceneJoint& of, const std::vector<PeerBody>& 
 }
 
 PeerGear peer_gear(const scenes::SceneRecord& record, const std::vector<scenes::SceneJoint>& joints) {
-  const auto refuse = [] { return SceneError("", "of records peers are given gears between two wheels on the world"); };
+  const auto refuse = [] {
+    return SceneError("", "of records peers are given gears between two wheels on the world, and forces on bodies");
+  };
   if (record.kind != "coupling") throw refuse();
   PeerGear gear = {joints.size(), joints.size(), 1, 1};
   for (const scenes::SceneField& field : record.fields) {
@@ -248,6 +250,23 @@ PeerGear peer_gear(const scenes::SceneRecord& record, const std::vector<scenes::
     if (!wheel || joints[joint].b < 0) throw refuse();
   }
   return gear;
+}
+
+PeerForce peer_force(const scenes::SceneRecord& record, const std::vector<scenes::SceneBody>& bodies) {
+  PeerForce made = {bodies.size(), {0, 0, 0}};
+  Vec3<double> local = {0, 0, 0};
+  for (const scenes::SceneField& field : record.fields) {
+    if (field.name == "body") {
+      made.body = static_cast<std::size_t>(real(field.numbers.front()));
+    } else if (field.name == "force" && field.numbers.size() == 3) {
+      local = {real(field.numbers[0]), real(field.numbers[1]), real(field.numbers[2])};
+    } else {
+      throw SceneError("", "peers are given thrusters that have a body and a force alone");
+    }
+  }
+  if (made.body >= bodies.size()) throw SceneError("", "a thruster of no body");
+  made.force = to_matrix(normalise(real(bodies[made.body].orientation))) * local;
+  return made;
 }
 
 Vec3<double> peer_gravity(const scenes::Scene& scene) { return real(scene.gravity); }

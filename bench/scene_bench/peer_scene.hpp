@@ -60,10 +60,18 @@ struct PeerGear {
   double ratio_a, ratio_b;
 };
 
+/// A constant force at the centre of mass of a body that does not turn.
+struct PeerForce {
+  std::size_t body;
+  Vec3<double> force;  // [N] world
+};
+
 /// Throw SceneError with the reason where peers cannot be told.
 PeerBody peer_body(const scenes::SceneBody& body);
 PeerJoint peer_joint(const scenes::SceneJoint& joint, const std::vector<PeerBody>& bodies);
 PeerGear peer_gear(const scenes::SceneRecord& record, const std::vector<scenes::SceneJoint>& joints);
+/// Of a thruster that has a body and a force, and pushes at no other point.
+PeerForce peer_force(const scenes::SceneRecord& record, const std::vector<scenes::SceneBody>& bodies);
 Vec3<double> peer_gravity(const scenes::Scene& scene);
 /// The bodies of the scene are PeerBody::fast: bullets, and thin boxes.
 bool has_fast_bodies(const scenes::Scene& scene);

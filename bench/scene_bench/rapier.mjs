@@ -1,20 +1,8 @@
-// Rapier's side of rapier_engine.cpp: node rapier.mjs DIRECTORY_OF_THE_PACKAGE. One request a line of JSON, answers as
-// doubles, little-endian.
+// Rapier (float) as node_peer.mjs asks it. Variants: none, and best with four times its solver iterations.
 // SPDX-License-Identifier: MIT
-//   {"scene": {...}}         builds it                                       answer: 0
-//   {"replace": [i, body]}   body i is gone, another takes its place         answer: 0
-//   {"launch": [i, v]}       body i flies off with velocity v [m/s]          answer: 0
-//   {"steps": n}             steps                                           answer: CPU time of them all [ms]
-//   {"state": 0}             where everything is     answer: 14 doubles a body (position, quaternion x y z w, velocity,
-//                                                    angular velocity, whether it is awake)
-//   {"take": {...}}          the queries of a frame                          answer: 0
-//   {"ask": "ray"}           asks all of one kind                            answer: CPU time of them all [ms], hits
-// CPU time is that of this process, all threads, in whole microseconds: other work on the machine does not count.
-import { readSync, writeSync } from "node:fs";
-import { join } from "node:path";
-import { pathToFileURL } from "node:url";
+import { axisOf, isBest, load, refuse, serve, turned, xToZ } from "./node_peer.mjs";
 
-const { default: RAPIER } = await import(pathToFileURL(join(process.argv[2], "dist", "rapier.mjs")).href);
+const { default: RAPIER } = await load("dist", "rapier.mjs");
 await RAPIER.init();
 
 const vector = ([x, y, z]) => ({ x, y, z });
@@ -49,12 +37,6 @@ function shape(part) {
   }
 }
 
-// By quaternion q: v + 2 q x (q x v + w v).
-function turned([x, y, z, w], [a, b, c]) {
-  const p = y * c - z * b + w * a, q = z * a - x * c + w * b, r = x * b - y * a + w * c;
-  return [a + 2 * (y * r - z * q), b + 2 * (z * p - x * r), c + 2 * (x * q - y * p)];
-}
-
 const mass = (body) => [body.mass, vector([0, 0, 0]), vector(body.inertia), rotation([0, 0, 0, 1])];
 
 // A half-space has no offset of its own. Mass is the collider's where it is the only one, else the body's.
@@ -65,6 +47,7 @@ function collider(part, body) {
   description.setFriction(uniform ? body.friction : Math.sqrt(body.friction)).setRestitution(body.restitution);
   if (!uniform) description.setFrictionCombineRule(RAPIER.CoefficientCombineRule.Multiply);
   description.setRestitutionCombineRule(RAPIER.CoefficientCombineRule.Max);
+  if (body.group > 15) refuse("Rapier has no more than 16 groups");
   const bit = 1 << body.group; // colliders of one group do not meet
   if (!body.collide) description.setCollisionGroups(0);
   else if (body.group > 0) description.setCollisionGroups(((bit << 16) | (0xffff & ~bit)) >>> 0);
@@ -86,17 +69,18 @@ function make(body, allowSleep) {
   return made;
 }
 
-// Rapier slides along x.
-const xToZ = (q) => {
-  const [x, y, z, w] = q, h = Math.SQRT1_2;
-  return rotation([h * (x + z), h * (y - w), h * (z - x), h * (w + y)]);
-};
+function requireKnown({ type, cone }) {
+  if (!["ball", "hinge", "slider", "fixed", "spring", "rope"].includes(type)) refuse(`Rapier has no ${type}`);
+  if (cone > 0) refuse("Rapier has no cone");
+}
 
-// Ends are given in the bodies' own frames, z the axis of a hinge or slider; body -1 is the world.
-function connect({ type, a, b, on_a, on_b, motor, limits, rest, stiffness, damping, length, collide }) {
+// Ends are given in the bodies' own frames, z the axis of a hinge or slider; body -1 is the world. It slides along x.
+function connect(of) {
+  requireKnown(of);
+  const { type, a, b, on_a, on_b, motor, limits, rest, stiffness, damping, length, collide } = of;
   const holder = a < 0 ? world.createRigidBody(RAPIER.RigidBodyDesc.fixed()) : bodies[a];
-  const p = vector(on_a.anchor), q = vector(on_b.anchor), z = [0, 0, 1];
-  const axis = (end) => vector(turned(end.axes, z));
+  const p = vector(on_a.anchor), q = vector(on_b.anchor);
+  const axis = (end) => vector(axisOf(end));
   const joint =
     type === "ball" ? RAPIER.JointData.spherical(p, q)
     : type === "hinge" ? RAPIER.JointData.revoluteWithAxes(p, q, axis(on_a), axis(on_b))
@@ -108,8 +92,8 @@ function connect({ type, a, b, on_a, on_b, motor, limits, rest, stiffness, dampi
   made.setContactsEnabled(collide);
   if (limits !== null) made.setLimits(...limits); // those of JointData are a slider's alone
   if (type === "slider") {
-    made.setFrameX1(xToZ(on_a.axes));
-    made.setFrameX2(xToZ(on_b.axes));
+    made.setFrameX1(rotation(xToZ(on_a.axes)));
+    made.setFrameX2(rotation(xToZ(on_b.axes)));
   }
   if (motor !== null) {
     const [speed, force] = motor;
@@ -118,40 +102,27 @@ function connect({ type, a, b, on_a, on_b, motor, limits, rest, stiffness, dampi
   }
 }
 
+const bestIterations = 16; // of its solver; 4 is its default, more is its remedy for joints and stacks that give way
+
 function raise(scene) {
+  if (scene.gears.length > 0) refuse("Rapier has no gears");
   world = new RAPIER.World(vector(scene.gravity));
-  world.timestep = 1 / 60;
+  world.timestep = 1 / scene.hz;
+  if (isBest) world.integrationParameters.numSolverIterations = bestIterations;
   uniform = scene.uniform;
   bodies = scene.bodies.map((body) => make(body, scene.allow_sleep));
   scene.joints.forEach(connect);
+  for (const { body, force } of scene.forces) bodies[body].addForce(vector(force), true); // it stays until it is reset
 }
 
-// Functions are compiled when they are first called, so a world is thrown away before the one that counts.
-function build(scene) {
-  raise(scene);
-  for (let i = 0; i < 30; ++i) world.step();
-  world.free();
-  raise(scene);
-  return [0];
-}
-
-function replace([index, body]) {
+function replace(index, body) {
   world.removeRigidBody(bodies[index]);
   bodies[index] = make(body, false);
-  return [0];
 }
 
-function launch([index, velocity]) {
+function launch(index, velocity) {
   bodies[index].setLinvel(vector(velocity), true);
   bodies[index].setAngvel(vector([0, 0, 0]), true);
-  return [0];
-}
-
-function steps(count) {
-  const start = process.cpuUsage();
-  for (let i = 0; i < count; ++i) world.step();
-  const { user, system } = process.cpuUsage(start);
-  return [(user + system) / 1000];
 }
 
 // What a frame asks, made before it is asked. A shape or a ray of Rapier's lives as long as it is held.
@@ -165,7 +136,6 @@ function take({ rays, casts, list_rays, radius, half_extents, overlap_radius }) 
     casts: casts.map(([x, y, z, ...way], i) => ({ from: vector([x, y, z]), way: vector(way), shape: shapes[i % 2] })),
     large: new RAPIER.Ball(overlap_radius),
   };
-  return [0];
 }
 
 const upright = { x: 0, y: 0, z: 0, w: 1 };
@@ -186,50 +156,23 @@ const kinds = {
 };
 function ask(kind) {
   found = 0;
-  const start = process.cpuUsage();
   kinds[kind]();
-  const { user, system } = process.cpuUsage(start);
-  return [(user + system) / 1000, found];
+  return found;
 }
 
-// One object and one array for all: garbage would be collected while steps are timed.
+// One object for all: garbage would be collected while steps are timed.
 const at = { x: 0, y: 0, z: 0, w: 0 };
-let numbers = new Float64Array(0);
-function state() {
-  if (numbers.length === 0) numbers = new Float64Array(14 * bodies.length);
-  let n = 0;
-  for (const body of bodies) {
-    body.translation(at);
-    numbers[n++] = at.x; numbers[n++] = at.y; numbers[n++] = at.z;
-    body.rotation(at);
-    numbers[n++] = at.x; numbers[n++] = at.y; numbers[n++] = at.z; numbers[n++] = at.w;
-    body.linvel(at);
-    numbers[n++] = at.x; numbers[n++] = at.y; numbers[n++] = at.z;
-    body.angvel(at);
-    numbers[n++] = at.x; numbers[n++] = at.y; numbers[n++] = at.z;
-    numbers[n++] = body.isSleeping() ? 0 : 1;
-  }
-  return numbers;
+function tell(index, numbers, n) {
+  const body = bodies[index];
+  body.translation(at);
+  numbers[n++] = at.x; numbers[n++] = at.y; numbers[n++] = at.z;
+  body.rotation(at);
+  numbers[n++] = at.x; numbers[n++] = at.y; numbers[n++] = at.z; numbers[n++] = at.w;
+  body.linvel(at);
+  numbers[n++] = at.x; numbers[n++] = at.y; numbers[n++] = at.z;
+  body.angvel(at);
+  numbers[n++] = at.x; numbers[n++] = at.y; numbers[n++] = at.z;
+  numbers[n] = body.isSleeping() ? 0 : 1;
 }
 
-function answer(doubles) {
-  const { buffer } = doubles instanceof Float64Array ? doubles : Float64Array.from(doubles);
-  const bytes = Buffer.from(buffer);
-  for (let sent = 0; sent < bytes.length;) sent += writeSync(1, bytes, sent);
-}
-
-const verbs = { scene: build, replace, launch, steps, state, take, ask };
-const chunk = Buffer.alloc(1 << 16);
-let pending = [];
-for (;;) {
-  const size = readSync(0, chunk);
-  if (size === 0) break; // the benchmark is done with this process
-  let from = 0;
-  for (let end; (end = chunk.subarray(0, size).indexOf(10, from)) >= 0; from = end + 1) {
-    const line = Buffer.concat([...pending, chunk.subarray(from, end)]).toString();
-    pending = [];
-    const [[verb, value]] = Object.entries(JSON.parse(line));
-    answer(verbs[verb](value));
-  }
-  if (from < size) pending.push(Buffer.from(chunk.subarray(from, size)));
-}
+serve({ raise, free: () => world.free(), step: () => world.step(), tell, replace, launch, take, ask });

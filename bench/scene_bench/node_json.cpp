@@ -1,6 +1,6 @@
 // Scenes as JSON.
 // SPDX-License-Identifier: MIT
-#include "rapier_json.hpp"
+#include "node_json.hpp"
 
 #include "engine.hpp"
 
@@ -14,7 +14,7 @@ using bench::json_of;
 
 Json json_of(Quat<double> q) { return {q.x, q.y, q.z, q.w}; }
 
-/// Rapier's heights go by columns.
+/// Heights go by columns.
 void add_surface(const PeerSurface& of, Json& json) {
   json["corners"] = of.corners;
   for (const Vec3<double>& point : of.points) json["points"].push_back(json_of(point));
@@ -43,13 +43,12 @@ Json json_of(const PeerPart& part) {
 }
 
 Json json_of(const PeerEnd& end) { return {{"anchor", json_of(end.position)}, {"axes", json_of(end.orientation)}}; }
-/// The names that rapier.mjs knows. A rod is no joint of Rapier's.
+/// A rope may go slack, a rod may not.
 const char* name_of(const PeerJoint& joint) {
-  if (JointType::slider < joint.type) throw scenes::SceneError("", "a joint that Rapier is not asked for");
-  if (joint.cone > 0) throw scenes::SceneError("", "Rapier has no cone");
+  if (JointType::slider < joint.type) throw scenes::SceneError("", "a joint that engines in Node are not asked for");
   if (joint.type != JointType::distance) return kJointNames[static_cast<std::size_t>(joint.type)];
-  if (!joint.is_spring && joint.lower > 0) throw scenes::SceneError("", "Rapier has no rod");
-  return joint.is_spring ? "spring" : "rope";
+  if (joint.is_spring) return "spring";
+  return joint.lower > 0 ? "rod" : "rope";
 }
 
 Json json_of(const std::vector<scenes::DrawnLine>& lines) {
@@ -63,7 +62,6 @@ Json json_of(const std::vector<scenes::DrawnLine>& lines) {
 Json json_of(Vec3<double> v) { return {v.x, v.y, v.z}; }
 
 Json json_of(const PeerBody& body) {
-  if (body.group > 15) throw scenes::SceneError("", "Rapier has no more than 16 groups");
   const char* type = body.type == BodyType::static_     ? "fixed"
                      : body.type == BodyType::kinematic ? "kinematic"
                                                         : "dynamic";
@@ -98,8 +96,14 @@ Json json_of(const PeerJoint& joint) {
           {"b", joint.b},
           {"on_a", json_of(joint.on_a)},
           {"on_b", json_of(joint.on_b)},
+          {"shortest", joint.lower},
           {"length", joint.upper},
+          {"cone", joint.cone},
           {"collide", joint.collide}};
+}
+Json json_of(const PeerForce& force) { return {{"body", force.body}, {"force", json_of(force.force)}}; }
+Json json_of(const PeerGear& gear) {
+  return {{"joint_a", gear.joint_a}, {"joint_b", gear.joint_b}, {"ratio_a", gear.ratio_a}, {"ratio_b", gear.ratio_b}};
 }
 Json json_of(const scenes::DrawnQueries& drawn) {
   return {{"rays", json_of(drawn.rays)},
