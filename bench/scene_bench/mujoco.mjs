@@ -197,7 +197,8 @@ function options(hasMotors) {
   if (hasMotors || isBest) words.integrator = "implicitfast";
   const best = { cone: "elliptic", solver: "Newton", iterations, tolerance, noslip_iterations: noSlip };
   if (isBest) Object.assign(words, best);
-  return element("option", words, element("flag", { filterparent: "disable" }));
+  // Bodies on one joint meet or not as the scene says; a world that has burst does not begin anew.
+  return element("option", words, element("flag", { filterparent: "disable", autoreset: "disable" }));
 }
 // Contacts as stiff and hard as a step of this length lets them be: two steps are the least time that it takes.
 function defaults() {

@@ -101,6 +101,11 @@ std::string tick_text(double value) {
   return text;
 }
 
+/// What stands in place of a mark where there is no error.
+const char* sign_of(const Standing& s) {
+  if (s.reason.rfind(kRefused, 0) == 0) return "–";
+  return s.reason.rfind(kSlow, 0) == 0 ? "…" : "×";
+}
 std::string mark_of(const Standing& s, double x, double y) {
   const char* const colour = s.ours ? "#009e73" : s.published ? kMuted : "#d55e00";
   char text[192];
@@ -133,10 +138,10 @@ std::string panel(const PublishedTest& test, const std::vector<LabResult>& resul
         std::find_if(standings.begin(), standings.end(), [&](const Standing& of) { return of.engine == engines[n]; });
     if (s == standings.end()) continue;
     if (!s->ended) {
-      text += "<g><title>" + escaped(s->reason) + "</title>" +
-              text_at(left + kScale, y + 4, s->reason.rfind(kRefused, 0) == 0 ? "–" : "×",
-                      "text-anchor=\"middle\" font-weight=\"bold\" fill=\"#cf222e\"") +
-              "</g>\n";
+      text +=
+          "<g><title>" + escaped(s->reason) + "</title>" +
+          text_at(left + kScale, y + 4, sign_of(*s), "text-anchor=\"middle\" font-weight=\"bold\" fill=\"#cf222e\"") +
+          "</g>\n";
       continue;
     }
     text += "<g><title>" + escaped(s->engine + ": " + short_number(s->figure)) + "</title>" +
@@ -168,7 +173,7 @@ std::string legend() {
   }
   text += line_at(x, 48, x + 18, 48, "stroke=\"#0072b2\" stroke-width=\"1.4\" stroke-dasharray=\"4 3\"");
   text += text_at(x + 24, 52, "what we must reach", std::string("font-size=\"12\" fill=\"") + kInk + "\"");
-  text += text_at(x + 160, 52, "× fell or diverged   – cannot be told to it   ‹ below the scale",
+  text += text_at(x + 160, 52, "× diverged   … given up as slow   – cannot be told to it   ‹ below the scale",
                   std::string("font-size=\"12\" fill=\"") + kInk + "\"");
   return text;
 }
