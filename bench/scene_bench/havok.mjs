@@ -137,7 +137,9 @@ function connect({ type, a, b, on_a, on_b, motor, limits, cone, shortest, length
 const fastest = 1e4, quickest = 1e4; // [m/s], [rad/s]
 function raise(scene) {
   if (scene.gears.length > 0) refuse("Havok has no gears");
-  [bodies, shapes, constraints, forces, step] = [[], [], [], scene.forces, 1 / scene.hz];
+  [bodies, shapes, constraints, step] = [[], [], [], 1 / scene.hz];
+  // [m/s] in a step: by its impulses a body gains a thousandth too much.
+  forces = scene.forces.map(({ body, force }) => ({ body, push: scaled(force, step / scene.bodies[body].mass) }));
   hasGroups = scene.bodies.some(({ group }) => group > 0);
   sleeps = scene.allow_sleep;
   world = got(HK.HP_World_Create());
@@ -174,8 +176,8 @@ function launch(index, velocity) {
 }
 
 function advance() {
-  for (const { body, force } of forces) {
-    HK.HP_Body_ApplyImpulse(bodies[body], got(HK.HP_Body_GetPosition(bodies[body])), scaled(force, step));
+  for (const { body, push } of forces) {
+    HK.HP_Body_SetLinearVelocity(bodies[body], sum(got(HK.HP_Body_GetLinearVelocity(bodies[body])), push));
   }
   HK.HP_World_Step(world, step);
 }

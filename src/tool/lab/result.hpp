@@ -17,7 +17,7 @@ struct LabPoint {
   std::string engine = kOwnEngine;  // "isostep", "bullet", "ode", "rapier-simd", "rapier-det"
   std::string scalar, solver;       // of ours; peers: empty
   std::string model = "rigid";      // "rigid", "spheres", "particles"
-  int hz = 60, substeps = 8;        // peers: 60, 0
+  int hz = 60, substeps = 8;        // peers: sub-steps 0
 
   friend bool operator==(const LabPoint&, const LabPoint&) = default;
 };
