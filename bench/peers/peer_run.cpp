@@ -37,7 +37,7 @@ Scene at_rate(const Scene& scene, int hz) {
   made.hz = hz;
   return made;
 }
-/// What a run is held against, beside the scene.
+/// Returns the bars and the measure that a run is held against, as text.
 std::string bars_of(const std::string& scene) {
   const scenes::Trial* trial = scenes::find_trial(scene);
   if (trial == nullptr) return "";

@@ -3,7 +3,6 @@
 #include "dart_contacts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <dart/collision/CollisionFilter.hpp>
 #include <dart/collision/CollisionObject.hpp>
 #include <dart/collision/bullet/BulletCollisionDetector.hpp>
@@ -12,6 +11,7 @@
 #include <dart/dynamics/ShapeNode.hpp>
 #include <limits>
 
+#include "isostep/dynamics/contact.hpp"
 #include "scenes/scene.hpp"
 
 namespace isostep::bench {
@@ -88,7 +88,7 @@ void DartSolver::add(dart::collision::Contact& contact) {
   const PeerBody &a = owner(*contact.collisionObject1), &b = owner(*contact.collisionObject2);
   auto &on_a = *shape_of(*contact.collisionObject1).getDynamicsAspect(),
        &on_b = *shape_of(*contact.collisionObject2).getDynamicsAspect();
-  const double friction = a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction);
+  const double friction = mixed_friction(a.friction, b.friction);
   on_a.setFrictionCoeff(friction);
   on_b.setFrictionCoeff(friction);
   on_a.setRestitutionCoeff(std::max(a.restitution, b.restitution));

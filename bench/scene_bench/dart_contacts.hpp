@@ -12,7 +12,7 @@
 
 namespace isostep::bench {
 
-/// Whose body a node of DART is.
+/// Names the body of each node of DART.
 using DartOwners = std::unordered_map<const dart::dynamics::BodyNode*, const PeerBody*>;
 
 /// DART's default solver, which finds contacts with its Bullet detector. By itself DART takes the smaller friction of a

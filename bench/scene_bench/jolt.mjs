@@ -8,7 +8,7 @@ const J = await start();
 
 const velocitySteps = 20, positionSteps = 6, bestCollisionSteps = 4; // its defaults are 10, 2 and 1
 const collisionSteps = isBest ? bestCollisionSteps : 1;
-// What it makes room for: as much as fits into the 10 MB that a step of this build may take.
+// Jolt makes room for so many: as much as fits into the 10 MB that a step of this build may take.
 const mostBodies = 1 << 14, mostPairs = 1 << 16, mostContacts = 1 << 14;
 const unmovedLayer = 0, movedLayer = 1, aloneLayer = 2;
 

@@ -180,7 +180,7 @@ function pairs(apart) {
     a.parts.forEach((_, p) => b.parts.forEach((__, q) => made.push(element("pair", {
       geom1: geomName(i, p), geom2: geomName(k, q), friction: `${friction} ${friction} ${plainFriction} 0.0001`,
     }))));
-    if (made.length > mostPairs) refuse("MuJoCo takes the larger friction, and is told of no more than 20000 pairs");
+    if (made.length > mostPairs) refuse("MuJoCo takes the larger friction of a pair, and no more than 20000 pairs are given another");
   }));
   return made.join("");
 }

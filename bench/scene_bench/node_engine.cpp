@@ -68,7 +68,7 @@ class NodeEngine : public Peer {
   void take(const scenes::DrawnQueries& drawn) override {
     if (row_.rows == NodeRows::benchmark) node_.ask({{"take", json_of(drawn)}}, 1);
   }
-  /// Of these Rapier alone is asked, and has no batches.
+  /// Rapier alone is asked, and has no batches.
   std::optional<Answered> ask(Query query) override {
     if (row_.rows != NodeRows::benchmark || query == Query::rays || query == Query::casts) return std::nullopt;
     const std::vector<double> answer = node_.ask({{"ask", kQueryNames[static_cast<std::size_t>(query)]}}, 2);

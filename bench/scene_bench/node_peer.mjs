@@ -1,4 +1,4 @@
-// What engines in Node share: the protocol with node_engine.cpp, CPU time, turns. An engine's file is started as
+// Engines in Node share this: the protocol with node_engine.cpp, CPU time, turns. An engine's file is started as
 // node ENGINE.mjs DIRECTORY_OF_THE_PACKAGE VARIANT. One request a line of JSON, answers as doubles, little-endian.
 // SPDX-License-Identifier: MIT
 //   {"scene": {...}}         builds it                  answer: 0, or the letters of the reason for which it is refused

@@ -70,7 +70,7 @@ struct PeerForce {
 PeerBody peer_body(const scenes::SceneBody& body);
 PeerJoint peer_joint(const scenes::SceneJoint& joint, const std::vector<PeerBody>& bodies);
 PeerGear peer_gear(const scenes::SceneRecord& record, const std::vector<scenes::SceneJoint>& joints);
-/// Of a thruster that has a body and a force, and pushes at no other point.
+/// Returns the force of a thruster that pushes its body at the centre of mass, and nowhere else.
 PeerForce peer_force(const scenes::SceneRecord& record, const std::vector<scenes::SceneBody>& bodies);
 Vec3<double> peer_gravity(const scenes::Scene& scene);
 /// The bodies of the scene are PeerBody::fast: bullets, and thin boxes.

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "isostep/collision/narrowphase/collide.hpp"
 #include "isostep/dynamics/contact.hpp"
-#include "isostep/store/body_frames.hpp"
 #include "isostep/store/state.hpp"
+#include "isostep/store/view_manifold.hpp"
 #include "measure.hpp"
 
 namespace isostep::scenes {
@@ -60,22 +59,7 @@ template <class S> class Residuals {
  private:
   BodyId id_of(std::uint32_t slot) const { return state_.body_slots.template id_of<BodyId>(slot); }
 
-  /// A part relative to a's centre of mass, as the narrow phase needs it.
-  static Transform<S> part_of(const BodyView<S>& body, std::uint32_t child, Vec3<S> centre) {
-    const Transform<S> origin = Transform<S>::of({body.pose.position - centre, body.pose.orientation});
-    const Child<S>& part = body.children[child];
-    return part.pose.is_identity() ? origin : compose(origin, Transform<S>::of(part.pose));
-  }
-  static Manifold<S> manifold_of(const BodyView<S>& a, Leaf i, const BodyView<S>& b, Leaf j) {
-    const LeafView<S> part_a = {a.contents.view(a.children[i.child].primitive), i.triangle};
-    const LeafView<S> part_b = {b.contents.view(b.children[j.child].primitive), j.triangle};
-    const Vec3<S> centre = a.state->centre;
-    Manifold<S> manifold;
-    collide_leaves(part_a, part_of(a, i.child, centre), part_b, part_of(b, j.child, centre),
-                   detail::kSpeculativeDistance<S>, manifold);
-    return manifold;
-  }
-  /// [m/s] Of the body where `arm` [m] leads from its centre of mass.
+  /// [m/s] Returns the body's velocity where `arm` [m] leads from its centre of mass.
   static D3 velocity_at(const BodyView<S>& body, D3 arm) {
     return in_double(body.state->velocity) + cross(in_double(body.state->angular_velocity), arm);
   }
@@ -86,8 +70,8 @@ template <class S> class Residuals {
     const BodyView<S> a = world_.view(id_of(contact.key.body_a)), b = world_.view(id_of(contact.key.body_b));
     const Material<S>&of_a = a.properties->material, &of_b = b.properties->material;
     if (!(of_a.surface_velocity == Vec3<S>::zero()) || !(of_b.surface_velocity == Vec3<S>::zero())) return touch;
-    const Manifold<S> manifold = manifold_of(a, leaf_at(a.children, a.contents, contact.key.child_a), b,
-                                             leaf_at(b.children, b.contents, contact.key.child_b));
+    const Manifold<S> manifold = detail::manifold_of(a, leaf_at(a.children, a.contents, contact.key.child_a), b,
+                                                     leaf_at(b.children, b.contents, contact.key.child_b));
     touch.normal = in_double(manifold.normal);
     touch.friction = in_double(contact.friction_impulse);
     touch.limit = to_double(mixed_friction(of_a.friction, of_b.friction));

@@ -148,8 +148,8 @@ class ToolCommands {
         "lab", "the cheapest scalar, solver, sub-steps and model that hold a scene's tolerance");
     lab->callback([this, lab] {
       if (!lab->get_subcommands().empty()) return;
-      if (lab_.all && lab->count("--limit") == 0) lab_.limit = lab::ReportOptions{}.limit;
-      if (lab_.published && lab->count("--limit") == 0) lab_.limit = lab::PublishedOptions{}.limit;
+      if (lab_.all && lab->count("--limit") == 0) lab_.limit = lab::kReportLimit;
+      if (lab_.published && lab->count("--limit") == 0) lab_.limit = lab::kPublishedLimit;
       line_.choose([this] { return command_lab(lab_); });
     });
     lab->require_subcommand(0, 1);

@@ -11,6 +11,7 @@
 #include "isostep/scalar/environment.hpp"
 #include "isostep/store/body_frames.hpp"
 #include "isostep/store/state.hpp"
+#include "isostep/store/view_manifold.hpp"
 
 namespace isostep {
 
@@ -156,23 +157,6 @@ template <class S> class BodySketch {
     sketch_.point(bounds.low, drawn.low);
     sketch_.point(bounds.high, drawn.high);
     to_.island(drawn);
-  }
-
-  /// Returns a part relative to a's centre of mass, as the narrow phase needs it.
-  ISO_INLINE Transform<S> part_beside(const BodyView<S>& view, std::uint32_t child, Vec3<S> centre) const {
-    const Child<S>& part = view.children[child];
-    const Transform<S> origin = Transform<S>::of({view.pose.position - centre, view.pose.orientation});
-    return part.pose.is_identity() ? origin : compose(origin, Transform<S>::of(part.pose));
-  }
-
-  ISO_INLINE Manifold<S> manifold_of(const BodyView<S>& a, Leaf i, const BodyView<S>& b, Leaf j) const {
-    const LeafView<S> part_a = {a.contents.view(a.children[i.child].primitive), i.triangle};
-    const LeafView<S> part_b = {b.contents.view(b.children[j.child].primitive), j.triangle};
-    const Transform<S> ta = part_beside(a, i.child, a.state->centre), tb = part_beside(b, j.child, a.state->centre);
-    constexpr S kMargin = kSpeculativeDistance<S>;
-    Manifold<S> manifold;
-    collide_leaves(part_a, ta, part_b, tb, kMargin, manifold);
-    return manifold;
   }
 
   ISO_INLINE void draw_contact(const Contact<S>& contact, bool asleep) const {

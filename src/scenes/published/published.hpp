@@ -10,20 +10,20 @@
 
 namespace isostep::scenes {
 
-/// What an engine of that year showed at a rate of steps.
+/// An engine of that year showed this figure at that rate.
 struct PublishedFigure {
   const char* engine;
   int hz;         // [1/s]
   double figure;  // in the trial's unit
 };
-/// What isostep promises to show at a rate of steps, and what it aims at.
+/// isostep promises the first figure at that rate, and aims at the second.
 struct PublishedBar {
   int hz;  // [1/s]
   double must, aim;
 };
 
 struct PublishedTest {
-  Trial trial;                 // whose bar is the widest must
+  Trial trial;                 // its bar is the first must
   const char* source;          // the publication
   int year;                    // of its figures
   const char* settings;        // how theirs were run, where that is not how ours are

@@ -2,7 +2,7 @@
 // Source:  Le Lidec et al. 2023, Contact Models in Robotics: a Comparative Analysis, section IV. Its wedge is a groove.
 // SPDX-License-Identifier: MIT
 #include "families.hpp"
-#include "judges.hpp"
+#include "furthest_way.hpp"
 #include "scene_numbers.hpp"
 #include "scenes/shapes.hpp"
 
@@ -15,20 +15,18 @@ constexpr double kLess = 0.9, kMore = 1.1;  // [1] of the force that friction be
 /// [%] Over the way that theory names: the error of what slides, or the way of what must stay.
 class SlidesOrStays : public Judge {
  public:
-  struct Body {
-    Vec3<double> acceleration;  // [m/s^2] 0: it stays
-  };
-  /// Of the bodies after the first `fixed`; `usual` [m/s^2] is that of those that slide.
-  SlidesOrStays(std::size_t fixed, double usual, std::vector<Body> bodies)
-      : fixed_(fixed), usual_(usual), bodies_(std::move(bodies)) {}
+  /// `accelerations` [m/s^2]: of the bodies after the first `fixed`, 0 of one that stays. `usual` is the size of all
+  /// others.
+  SlidesOrStays(std::size_t fixed, double usual, std::vector<Vec3<double>> accelerations)
+      : fixed_(fixed), usual_(usual), accelerations_(std::move(accelerations)) {}
   void see(const Sight& sight) override {
     if (start_.empty()) start_ = sight.bodies;
     if (!(sight.time > 0)) return;
     const double half = 0.5 * sight.time * sight.time;
     worst_ = 0;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    for (std::size_t i = 0; i < accelerations_.size(); ++i) {
       const Vec3<double> way = sight.bodies[fixed_ + i].centre - start_[fixed_ + i].centre;
-      worst_ = worse(worst_, length_of(way - bodies_[i].acceleration * half) / (usual_ * half));
+      worst_ = worse(worst_, length_of(way - accelerations_[i] * half) / (usual_ * half));
     }
   }
   double figure() const override { return 100 * worst_; }
@@ -36,7 +34,7 @@ class SlidesOrStays : public Judge {
  private:
   std::size_t fixed_;
   double usual_;
-  std::vector<Body> bodies_;
+  std::vector<Vec3<double>> accelerations_;
   std::vector<BodySight> start_;
   double worst_ = 0;
 };
@@ -70,12 +68,12 @@ Scene pulled_cubes() {
 }
 std::unique_ptr<Judge> judge_pulled(const Scene&) {
   const double usual = (kMore - 1) * kFriction * kGravity;
-  std::vector<SlidesOrStays::Body> bodies(kDirections);
+  std::vector<Vec3<double>> accelerations(kDirections, Vec3<double>{0, 0, 0});  // the first row stays
   for (int n = 0; n < kDirections; ++n) {
     const Point d = direction_of(n);
-    bodies.push_back({Vec3<double>{d.x, 0, d.z} * usual});
+    accelerations.push_back(Vec3<double>{d.x, 0, d.z} * usual);
   }
-  return std::make_unique<SlidesOrStays>(1, usual, std::move(bodies));
+  return std::make_unique<SlidesOrStays>(1, usual, std::move(accelerations));
 }
 
 /// Boxes of a side of 1 m, each four times as heavy as the one below: 1 kg to 256 kg.
@@ -90,16 +88,7 @@ Scene rising_tower() {
   return scene;
 }
 /// [%] The furthest way of any box over its side.
-class TowerWay : public FromStart {
- public:
-  double figure() const override { return 100 * worst_; }
-
- private:
-  void compare(const Sight& start, const Sight& now) override {
-    for (std::size_t i = 1; i < start.bodies.size(); ++i) worst_ = worse(worst_, length_of(way_of(start, now, i)));
-  }
-  double worst_ = 0;
-};
+std::unique_ptr<Judge> judge_tower(const Scene&) { return std::make_unique<FurthestWay>(0, 0.01); }
 
 // The groove's two sides meet at a right angle along x and bear 1 / sqrt 2 of a cube's weight each, so that friction
 // bears sqrt 2 times as much as on a plane.
@@ -128,7 +117,7 @@ Scene groove() {
 }
 std::unique_ptr<Judge> judge_groove(const Scene&) {
   const double usual = kGravity * kGrooveSine * (1 - 1 / kMore);
-  return std::make_unique<SlidesOrStays>(2, usual, std::vector<SlidesOrStays::Body>{{{0, 0, 0}}, {{usual, 0, 0}}});
+  return std::make_unique<SlidesOrStays>(2, usual, std::vector<Vec3<double>>{{0, 0, 0}, {usual, 0, 0}});
 }
 
 }  // namespace
@@ -138,7 +127,7 @@ std::span<const Trial> contact_law_trials() {
       {"pulled_cubes", "36", "boxes pulled in 16 directions by .9 and 1.1 of their friction", "error of way", "%", 2,
        pulled_cubes, judge_pulled},
       {"rising_tower", "37", "five boxes, each four times as heavy as the one below", "furthest way over a side", "%",
-       10, rising_tower, judge_of<TowerWay>},
+       10, rising_tower, judge_tower},
       {"groove", "38", "cubes in a groove that falls by .9 and 1.1 of what friction bears there", "error of way", "%",
        2, groove, judge_groove},
   };

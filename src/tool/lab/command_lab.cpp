@@ -14,9 +14,8 @@ namespace isostep::tool {
 
 namespace {
 
-int command_lab_all(const LabOptions& options) {
-  if (!options.scene.empty()) throw ToolError(exit_status::kUsage, "lab: --all is of every scene, not of one");
-  if (options.out.empty()) throw ToolError(exit_status::kUsage, "lab: --all needs a directory (--out)");
+lab::ReportOptions report_of(const LabOptions& options, const std::string& word) {
+  if (options.out.empty()) throw ToolError(exit_status::kUsage, "lab: " + word + " needs a directory (--out)");
   lab::ReportOptions report;
   report.out = options.out;
   report.is_short = options.is_short;
@@ -24,22 +23,16 @@ int command_lab_all(const LabOptions& options) {
   report.jobs = options.jobs;
   report.limit = options.limit;
   report.peers = options.peers;
-  return lab::write_lab_report(report);
+  return report;
 }
-
+int command_lab_all(const LabOptions& options) {
+  if (!options.scene.empty()) throw ToolError(exit_status::kUsage, "lab: --all is of every scene, not of one");
+  return lab::write_lab_report(report_of(options, "--all"));
+}
 int command_lab_published(const LabOptions& options) {
   if (!options.scene.empty() || options.all)
     throw ToolError(exit_status::kUsage, "lab: --published is of the published tests alone");
-  if (options.out.empty()) throw ToolError(exit_status::kUsage, "lab: --published needs a directory (--out)");
-  lab::PublishedOptions report;
-  report.out = options.out;
-  report.is_short = options.is_short;
-  report.full = options.full;
-  report.fresh = options.fresh;
-  report.jobs = options.jobs;
-  report.limit = options.limit;
-  report.peers = options.peers;
-  return lab::write_published_report(report);
+  return lab::write_published_report(report_of(options, "--published"), options.full);
 }
 
 }  // namespace

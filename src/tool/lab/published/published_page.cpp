@@ -13,30 +13,8 @@ namespace {
 using scenes::PublishedBar;
 using scenes::PublishedTest;
 
-constexpr char kHead[] = R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light">
-<title>isostep: published comparisons</title>
-<style>
-body { font: 15px/1.5 system-ui, sans-serif; color: #24292f; background: #fff;
-  max-width: 1240px; margin: 0 auto; padding: 1rem; }
-h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.5rem; }
-p { color: #57606a; max-width: 50rem; }
-svg { max-width: 100%; height: auto; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 13px; }
-th, td { border: 1px solid #d0d7de; padding: 2px 7px; text-align: left; }
-th { background: #f6f8fa; }
-</style>
-</head>
-<body>
-)";
-
-bool is_double(const Standing& s) { return s.is_default && s.engine.find(" double,") != std::string::npos; }
-bool is_fixed(const Standing& s) { return s.is_default && s.engine.find(" q32.32,") != std::string::npos; }
+bool is_double(const Standing& s) { return s.is_default && s.scalar == "double"; }
+bool is_fixed(const Standing& s) { return s.is_default && s.scalar == "q32.32"; }
 
 const PublishedBar* bar_at(const PublishedTest& test, int hz) {
   const auto found =
@@ -101,7 +79,7 @@ const Standing* find(const std::vector<Standing>& standings, bool (*chosen)(cons
 }  // namespace
 
 std::string published_page(const std::vector<LabResult>& results) {
-  std::string text = kHead;
+  std::string text = page_head("isostep: published comparisons", "");
   text +=
       "<h1>Published comparisons, repeated</h1>\n<p>Scenes and measures are the authors', and so are the figures with "
       "a "
@@ -109,8 +87,8 @@ std::string published_page(const std::vector<LabResult>& results) {
       "are not compared.</p>\n";
   text += published_svg(results);
   for (const PublishedTest& test : scenes::published_tests()) {
-    text += std::string("<section id=\"") + test.trial.name + "\">\n<h2>" + escaped(test.trial.number) + "</h2>\n<p>" +
-            escaped(heading_of(test)) + "</p>\n" + table_of(test, results) + "</section>\n";
+    text +=
+        html_section(test.trial.name, escaped(test.trial.number), escaped(heading_of(test)), table_of(test, results));
   }
   return text + "</body>\n</html>\n";
 }

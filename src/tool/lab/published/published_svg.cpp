@@ -20,11 +20,6 @@ constexpr double kDecades = 6;  // below what we must reach: a smaller error sta
 constexpr const char* kInk = "#24292f";
 constexpr const char* kMuted = "#57606a";
 
-std::string text_at(double x, double y, const std::string& words, const std::string& more) {
-  char head[96];
-  std::snprintf(head, sizeof head, "<text x=\"%.1f\" y=\"%.1f\" ", x, y);
-  return head + more + ">" + escaped(words) + "</text>\n";
-}
 std::string line_at(double x1, double y1, double x2, double y2, const char* more) {
   char text[224];
   std::snprintf(text, sizeof text, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" %s/>\n", x1, y1, x2, y2,
@@ -40,7 +35,7 @@ std::vector<Standing> drawn_of(const PublishedTest& test, const std::vector<LabR
   std::vector<Standing> all = standings_of(test, rate_of(test), results);
   std::erase_if(all, [](const Standing& s) { return s.ours && !s.is_default; });
   for (Standing& s : all) {
-    if (s.ours) s.engine = s.engine.substr(0, s.engine.find(','));
+    if (s.ours) s.engine = "isostep " + s.scalar;
   }
   return all;
 }
@@ -103,8 +98,8 @@ std::string tick_text(double value) {
 
 /// What stands in place of a mark where there is no error.
 const char* sign_of(const Standing& s) {
-  if (s.reason.rfind(kRefused, 0) == 0) return "–";
-  return s.reason.rfind(kSlow, 0) == 0 ? "…" : "×";
+  if (s.state == kRefused) return "–";
+  return s.state == kSlow ? "…" : "×";
 }
 std::string mark_of(const Standing& s, double x, double y) {
   const char* const colour = s.ours ? "#009e73" : s.published ? kMuted : "#d55e00";
@@ -122,13 +117,13 @@ std::string panel(const PublishedTest& test, const std::vector<LabResult>& resul
   const double low = kTop + kLine * static_cast<double>(engines.size());
   const auto x_of = [&](double figure) { return left + kScale * scale.at(figure); };
   std::string text =
-      text_at(left, kTop - 38, test.trial.number, std::string("font-weight=\"bold\" fill=\"") + kInk + "\"");
+      svg_text(left, kTop - 38, test.trial.number, std::string("font-weight=\"bold\" fill=\"") + kInk + "\"");
   const std::string small = std::string("font-size=\"11\" fill=\"") + kMuted + "\"";
   text +=
-      text_at(left, kTop - 23, std::string("[") + test.trial.unit + "], steps of " + step_text(rate_of(test)), small);
+      svg_text(left, kTop - 23, std::string("[") + test.trial.unit + "], steps of " + step_text(rate_of(test)), small);
   for (const double tick : scale.ticks()) {
     text += line_at(x_of(tick), kTop - 4, x_of(tick), low, "stroke=\"#d0d7de\" stroke-width=\"1\"");
-    text += text_at(x_of(tick), low + 15, tick_text(tick), small + " text-anchor=\"middle\"");
+    text += svg_text(x_of(tick), low + 15, tick_text(tick), small + " text-anchor=\"middle\"");
   }
   const double must = x_of(test.bars.front().must);
   text += line_at(must, kTop - 4, must, low, "stroke=\"#0072b2\" stroke-width=\"1.4\" stroke-dasharray=\"4 3\"");
@@ -140,16 +135,16 @@ std::string panel(const PublishedTest& test, const std::vector<LabResult>& resul
     if (!s->ended) {
       text +=
           "<g><title>" + escaped(s->reason) + "</title>" +
-          text_at(left + kScale, y + 4, sign_of(*s), "text-anchor=\"middle\" font-weight=\"bold\" fill=\"#cf222e\"") +
+          svg_text(left + kScale, y + 4, sign_of(*s), "text-anchor=\"middle\" font-weight=\"bold\" fill=\"#cf222e\"") +
           "</g>\n";
       continue;
     }
     text += "<g><title>" + escaped(s->engine + ": " + short_number(s->figure)) + "</title>" +
             mark_of(*s, x_of(s->figure), y) + "</g>\n";
-    if (scale.is_beyond(s->figure)) text += text_at(left - 11, y + 4, "‹", small);
+    if (scale.is_beyond(s->figure)) text += svg_text(left - 11, y + 4, "‹", small);
     if (!s->published)
-      text += text_at(left + kScale + 8, y + 4, short_number(1000 * s->seconds) + " ms",
-                      "font-size=\"10\" fill=\"" + std::string(kMuted) + "\"");
+      text += svg_text(left + kScale + 8, y + 4, short_number(1000 * s->seconds) + " ms",
+                       "font-size=\"10\" fill=\"" + std::string(kMuted) + "\"");
   }
   return text;
 }
@@ -168,13 +163,13 @@ std::string legend() {
     std::snprintf(dot, sizeof dot,
                   "<circle cx=\"%.1f\" cy=\"48\" r=\"4.5\" fill=\"%s\" stroke=\"%s\" stroke-width=\"1.6\"/>\n", x,
                   item.fill, item.ink);
-    text += dot + text_at(x + 10, 52, item.words, std::string("font-size=\"12\" fill=\"") + kInk + "\"");
+    text += dot + svg_text(x + 10, 52, item.words, std::string("font-size=\"12\" fill=\"") + kInk + "\"");
     x += 196;
   }
   text += line_at(x, 48, x + 18, 48, "stroke=\"#0072b2\" stroke-width=\"1.4\" stroke-dasharray=\"4 3\"");
-  text += text_at(x + 24, 52, "what we must reach", std::string("font-size=\"12\" fill=\"") + kInk + "\"");
-  text += text_at(x + 160, 52, "× diverged   … given up as slow   – cannot be told to it   ‹ below the scale",
-                  std::string("font-size=\"12\" fill=\"") + kInk + "\"");
+  text += svg_text(x + 24, 52, "what we must reach", std::string("font-size=\"12\" fill=\"") + kInk + "\"");
+  text += svg_text(x + 160, 52, "× diverged   … given up as slow   – cannot be told to it   ‹ below the scale",
+                   std::string("font-size=\"12\" fill=\"") + kInk + "\"");
   return text;
 }
 
@@ -193,15 +188,15 @@ std::string published_svg(const std::vector<LabResult>& results) {
       width, height, width, height);
   std::string text = head;
   text +=
-      text_at(kMargin, 26,
-              "Published tests: error of every engine, left is better; beside it the CPU time of a simulated second",
-              std::string("font-size=\"16\" fill=\"") + kInk + "\"");
+      svg_text(kMargin, 26,
+               "Published tests: error of every engine, left is better; beside it the CPU time of a simulated second",
+               std::string("font-size=\"16\" fill=\"") + kInk + "\"");
   text += legend();
   for (std::size_t n = 0; n < engines.size(); ++n) {
     const double y = kTop + kLine * (static_cast<double>(n) + 0.5);
     text += line_at(kMargin, y, width - kMargin, y, "stroke=\"#eaeef2\" stroke-width=\"1\"");
-    text += text_at(kLeft - 16, y + 4, engines[n],
-                    std::string("text-anchor=\"end\" font-size=\"12\" fill=\"") + kInk + "\"");
+    text += svg_text(kLeft - 16, y + 4, engines[n],
+                     std::string("text-anchor=\"end\" font-size=\"12\" fill=\"") + kInk + "\"");
   }
   for (std::size_t n = 0; n < tests.size(); ++n) {
     text += panel(tests[n], results, engines, kLeft + kPanel * static_cast<int>(n));

@@ -18,6 +18,8 @@ Standing standing_of(const LabResult& result) {
   s.ours = p.engine == kOwnEngine;
   s.engine =
       s.ours ? "isostep " + p.scalar + ", " + p.solver + ", " + std::to_string(p.substeps) + " sub-steps" : p.engine;
+  s.scalar = p.scalar;
+  s.state = result.state;
   const scenes::Scene plain;
   s.is_default = s.ours && p.substeps == plain.substeps && p.solver == kSolverNames[static_cast<int>(plain.solver)];
   s.figure = result.figure;

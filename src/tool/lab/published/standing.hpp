@@ -12,13 +12,15 @@ namespace isostep::tool::lab {
 
 /// An engine in one test at one rate.
 struct Standing {
-  std::string engine;  // "isostep q32.32, 8 sub-steps", "bullet", "RaiSim (2018)"
+  std::string engine;  // "isostep q32.32, soft_step, 8 sub-steps", "bullet", "RaiSim (2018)"
   bool ours = false;
+  std::string scalar;       // of ours
   bool is_default = false;  // ours with the settings of a world that asks for none
   bool published = false;   // the figure is the authors'; its seconds are of another machine and are not taken
-  bool ended = true;        // not so: too slow, refused, or without a number; `reason` says which
-  double figure = 0;        // in the test's unit
-  double seconds = 0;       // CPU time of a second of simulation
+  std::string state = kDone;
+  bool ended = true;   // not so: too slow, refused, or without a number; `reason` says which
+  double figure = 0;   // in the test's unit
+  double seconds = 0;  // CPU time of a second of simulation
   std::string reason;
 };
 

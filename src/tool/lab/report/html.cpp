@@ -63,6 +63,43 @@ std::string inlined_svg(std::string_view file, const std::string& prefix) {
   return text;
 }
 
+std::string page_head(const std::string& title, const std::string& style) {
+  return R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>)" +
+         escaped(title) + R"(</title>
+<style>
+body { font: 15px/1.5 system-ui, sans-serif; color: #24292f; background: #fff;
+  max-width: 1240px; margin: 0 auto; padding: 1rem; }
+h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.5rem; }
+p, figcaption { color: #57606a; max-width: 50rem; }
+svg { max-width: 100%; height: auto; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-size: 13px; }
+th, td { border: 1px solid #d0d7de; padding: 2px 7px; text-align: left; vertical-align: top; }
+th { background: #f6f8fa; }
+)" + style +
+         R"(</style>
+</head>
+<body>
+)";
+}
+
+std::string html_section(const char* id, const std::string& title, const std::string& note,
+                         const std::string& content) {
+  return std::string("<section id=\"") + id + "\">\n<h2>" + title + "</h2>\n<p>" + note + "</p>\n" + content +
+         "</section>\n";
+}
+
+std::string svg_text(double x, double y, const std::string& words, const std::string& attributes) {
+  char head[96];
+  std::snprintf(head, sizeof head, "<text x=\"%.1f\" y=\"%.1f\" ", x, y);
+  return head + attributes + ">" + escaped(words) + "</text>\n";
+}
+
 std::string html_table(const std::vector<std::vector<std::string>>& cells) {
   std::string text = "<div class=\"wide\"><table>\n";
   for (std::size_t n = 0; n < cells.size(); ++n) {

@@ -18,6 +18,14 @@ std::string short_number(double value);
 /// one page.
 std::string inlined_svg(std::string_view file, const std::string& prefix);
 
+/// A page's beginning as far as its body, with a style for all reports and `style` of its own.
+std::string page_head(const std::string& title, const std::string& style);
+/// A section of a page; all but the id is HTML already.
+std::string html_section(const char* id, const std::string& title, const std::string& note, const std::string& content);
+
+/// A line of text in an SVG.
+std::string svg_text(double x, double y, const std::string& words, const std::string& attributes);
+
 /// The first line is the head. Cells are HTML already.
 std::string html_table(const std::vector<std::vector<std::string>>& cells);
 /// The table in Markdown: columns as wide as they must be. Cells are plain text; a bar in them is escaped.

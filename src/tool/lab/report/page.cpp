@@ -12,35 +12,12 @@
 namespace isostep::tool::lab {
 namespace {
 
-constexpr char kHead[] = R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>isostep: the laboratory</title>
-<style>
-body { font: 15px/1.5 system-ui, sans-serif; color: #24292f; background: #fff;
-  max-width: 1240px; margin: 0 auto; padding: 1rem; }
-h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.5rem; }
-p, figcaption { color: #57606a; max-width: 50rem; }
-svg { max-width: 100%; height: auto; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 13px; }
-th, td { border: 1px solid #d0d7de; padding: 2px 7px; text-align: left; vertical-align: top; }
-th { background: #f6f8fa; }
-table.matrix td.cell { text-align: center; min-width: 1.6rem; padding: 2px 3px; }
+constexpr char kMatrixStyle[] = R"(table.matrix td.cell { text-align: center; min-width: 1.6rem; padding: 2px 3px; }
 table.matrix th.turned { writing-mode: vertical-rl; transform: rotate(180deg); font-weight: normal; }
 td.survived { background: #009e73; color: #fff; } td.failed { background: #d55e00; color: #fff; }
 td.slow { background: #f0c75e; } td.refused { background: #eaeef2; color: #57606a; }
-</style>
-</head>
-<body>
 )";
 
-std::string section(const char* id, const char* title, const std::string& note, const std::string& content) {
-  return std::string("<section id=\"") + id + "\">\n<h2>" + title + "</h2>\n<p>" + note + "</p>\n" + content +
-         "</section>\n";
-}
 std::string picture(const std::string& svg, const std::string& prefix) {
   const std::string inlined = inlined_svg(svg, prefix);
   return inlined.empty() ? "<p>No picture: gnuplot was not there.</p>\n" : "<figure>" + inlined + "</figure>\n";
@@ -162,31 +139,33 @@ std::string peer_verdicts(const Matrix& matrix, std::size_t row) {
 }  // namespace
 
 std::string page_of(const ReportData& data) {
-  std::string text = kHead;
+  std::string text = page_head("isostep: the laboratory", kMatrixStyle);
   text += "<h1>The laboratory</h1>\n<p>" + std::to_string(data.results.size()) + " runs of " +
           std::to_string(data.plan.scenes.size()) + " scenes and " + std::to_string(data.plan.trials.size()) +
           " trials." + (data.is_short ? " A short set: run without --short for all of it." : "") + "</p>\n";
+  text += html_section(
+      "advice", "Advice",
+      "Per scene and scalar the cheapest setting that holds its bars, and the one that reaches the aim. CPU "
+      "time of a step of 1/60 s, one thread.",
+      escaped_table(advice_cells(data)));
+  text += html_section("accuracy", "Speed against accuracy",
+                       "A line a scalar and solver, over sub-steps. Left is faster, down is more accurate.",
+                       picture(data.accuracy, "a-"));
+  text += html_section(
+      "survival", "Where methods fail",
+      "Survived (the sub-steps that it takes, or from 120 on the steps a second), failed ×, too slow …, or "
+      "cannot be said to it –. Point at a "
+      "cell for its figure.",
+      matrix_html(data.matrix));
   text +=
-      section("advice", "Advice",
-              "Per scene and scalar the cheapest setting that holds its bars, and the one that reaches the aim. CPU "
-              "time of a step of 1/60 s, one thread.",
-              escaped_table(advice_cells(data)));
-  text += section("accuracy", "Speed against accuracy",
-                  "A line a scalar and solver, over sub-steps. Left is faster, down is more accurate.",
-                  picture(data.accuracy, "a-"));
-  text += section("survival", "Where methods fail",
-                  "Survived (the sub-steps that it takes, or from 120 on the steps a second), failed ×, too slow …, or "
-                  "cannot be said to it –. Point at a "
-                  "cell for its figure.",
-                  matrix_html(data.matrix));
-  text += section("growth", "Error growth",
-                  "How far each scalar gets from the same method in double, with the same sub-steps: root mean square "
-                  "over bodies of points half a metre from their centres.",
-                  picture(data.growth, "g-"));
-  text += section("springs", "Stability of integrators", "Stiff springs, every integrator of particles, every scalar.",
-                  picture(data.springs, "s-"));
-  text += section("stages", "What each stage costs", "CPU time of a step's stages, by soft step at 8 sub-steps.",
-                  picture(data.stage_chart, "c-") + stage_table(data.stages));
+      html_section("growth", "Error growth",
+                   "How far each scalar gets from the same method in double, with the same sub-steps: root mean square "
+                   "over bodies of points half a metre from their centres.",
+                   picture(data.growth, "g-"));
+  text += html_section("springs", "Stability of integrators",
+                       "Stiff springs, every integrator of particles, every scalar.", picture(data.springs, "s-"));
+  text += html_section("stages", "What each stage costs", "CPU time of a step's stages, by soft step at 8 sub-steps.",
+                       picture(data.stage_chart, "c-") + stage_table(data.stages));
   return text + "</body>\n</html>\n";
 }
 

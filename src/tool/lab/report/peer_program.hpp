@@ -2,18 +2,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
+
+#include "report.hpp"
+#include "tool/lab/result.hpp"
 
 namespace isostep::tool::lab {
 
-struct PeerProgram {
-  std::string path;
-  std::string words;  // further options, as the shell takes them
-  std::string out;    // file to which it adds lines
-  int jobs = 0;       // runs at a time; 0: as many as there are cores
-  double limit = 8;   // [s] CPU time of a run
+/// The runs of peers that a report asks for.
+struct PeerRuns {
+  std::string file;                                      // in the report's directory, to which lines are added
+  std::string words;                                     // options, as the shell takes them
+  std::function<bool(const std::string& scene)> counts;  // the file may hold runs of other scenes
 };
-/// It resumes by itself. A failure is a line on stderr: what it left in its file counts.
-void run_peer_program(const PeerProgram& program);
+/// The results in the file, by name, after the report's program, if it has one, has run what the file lacks. A failure
+/// of the program is a line on stderr: what it left counts.
+std::vector<LabResult> peers_of(const ReportOptions& options, const PeerRuns& runs);
 
 }  // namespace isostep::tool::lab

@@ -14,7 +14,6 @@
 #include "tool/common/tool.hpp"
 #include "tool/lab/commands.hpp"
 #include "tool/lab/gnuplot.hpp"
-#include "tool/lab/sweep.hpp"
 
 namespace isostep::tool::lab {
 namespace {
@@ -33,10 +32,7 @@ class ReportWriter {
   explicit ReportWriter(const ReportOptions& options) : options_(options) {
     data_.is_short = options.is_short;
     data_.plan = options.is_short ? short_plan(options.limit) : whole_plan(options.limit);
-    std::error_code error;
-    fs::create_directories(options.out, error);
-    if (error) throw ToolError(exit_status::kOutput, options.out + ": " + error.message());
-    expect_writable(in("report.html"));
+    open_report(options, "report.html");
     forget_other_versions();
   }
 
@@ -67,11 +63,8 @@ class ReportWriter {
 
   std::vector<LabResult> swept(const std::vector<LabPoint>& points, const std::string& what) {
     std::cerr << "lab: " << points.size() << " runs of " << what << "\n";
-    SweepOptions sweep_options;
-    sweep_options.out = options_.out;
-    sweep_options.jobs = options_.jobs;
+    SweepOptions sweep_options = sweep_options_of(options_);
     sweep_options.limit = data_.plan.limit;
-    sweep_options.fresh = options_.fresh;
     return sweep(points, sweep_options);
   }
   void add(std::vector<LabResult> results) {
@@ -91,15 +84,7 @@ class ReportWriter {
 
   /// The program resumes by itself; its lines are read whether it was there or not.
   void run_peers() {
-    if (!options_.peers.empty())
-      run_peer_program({options_.peers, "", in("peers.jsonl"), options_.jobs, options_.limit});
-    std::vector<LabResult> peers;
-    for (LabRecord& record : read_records(in("peers.jsonl"))) {
-      if (is_asked(record.result.point.scene)) peers.push_back(std::move(record.result));
-    }
-    std::stable_sort(peers.begin(), peers.end(),
-                     [](const LabResult& a, const LabResult& b) { return name_of(a.point) < name_of(b.point); });
-    add(std::move(peers));
+    add(peers_of(options_, {"peers.jsonl", "", [this](const std::string& scene) { return is_asked(scene); }}));
     data_.matrix = matrix_of(data_.plan.trials, data_.plan.scalars, data_.plan.solvers, data_.results);
   }
 
@@ -156,6 +141,22 @@ class ReportWriter {
 };
 
 }  // namespace
+
+SweepOptions sweep_options_of(const ReportOptions& options) {
+  SweepOptions sweep_options;
+  sweep_options.out = options.out;
+  sweep_options.jobs = options.jobs;
+  sweep_options.limit = options.limit;
+  sweep_options.fresh = options.fresh;
+  return sweep_options;
+}
+
+void open_report(const ReportOptions& options, const std::string& page) {
+  std::error_code error;
+  fs::create_directories(options.out, error);
+  if (error) throw ToolError(exit_status::kOutput, options.out + ": " + error.message());
+  expect_writable(options.out + "/" + page);
+}
 
 int write_lab_report(const ReportOptions& options) {
   ReportWriter(options).run();

@@ -4,16 +4,25 @@
 
 #include <string>
 
+#include "tool/lab/sweep.hpp"
+
 namespace isostep::tool::lab {
 
+inline constexpr double kReportLimit = 8;  // [s] some 8000 runs
+
+/// What lab --all and lab --published share.
 struct ReportOptions {
   std::string out = "build/lab";  // directory; what it holds of this version is not run again
   bool is_short = false;          // a set for CI
   bool fresh = false;             // run again what is already kept
   int jobs = 0;                   // runs at a time; 0: as many as there are cores
-  double limit = 8;               // [s] CPU time of a run
-  std::string peers;              // program that runs the peers; empty: what peers.jsonl already holds
+  double limit = kReportLimit;    // [s] CPU time of a run
+  std::string peers;              // program that runs the peers; empty: what their file already holds
 };
+/// The runs of a report, kept in its directory.
+SweepOptions sweep_options_of(const ReportOptions& options);
+/// Throws ToolError 74 where `page` cannot be written into the report's directory, which it makes.
+void open_report(const ReportOptions& options, const std::string& page);
 
 /// report.html, its pictures and tables; a whole run renews bench/charts/lab_*.png and bench/results/lab.md too, where
 /// the sources still are. An exit status; throws ToolError.

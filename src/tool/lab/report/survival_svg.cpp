@@ -50,18 +50,13 @@ std::vector<int> edges_of(const Matrix& matrix) {
   return edges;
 }
 
-std::string text_at(double x, double y, const std::string& words, const char* more) {
-  char head[160];
-  std::snprintf(head, sizeof head, "<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, more);
-  return head + escaped(words) + "</text>\n";
-}
 std::string square(int x, int y, const MatrixCell& cell, bool ours) {
   const Paint paint = paint_of(cell.fate);
   char text[256];
   std::snprintf(text, sizeof text, "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"%s\"/>\n", x + 1, y + 1,
                 kWide - 2, kHigh - 2, paint.fill);
   const std::string style = std::string("text-anchor=\"middle\" font-size=\"11\" fill=\"") + paint.ink + "\"";
-  return text + text_at(x + kWide / 2.0, y + kHigh / 2.0 + 4, sign_of(cell, ours), style.c_str());
+  return text + svg_text(x + kWide / 2.0, y + kHigh / 2.0 + 4, sign_of(cell, ours), style);
 }
 
 std::string heads_of(const Matrix& matrix, const std::vector<int>& edges) {
@@ -72,11 +67,11 @@ std::string heads_of(const Matrix& matrix, const std::vector<int>& edges) {
     const double x = edges[i] + kWide / 2.0 + 4;
     std::snprintf(turn, sizeof turn, "transform=\"rotate(-60 %.1f %d)\" font-size=\"12\" fill=\"#24292f\"", x,
                   kTop - 8);
-    text += text_at(x, kTop - 8, column.is_ours() ? column.solver : column.engine, turn);
+    text += svg_text(x, kTop - 8, column.is_ours() ? column.solver : column.engine, turn);
     const bool first = i == 0 || matrix.columns[i - 1].scalar != column.scalar;
     if (!first) continue;
-    text += text_at(edges[i] + 34, kTop - 92, column.is_ours() ? column.scalar : "peers",
-                    "font-size=\"13\" font-weight=\"bold\" fill=\"#24292f\"");
+    text += svg_text(edges[i] + 34, kTop - 92, column.is_ours() ? column.scalar : "peers",
+                     "font-size=\"13\" font-weight=\"bold\" fill=\"#24292f\"");
   }
   return text;
 }
@@ -102,8 +97,8 @@ std::string legend() {
     std::snprintf(box, sizeof box, "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"%s\"/>\n", x, y,
                   kWide - 2, kHigh - 2, item.fill);
     const std::string style = std::string("text-anchor=\"middle\" font-size=\"11\" fill=\"") + item.ink + "\"";
-    text += box + text_at(x + kWide / 2.0 - 1, y + 13, item.sign, style.c_str());
-    text += text_at(x + kWide + 3, y + 13, item.words, "font-size=\"12\" fill=\"#57606a\"");
+    text += box + svg_text(x + kWide / 2.0 - 1, y + 13, item.sign, style);
+    text += svg_text(x + kWide + 3, y + 13, item.words, "font-size=\"12\" fill=\"#57606a\"");
     x += kWide + 24 + static_cast<int>(std::string(item.words).size()) * 7;
   }
   return text;
@@ -121,12 +116,12 @@ std::string survival_svg(const Matrix& matrix) {
                 "font-family=\"sans-serif\">\n<rect width=\"%d\" height=\"%d\" fill=\"#ffffff\"/>\n",
                 width, height, width, height, width, height);
   std::string text = head;
-  text += text_at(kMargin, 28, "Who survives where methods fail", "font-size=\"19\" fill=\"#24292f\"");
+  text += svg_text(kMargin, 28, "Who survives where methods fail", "font-size=\"19\" fill=\"#24292f\"");
   text += legend() + heads_of(matrix, edges);
   for (std::size_t r = 0; r < matrix.rows.size(); ++r) {
     const int y = kTop + static_cast<int>(r) * kHigh;
-    text += text_at(kLeft - 8, y + kHigh / 2.0 + 4, matrix.rows[r].trial,
-                    "text-anchor=\"end\" font-size=\"12\" fill=\"#24292f\"");
+    text += svg_text(kLeft - 8, y + kHigh / 2.0 + 4, matrix.rows[r].trial,
+                     "text-anchor=\"end\" font-size=\"12\" fill=\"#24292f\"");
     for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
       text += square(edges[i], y, matrix.rows[r].cells[i], matrix.columns[i].is_ours());
     }
