@@ -33,7 +33,7 @@ inline constexpr const char* kDone = "done";
 inline constexpr const char* kSlow = "slow";
 inline constexpr const char* kRefused = "refused";
 
-/// What was not measured: null in JSON.
+/// A measure that was not taken: null in JSON.
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 struct LabResult {

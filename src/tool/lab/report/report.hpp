@@ -10,7 +10,7 @@ namespace isostep::tool::lab {
 
 inline constexpr double kReportLimit = 8;  // [s] some 8000 runs
 
-/// What lab --all and lab --published share.
+/// lab --all and lab --published share these.
 struct ReportOptions {
   std::string out = "build/lab";  // directory; what it holds of this version is not run again
   bool is_short = false;          // a set for CI
