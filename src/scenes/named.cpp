@@ -48,6 +48,8 @@ Scene mixed_by(SolverName solver) {
 Scene mixed_pgs() { return mixed_by(SolverName::pgs); }
 Scene mixed_worst_first() { return mixed_by(SolverName::worst_first); }
 Scene mixed_direct() { return mixed_by(SolverName::direct); }
+Scene mixed_avbd() { return mixed_by(SolverName::avbd); }
+Scene mixed_admm() { return mixed_by(SolverName::admm); }
 
 Scene right_turn() { return flight(Turn::right); }
 Scene left_turn() { return flight(Turn::left); }
@@ -105,6 +107,8 @@ constexpr NamedScene kScenes[] = {
     {"mixed_worst_first", "the same, the worst contact first", mixed_worst_first, true,
      left_out(SolverName::worst_first)},
     {"mixed_direct", "the same, all contacts at once", mixed_direct},
+    {"mixed_avbd", "the same, body by body against penalties", mixed_avbd},
+    {"mixed_admm", "the same, all contacts at once by splitting", mixed_admm},
     {"flight", "an aircraft flies level and then to the right", right_turn},
     {"flight_left", "flight mirrored", left_turn},
     {"sail", "a boat sails across the wind", under_sail},

@@ -11,8 +11,8 @@ namespace friction_test {
 template <class S> class FrictionLaws : public ::testing::Test {};
 TYPED_TEST_SUITE(FrictionLaws, AllScalars);
 
-const std::vector<SolverName> kAllSolvers =
-    built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first, SolverName::direct});
+const std::vector<SolverName> kAllSolvers = built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first,
+                                                   SolverName::direct, SolverName::admm, SolverName::avbd});
 constexpr double kG = 10;  // [m/s^2]
 
 /// A flat ground that gravity meets at an angle, as a slope does that falls along x.

@@ -67,7 +67,8 @@ TYPED_TEST_SUITE(HeldTwists, AllScalars);
 
 TYPED_TEST(HeldTwists, end_the_swing_and_gain_nothing) {
   using S = TypeParam;
-  for (const SolverName solver : {SolverName::soft_step, SolverName::pgs, SolverName::direct}) {
+  for (const SolverName solver :
+       {SolverName::soft_step, SolverName::pgs, SolverName::direct, SolverName::admm, SolverName::avbd}) {
     for (const HeldTwist kind : kAll) {
       const double range = kind == HeldTwist::constant_velocity || kind == HeldTwist::locked ? 0 : kTwistRange;
       for (const double aside : {0.0, 0.25, 1.0}) {

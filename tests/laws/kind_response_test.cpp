@@ -335,9 +335,11 @@ TYPED_TEST(KindResponses, bad_numbers_second_records_and_direct_are_refused) {
     refused("inverse_inertia_scale_b", [&](auto& r) { r.inverse_inertia_scale_b = nan; });
     refused("max_force", [&](auto& r) { r.max_force = nan; });
   }
-  World<S> direct = this->world(SolverName::direct);
-  EXPECT_FALSE(direct.add(response<S>(1, 1)));
-  EXPECT_STREQ(direct.fault().field, "solver");
+  for (const SolverName solver : {SolverName::direct, SolverName::avbd, SolverName::admm}) {
+    World<S> world = this->world(solver);
+    EXPECT_FALSE(world.add(response<S>(1, 1)));
+    EXPECT_STREQ(world.fault().field, "solver");
+  }
 }
 
 }  // namespace kind_response_test

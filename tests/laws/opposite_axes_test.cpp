@@ -34,7 +34,8 @@ template <class S> void expect_closed(JointType type, SolverName solver, D3 acro
 TYPED_TEST(OppositeAxes, come_to_coincide) {
   using S = TypeParam;
   const D3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0.6, -0.8, 0}};
-  for (const SolverName solver : {SolverName::soft_step, SolverName::pgs, SolverName::direct}) {
+  for (const SolverName solver :
+       {SolverName::soft_step, SolverName::pgs, SolverName::direct, SolverName::admm, SolverName::avbd}) {
     for (const D3 axis : axes) {
       for (const double off : {0.0, 1e-4, -1e-4, 0.1}) {
         expect_closed<S>(JointType::hinge, solver, axis, kPi + off, false);

@@ -11,8 +11,8 @@
 namespace isostep::test {
 namespace soft_limits_test {
 
-const std::vector<SolverName> kAll =
-    built({SolverName::soft_step, SolverName::pgs, SolverName::direct, SolverName::worst_first});
+const std::vector<SolverName> kAll = built({SolverName::soft_step, SolverName::pgs, SolverName::direct,
+                                            SolverName::worst_first, SolverName::admm, SolverName::avbd});
 constexpr double kTurn = 6.283185307179586;
 constexpr std::uint32_t kAllLocks = joint_flag::kLockPoint | joint_flag::kLockTurns;
 

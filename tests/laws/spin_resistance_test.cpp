@@ -33,8 +33,8 @@ template <class S> class SpinResistance : public ::testing::Test {
 };
 TYPED_TEST_SUITE(SpinResistance, AllScalars);
 
-const std::vector<SolverName> kAll =
-    built({SolverName::soft_step, SolverName::worst_first, SolverName::direct, SolverName::pgs});
+const std::vector<SolverName> kAll = built({SolverName::soft_step, SolverName::worst_first, SolverName::direct,
+                                            SolverName::pgs, SolverName::admm, SolverName::avbd});
 
 TYPED_TEST(SpinResistance, slows_a_ball_by_friction_times_its_radius) {
   using S = TypeParam;

@@ -9,8 +9,8 @@
 namespace isostep::test {
 namespace surface_velocity_test {
 
-const std::vector<SolverName> kAll =
-    built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first, SolverName::direct});
+const std::vector<SolverName> kAll = built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first,
+                                            SolverName::direct, SolverName::admm, SolverName::avbd});
 const char* name_of(SolverName solver) { return kSolverNames[static_cast<int>(solver)]; }
 
 template <class S> class SurfaceVelocities : public ::testing::Test {

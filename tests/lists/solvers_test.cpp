@@ -8,10 +8,10 @@ namespace solvers_test {
 
 class SolverList : public ListProbe {
  protected:
-  void add_to_list() { edit("include/isostep/dynamics/solver_name.hpp", "X(direct)", "X(direct) X(probe)"); }
+  void add_to_list() { edit("include/isostep/dynamics/solver_name.hpp", "X(admm)", "X(admm) X(probe)"); }
   void add_member() {
-    edit("include/isostep/world/solvers.hpp", "  DirectSolver<S> direct;\n",
-         "  DirectSolver<S> direct;\n  DirectSolver<S> probe;\n");
+    edit("include/isostep/world/solvers.hpp", "IslandSolver<S> admm =",
+         "IslandSolver<S> probe = IslandSolver<S>(IslandMethod::splitting);\n  IslandSolver<S> admm =");
   }
 };
 

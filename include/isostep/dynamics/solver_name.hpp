@@ -16,7 +16,9 @@
 ///   pgs          one step of h = 1 / hz, and that many passes: projected Gauss-Seidel, Baumgarte's term closes errors
 ///   worst_first  that many sub-steps, each resolves the worst contact first: velocities, then positions (Millington)
 ///   direct       that many sub-steps, each island solved simultaneously by pivoting
-#define ISO_SOLVERS(X, BOOK) X(soft_step) X(pgs) BOOK(worst_first) X(direct)
+///   avbd         that many sub-steps, each with a few passes body by body: augmented vertex block descent
+///   admm         that many sub-steps, each island solved simultaneously by splitting
+#define ISO_SOLVERS(X, BOOK) X(soft_step) X(pgs) BOOK(worst_first) X(direct) X(avbd) X(admm)
 #define ISO_FOR_EACH_SOLVER(X) ISO_SOLVERS(X, X)
 #define ISO_FOR_EACH_BUILT_SOLVER(X) ISO_SOLVERS(X, ISO_BUILT_BOOK(X))
 
@@ -45,6 +47,10 @@ ISO_INLINE constexpr const char* expected_instead_of(SolverName solver) {
   return index < kSolvers ? kExpected[index] : nullptr;
 }
 
+/// Returns true if the solver makes one problem of each island: it then knows only true masses.
+ISO_INLINE constexpr bool solves_islands(SolverName solver) {
+  return solver == SolverName::direct || solver == SolverName::avbd || solver == SolverName::admm;
+}
 /// Returns true if the solver's `substeps` are passes over one integration step.
 ISO_INLINE constexpr bool counts_passes(SolverName solver) { return solver == SolverName::pgs; }
 /// Returns the integration steps a second, for `substeps` of a world's `hz`.

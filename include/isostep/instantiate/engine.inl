@@ -22,7 +22,7 @@
 #include "isostep/dynamics/records/record_store.inl"
 #include "isostep/dynamics/solvers/body_kernel.inl"
 #include "isostep/dynamics/solvers/contact_kernel.inl"
-#include "isostep/dynamics/solvers/direct.inl"
+#include "isostep/dynamics/solvers/island_solver.inl"
 #include "isostep/geometry/baked/hull_content.inl"
 #include "isostep/geometry/baked/polyhedron.inl"
 #include "isostep/geometry/baked/polyhedron_surface.inl"
@@ -117,7 +117,7 @@
   }                                                                                                 \
   template class JointTrees<OwnScalar>;                                                             \
   ISO_IF_BOOK(ISO_BOOK_OF(OwnScalar))                                                               \
-  template class DirectSolver<OwnScalar>;                                                           \
+  template class IslandSolver<OwnScalar>;                                                           \
   ISO_INSTANTIATE_PARTICLES(OwnScalar)                                                              \
   ISO_INSTANTIATE_WORLD_QUERIES(OwnScalar)                                                          \
   ISO_INSTANTIATE_ACTING_RECORDS(OwnScalar)                                                         \

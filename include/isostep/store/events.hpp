@@ -123,7 +123,7 @@ struct StepReport {
   std::uint32_t stopped = 0;           // bodies put back and stopped because a number was not finite
   std::uint32_t crowded = 0;           // bodies that did not find all their pairs: beyond Settings::most_pairs
   std::uint32_t cut_compounds = 0;     // pairs of bodies some of whose parts were left out, by the same budget
-  std::uint32_t unsolved = 0;          // islands that `direct` or, for each of its passes, `worst_first` left too early
+  std::uint32_t unsolved = 0;          // islands left too early: by `direct`, `admm` or a pass of `worst_first`
   /// Returns true if nothing was lost. What is unsolved is only less exact.
   ISO_INLINE constexpr bool clean() const {
     return clamped_speed == 0 && clamped_force == 0 && clamped_position == 0 && stopped == 0 && crowded == 0 &&

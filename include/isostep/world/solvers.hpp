@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isostep/dynamics/solver_name.hpp"
-#include "isostep/dynamics/solvers/direct.hpp"
+#include "isostep/dynamics/solvers/island_solver.hpp"
 #include "isostep/dynamics/solvers/rigid_solver.hpp"
 #include "isostep/dynamics/solvers/sequential.hpp"
 #if !defined(ISOSTEP_NO_BOOK)
@@ -17,7 +17,9 @@ template <class S> struct Solvers {
   Sequential<S> soft_step = Sequential<S>(soft_step_schedule<S>);
   Sequential<S> pgs = Sequential<S>(pgs_schedule<S>);
   ISO_IF_BOOK(WorstFirstResolver<S> worst_first;)
-  DirectSolver<S> direct;
+  IslandSolver<S> direct = IslandSolver<S>(IslandMethod::pivoting);
+  IslandSolver<S> avbd = IslandSolver<S>(IslandMethod::descent);
+  IslandSolver<S> admm = IslandSolver<S>(IslandMethod::splitting);
 };
 #define ISO_HAS(name) all.name;
 template <class All>

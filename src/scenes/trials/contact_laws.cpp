@@ -87,6 +87,21 @@ Scene rising_tower() {
   }
   return scene;
 }
+/// Stacks of eight boxes of a side of 1 m, of 10 g, of 1 kg and of a tonne each: a unit of mass has no say.
+Scene mass_scales() {
+  Scene scene = awake(600);
+  add_floor(scene);
+  double x = -4;
+  for (const double mass : {0.01, 1.0, 1000.0}) {
+    for (int i = 0; i < 8; ++i) {
+      scene.bodies.push_back(body_of(box_part({0.5, 0.5, 0.5}), {x, 0.5 + i, 0}));
+      scene.bodies.back().mass = mass;
+    }
+    x += 4;
+  }
+  return scene;
+}
+
 /// [%] The furthest way of any box over its side.
 std::unique_ptr<Judge> judge_tower(const Scene&) { return std::make_unique<FurthestWay>(0, 0.01); }
 
@@ -128,6 +143,8 @@ std::span<const Trial> contact_law_trials() {
        pulled_cubes, judge_pulled},
       {"rising_tower", "37", "five boxes, each four times as heavy as the one below", "furthest way over a side", "%",
        10, rising_tower, judge_tower},
+      {"mass_scales", "39", "stacks of eight boxes of 10 g, of 1 kg and of a tonne each", "furthest way over a side",
+       "%", 2, mass_scales, judge_tower},
       {"groove", "38", "cubes in a groove that falls by .9 and 1.1 of what friction bears there", "error of way", "%",
        2, groove, judge_groove},
   };

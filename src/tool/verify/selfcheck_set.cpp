@@ -22,6 +22,8 @@ const Row kRows[] = {
     {"medley_pgs", "medley", 40, "pgs"},
     {"medley_worst_first", "medley", 40, "worst_first"},
     {"medley_direct", "medley", 30, "direct"},
+    {"medley_avbd", "medley", 30, "avbd"},
+    {"medley_admm", "medley", 30, "admm"},
     {"patchwork", "patchwork", 120},
     {"patchwork_implicit_euler", "patchwork", 40, "", "implicit_euler"},
     {"patchwork_time_division", "patchwork", 60, "worst_first", "", "time_division"},

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "isostep/dynamics/solvers/direct.hpp"
+#include "isostep/dynamics/solvers/island_solver.hpp"
 #include "unit/dynamics/joint_world.hpp"
 
 namespace isostep {
@@ -116,7 +116,7 @@ template <class S> class DirectWorld {
   std::vector<Contact<S>> contacts;
   std::vector<ContactGeometry<S>> geometry;
   std::vector<V> step_impulses;
-  DirectSolver<S> solver;
+  IslandSolver<S> solver = IslandSolver<S>(IslandMethod::pivoting);
 
  private:
   void place(ContactGeometry<S>& g) {

@@ -17,7 +17,7 @@ using KindResponseId = Id<struct KindResponseTag>;
 /// A row of the world's table of pairs, like MaterialPair: contacts of bodies whose materials are of these kinds solve
 /// for other masses, and press with a limited force. The kind of the part's material counts, not those of a mesh's or
 /// height field's triangles. A second record of the same two kinds is refused, and so is every record if the solver is
-/// `direct`, whose matrix is symmetric.
+/// those of whole islands, whose matrix is symmetric.
 /// The scales multiply a body's inverse mass and inverse inertia in such contacts and nothing else: gravity, joints and
 /// other contacts have the true ones. A body with a scale of 0 pushes the other and is not pushed back, and as a bullet
 /// it is not stopped by it. Only the ratio of the two mass scales counts; against an unmoved body they have no effect.
@@ -71,10 +71,11 @@ template <class S> struct RecordRules<KindResponse<S>> : RecordDefaults<S> {
   }
   static constexpr OnlyOne only_one(const KindResponse<S>&) { return kOnePairOfKinds; }
   static RecordKey key(const KindResponse<S>& p) { return {kinds_key(p.kind_a, p.kind_b)}; }
-  /// Refuses `direct`: two rows on one body share its true mass there, as the matrix is one of square roots of masses.
+  /// Refuses solvers of whole islands: two rows on one body share its true mass there, as the matrix is one of square
+  /// roots of masses.
   static FaultReport fault_at(const KindResponse<S>&, const RecordPlace<S>& place) {
     return Checklist()
-        .proper(place.settings.solver != SolverName::direct, "solver", "another solver than direct")
+        .proper(!solves_islands(place.settings.solver), "solver", "another solver than direct, avbd and admm")
         .report();
   }
   template <class Random> static void draw(KindResponse<S>& r, Random& random) {

@@ -8,7 +8,7 @@
 
 #include "isostep/dynamics/body_inertia.hpp"
 #include "isostep/dynamics/solvers/contact_fields.inl"
-#include "isostep/dynamics/solvers/direct.hpp"
+#include "isostep/dynamics/solvers/island_solver.hpp"
 #include "isostep/dynamics/solvers/sequential.hpp"
 
 namespace isostep {
@@ -106,7 +106,7 @@ void Sequential<S>::visit_scratch(const Visit& visit, SolverStage stage, const S
 
 template <class S>
 template <class Visit>
-void DirectSolver<S>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context) {
+void IslandSolver<S>::visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context) {
   visit_rows(visit, stage, joints_, bodies_);
   if (stage == SolverStage::store) return;
   if (stage != SolverStage::colour) {
@@ -130,13 +130,13 @@ void DirectSolver<S>::visit_scratch(const Visit& visit, SolverStage stage, const
       return;
     }
     of_island("exponent", island.exponent);
-    of_island.each("blocks", island.system.block_count(), [&](const auto& of_block, std::size_t block) {
+    of_island.each("blocks", island.system->block_count(), [&](const auto& of_block, std::size_t block) {
       of_block("a", island.ends[block].a);
       of_block("b", island.ends[block].b);
       of_block.each("rows", 3, [&](const auto& of_row, std::size_t r) {
-        DirectRow<N>& row = island.system.row(static_cast<std::uint32_t>(3 * block + r));
+        IslandRow<N>& row = island.system->row(static_cast<std::uint32_t>(3 * block + r));
         of_row("bound", row.bound);
-        if (row.bound == DirectBound::absent) return;
+        if (row.bound == RowBound::absent) return;
         of_row("state", row.state);
         of_row("exponent", row.exponent);
         of_row("limit", row.limit);

@@ -97,7 +97,7 @@ template <class S> struct StepContext {
   Velocity<S> restitution_threshold = Velocity<S>(0.25);  // [m/s] slower approaches do not bounce
   std::span<const JointAxisDrive<S>> axis_drives = {};    // ascending by joint
   std::span<JointImpulse<S>> joint_impulses = {};         // per joint, or empty: zeros, to which each sub-step adds
-  std::span<const ContactResponse<S>> responses = {};     // ascending by contact; none for `direct`
+  std::span<const ContactResponse<S>> responses = {};     // ascending by contact; none where solves_islands()
 };
 
 /// The calls of rigid_solver.hpp, for tools that inspect what each leaves.

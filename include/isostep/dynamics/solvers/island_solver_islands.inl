@@ -1,17 +1,30 @@
-// DirectSolver: which constraints are solved together, and how many blocks each takes.
+// IslandSolver: which constraints are solved together, and how many blocks each takes.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/solvers/direct.hpp"
+#include "isostep/dynamics/solvers/admm.hpp"
+#include "isostep/dynamics/solvers/avbd.hpp"
+#include "isostep/dynamics/solvers/island_solver.hpp"
+#include "isostep/dynamics/solvers/pivoting.hpp"
 
 namespace isostep {
 
-template <class S> bool DirectSolver<S>::rolls(const StepContext<S>& context, std::uint32_t c) {
+template <class S> bool IslandSolver<S>::rolls(const StepContext<S>& context, std::uint32_t c) {
   return context.geometry[c].material.rolling_resistance > S(0);
 }
 
 template <class S>
-typename DirectSolver<S>::Island& DirectSolver<S>::island_of(std::uint32_t row_a, std::uint32_t row_b) {
+std::unique_ptr<IslandSystem<typename IslandSolver<S>::N>> IslandSolver<S>::make_system(IslandMethod method) {
+  switch (method) {
+    case IslandMethod::pivoting: break;
+    case IslandMethod::descent: return std::make_unique<AvbdSystem<N>>();
+    case IslandMethod::splitting: return std::make_unique<AdmmSystem<N>>();
+  }
+  return std::make_unique<PivotingSystem<N>>();
+}
+
+template <class S>
+typename IslandSolver<S>::Island& IslandSolver<S>::island_of(std::uint32_t row_a, std::uint32_t row_b) {
   const std::uint32_t set = sets_.find(bodies_.rows().moves(row_a) ? row_a : row_b);
   if (island_of_[set] == 0) {
     if (island_count_ == islands_.size()) islands_.emplace_back();
@@ -23,7 +36,8 @@ typename DirectSolver<S>::Island& DirectSolver<S>::island_of(std::uint32_t row_a
     island.exponent = 0;
     island.begun = false;
     island.unsolved = island.pushed = false;
-    island.system.begin();
+    if (island.system == nullptr) island.system = make_system(method_);
+    island.system->begin();
   }
   Island& island = islands_[island_of_[set] - 1];
   for (const std::uint32_t row : {row_a, row_b}) {
@@ -35,9 +49,9 @@ typename DirectSolver<S>::Island& DirectSolver<S>::island_of(std::uint32_t row_a
 }
 
 template <class S>
-std::uint32_t DirectSolver<S>::add_blocks(Island& island, std::uint32_t row_a, std::uint32_t row_b,
+std::uint32_t IslandSolver<S>::add_blocks(Island& island, std::uint32_t row_a, std::uint32_t row_b,
                                           std::uint32_t count) {
-  const std::uint32_t first = island.system.block_count();
+  const std::uint32_t first = island.system->block_count();
   const auto& mass = bodies_.rows().mass;
   const Value a = System::value(mass[row_a].mass), b = System::value(mass[row_b].mass);
   Value reduced = bodies_.rows().moves(row_a) ? a : b;
@@ -45,13 +59,13 @@ std::uint32_t DirectSolver<S>::add_blocks(Island& island, std::uint32_t row_a, s
     reduced = System::quotient(System::product(a, b), System::sum(a, b));
   }
   for (std::uint32_t i = 0; i < count; ++i) {
-    island.system.add_block(local_[row_a], local_[row_b]);
+    island.system->add_block(local_[row_a], local_[row_b]);
     island.ends.push_back({row_a, row_b, reduced});
   }
   return first;
 }
 
-template <class S> void DirectSolver<S>::add_joint(const JointConstraint<S>& joint, std::uint32_t j) {
+template <class S> void IslandSolver<S>::add_joint(const JointConstraint<S>& joint, std::uint32_t j) {
   if (!joint.holds || joint.block_count + joint.drive_count == 0) return;
   Island& island = island_of(joint.row_a, joint.row_b);
   island.joints.push_back(j);
@@ -59,7 +73,7 @@ template <class S> void DirectSolver<S>::add_joint(const JointConstraint<S>& joi
 }
 
 /// Adds a contact: a block of tangents and twist, blocks of three points, and one for two rows of rolling resistance.
-template <class S> void DirectSolver<S>::add_contact(const StepContext<S>& context, std::uint32_t c) {
+template <class S> void IslandSolver<S>::add_contact(const StepContext<S>& context, std::uint32_t c) {
   const ContactGeometry<S>& g = context.geometry[c];
   if (!bodies_.rows().moves(g.row_a) && !bodies_.rows().moves(g.row_b)) return;
   const std::uint32_t points = context.contacts[c].count, own = 1 + (points + 2) / 3;
@@ -67,15 +81,15 @@ template <class S> void DirectSolver<S>::add_contact(const StepContext<S>& conte
   const std::uint32_t first = add_blocks(island, g.row_a, g.row_b, own + (rolls(context, c) ? 1 : 0));
   island.contacts.push_back(c);
   island.contact_blocks.push_back(first);
-  DirectPatch<N> patch = {};
+  IslandPatch<N> patch = {};
   patch.first = 3 * first;
   patch.normal = 3 * first + 3;
   patch.points = points;
-  patch.rolling = rolls(context, c) ? 3 * (first + own) : DirectPatch<N>::kNoRolling;
-  island.system.patches().push_back(patch);
+  patch.rolling = rolls(context, c) ? 3 * (first + own) : IslandPatch<N>::kNoRolling;
+  island.system->patches().push_back(patch);
 }
 
-template <class S> void DirectSolver<S>::find_islands(const StepContext<S>& context) {
+template <class S> void IslandSolver<S>::find_islands(const StepContext<S>& context) {
   const SolverBodies<S>& bodies = bodies_.rows();
   sets_.begin(bodies.mass.size());
   const auto join = [&](std::uint32_t a, std::uint32_t b) {
@@ -95,12 +109,11 @@ template <class S> void DirectSolver<S>::find_islands(const StepContext<S>& cont
   }
   for (std::uint32_t i = 0; i < island_count_; ++i) {
     Island& island = islands_[i];
-    island.shapes.resize(3 * island.system.block_count());
-    island.asked.resize(3 * island.system.block_count());
+    island.shapes.resize(3 * island.system->block_count());
+    island.asked.resize(3 * island.system->block_count());
     island.work_left = kMostWork * static_cast<std::uint64_t>(context.substeps);
     island.solves_left = 2 * static_cast<std::uint32_t>(context.substeps);
-    island.system.tie(static_cast<std::uint32_t>(island.bodies.size()), kMostBlocks,
-                      island.work_left / island.solves_left);
+    island.system->tie(static_cast<std::uint32_t>(island.bodies.size()), island.work_left / island.solves_left);
   }
 }
 

@@ -1,4 +1,4 @@
-// DirectNumber<N>: what the direct solver requires of LinearSystem<S>::Number beyond its operators.
+// IslandNumber<N>: what the direct solver requires of LinearSystem<S>::Number beyond its operators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,9 +12,9 @@ namespace isostep {
 /// Fixed point shares exponents. Floating point has its own: every exponent is 0 there, and so are these constants.
 /// kRoom  exponent that leaves a number half of its range
 /// kGain  exponent by which answers may exceed right-hand sides: loads of a thousand bodies fit, and 2^-42 is left
-template <class N> struct DirectNumber;
+template <class N> struct IslandNumber;
 
-template <class T> struct DirectNumber<Exact<T>> {
+template <class T> struct IslandNumber<Exact<T>> {
   using N = Exact<T>;
   using Sum = N;
   static constexpr int kRoom = 0, kGain = 0;
@@ -33,12 +33,19 @@ template <class T> struct DirectNumber<Exact<T>> {
     return N(1) / sqrt(x);
   }
   static ISO_INLINE N quotient(N a, N b) { return a / b; }
+  /// Returns x 2^n, for a factor that is no exponent.
+  static ISO_INLINE N times_power(N x, int n) {
+    const N power = N(static_cast<T>(std::uint64_t{1} << (n < 0 ? -n : n)));
+    return n < 0 ? x / power : x * power;
+  }
   /// The bound of an answer.
   static constexpr N kMost = N(0x1p500);
   static ISO_INLINE N bounded(N x) { return x; }
+  /// Returns a / b, b > 0, held within the bound.
+  static ISO_INLINE N bounded_quotient(N a, N b) { return a / b; }
 };
 
-template <> struct DirectNumber<Fixed<std::int64_t, 62>> {
+template <> struct IslandNumber<Fixed<std::int64_t, 62>> {
   using N = Fixed<std::int64_t, 62>;
   using Sum = FixedSum<std::int64_t, 124>;
   static constexpr int kRoom = 1, kGain = 20;
@@ -67,27 +74,32 @@ template <> struct DirectNumber<Fixed<std::int64_t, 62>> {
   }
   /// Takes |a| < 2 |b|.
   static ISO_INLINE N quotient(N a, N b) { return a / b; }
+  static ISO_INLINE N times_power(N x, int n) { return shifted(x, n); }
   static ISO_INLINE N bounded(N x) { return clamp(x, -kMost, kMost); }
+  static ISO_INLINE N bounded_quotient(N a, N b) {
+    const N most = b * kMost;
+    return a < -most ? -kMost : most < a ? kMost : a / b;
+  }
 };
 
 /// The linear and the angular part of a row of W, or of a body's motion.
-template <class N> struct DirectMotion {
+template <class N> struct IslandMotion {
   Vec3<N> linear, angular;
 
-  static ISO_INLINE DirectMotion zero() {
+  static ISO_INLINE IslandMotion zero() {
     const Vec3<N> none = {N(0), N(0), N(0)};
     return {none, none};
   }
 };
 
-template <class N> ISO_INLINE auto product_sum(const DirectMotion<N>& a, const DirectMotion<N>& b) {
-  using D = DirectNumber<N>;
+template <class N> ISO_INLINE auto product_sum(const IslandMotion<N>& a, const IslandMotion<N>& b) {
+  using D = IslandNumber<N>;
   return D::times(a.linear.x, b.linear.x) + D::times(a.linear.y, b.linear.y) + D::times(a.linear.z, b.linear.z) +
          D::times(a.angular.x, b.angular.x) + D::times(a.angular.y, b.angular.y) + D::times(a.angular.z, b.angular.z);
 }
 /// Computes m += w x, held within the format.
-template <class N> ISO_INLINE void add_scaled(DirectMotion<N>& m, const DirectMotion<N>& w, N x) {
-  using D = DirectNumber<N>;
+template <class N> ISO_INLINE void add_scaled(IslandMotion<N>& m, const IslandMotion<N>& w, N x) {
+  using D = IslandNumber<N>;
   const auto add = [x](N a, N b) ISO_INLINE_LAMBDA { return D::sum(a, b * x); };
   m.linear = {add(m.linear.x, w.linear.x), add(m.linear.y, w.linear.y), add(m.linear.z, w.linear.z)};
   m.angular = {add(m.angular.x, w.angular.x), add(m.angular.y, w.angular.y), add(m.angular.z, w.angular.z)};

@@ -1,41 +1,48 @@
-// DirectSolver<S>: every island's joints and contacts solved simultaneously, by pivoting over sparse factorisations.
+// IslandSolver<S>: every island's joints and contacts as one problem, solved by the method that it is made with.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "isostep/core/disjoint_sets.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
-#include "isostep/dynamics/solvers/direct_system.hpp"
 #include "isostep/dynamics/solvers/impacts.hpp"
+#include "isostep/dynamics/solvers/island_system.hpp"
 #include "isostep/dynamics/solvers/prepared_joints.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 
 namespace isostep {
 
+/// How an island is solved.
+enum class IslandMethod : std::uint32_t {
+  pivoting,  // pivoting.hpp
+  descent,   // avbd.hpp
+  splitting  // admm.hpp
+};
+
 /// Source:  Millington 2010, Game Physics Engine Development, ch. 18; Baraff 1994, Fast contact force computation for
 ///          nonpenetrating rigid bodies, SIGGRAPH. Differs: velocities and impulses, not accelerations and forces.
-/// Method:  each sub-step every island is one DirectSystem: joints are equations, contacts may only push, and the load
+/// Method:  each sub-step every island is one IslandSystem: joints are equations, contacts may only push, and the load
 ///          bounds friction. It is solved twice: once with errors closed at a bounded speed, for positions, and once
 ///          without, so that none of that speed stays. Each solve begins with the velocities that forces alone give:
-///          impulses are those of a whole sub-step, and the last ones only guess which rows push. Mechanisms and the
-///          islands that they push are solved in turn, kMechanismSweeps times in all.
+///          impulses are those of a whole sub-step, and the last ones are where it begins. Mechanisms and the islands
+///          that they push are solved in turn, kMechanismSweeps times in all.
 /// Symbols: W = J M^-1/2 over powers of two (LinearSystem), so that K = W W^T is near one whatever the masses.
-/// Limits:  islands above kMostBlocks are swept by Gauss-Seidel over the same rows. If pivoting does not end within its
-///          share of kMostWork (a count), or its result is violated, bounded rows keep their swept answers and joints
-///          are solved for the rest: an island takes at most some 25 ms a sub-step in double. unsolved() counts such
-///          islands.
-///          Friction is an octagon inside the cone, along the slip or the friction borne. Of a drive's two limits the
-///          nearer counts. Stored impulses are held within the speed limit. While tension is taken implicitly
-///          (joint_tension.hpp) bodies conserve momentum, not angular momentum.
+/// Limits:  an island takes its share of kMostWork (a count), at most some 25 ms a sub-step in double; what its method
+///          leaves then, and islands too large for it, are swept by Gauss-Seidel over the same rows. unsolved() counts
+///          such islands. Of a drive's two limits the nearer counts. Stored impulses are held within the speed limit.
+///          While tension is taken implicitly (joint_tension.hpp) bodies conserve momentum, not angular momentum.
 /// Order:   an island's blocks stand in the order of its joints, then of its contacts. Islands have no moving body in
 ///          common. One thread.
-/// Memory:  warm, what SparseCholesky allocates: islands whose contacts or joints changed are analysed anew.
-template <class S> class DirectSolver {
+/// Memory:  warm, what the method allocates.
+template <class S> class IslandSolver {
  public:
+  explicit IslandSolver(IslandMethod method) : method_(method) {}
+
   void colour_constraints(const StepContext<S>& context);
   void prepare(const StepContext<S>& context);
   void solve_substeps(const StepContext<S>& context);
@@ -47,15 +54,12 @@ template <class S> class DirectSolver {
  private:
   using System = LinearSystem<S>;
   using N = typename System::Number;
-  using D = DirectNumber<N>;
+  using D = IslandNumber<N>;
   using Value = typename System::Value;
   using V = Velocity<S>;
   using Block = ContactBlock<S, 1, kMaxContactPoints>;
 
-  /// The most blocks of three rows of an island. With twice as many (a wall of 210 boxes has 1200) a factorisation
-  /// takes 8 ms and a falling wall needs hundreds.
-  static constexpr std::uint32_t kMostBlocks = 600;
-  /// The most DirectSystem::work of an island, times the step's sub-steps: some 25 ms each in double. A standing tower
+  /// The most IslandSystem::work of an island, times the step's sub-steps: some 25 ms each in double. A standing tower
   /// of 400 blocks takes 50 000, a heap that falls into place ten times as much, one in a corner any number. A solve
   /// may take all that is left, but must leave kLeastPivots for each later solve.
   static constexpr std::uint64_t kMostWork = 500'000;
@@ -75,7 +79,7 @@ template <class S> class DirectSolver {
   };
   /// One end of a row; each half has its own exponent.
   struct End {
-    DirectMotion<N> part;
+    IslandMotion<N> part;
     int linear_exponent, angular_exponent;
   };
   /// The bodies of a block of the system.
@@ -83,8 +87,17 @@ template <class S> class DirectSolver {
     std::uint32_t a, b;  // rows of SolverBodies
     Value reduced;       // [kg] reduced mass: what impulses are counted in
   };
+  /// Owns the system of an island. Of a copy it has yet to be made: what is remembered is scratch.
+  struct SystemOwner : std::unique_ptr<IslandSystem<N>> {
+    SystemOwner() = default;
+    SystemOwner(SystemOwner&&) = default;
+    SystemOwner& operator=(SystemOwner&&) = default;
+    SystemOwner(const SystemOwner&) : std::unique_ptr<IslandSystem<N>>() {}
+    SystemOwner& operator=(const SystemOwner&) { return *this; }
+    using std::unique_ptr<IslandSystem<N>>::operator=;
+  };
   struct Island {
-    DirectSystem<N> system;
+    SystemOwner system;
     std::vector<std::uint32_t> joints, contacts, bodies;      // bodies: their rows; numbered 1.. in the system
     std::vector<std::uint32_t> joint_blocks, contact_blocks;  // first block of each
     std::vector<Ends> ends;                                   // of each block
@@ -101,7 +114,8 @@ template <class S> class DirectSolver {
     unsigned char bytes[sizeof(RollingBlock<S, 1, kMaxContactPoints>)];
   };
 
-  // direct_islands.inl
+  // island_solver_islands.inl
+  static std::unique_ptr<IslandSystem<N>> make_system(IslandMethod method);
   void find_islands(const StepContext<S>& context);
   Island& island_of(std::uint32_t row_a, std::uint32_t row_b);
   std::uint32_t add_blocks(Island& island, std::uint32_t row_a, std::uint32_t row_b, std::uint32_t count);
@@ -109,18 +123,19 @@ template <class S> class DirectSolver {
   void add_contact(const StepContext<S>& context, std::uint32_t c);
   static bool rolls(const StepContext<S>& context, std::uint32_t c);
 
-  // direct_rows.inl
+  // island_solver_rows.inl
   void find_root(std::uint32_t row, const Mat3<S>& kappa);
   static Mat3<N> lower_root(const Mat3<N>& k);
   End end_of(std::uint32_t row, const Shape& shape, bool is_a) const;
-  static DirectMotion<N> brought_to(const End& end, int exponent);
+  static IslandMotion<N> brought_to(const End& end, int exponent);
   static int scale_of(const End& a, const End& b);
   void place(Island& island, std::uint32_t first, std::uint32_t count, int least_exponent);
   V speed_of(const Island& island, std::uint32_t r, const std::vector<MotionRow<V>>& motion) const;
   Value answer_of(const Island& island, std::uint32_t r, V impulse) const;
   V impulse_of(const Island& island, std::uint32_t r) const;
+  void load(Island& island, std::uint32_t r, V impulse) const;
 
-  // direct_joints.inl
+  // island_solver_joints.inl
   JointStep<S> joint_step(const StepContext<S>& context);
   void linearise_joints(const StepContext<S>& context, Island& island);
   void stiffen(Island& island, std::span<const JointConstraint<S>> joints, Step<S> h);
@@ -132,7 +147,7 @@ template <class S> class DirectSolver {
   void keep_joint(JointConstraint<S>& joint, const Island& island, std::uint32_t first) const;
   bool tighten(Island& island);
 
-  // direct_contacts.inl
+  // island_solver_contacts.inl
   ISO_INLINE Block& block_of(const StepContext<S>& context, std::uint32_t c) {
     return *reinterpret_cast<Block*>(memory_[c].bytes + (rolls(context, c) ? sizeof(RollingRows<S, 1>) : 0));
   }
@@ -155,6 +170,7 @@ template <class S> class DirectSolver {
   void scale_right_sides(Island& island);
   void apply(const Island& island);
 
+  IslandMethod method_;
   BodyRows<S> bodies_;
   Impacts<S> impacts_;
   PreparedJoints<S> joints_;
@@ -174,7 +190,7 @@ template <class S> class DirectSolver {
   std::vector<End> ends_;
 };
 
-#define ISO_DECLARE(S) extern template class DirectSolver<S>;
+#define ISO_DECLARE(S) extern template class IslandSolver<S>;
 ISO_FOR_EACH_SCALAR(ISO_DECLARE)
 #undef ISO_DECLARE
 

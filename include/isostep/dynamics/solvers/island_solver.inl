@@ -3,23 +3,23 @@
 #pragma once
 
 #include "isostep/dynamics/solvers/contact_follow.hpp"
-#include "isostep/dynamics/solvers/direct.hpp"
-#include "isostep/dynamics/solvers/direct_contacts.inl"
-#include "isostep/dynamics/solvers/direct_islands.inl"
-#include "isostep/dynamics/solvers/direct_joints.inl"
-#include "isostep/dynamics/solvers/direct_rows.inl"
+#include "isostep/dynamics/solvers/island_solver.hpp"
+#include "isostep/dynamics/solvers/island_solver_contacts.inl"
+#include "isostep/dynamics/solvers/island_solver_islands.inl"
+#include "isostep/dynamics/solvers/island_solver_joints.inl"
+#include "isostep/dynamics/solvers/island_solver_rows.inl"
 
 namespace isostep {
 
-template <class S> void DirectSolver<S>::colour_constraints(const StepContext<S>& context) {
-  rate_ = integration_rate(SolverName::direct, context.hz, context.substeps);
+template <class S> void IslandSolver<S>::colour_constraints(const StepContext<S>& context) {
+  rate_ = context.hz * context.substeps;
   bodies_.gather(context, rate_, true);
   impacts_.begin(context, bodies_.rows());
   joints_.prepare(context, bodies_.rows());
   find_islands(context);
 }
 
-template <class S> void DirectSolver<S>::prepare(const StepContext<S>& context) {
+template <class S> void IslandSolver<S>::prepare(const StepContext<S>& context) {
   const ContactKernels<S>& kernels = *contact_kernels<S>(Simd::scalar);
   const SolverBodies<S>& bodies = bodies_.rows();
   const auto count = static_cast<std::uint32_t>(context.contacts.size());
@@ -38,19 +38,19 @@ template <class S> void DirectSolver<S>::prepare(const StepContext<S>& context) 
 }
 
 /// Places the rows. Arms of contacts stay those of the step's begin; those of joints are current.
-template <class S> void DirectSolver<S>::place_rows(const StepContext<S>& context, Island& island) {
+template <class S> void IslandSolver<S>::place_rows(const StepContext<S>& context, Island& island) {
   if (island.begun && island.joints.empty()) return;
   linearise_joints(context, island);
   for (std::size_t k = 0; k < island.joints.size(); ++k) {
     place_joint(joints_[island.joints[k]], island, island.joint_blocks[k]);
   }
   for (std::uint32_t k = 0; k < island.contacts.size(); ++k) place_contact(context, island, k);
-  island.system.assemble();
+  island.system->assemble();
 }
 
 /// Follows bodies that turn fast (contact_follow.hpp): free velocities become the current ones without the answers, by
 /// the new inertia. In islands with joints only the inertia changes now; the rows follow at the next sub-step.
-template <class S> void DirectSolver<S>::follow(const StepContext<S>& context, Island& island) {
+template <class S> void IslandSolver<S>::follow(const StepContext<S>& context, Island& island) {
   bool any = false;
   for (const std::uint32_t row : island.bodies) {
     if (!bodies_.is_followed(context, row)) continue;
@@ -71,15 +71,15 @@ template <class S> void DirectSolver<S>::follow(const StepContext<S>& context, I
     take_back_turns(context, island, k);
     place_contact(context, island, k);
   }
-  island.system.assemble();
+  island.system->assemble();
 }
 
 /// Subtracts a contact's answers from the free velocities of bodies that it follows.
 template <class S>
-void DirectSolver<S>::take_back_turns(const StepContext<S>& context, Island& island, std::uint32_t k) {
+void IslandSolver<S>::take_back_turns(const StepContext<S>& context, Island& island, std::uint32_t k) {
   const std::uint32_t c = island.contacts[k];
   const ContactGeometry<S>& g = context.geometry[c];
-  const DirectPatch<N>& patch = island.system.patches()[k];
+  const IslandPatch<N>& patch = island.system->patches()[k];
   const bool of_a = bodies_.is_followed(context, g.row_a), of_b = bodies_.is_followed(context, g.row_b);
   const auto take = [&](std::uint32_t r, const AngularRow<S, 1>& row) {
     const V impulse = impulse_of(island, r);
@@ -93,14 +93,14 @@ void DirectSolver<S>::take_back_turns(const StepContext<S>& context, Island& isl
   for (std::uint32_t t = 0; t < 2; ++t) take(patch.first + t, block.tangents[t].row);
   take(patch.first + 2, block.twist);
   for (std::uint32_t p = 0; p < patch.points; ++p) take(patch.normal + p, block.normals[p].row);
-  if (patch.rolling == DirectPatch<N>::kNoRolling) return;
+  if (patch.rolling == IslandPatch<N>::kNoRolling) return;
   const auto& rolling = *reinterpret_cast<const RollingRows<S, 1>*>(memory_[c].bytes);
   for (std::uint32_t r = 0; r < 2; ++r) take(patch.rolling + r, rolling.rows[r]);
 }
 
 /// Chooses the exponent of an island's answers, with room for answers larger than what is asked.
-template <class S> void DirectSolver<S>::scale_right_sides(Island& island) {
-  DirectSystem<N>& system = island.system;
+template <class S> void IslandSolver<S>::scale_right_sides(Island& island) {
+  IslandSystem<N>& system = *island.system;
   const std::uint32_t rows = 3 * system.block_count();
   int exponent = -128;
   const auto see = [&](Value value, int of_row) {
@@ -108,8 +108,8 @@ template <class S> void DirectSolver<S>::scale_right_sides(Island& island) {
     if (exponent < own) exponent = own;
   };
   for (std::uint32_t r = 0; r < rows; ++r) {
-    const DirectRow<N>& row = system.row(r);
-    if (row.bound != DirectBound::absent) see(System::value(island.asked[r]), D::kGain - row.exponent);
+    const IslandRow<N>& row = system.row(r);
+    if (row.bound != RowBound::absent) see(System::value(island.asked[r]), D::kGain - row.exponent);
   }
   const auto motor = [&](std::size_t k, const auto& act) {
     const JointConstraint<S>& joint = joints_[island.joints[k]];
@@ -126,9 +126,9 @@ template <class S> void DirectSolver<S>::scale_right_sides(Island& island) {
   system.rescale(island.exponent - exponent);
   island.exponent = exponent;
   for (std::uint32_t r = 0; r < rows; ++r) {
-    DirectRow<N>& row = system.row(r);
+    IslandRow<N>& row = system.row(r);
     row.right = N(0);
-    if (row.bound != DirectBound::absent) {
+    if (row.bound != RowBound::absent) {
       row.right = System::number(System::value(island.asked[r]), exponent + row.exponent);
     }
   }
@@ -139,8 +139,8 @@ template <class S> void DirectSolver<S>::scale_right_sides(Island& island) {
   }
 }
 
-template <class S> void DirectSolver<S>::solve(const StepContext<S>& context, Island& island, Pass pass) {
-  DirectSystem<N>& system = island.system;
+template <class S> void IslandSolver<S>::solve(const StepContext<S>& context, Island& island, Pass pass) {
+  IslandSystem<N>& system = *island.system;
   for (std::size_t k = 0; k < island.joints.size(); ++k) {
     ask_joint(joints_[island.joints[k]], island, island.joint_blocks[k], pass);
   }
@@ -164,10 +164,10 @@ template <class S> void DirectSolver<S>::solve(const StepContext<S>& context, Is
 }
 
 /// Sets velocities: the free ones plus what the answers give.
-template <class S> void DirectSolver<S>::apply(const Island& island) {
+template <class S> void IslandSolver<S>::apply(const Island& island) {
   for (std::uint32_t i = 0; i < island.bodies.size(); ++i) {
     const std::uint32_t row = island.bodies[i];
-    const DirectMotion<N>& u = island.system.motion(i + 1);
+    const IslandMotion<N>& u = island.system->motion(i + 1);
     const BodyRoot& root = roots_[row];
     const int exponent = island.exponent + root.root_exponent;
     MotionRow<V>& v = bodies_.rows().velocity[row];
@@ -185,14 +185,14 @@ template <class S> void DirectSolver<S>::apply(const Island& island) {
   }
 }
 
-template <class S> std::uint32_t DirectSolver<S>::unsolved() const {
+template <class S> std::uint32_t IslandSolver<S>::unsolved() const {
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < island_count_; ++i) count += islands_[i].unsolved ? 1u : 0u;
   return count;
 }
 
 /// Solves again until joints that are taken implicitly are on the right pieces.
-template <class S> void DirectSolver<S>::solve_tight(const StepContext<S>& context, Island& island) {
+template <class S> void IslandSolver<S>::solve_tight(const StepContext<S>& context, Island& island) {
   solve(context, island, Pass::biased);
   for (int again = 0; again < detail::kMostPieceChanges && tighten(island); ++again) {
     ++island.solves_left;  // beside those that the step's work is divided among
@@ -202,7 +202,7 @@ template <class S> void DirectSolver<S>::solve_tight(const StepContext<S>& conte
 /// Runs `act` on velocities of bodies that mechanisms push, and adds its change of them to the free velocities.
 template <class S>
 template <class Act>
-void DirectSolver<S>::move_freely(const StepContext<S>& context, const Act& act) {
+void IslandSolver<S>::move_freely(const StepContext<S>& context, const Act& act) {
   std::vector<MotionRow<V>>& velocity = bodies_.rows().velocity;
   const auto add = [&](std::uint32_t row, bool before) {
     MotionRow<V>&free = free_velocity_[row], &now = velocity[row];
@@ -214,7 +214,7 @@ void DirectSolver<S>::move_freely(const StepContext<S>& context, const Act& act)
   for (const std::uint32_t row : context.mechanisms.bodies) add(row, false);
 }
 /// Solves mechanisms in turn with the islands that they push. The first sweep of both is already done.
-template <class S> void DirectSolver<S>::solve_mechanisms(const StepContext<S>& context) {
+template <class S> void IslandSolver<S>::solve_mechanisms(const StepContext<S>& context) {
   if (!context.mechanisms.any()) return;
   for (int sweep = 1; sweep < kMechanismSweeps; ++sweep) {
     move_freely(context, [&] { context.mechanisms.solve(bodies_.rows(), 1); });
@@ -226,23 +226,23 @@ template <class S> void DirectSolver<S>::solve_mechanisms(const StepContext<S>& 
   }
   if (context.mechanisms.couples) move_freely(context, [&] { context.mechanisms.close(bodies_.rows()); });
 }
-template <class S> void DirectSolver<S>::begin_mechanisms(const StepContext<S>& context) {
+template <class S> void IslandSolver<S>::begin_mechanisms(const StepContext<S>& context) {
   if (!context.mechanisms.any()) return;
   context.mechanisms.place(bodies_.rows(), rate_);
   context.mechanisms.solve(bodies_.rows(), 1);
 }
-template <class S> void DirectSolver<S>::relax_mechanisms(const StepContext<S>& context) {
+template <class S> void IslandSolver<S>::relax_mechanisms(const StepContext<S>& context) {
   if (context.mechanisms.any()) move_freely(context, [&] { context.mechanisms.relax(bodies_.rows()); });
 }
 
-template <class S> void DirectSolver<S>::keep(const StepContext<S>& context, Island& island) {
+template <class S> void IslandSolver<S>::keep(const StepContext<S>& context, Island& island) {
   for (std::size_t k = 0; k < island.joints.size(); ++k) {
     keep_joint(joints_[island.joints[k]], island, island.joint_blocks[k]);
   }
   for (std::uint32_t k = 0; k < island.contacts.size(); ++k) keep_contact(context, island, k);
 }
 
-template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& context) {
+template <class S> void IslandSolver<S>::solve_substeps(const StepContext<S>& context) {
   const std::size_t count = bodies_.count();
   for (std::int32_t substep = 0; substep < context.substeps; ++substep) {
     bodies_.renew_forces(context);
@@ -272,7 +272,7 @@ template <class S> void DirectSolver<S>::solve_substeps(const StepContext<S>& co
   }
 }
 
-template <class S> void DirectSolver<S>::store_impulses(const StepContext<S>& context) {
+template <class S> void IslandSolver<S>::store_impulses(const StepContext<S>& context) {
   const ContactKernels<S>& kernels = *contact_kernels<S>(Simd::scalar);
   for (std::uint32_t c = 0; c < context.contacts.size(); ++c) {
     Block& block = block_of(context, c);

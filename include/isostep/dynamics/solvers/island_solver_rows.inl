@@ -1,15 +1,15 @@
-// DirectSolver: rows of W from rows of J, and the way between answers and impulses.
+// IslandSolver: rows of W from rows of J, and the way between answers and impulses.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "isostep/dynamics/joints/joint_rows.hpp"
-#include "isostep/dynamics/solvers/direct.hpp"
+#include "isostep/dynamics/solvers/island_solver.hpp"
 
 namespace isostep {
 
 /// Returns L of k = L L^T. A pivot that rounding left below 2^-40 of the largest, or too small for its row, belongs to
 /// an axis about which the body does not turn.
-template <class S> Mat3<typename DirectSolver<S>::N> DirectSolver<S>::lower_root(const Mat3<N>& k) {
+template <class S> Mat3<typename IslandSolver<S>::N> IslandSolver<S>::lower_root(const Mat3<N>& k) {
   const N none = N(0);
   const N largest = max(k.rows[0].x, max(k.rows[1].y, k.rows[2].z)), speck = largest * N(0x1p-40);
   N xx = none, yx = none, zx = none, yy = none, zy = none, zz = none;
@@ -29,7 +29,7 @@ template <class S> Mat3<typename DirectSolver<S>::N> DirectSolver<S>::lower_root
   return {{{xx, none, none}, {yx, yy, none}, {zx, zy, zz}}};
 }
 
-template <class S> void DirectSolver<S>::find_root(std::uint32_t row, const Mat3<S>& kappa) {
+template <class S> void IslandSolver<S>::find_root(std::uint32_t row, const Mat3<S>& kappa) {
   BodyRoot& root = roots_[row];
   const Value mass = System::value(bodies_.rows().mass[row].mass);
   const int half = (System::exponent(mass) + 1) >> 1;  // mass < 4^half
@@ -50,8 +50,8 @@ template <class S> void DirectSolver<S>::find_root(std::uint32_t row, const Mat3
 }
 
 template <class S>
-typename DirectSolver<S>::End DirectSolver<S>::end_of(std::uint32_t row, const Shape& shape, bool is_a) const {
-  End end = {DirectMotion<N>::zero(), 0, 0};
+typename IslandSolver<S>::End IslandSolver<S>::end_of(std::uint32_t row, const Shape& shape, bool is_a) const {
+  End end = {IslandMotion<N>::zero(), 0, 0};
   if (!bodies_.rows().moves(row)) return end;
   const BodyRoot& root = roots_[row];
   const Vec3<S> angular = is_a ? -shape.angular_a : shape.angular_b;
@@ -72,7 +72,7 @@ typename DirectSolver<S>::End DirectSolver<S>::end_of(std::uint32_t row, const S
   return end;
 }
 
-template <class S> DirectMotion<typename DirectSolver<S>::N> DirectSolver<S>::brought_to(const End& end, int exponent) {
+template <class S> IslandMotion<typename IslandSolver<S>::N> IslandSolver<S>::brought_to(const End& end, int exponent) {
   const auto moved = [](const Vec3<N>& v, int n) -> Vec3<N> {
     return {D::shifted(v.x, n), D::shifted(v.y, n), D::shifted(v.z, n)};
   };
@@ -81,7 +81,7 @@ template <class S> DirectMotion<typename DirectSolver<S>::N> DirectSolver<S>::br
 }
 
 /// Returns the exponent for which the row's square is in (1/4, 1].
-template <class S> int DirectSolver<S>::scale_of(const End& a, const End& b) {
+template <class S> int IslandSolver<S>::scale_of(const End& a, const End& b) {
   int most = -512;
   const auto see = [&](const Vec3<N>& v, int exponent) {
     for (int i = 0; i < 3; ++i) {
@@ -95,7 +95,7 @@ template <class S> int DirectSolver<S>::scale_of(const End& a, const End& b) {
   }
   if (D::kRoom == 0) return 0;
   most += 2;  // twelve squares
-  const DirectMotion<N> at_a = brought_to(a, most), at_b = brought_to(b, most);
+  const IslandMotion<N> at_a = brought_to(a, most), at_b = brought_to(b, most);
   N square = D::rounded(product_sum(at_a, at_a) + product_sum(at_b, at_b));
   for (; N(0) < square && !(N(0.25) < square); --most) square = square + square + square + square;
   return most;
@@ -103,32 +103,32 @@ template <class S> int DirectSolver<S>::scale_of(const End& a, const End& b) {
 
 /// Computes W of rows first..first + count - 1 of one block pair, with one exponent of at least least_exponent.
 template <class S>
-void DirectSolver<S>::place(Island& island, std::uint32_t first, std::uint32_t count, int least_exponent) {
+void IslandSolver<S>::place(Island& island, std::uint32_t first, std::uint32_t count, int least_exponent) {
   ends_.clear();
   int exponent = least_exponent;
   for (std::uint32_t r = first; r < first + count; ++r) {
     const Ends& ends = island.ends[r / 3];
     ends_.push_back(end_of(ends.a, island.shapes[r], true));
     ends_.push_back(end_of(ends.b, island.shapes[r], false));
-    if (island.system.row(r).bound == DirectBound::absent) continue;
+    if (island.system->row(r).bound == RowBound::absent) continue;
     const int own = scale_of(ends_[ends_.size() - 2], ends_.back());
     if (exponent < own) exponent = own;
   }
   for (std::uint32_t r = first; r < first + count; ++r) {
-    DirectRow<N>& row = island.system.row(r);
+    IslandRow<N>& row = island.system->row(r);
     row.exponent = exponent;
     row.soft = N(0);
-    row.ends[0] = row.ends[1] = DirectMotion<N>::zero();
-    if (row.bound == DirectBound::absent) continue;
+    row.ends[0] = row.ends[1] = IslandMotion<N>::zero();
+    if (row.bound == RowBound::absent) continue;
     row.ends[0] = brought_to(ends_[2 * (r - first)], exponent);
     row.ends[1] = brought_to(ends_[2 * (r - first) + 1], exponent);
     const N square = D::rounded(product_sum(row.ends[0], row.ends[0]) + product_sum(row.ends[1], row.ends[1]));
-    if (square == N(0)) row.bound = DirectBound::absent;  // nothing can move that way
+    if (square == N(0)) row.bound = RowBound::absent;  // nothing can move that way
   }
 }
 
 template <class S>
-typename DirectSolver<S>::V DirectSolver<S>::speed_of(const Island& island, std::uint32_t r,
+typename IslandSolver<S>::V IslandSolver<S>::speed_of(const Island& island, std::uint32_t r,
                                                       const std::vector<MotionRow<V>>& motion) const {
   const Shape& shape = island.shapes[r];
   const Ends& ends = island.ends[r / 3];
@@ -138,15 +138,22 @@ typename DirectSolver<S>::V DirectSolver<S>::speed_of(const Island& island, std:
 }
 
 template <class S>
-typename DirectSolver<S>::Value DirectSolver<S>::answer_of(const Island& island, std::uint32_t r, V impulse) const {
+typename IslandSolver<S>::Value IslandSolver<S>::answer_of(const Island& island, std::uint32_t r, V impulse) const {
   return System::product(System::value(impulse), island.ends[r / 3].reduced);
+}
+
+/// Makes an impulse the answer that a row begins with.
+template <class S> void IslandSolver<S>::load(Island& island, std::uint32_t r, V impulse) const {
+  IslandRow<N>& row = island.system->row(r);
+  if (row.bound == RowBound::absent) return;
+  row.answer = D::bounded(System::number(answer_of(island, r, impulse), island.exponent - row.exponent));
 }
 
 /// [m/s] Returns a row's impulse, held within the speed limit: as a state it must not wrap, and it is only a guess.
 template <class S>
-typename DirectSolver<S>::V DirectSolver<S>::impulse_of(const Island& island, std::uint32_t r) const {
-  const DirectRow<N>& row = island.system.row(r);
-  if (row.bound == DirectBound::absent) return V(0);
+typename IslandSolver<S>::V IslandSolver<S>::impulse_of(const Island& island, std::uint32_t r) const {
+  const IslandRow<N>& row = island.system->row(r);
+  if (row.bound == RowBound::absent) return V(0);
   const Value pushed = System::value(row.answer, island.exponent - row.exponent);
   const V most = convert<V>(Limits<S>::speed());
   return clamp(System::add(V(0), System::quotient(pushed, island.ends[r / 3].reduced)), -most, most);
