@@ -118,15 +118,24 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     const V stopping = V::load(twist.impulse) - times(L::load(twist.effective_mass), spin);
     turn(twist, accumulate(twist, stopping, times(L::load(c.twist_friction), load)), a, b);
     const V limit = times(L::load(c.friction), load);
-    // The cone as an octagon inside it: |x| + (sqrt 2 - 1) |y| <= limit where |x| is the larger. Exact along either
-    // axis, and the basis lies along the friction; limits of their own would let it grow by up to a half between.
-    const L slope = L::broadcast(S(2.41421356237309504880));  // sqrt 2 + 1
-    V left = limit;
-    for (FrictionRow<S, W>& tangent : c.tangents) {
+    V wanted[2];
+    for (int k = 0; k < 2; ++k) {
+      const FrictionRow<S, W>& tangent = c.tangents[k];
       const V speed = along(tangent.direction, tangent.row, a, b) + V::load(tangent.surface);
-      const V wanted = V::load(tangent.row.impulse) - times(L::load(tangent.row.effective_mass), speed);
-      push(tangent.direction, tangent.row, share, accumulate(tangent.row, wanted, left), a, b);
-      left = min(limit, times(slope, limit - abs(V::load(tangent.row.impulse))));
+      wanted[k] = V::load(tangent.row.impulse) - times(L::load(tangent.row.effective_mass), speed);
+    }
+    // The cone as an octagon inside it: |x| + (sqrt 2 - 1) |y| <= limit where |x| is the larger. Exact along either
+    // axis, and the basis lies along the friction. What is beyond keeps its direction.
+    const V x = abs(wanted[0]), y = abs(wanted[1]);
+    const V size = max(x, y) + times(L::broadcast(S(0.41421356237309504880)), min(x, y));
+    const auto slides = less(limit, size);
+    if (any(slides)) {
+      const L part = quotient_where<L>(slides, limit, size);
+      for (V& w : wanted) w = select(slides, times(part, w), w);
+    }
+    for (int k = 0; k < 2; ++k) {
+      FrictionRow<S, W>& tangent = c.tangents[k];
+      push(tangent.direction, tangent.row, share, accumulate(tangent.row, wanted[k], limit), a, b);
     }
   }
   static ISO_INLINE void solve_rolling(Block& block, Motion& a, Motion& b) {

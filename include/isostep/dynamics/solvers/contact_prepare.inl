@@ -209,8 +209,8 @@ template <class S, int W, class Isa> struct ContactPreparer {
   /// takes that of the friction it already bears, or any if there is none. The kernel's cone is exact along the basis.
   static ISO_INLINE Tangents<U> friction_basis(Vec3<U> n, Vec3<V> borne, V limit, Vec3<V> slip) {
     const Vec3<V> slide = flatten(slip, n);
-    // [m/s] slower is the trembling of what sticks
-    const Mask slides = less(V::broadcast(Velocity<S>(0.05)), max_abs(slide));
+    // What sticks trembles by less than its friction could stop in a sub-step, and than .05 m/s.
+    const Mask slides = less(min(V::broadcast(Velocity<S>(0.05)), limit), max_abs(slide));
     if (all(slides)) return basis_along(slides, slide, n);
     const Vec3<V> force = flatten(borne, n);
     const Mask bears = less(limit, V::broadcast(Velocity<S>(8)) * max_abs(force));  // below an eighth: noise

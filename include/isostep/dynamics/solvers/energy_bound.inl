@@ -137,7 +137,7 @@ template <class S> void EnergyBound<S>::hold(const StepContext<S>& context, cons
 }
 template <class S>
 void EnergyBound<S>::hold_group(const StepContext<S>& context, const SolverBodies<S>& rows, Group group) const {
-  Energy is = {}, gain = {};
+  Energy is = {}, gain = {}, most = {};
   V speed = V(0);
   for (std::uint32_t i = group.first; i < group.end; ++i) {
     const std::uint32_t body = members_[i];
@@ -151,8 +151,12 @@ void EnergyBound<S>::hold_group(const StepContext<S>& context, const SolverBodie
     is = is + energy;
     gain = gain + energy - allowed_[body] - dot_sum(gravity, way + way) - rounding;
     if (group.hangs) gain = gain + lag_of(context, body);
+    const V turn = min(length(state.angular_velocity) / convert<V>(S(context.hz)), V(1));
+    const V radius = convert<V>(max_abs(radii_[body])) * weights_[body];
+    most = most + energy_of({motion.v * turn, motion.u * turn}) + product(length(gravity) * turn, radius * turn);
     speed = length(Vec3<V>{speed, length(motion.v), length(motion.u)});
   }
+  if (!group.hangs && most < gain) gain = most;
   if (!(Energy{} < gain)) return;
   V keep = V(0);
   if (gain < is && V(0) < speed) {
