@@ -21,7 +21,8 @@ namespace isostep {
 /// Differs: the friction of a patch is projected onto the disc that its load allows, both of the iteration; Simple
 ///          projects onto cones and shifts them (de Saxce). p is a power of two times the row's own diagonal.
 ///          Multipliers begin with what the answers of the last solve leave.
-/// Limits:  kIterations; it reports islands that do not come within kTolerance of what is asked.
+/// Limits:  kIterations; it reports islands that do not come within kTolerance of what is asked. Islands of more than
+///          kMostBodies, and those with so many neighbours that a factorisation takes more than a solve may, are swept.
 /// Order:   of rows; elimination as SparseCholesky. One thread.
 /// Memory:  warm, what SparseCholesky allocates: islands whose bodies meet others are analysed anew.
 template <class N> class AdmmSystem final : public IslandSystem<N> {
@@ -32,19 +33,35 @@ template <class N> class AdmmSystem final : public IslandSystem<N> {
   /// Exponents of two. Rows that push or hold converge the faster the smaller their weight is, rows that slide the
   /// larger.
   static constexpr int kWeight = -4, kFrictionWeight = 0, kEquationWeight = -14;
-  static constexpr N kTolerance = N(0x1p-10);  // [1] of the most that any row asks for
-  static constexpr std::uint32_t kMostBodies = 400;
+  static constexpr N kTolerance = N(0x1p-10);        // [1] of the most that any row asks for
+  static constexpr std::uint32_t kMostBodies = 400;  // a wall of 210 takes 80 ms a step
+  static constexpr int kSweeps = 16;
 
   void tie(std::uint32_t body_count, std::uint64_t most_work) override;
   void assemble() override;
   bool solve(bool firm, std::uint64_t most_work) override;
-  std::uint64_t least_work() const override { return kIterations * this->block_count(); }
+  std::uint64_t least_work() const override { return elimination_work() + kIterations * iteration_work(); }
 
  private:
   using Pair = typename SparseCholesky<N>::Pair;
-  using Base::at_body_, Base::blocks_, Base::first_, Base::motions_, Base::patches_;
   using Base::block_count, Base::clamped, Base::too_large_;
+  using Base::blocks_, Base::motions_, Base::patches_;
 
+  ISO_INLINE bool is_tied_by(std::uint32_t block) const {
+    const auto& body = blocks_[block].body;
+    return body[0] != 0 && body[1] != 0;
+  }
+  /// Blocks of one constraint follow each other: they share its pairs.
+  ISO_INLINE bool continues(std::uint32_t block) const {
+    return block != 0 && blocks_[block].body[0] == blocks_[block - 1].body[0] &&
+           blocks_[block].body[1] == blocks_[block - 1].body[1];
+  }
+  ISO_INLINE std::uint64_t iteration_work() const { return 2 * pairs_.size() + block_count(); }
+  /// Returns about how many products of blocks a factorisation takes: exactly, if every body meets every other.
+  ISO_INLINE std::uint64_t elimination_work() const {
+    const std::uint64_t pairs = pairs_.size(), vectors = 2 * motions_.size();
+    return pairs * pairs / vectors + vectors;
+  }
   bool factorise();
   bool solve_all();
   void project();

@@ -6,19 +6,21 @@
 
 namespace isostep {
 
-template <class N> void AdmmSystem<N>::tie(std::uint32_t body_count, std::uint64_t) {
+template <class N> void AdmmSystem<N>::tie(std::uint32_t body_count, std::uint64_t most_work) {
   motions_.assign(body_count + 1, IslandMotion<N>::zero());
   v_.resize(3 * std::size_t{block_count()});
   is_factored_ = false;
+  pairs_.clear();
   too_large_ = body_count > kMostBodies;
   if (too_large_) return;
-  pairs_.clear();
   for (std::uint32_t body = 0; body < body_count; ++body) pairs_.push_back({2 * body, 2 * body + 1});
-  for (const IslandBlock<N>& block : blocks_) {
-    if (block.body[0] == 0 || block.body[1] == 0) continue;
-    const std::uint32_t a = 2 * (block.body[0] - 1), b = 2 * (block.body[1] - 1);
+  for (std::uint32_t k = 0; k < block_count(); ++k) {
+    if (!is_tied_by(k) || continues(k)) continue;
+    const std::uint32_t a = 2 * (blocks_[k].body[0] - 1), b = 2 * (blocks_[k].body[1] - 1);
     for (std::uint32_t i = 0; i < 4; ++i) pairs_.push_back({a + i / 2, b + i % 2});
   }
+  too_large_ = most_work < elimination_work();
+  if (too_large_) return;
   if (cholesky_.is_analysed() && last_bodies_ == body_count && last_pairs_ == pairs_) return;
   cholesky_.analyse(2 * body_count, pairs_);
   last_bodies_ = body_count;
@@ -53,10 +55,14 @@ template <class N> bool AdmmSystem<N>::factorise() {
   cholesky_.clear();
   const N one = D::times_power(N(1), -scale_), none = N(0);
   for (std::uint32_t i = 0; i < 2 * bodies; ++i) cholesky_.add_diagonal(i, {one, none, none, one, none, one});
-  std::uint32_t next = bodies;  // pair
+  std::uint32_t pair = bodies, next = bodies;
   for (std::uint32_t b = 0; b < block_count(); ++b) {
     const IslandBlock<N>& block = blocks_[b];
-    const bool both = block.body[0] != 0 && block.body[1] != 0;
+    const bool both = is_tied_by(b);
+    if (both && !continues(b)) {
+      pair = next;
+      next += 4;
+    }
     for (std::uint32_t r = 0; r < 3; ++r) {
       const IslandRow<N>& row = block.rows[r];
       if (row.bound == RowBound::absent) continue;
@@ -82,9 +88,8 @@ template <class N> bool AdmmSystem<N>::factorise() {
       }
       if (!both) continue;
       const Vec3<N> a[2] = {row.ends[0].linear, row.ends[0].angular}, c[2] = {row.ends[1].linear, row.ends[1].angular};
-      for (std::uint32_t i = 0; i < 4; ++i) cholesky_.add_pair(next + i, outer(a[i / 2], c[i % 2]));
+      for (std::uint32_t i = 0; i < 4; ++i) cholesky_.add_pair(pair + i, outer(a[i / 2], c[i % 2]));
     }
-    if (both) next += 4;
   }
   is_factored_ = cholesky_.factorise();
   return is_factored_;
@@ -197,9 +202,9 @@ template <class N> bool AdmmSystem<N>::solve(bool, std::uint64_t) {
       ++iterations;
     }
   } else {
-    this->sweep(16);
+    this->sweep(kSweeps);
   }
-  this->work_ = static_cast<std::uint64_t>(iterations) * block_count();
+  this->work_ = static_cast<std::uint64_t>(iterations) * iteration_work();
   this->settle_answers();
   return solved;
 }
