@@ -23,14 +23,19 @@ struct PublishedBar {
 };
 
 struct PublishedTest {
-  Trial trial;                 // its bar is the first must
-  const char* source;          // the publication
-  int year;                    // of its figures
-  const char* settings;        // how theirs were run, where that is not how ours are
-  std::span<const int> rates;  // [1/s] of the published steps, the longest first
-  std::span<const PublishedFigure> figures;
+  Trial trial;               // its bar is the first must
+  const char* source;        // the publication
+  int year;                  // of it, and of its figures
+  const char* differs = "";  // where theirs is another scene, or was run otherwise than ours
+  std::span<const int> rates;                     // [1/s] of the steps, the longest first
+  std::span<const PublishedFigure> figures = {};  // none: theirs are of other scenes, or in pictures alone
   std::span<const PublishedBar> bars;
 };
+/// Its trial's bar becomes the first must.
+inline PublishedTest with_first_bar(PublishedTest test) {
+  test.trial.bar = test.bars.front().must;
+  return test;
+}
 
 /// Every published test, source after source.
 const std::vector<PublishedTest>& published_tests();
@@ -38,5 +43,6 @@ const std::vector<PublishedTest>& published_tests();
 const PublishedTest* find_published_test(std::string_view name);
 
 std::span<const PublishedTest> sim_benchmark_tests();
+std::span<const PublishedTest> chung_pollard_tests();
 
 }  // namespace isostep::scenes

@@ -67,6 +67,25 @@ TEST(PublishedTests, measure_what_is_wrong) {
   EXPECT_GT(figure_of<double>(rolling, 1000, 8), 0.1);
 }
 
+/// Returns the test with another scene.
+PublishedTest with_scene(const char* name, Scene (*make)()) {
+  PublishedTest test = *find_published_test(name);
+  test.trial.make = make;
+  return test;
+}
+Scene scene_named(const char* name) { return find_published_test(name)->trial.make(); }
+
+/// Starts that lie apart end apart; equal ones end together.
+TEST(PublishedTests, measure_the_spread_of_ends) {
+  const PublishedTest apart = with_scene("predictable_brick", [] {
+    Scene scene = scene_named("predictable_brick");
+    for (std::size_t i = 1; i < scene.bodies.size(); ++i) scene.bodies[i].position[2] = 0.1 * static_cast<double>(i);
+    return scene;
+  });
+  EXPECT_GT(figure_of<double>(apart, 100, 8), 1);
+  EXPECT_EQ(figure_of<Q16_16>(*find_published_test("predictable_stack"), 100, 8), 0);
+}
+
 TEST(PublishedTests, are_named_scenes_with_figures_at_their_rates) {
   for (const PublishedTest& test : published_tests()) {
     ASSERT_TRUE(find_scene(test.trial.name)) << test.trial.name;

@@ -63,7 +63,7 @@ std::string table_of(const PublishedTest& test, const std::vector<LabResult>& re
 std::string heading_of(const PublishedTest& test) {
   std::string text = std::string(test.trial.description) + ". Error: " + test.trial.measure + " [" + test.trial.unit +
                      "]. " + test.source + " " + std::to_string(test.year) + ".";
-  if (test.settings[0] != '\0') text += std::string(" Their settings: ") + test.settings + ".";
+  if (test.differs[0] != '\0') text += std::string(" Not as theirs: ") + test.differs + ".";
   return text;
 }
 
