@@ -121,6 +121,7 @@ void judge_end(const Careful& careful, const scenes::Judge* judge, const Sight& 
   result.judged = true;
   result.survived = verdict.survived;
   result.figure = verdict.figure;
+  result.outcome = judge->outcome();
 }
 
 /// Ends early where numbers are no numbers any more, for nothing that counts comes after.

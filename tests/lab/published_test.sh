@@ -13,7 +13,7 @@ report() { "$tool" lab --published --short --out "$out" "$@" >"$dir/out" 2>"$dir
 # A peer's record in the file that the report reads: better than we are, or without a number.
 mkdir "$out"
 record() { # TEST HZ STATE FIGURE ENGINE
-  printf '{"scene":"simbenchmark_%s","engine":"%s","scalar":"","solver":"","model":"rigid","hz":%s,"substeps":0,"state":"%s","reason":"","frames":600,"ms":0.05,"ms_mean":0.05,"penetration":0,"penetration_mean":0,"joint_error":0,"energy_gain":0,"energy_loss":0,"unrest":0,"signorini":null,"coulomb":null,"dissipation":null,"deviation":-1,"faults":0,"judged":true,"survived":false,"figure":%s,"stood":true,"version":"x"}\n' \
+  printf '{"scene":"simbenchmark_%s","engine":"%s","scalar":"","solver":"","model":"rigid","hz":%s,"substeps":0,"state":"%s","reason":"","frames":600,"ms":0.05,"ms_mean":0.05,"penetration":0,"penetration_mean":0,"joint_error":0,"energy_gain":0,"energy_loss":0,"unrest":0,"signorini":null,"coulomb":null,"dissipation":null,"deviation":-1,"faults":0,"judged":true,"survived":false,"figure":%s,"outcome":[],"stood":true,"version":"x"}\n' \
     "$1" "$5" "$2" "$3" "$4"
 }
 {
@@ -23,8 +23,9 @@ record() { # TEST HZ STATE FIGURE ENGINE
 report || fail "lab --published --short failed"
 page=$out/published.html
 [ "$(cat "$dir/out")" = "$page" ] || fail "does not say where the page is"
-for test in rolling rolling_diagonal 666 bouncing elastic_666; do
-  [ "$(grep -c "<section id=\"simbenchmark_$test\">" "$page")" -eq 1 ] || fail "no section of $test"
+for test in simbenchmark_rolling simbenchmark_666 simbenchmark_bouncing simbenchmark_anymal_momentum \
+  simbenchmark_anymal_energy simbenchmark_anymal_pd erez_chain erez_humanoid erez_grasp predictable_stack; do
+  [ "$(grep -c "<section id=\"$test\">" "$page")" -eq 1 ] || fail "no section of $test"
 done
 [ "$(tail -n 1 "$page")" = '</html>' ] || fail "the page does not end"
 grep -Eq '(src|href)="https?:|@import|<script' "$page" && fail "the page wants a network or a script"
@@ -33,6 +34,9 @@ grep -q 'its numbers are none' "$page" || fail "a peer without a number has one"
 row() { grep "^| $1 .*$2" "$out/published.md"; }
 row 666 '40 ms' | grep -q 'better 1.0e-09 *| 2, 2 ' || fail "a better peer does not take the first place"
 row bouncing '40 ms' | grep -q 'RaiSim (2018) 12691 *| 1, 1 ' || fail "we are not the first where we are"
+row 'ANYmal, flight' '10 ms' | grep -Eq '[0-9]e-[01][0-9] *\| MuJoCo' || fail "the articulation has no figure"
+row 'chain, steps' '20 ms' | grep -q '| 0.0' || fail "runs of other steps are not compared"
+row 'chain, steps' '1 ms' | grep -q . && fail "the run that others are compared with stands"
 grep -q 'nan' "$out/published.md" "$page" && fail "something is no number"
 
 before=$(cksum <"$out/results.jsonl")

@@ -15,7 +15,7 @@ cat >"$dir/peers" <<'PEERS'
 #!/bin/sh
 [ "$1" = --out ] || exit 64
 cat >>"$2" <<LINE
-{"scene":"S6v","engine":"ode","scalar":"","solver":"","model":"rigid","hz":60,"substeps":0,"state":"done","reason":"","frames":600,"ms":0.05,"ms_mean":0.05,"penetration":0,"penetration_mean":0,"joint_error":0.2,"energy_gain":0,"energy_loss":0,"unrest":0,"signorini":null,"coulomb":null,"dissipation":null,"deviation":-1,"faults":0,"judged":false,"survived":false,"figure":2.5,"stood":true,"version":"x"}
+{"scene":"S6v","engine":"ode","scalar":"","solver":"","model":"rigid","hz":60,"substeps":0,"state":"done","reason":"","frames":600,"ms":0.05,"ms_mean":0.05,"penetration":0,"penetration_mean":0,"joint_error":0.2,"energy_gain":0,"energy_loss":0,"unrest":0,"signorini":null,"coulomb":null,"dissipation":null,"deviation":-1,"faults":0,"judged":false,"survived":false,"figure":2.5,"outcome":[],"stood":true,"version":"x"}
 LINE
 PEERS
 chmod +x "$dir/peers"

@@ -7,7 +7,8 @@ namespace isostep::scenes {
 const std::vector<PublishedTest>& published_tests() {
   static const std::vector<PublishedTest> all = [] {
     std::vector<PublishedTest> list;
-    for (const std::span<const PublishedTest> source : {sim_benchmark_tests(), chung_pollard_tests()})
+    for (const std::span<const PublishedTest> source :
+         {sim_benchmark_tests(), sim_benchmark_robot_tests(), erez_tests(), chung_pollard_tests()})
       list.insert(list.end(), source.begin(), source.end());
     return list;
   }();

@@ -27,6 +27,8 @@ struct PublishedTest {
   const char* source;        // the publication
   int year;                  // of it, and of its figures
   const char* differs = "";  // where theirs is another scene, or was run otherwise than ours
+  /// The figure is the distance of the run's outcome from that of the same engine in the shortest steps that it ran.
+  bool compares_steps = false;
   std::span<const int> rates;                     // [1/s] of the steps, the longest first
   std::span<const PublishedFigure> figures = {};  // none: theirs are of other scenes, or in pictures alone
   std::span<const PublishedBar> bars;
@@ -43,6 +45,8 @@ const std::vector<PublishedTest>& published_tests();
 const PublishedTest* find_published_test(std::string_view name);
 
 std::span<const PublishedTest> sim_benchmark_tests();
+std::span<const PublishedTest> sim_benchmark_robot_tests();
+std::span<const PublishedTest> erez_tests();
 std::span<const PublishedTest> chung_pollard_tests();
 
 }  // namespace isostep::scenes

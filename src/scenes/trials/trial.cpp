@@ -10,6 +10,13 @@
 
 namespace isostep::scenes {
 
+double distance_of(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.empty() || a.size() != b.size()) return std::nan("");
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(3 * sum / static_cast<double>(a.size()));
+}
+
 std::span<const Trial> trials() {
   static const std::vector<Trial> all = [] {
     std::vector<Trial> list;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "scenes/scene.hpp"
 #include "scenes/sight.hpp"
@@ -24,7 +25,12 @@ class Judge {
   virtual void see(const Sight& sight) = 0;
   /// The figure in the trial's unit: survived at or below its bar. Not a number: failed.
   virtual double figure() const = 0;
+  /// The numbers by which the run is compared with one of other steps, if it is [m].
+  virtual std::vector<double> outcome() const { return {}; }
 };
+/// [m] The root mean square over bodies of the distance between two outcomes, three numbers a body; not a number where
+/// they have not the same bodies, or none.
+double distance_of(const std::vector<double>& a, const std::vector<double>& b);
 
 struct Trial {
   const char* name;         // of the scene

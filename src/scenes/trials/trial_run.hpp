@@ -22,6 +22,7 @@ class TrialRun {
   const Trial& trial() const { return *trial_; }
   /// The verdict as if the run ended now.
   Verdict verdict() const { return verdict_of(*trial_, *judge_, now_); }
+  std::vector<double> outcome() const { return judge_->outcome(); }
   bool over() const { return is_over(*scene_, now_); }
 
  private:

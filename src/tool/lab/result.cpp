@@ -46,6 +46,7 @@ template <class Result, class Visit> void each_field(Result& result, Visit&& vis
   visit("judged", result.judged);
   visit("survived", result.survived);
   visit("figure", result.figure);
+  visit("outcome", result.outcome);
   visit("stood", result.stood);
 }
 
@@ -74,6 +75,14 @@ void read(const Json& object, const char* key, double& value) {
   if (!node.is_number() && !node.is_null()) throw std::runtime_error(std::string(key) + " is no number");
   value = node.is_null() ? std::numeric_limits<double>::quiet_NaN() : node.get<double>();
 }
+void read(const Json& object, const char* key, std::vector<double>& values) {
+  const Json& node = at(object, key);
+  if (!node.is_array()) throw std::runtime_error(std::string(key) + " is no list");
+  for (const Json& item : node) {
+    if (!item.is_number() && !item.is_null()) throw std::runtime_error(std::string(key) + " holds what is no number");
+    values.push_back(item.is_null() ? std::numeric_limits<double>::quiet_NaN() : item.get<double>());
+  }
+}
 
 /// The text as JSON writes it, which quotes text; commas and quotes in text are doubled the way CSV wants.
 std::string cell(const std::string& text) {
@@ -83,6 +92,7 @@ std::string cell(const std::string& text) {
   return quoted + "\"";
 }
 template <class T> std::string cell(const T& value) { return Json(value).dump(); }
+std::string cell(const std::vector<double>& values) { return cell(Json(values).dump()); }
 
 }  // namespace
 

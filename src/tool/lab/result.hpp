@@ -16,7 +16,7 @@ struct LabPoint {
   std::string scene;                // a name or a file
   std::string engine = kOwnEngine;  // "isostep", "bullet", "ode", "rapier-simd", "rapier-det"
   std::string scalar, solver;       // of ours; peers: empty
-  std::string model = "rigid";      // "rigid", "spheres", "particles"
+  std::string model = "rigid";      // "rigid", "spheres", "particles", "articulation"
   int hz = 60, substeps = 8;        // peers: sub-steps 0
 
   friend bool operator==(const LabPoint&, const LabPoint&) = default;
@@ -56,6 +56,7 @@ struct LabResult {
   int faults = 0;                         // numbers that had to be mended
   bool judged = false, survived = false;  // of trials
   double figure = 0;                      // in the trial's unit; of a benchmark scene its own_measure
+  std::vector<double> outcome;            // of scenes::Judge
   bool stood = true;  // no body that hardly moves in the reference had gone by 0.4 of its radius in the end
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "articulated_run.hpp"
 #include "median.hpp"
 #include "particle_run.hpp"
 #include "rigid_run.hpp"
@@ -113,6 +114,7 @@ template <class Run> class Watch {
     result_.judged = true;
     result_.survived = verdict.survived;
     result_.figure = verdict.figure;
+    result_.outcome = judge_->outcome();
   }
 
   Run& run_;
@@ -158,6 +160,17 @@ std::vector<std::size_t> may_stand(const Subject& subject) {
     if (free[i]) bodies.push_back(i);
   }
   return bodies;
+}
+
+template <class S>
+LabResult run_in(const Subject& subject, const LabPoint& point, const Reference& reference, const RunLimits& limits,
+                 const Cancel& cancel) {
+  if (point.model == kArticulation) {
+    if constexpr (std::same_as<Finer<S>, S>) return watch<ArticulatedRun<S>>(subject, point, reference, limits, cancel);
+    else throw scenes::SceneError("", std::string("an articulation has too few bits in ") + ScalarTraits<S>::kName);
+  }
+  return point.model == "particles" ? watch<ParticleRun<S>>(subject, point, reference, limits, cancel)
+                                    : watch<RigidRun<S>>(subject, point, reference, limits, cancel);
 }
 
 bool nothing_collides(const scenes::Scene& scene) {
@@ -248,9 +261,7 @@ LabResult run_point(const Subject& subject, const LabPoint& point, const Referen
   result.reason = "this build has no scalar " + point.scalar;
   try {
     with_scalar(point.scalar, [&](auto tag) {
-      using S = typename decltype(tag)::Type;
-      result = point.model == "particles" ? watch<ParticleRun<S>>(subject, point, reference, limits, cancel)
-                                          : watch<RigidRun<S>>(subject, point, reference, limits, cancel);
+      result = run_in<typename decltype(tag)::Type>(subject, point, reference, limits, cancel);
     });
   } catch (const scenes::SceneError& error) {
     result.reason = error.what();

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "isostep/world/world.hpp"
@@ -18,8 +19,12 @@
 namespace isostep::scenes {
 namespace published_test {
 
-/// The figure of a run at that rate; not a number where the world had to mend one.
-template <class S> double figure_of(const PublishedTest& test, int hz, int substeps) {
+/// Figure and outcome of a run; the figure is not a number where the world had to mend one.
+struct End {
+  double figure;
+  std::vector<double> outcome;
+};
+template <class S> End end_of(const PublishedTest& test, int hz, int substeps) {
   Scene scene = test.trial.make();
   const int frames = tool::lab::frames_at(scene, -1, hz);
   scene.hz = hz;
@@ -34,7 +39,13 @@ template <class S> double figure_of(const PublishedTest& test, int hz, int subst
     clean = clean && report.clean();
     run.see(world, report);
   }
-  return clean ? run.verdict().figure : std::numeric_limits<double>::quiet_NaN();
+  return {clean ? run.verdict().figure : std::numeric_limits<double>::quiet_NaN(), run.outcome()};
+}
+/// The figure of a run at that rate, or its distance from that in the shortest steps.
+template <class S> double figure_of(const PublishedTest& test, int hz, int substeps) {
+  const End end = end_of<S>(test, hz, substeps);
+  if (!test.compares_steps || std::isnan(end.figure)) return end.figure;
+  return distance_of(end.outcome, end_of<S>(test, test.rates.back(), substeps).outcome);
 }
 
 TEST(PublishedTests, are_as_good_as_promised) {
@@ -75,6 +86,48 @@ PublishedTest with_scene(const char* name, Scene (*make)()) {
 }
 Scene scene_named(const char* name) { return find_published_test(name)->trial.make(); }
 
+TEST(PublishedTests, measure_robots_that_fail) {
+  const PublishedTest limp = with_scene("simbenchmark_anymal_pd", [] {
+    Scene scene = scene_named("simbenchmark_anymal_pd");
+    for (SceneJoint& joint : scene.joints) joint.flags = 0;
+    return scene;
+  });
+  EXPECT_GE(figure_of<double>(limp, 200, 8), 1);
+  const PublishedTest pulled = with_scene("simbenchmark_anymal_momentum", [] {
+    Scene scene = scene_named("simbenchmark_anymal_momentum");
+    scene.gravity = {0, 0, 0.01};
+    return scene;
+  });
+  EXPECT_GT(figure_of<double>(pulled, 100, 8), 1);
+  const PublishedTest damped = with_scene("simbenchmark_anymal_energy", [] {
+    Scene scene = scene_named("simbenchmark_anymal_energy");
+    for (SceneBody& body : scene.bodies) body.linear_damping = 0.1;
+    return scene;
+  });
+  EXPECT_GT(figure_of<double>(damped, 100, 8), 20);
+}
+
+TEST(PublishedTests, measure_mechanisms_that_fail) {
+  const PublishedTest slack = with_scene("erez_grasp", [] {
+    Scene scene = scene_named("erez_grasp");
+    for (SceneJoint& joint : scene.joints) joint.flags = 0;
+    return scene;
+  });
+  EXPECT_GT(figure_of<double>(slack, 100, 8), 1000);
+  const PublishedTest held = with_scene("erez_humanoid_momentum", [] {
+    Scene scene = scene_named("erez_humanoid_momentum");
+    scene.bodies.front().type = BodyType::static_;
+    return scene;
+  });
+  EXPECT_GT(figure_of<double>(held, 100, 8), 0.1);
+  const PublishedTest damped = with_scene("erez_chain_energy", [] {
+    Scene scene = scene_named("erez_chain_energy");
+    for (SceneBody& body : scene.bodies) body.linear_damping = 0.1;
+    return scene;
+  });
+  EXPECT_GT(figure_of<double>(damped, 100, 8), 20);
+}
+
 /// Starts that lie apart end apart; equal ones end together.
 TEST(PublishedTests, measure_the_spread_of_ends) {
   const PublishedTest apart = with_scene("predictable_brick", [] {
@@ -84,6 +137,12 @@ TEST(PublishedTests, measure_the_spread_of_ends) {
   });
   EXPECT_GT(figure_of<double>(apart, 100, 8), 1);
   EXPECT_EQ(figure_of<Q16_16>(*find_published_test("predictable_stack"), 100, 8), 0);
+}
+
+TEST(PublishedTests, compare_outcomes_by_the_distance_of_bodies) {
+  EXPECT_EQ(distance_of({0, 0, 0, 1, 1, 1}, {3, 0, 4, 1, 1, 1}), std::sqrt(12.5));
+  EXPECT_TRUE(std::isnan(distance_of({}, {})));
+  EXPECT_TRUE(std::isnan(distance_of({1, 2, 3}, {1, 2, 3, 4, 5, 6})));
 }
 
 TEST(PublishedTests, are_named_scenes_with_figures_at_their_rates) {

@@ -39,6 +39,7 @@ LabResult full_result() {
   r.faults = 2;
   r.judged = r.survived = true;
   r.figure = -1;
+  r.outcome = {0.1, -2, 1e-30};
   r.stood = false;
   return r;
 }
@@ -51,13 +52,14 @@ TEST(LabRecord, ReadsBackAsItWasWritten) {
   EXPECT_EQ(read.result.state, written.state);
   EXPECT_EQ(read.result.reason, written.reason);
   EXPECT_EQ(read.result.frames, 7);
-  for (const auto member : {&LabResult::ms, &LabResult::ms_mean, &LabResult::penetration, &LabResult::penetration_mean,
-                            &LabResult::joint_error, &LabResult::energy_gain, &LabResult::energy_loss,
-                            &LabResult::unrest, &LabResult::signorini, &LabResult::coulomb, &LabResult::dissipation,
-                            &LabResult::deviation, &LabResult::figure})
+  for (const auto member :
+       {&LabResult::ms, &LabResult::ms_mean, &LabResult::penetration, &LabResult::penetration_mean,
+        &LabResult::joint_error, &LabResult::energy_gain, &LabResult::energy_loss, &LabResult::unrest,
+        &LabResult::signorini, &LabResult::coulomb, &LabResult::dissipation, &LabResult::deviation, &LabResult::figure})
     EXPECT_EQ(read.result.*member, written.*member);
   EXPECT_EQ(read.result.faults, 2);
   EXPECT_TRUE(read.result.judged && read.result.survived);
+  EXPECT_EQ(read.result.outcome, written.outcome);
   EXPECT_FALSE(read.result.stood);
 }
 

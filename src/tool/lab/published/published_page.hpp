@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "scenes/published/published.hpp"
 #include "tool/lab/result.hpp"
 
 namespace isostep::tool::lab {
@@ -13,7 +15,9 @@ namespace isostep::tool::lab {
 std::string published_page(const std::vector<LabResult>& results);
 /// Per test and step our figures, what they must be and what we aim at, the best other engine, and our place.
 std::string published_summary(const std::vector<LabResult>& results);
-/// A line an engine, a column a test: a mark at its error, beside it the CPU time of a simulated second.
-std::string published_svg(const std::vector<LabResult>& results);
+/// Bands: a line an engine, a column a test; a mark at its error, beside it the CPU time of a simulated second.
+std::string published_svg(std::span<const scenes::PublishedTest> tests, const std::vector<LabResult>& results);
+/// The tests of the first publication, which come first.
+std::span<const scenes::PublishedTest> tests_of_first_source();
 
 }  // namespace isostep::tool::lab

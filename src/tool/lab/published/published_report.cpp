@@ -12,6 +12,7 @@
 #include "standing.hpp"
 #include "tool/common/files.hpp"
 #include "tool/common/tool.hpp"
+#include "tool/lab/articulated_run.hpp"
 #include "tool/lab/gnuplot.hpp"
 #include "tool/lab/report/peer_program.hpp"
 
@@ -32,19 +33,39 @@ std::vector<int> substeps_at(int hz) {
   return fitting.empty() ? std::vector<int>{1} : fitting;
 }
 
+/// [1/s] The longest steps alone in a short report, with the shortest where steps are compared.
+std::vector<int> rates_of(const scenes::PublishedTest& test, bool is_short, bool full) {
+  std::vector<int> rates;
+  for (const int hz : test.rates) {
+    if (full || hz <= kMillisecond) rates.push_back(hz);
+  }
+  if (!is_short) return rates;
+  if (test.compares_steps) return {rates.front(), rates.back()};
+  return {rates.front()};
+}
+
+/// The same in joint coordinates.
+LabPoint articulated(LabPoint point) {
+  point.model = kArticulation;
+  point.solver = kArticulatedBody;
+  return point;
+}
+
 std::vector<LabPoint> points_of(const ReportOptions& options, bool full) {
   std::vector<LabPoint> points;
   for (const scenes::PublishedTest& test : scenes::published_tests()) {
-    if (options.is_short && scenes::duration_of(test.trial.make()) > kMinute) continue;
+    const scenes::Scene scene = test.trial.make();
+    if (options.is_short && scenes::duration_of(scene) > kMinute) continue;
+    const bool is_articulation = refusal_of_articulation(scene).empty();
     LabPoint point = default_point(test.trial.name, "");
-    for (const int hz : test.rates.first(options.is_short ? 1 : test.rates.size())) {
-      if (!full && hz > kMillisecond) continue;
+    for (const int hz : rates_of(test, options.is_short, full)) {
       point.hz = hz;
       for (const std::string& scalar : scalar_names()) {
         point.scalar = scalar;
         for (const int substeps : substeps_at(hz)) {
           point.substeps = substeps;
           points.push_back(point);
+          if (is_articulation) points.push_back(articulated(point));
         }
       }
     }
@@ -52,13 +73,16 @@ std::vector<LabPoint> points_of(const ReportOptions& options, bool full) {
   return points;
 }
 
-/// The picture and the table that people read in the repository.
-void renew_repository(const std::string& svg, const std::string& summary) {
+/// The pictures and the table that people read in the repository.
+void renew_repository(const std::vector<LabResult>& results, const std::string& summary) {
   const fs::path bench = fs::path(ISOSTEP_CHART_DIR).parent_path();
   if (!fs::is_directory(bench / "charts") || !fs::is_directory(bench / "results")) return;
-  rasterise(svg, (bench / "charts/published.png").string());
+  const std::span<const scenes::PublishedTest> first = tests_of_first_source(), all = scenes::published_tests();
+  rasterise(published_svg(first, results), (bench / "charts/published.png").string());
+  rasterise(published_svg(all.subspan(first.size()), results), (bench / "charts/published_steps.png").string());
   write_file((bench / "results/published.md").string(), summary);
-  std::cerr << "lab: renewed charts/published.png and results/published.md in " << bench.string() << "\n";
+  std::cerr << "lab: renewed charts/published.png, charts/published_steps.png and results/published.md in "
+            << bench.string() << "\n";
 }
 
 }  // namespace
@@ -74,11 +98,11 @@ int write_published_report(const ReportOptions& options, bool full) {
   std::vector<LabResult> peers = peers_of(options, {"published_peers.jsonl", words, counts});
   results.insert(results.end(), std::make_move_iterator(peers.begin()), std::make_move_iterator(peers.end()));
 
-  write_file(in("published.svg"), published_svg(results));
+  write_file(in("published.svg"), published_svg(scenes::published_tests(), results));
   write_file(in("published.html"), published_page(results));
   const std::string summary = published_summary(results);
   write_file(in("published.md"), summary);
-  if (!options.peers.empty()) renew_repository(in("published.svg"), summary);
+  if (!options.peers.empty()) renew_repository(results, summary);
   std::cout << in("published.html") << "\n";
   return exit_status::kOk;
 }

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <span>
 
 #include "published_page.hpp"
 #include "standing.hpp"
+#include "tool/lab/articulated_run.hpp"
 #include "tool/lab/report/html.hpp"
 
 namespace isostep::tool::lab {
@@ -14,7 +16,8 @@ namespace {
 using scenes::PublishedTest;
 
 // [px]
-constexpr int kLeft = 168, kTop = 108, kLine = 21, kPanel = 190, kScale = 128, kBottom = 34, kMargin = 16;
+constexpr int kLeft = 168, kHead = 62, kTop = 46, kLine = 21, kPanel = 190, kScale = 128, kBottom = 34, kMargin = 16;
+constexpr std::size_t kPanelsInBand = 6;
 constexpr double kDecades = 6;  // below what we must reach: a smaller error stands at the edge
 
 constexpr const char* kInk = "#24292f";
@@ -30,20 +33,23 @@ std::string line_at(double x1, double y1, double x2, double y2, const char* more
 /// The step of a test's panel: the longest for which we promise something.
 int rate_of(const PublishedTest& test) { return test.bars.front().hz; }
 
-/// Ours with a world's own settings, and all others.
+/// Ours with a world's own settings, an articulation in double, and all others.
 std::vector<Standing> drawn_of(const PublishedTest& test, const std::vector<LabResult>& results) {
   std::vector<Standing> all = standings_of(test, rate_of(test), results);
-  std::erase_if(all, [](const Standing& s) { return s.ours && !s.is_default; });
+  const auto is_drawn = [](const Standing& s) {
+    return !s.ours || (s.is_default && (!s.is_articulation || s.scalar == "double"));
+  };
+  std::erase_if(all, [&](const Standing& s) { return !is_drawn(s); });
   for (Standing& s : all) {
-    if (s.ours) s.engine = "isostep " + s.scalar;
+    if (s.ours) s.engine = "isostep " + (s.is_articulation ? std::string(kArticulation) : s.scalar);
   }
   return all;
 }
 
 /// Ours, then peers, then what was published.
-std::vector<std::string> engines_of(const std::vector<LabResult>& results) {
+std::vector<std::string> engines_of(std::span<const PublishedTest> tests, const std::vector<LabResult>& results) {
   std::vector<std::string> names[3];
-  for (const PublishedTest& test : scenes::published_tests()) {
+  for (const PublishedTest& test : tests) {
     for (const Standing& s : drawn_of(test, results)) {
       std::vector<std::string>& of = names[s.ours ? 0 : s.published ? 2 : 1];
       if (std::find(of.begin(), of.end(), s.engine) == of.end()) of.push_back(s.engine);
@@ -111,24 +117,24 @@ std::string mark_of(const Standing& s, double x, double y) {
 }
 
 std::string panel(const PublishedTest& test, const std::vector<LabResult>& results,
-                  const std::vector<std::string>& engines, int left) {
+                  const std::vector<std::string>& engines, int left, int top) {
   const std::vector<Standing> standings = drawn_of(test, results);
   const Scale scale(test, standings);
-  const double low = kTop + kLine * static_cast<double>(engines.size());
+  const double low = top + kLine * static_cast<double>(engines.size());
   const auto x_of = [&](double figure) { return left + kScale * scale.at(figure); };
   std::string text =
-      svg_text(left, kTop - 38, test.trial.number, std::string("font-weight=\"bold\" fill=\"") + kInk + "\"");
+      svg_text(left, top - 38, test.trial.number, std::string("font-weight=\"bold\" fill=\"") + kInk + "\"");
   const std::string small = std::string("font-size=\"11\" fill=\"") + kMuted + "\"";
   text +=
-      svg_text(left, kTop - 23, std::string("[") + test.trial.unit + "], steps of " + step_text(rate_of(test)), small);
+      svg_text(left, top - 23, std::string("[") + test.trial.unit + "], steps of " + step_text(rate_of(test)), small);
   for (const double tick : scale.ticks()) {
-    text += line_at(x_of(tick), kTop - 4, x_of(tick), low, "stroke=\"#d0d7de\" stroke-width=\"1\"");
+    text += line_at(x_of(tick), top - 4, x_of(tick), low, "stroke=\"#d0d7de\" stroke-width=\"1\"");
     text += svg_text(x_of(tick), low + 15, tick_text(tick), small + " text-anchor=\"middle\"");
   }
   const double must = x_of(test.bars.front().must);
-  text += line_at(must, kTop - 4, must, low, "stroke=\"#0072b2\" stroke-width=\"1.4\" stroke-dasharray=\"4 3\"");
+  text += line_at(must, top - 4, must, low, "stroke=\"#0072b2\" stroke-width=\"1.4\" stroke-dasharray=\"4 3\"");
   for (std::size_t n = 0; n < engines.size(); ++n) {
-    const double y = kTop + kLine * (static_cast<double>(n) + 0.5);
+    const double y = top + kLine * (static_cast<double>(n) + 0.5);
     const auto s =
         std::find_if(standings.begin(), standings.end(), [&](const Standing& of) { return of.engine == engines[n]; });
     if (s == standings.end()) continue;
@@ -173,13 +179,40 @@ std::string legend() {
   return text;
 }
 
+/// A row of panels with the names of their engines; `top` moves on to the next.
+std::string band(std::span<const PublishedTest> tests, const std::vector<LabResult>& results, int width, int& top) {
+  const std::vector<std::string> engines = engines_of(tests, results);
+  const int first = top + kTop;
+  std::string text;
+  for (std::size_t n = 0; n < engines.size(); ++n) {
+    const double y = first + kLine * (static_cast<double>(n) + 0.5);
+    text += line_at(kMargin, y, width - kMargin, y, "stroke=\"#eaeef2\" stroke-width=\"1\"");
+    text += svg_text(kLeft - 16, y + 4, engines[n],
+                     std::string("text-anchor=\"end\" font-size=\"12\" fill=\"") + kInk + "\"");
+  }
+  for (std::size_t n = 0; n < tests.size(); ++n) {
+    text += panel(tests[n], results, engines, kLeft + kPanel * static_cast<int>(n), first);
+  }
+  top = first + kLine * static_cast<int>(engines.size()) + kBottom;
+  return text;
+}
+
 }  // namespace
 
-std::string published_svg(const std::vector<LabResult>& results) {
-  const std::vector<std::string> engines = engines_of(results);
-  const auto& tests = scenes::published_tests();
-  const int width = kLeft + kPanel * static_cast<int>(tests.size()) + kMargin;
-  const int height = kTop + kLine * static_cast<int>(engines.size()) + kBottom;
+std::span<const PublishedTest> tests_of_first_source() {
+  const std::span<const PublishedTest> all = scenes::published_tests();
+  const auto end =
+      std::find_if(all.begin(), all.end(), [&](const PublishedTest& test) { return test.year != all.front().year; });
+  return all.first(static_cast<std::size_t>(end - all.begin()));
+}
+
+std::string published_svg(std::span<const PublishedTest> tests, const std::vector<LabResult>& results) {
+  const int width = kLeft + kPanel * static_cast<int>(std::min(kPanelsInBand, tests.size())) + kMargin;
+  int height = kHead;
+  std::string bands;
+  for (std::size_t at = 0; at < tests.size(); at += kPanelsInBand) {
+    bands += band(tests.subspan(at, std::min(kPanelsInBand, tests.size() - at)), results, width, height);
+  }
   char head[256];
   std::snprintf(
       head, sizeof head,
@@ -191,17 +224,7 @@ std::string published_svg(const std::vector<LabResult>& results) {
       svg_text(kMargin, 26,
                "Published tests: error of every engine, left is better; beside it the CPU time of a simulated second",
                std::string("font-size=\"16\" fill=\"") + kInk + "\"");
-  text += legend();
-  for (std::size_t n = 0; n < engines.size(); ++n) {
-    const double y = kTop + kLine * (static_cast<double>(n) + 0.5);
-    text += line_at(kMargin, y, width - kMargin, y, "stroke=\"#eaeef2\" stroke-width=\"1\"");
-    text += svg_text(kLeft - 16, y + 4, engines[n],
-                     std::string("text-anchor=\"end\" font-size=\"12\" fill=\"") + kInk + "\"");
-  }
-  for (std::size_t n = 0; n < tests.size(); ++n) {
-    text += panel(tests[n], results, engines, kLeft + kPanel * static_cast<int>(n));
-  }
-  return text + "</svg>\n";
+  return text + legend() + bands + "</svg>\n";
 }
 
 }  // namespace isostep::tool::lab

@@ -7,36 +7,63 @@
 
 #include "isostep/dynamics/settings.hpp"
 #include "scenes/published/published.hpp"
+#include "tool/lab/articulated_run.hpp"
 #include "tool/lab/report/html.hpp"
 
 namespace isostep::tool::lab {
 namespace {
 
-Standing standing_of(const LabResult& result) {
+/// "soft_step"; of articulations the model, for they have one method.
+const std::string& method_of(const LabPoint& p) { return p.model == kArticulation ? p.model : p.solver; }
+
+Standing standing_of(const LabResult& result, double figure) {
   Standing s;
   const LabPoint& p = result.point;
+  const scenes::Scene plain;
   s.ours = p.engine == kOwnEngine;
-  s.engine =
-      s.ours ? "isostep " + p.scalar + ", " + p.solver + ", " + std::to_string(p.substeps) + " sub-steps" : p.engine;
+  s.engine = s.ours ? "isostep " + p.scalar + ", " + method_of(p) + ", " + std::to_string(p.substeps) + " sub-steps"
+                    : p.engine;
   s.scalar = p.scalar;
   s.state = result.state;
-  const scenes::Scene plain;
-  s.is_default = s.ours && p.substeps == plain.substeps && p.solver == kSolverNames[static_cast<int>(plain.solver)];
-  s.figure = result.figure;
+  s.is_articulation = p.model == kArticulation;
+  const bool plain_steps = s.ours && p.substeps == plain.substeps;
+  s.is_default =
+      plain_steps && method_of(p) == (s.is_articulation ? kArticulation : kSolverNames[static_cast<int>(plain.solver)]);
+  s.figure = figure;
   s.seconds = result.ms_mean * 60 / 1000;
-  s.ended = result.state == kDone && result.faults == 0 && std::isfinite(result.figure);
+  s.ended = result.state == kDone && result.faults == 0 && std::isfinite(figure);
   if (s.ended) return s;
   s.reason = result.state != kDone ? result.state : "its numbers are none";
   if (!result.reason.empty()) s.reason += ": " + result.reason;
   return s;
 }
 
+/// [1/s] The rate of the shortest steps in which any engine ran the test.
+int shortest_steps(const scenes::PublishedTest& test, const std::vector<LabResult>& results) {
+  int most = 0;
+  for (const LabResult& result : results) {
+    if (result.point.scene == test.trial.name) most = std::max(most, result.point.hz);
+  }
+  return most;
+}
+/// [m] The distance from the run of the same setting at another rate.
+double distance_from(int hz, const LabResult& of, const std::vector<LabResult>& results) {
+  LabPoint same = of.point;
+  same.hz = hz;
+  const auto found = std::find_if(results.begin(), results.end(), [&](const LabResult& r) { return r.point == same; });
+  return found == results.end() ? kUnknown : scenes::distance_of(of.outcome, found->outcome);
+}
+
 }  // namespace
 
 std::vector<Standing> standings_of(const scenes::PublishedTest& test, int hz, const std::vector<LabResult>& results) {
+  const int shortest = test.compares_steps ? shortest_steps(test, results) : 0;
+  if (hz == shortest) return {};
   std::vector<Standing> all;
   for (const LabResult& result : results) {
-    if (result.point.scene == test.trial.name && result.point.hz == hz) all.push_back(standing_of(result));
+    if (result.point.scene != test.trial.name || result.point.hz != hz) continue;
+    const double figure = test.compares_steps ? distance_from(shortest, result, results) : result.figure;
+    all.push_back(standing_of(result, figure));
   }
   for (const scenes::PublishedFigure& figure : test.figures) {
     if (figure.hz != hz) continue;
