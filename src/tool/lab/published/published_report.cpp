@@ -73,16 +73,15 @@ std::vector<LabPoint> points_of(const ReportOptions& options, bool full) {
   return points;
 }
 
-/// The pictures and the table that people read in the repository.
-void renew_repository(const std::vector<LabResult>& results, const std::string& summary) {
+/// The pictures and the table that people read in the repository, from those of the report.
+void renew_repository(const std::string& out, const std::string& summary) {
   const fs::path bench = fs::path(ISOSTEP_CHART_DIR).parent_path();
   if (!fs::is_directory(bench / "charts") || !fs::is_directory(bench / "results")) return;
-  const std::span<const scenes::PublishedTest> first = tests_of_first_source(), all = scenes::published_tests();
-  rasterise(published_svg(first, results), (bench / "charts/published.png").string());
-  rasterise(published_svg(all.subspan(first.size()), results), (bench / "charts/published_steps.png").string());
+  for (const char* name : {"published", "published_steps"}) {
+    rasterise(out + "/" + name + ".svg", (bench / "charts" / name).string() + ".png");
+  }
   write_file((bench / "results/published.md").string(), summary);
-  std::cerr << "lab: renewed charts/published.png, charts/published_steps.png and results/published.md in "
-            << bench.string() << "\n";
+  std::cerr << "lab: renewed published.md and the charts of published tests in " << bench.string() << "\n";
 }
 
 }  // namespace
@@ -98,11 +97,13 @@ int write_published_report(const ReportOptions& options, bool full) {
   std::vector<LabResult> peers = peers_of(options, {"published_peers.jsonl", words, counts});
   results.insert(results.end(), std::make_move_iterator(peers.begin()), std::make_move_iterator(peers.end()));
 
-  write_file(in("published.svg"), published_svg(scenes::published_tests(), results));
+  const std::span<const scenes::PublishedTest> first = tests_of_first_source(), all = scenes::published_tests();
+  write_file(in("published.svg"), published_svg(first, results));
+  write_file(in("published_steps.svg"), published_svg(all.subspan(first.size()), results));
   write_file(in("published.html"), published_page(results));
   const std::string summary = published_summary(results);
   write_file(in("published.md"), summary);
-  if (!options.peers.empty()) renew_repository(results, summary);
+  if (!options.peers.empty()) renew_repository(options.out, summary);
   std::cout << in("published.html") << "\n";
   return exit_status::kOk;
 }

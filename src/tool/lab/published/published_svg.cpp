@@ -16,7 +16,7 @@ namespace {
 using scenes::PublishedTest;
 
 // [px]
-constexpr int kLeft = 168, kHead = 62, kTop = 46, kLine = 21, kPanel = 190, kScale = 128, kBottom = 34, kMargin = 16;
+constexpr int kLeft = 168, kHead = 72, kTop = 46, kLine = 21, kPanel = 190, kScale = 128, kBottom = 34, kMargin = 16;
 constexpr std::size_t kPanelsInBand = 6;
 constexpr double kDecades = 6;  // below what we must reach: a smaller error stands at the edge
 
