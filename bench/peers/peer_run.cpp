@@ -100,12 +100,12 @@ struct Careful {
   tool::lab::Subject subject;
   tool::lab::Reference reference;
 };
-const Careful& careful_of(const std::string& scene, double limit) {
+const Careful& careful_of(const std::string& scene) {
   static Careful last;
   if (last.subject.name == scene) return last;
   last = {tool::lab::subject_of(scene), {}};
   if (last.subject.trial == nullptr) {
-    last.reference = reference_of(last.subject, last.subject.scene.frames, limit, [] { return false; });
+    last.reference = reference_of(last.subject, last.subject.scene.frames, [] { return false; });
   }
   return last;
 }
@@ -125,8 +125,8 @@ void judge_end(const Careful& careful, const scenes::Judge* judge, const Sight& 
 }
 
 /// Ends early where numbers are no numbers any more, for nothing that counts comes after.
-void run(const PeerJob& job, double limit, LabResult& result) {
-  const Careful& careful = careful_of(job.scene, limit);  // prepared
+void run(const PeerJob& job, LabResult& result) {
+  const Careful& careful = careful_of(job.scene);  // prepared
   const scenes::Trial* trial = careful.subject.trial;
   const std::unique_ptr<scenes::Judge> judge =
       trial == nullptr ? scenes::benchmark_judge(careful.subject.scene) : trial->judge(careful.subject.scene);
@@ -136,11 +136,9 @@ void run(const PeerJob& job, double limit, LabResult& result) {
   Notes notes(sight);
   if (judge) judge->see(sight);
   std::vector<double> times;
-  double spent = 0;  // [ms]
-  for (int frame = 0; frame < scene.frames && sight.faults == 0 && spent < 1e3 * limit; ++frame) {
+  for (int frame = 0; frame < scene.frames && sight.faults == 0; ++frame) {
     engine->before_step(frame);
     times.push_back(engine->timed_steps(1));
-    spent += times.back();
     sight = engine->sight();
     notes.see(sight, frame >= scene.frames - scene.hz, result);
     if (judge && sight.faults == 0) judge->see(sight);
@@ -150,8 +148,7 @@ void run(const PeerJob& job, double limit, LabResult& result) {
   }
   result.frames = static_cast<int>(times.size());
   measure_end(*engine, times, result);
-  if (result.frames < scene.frames && sight.faults == 0) result.state = tool::lab::kSlow;
-  else judge_end(careful, judge.get(), sight, result);
+  judge_end(careful, judge.get(), sight, result);
 }
 
 }  // namespace
@@ -160,17 +157,17 @@ LabRecord empty_record(const PeerJob& job) {
   LabRecord record;
   record.result.point = {job.scene, job.maker.name, "", "", "rigid", job.hz, 0};
   record.result.state = tool::lab::kRefused;
-  record.version = "peers 1 " + hash_of(scenes::write_scene(scene_of(job)) + bars_of(job.scene));
+  record.version = "peers 2 " + hash_of(scenes::write_scene(scene_of(job)) + bars_of(job.scene));
   return record;
 }
 
-void prepare(const PeerJob& job, double limit) { careful_of(job.scene, limit); }
+void prepare(const PeerJob& job) { careful_of(job.scene); }
 
-LabRecord run_peer(const PeerJob& job, double limit) {
+LabRecord run_peer(const PeerJob& job) {
   LabRecord record = empty_record(job);
   try {
     record.result.state = tool::lab::kDone;
-    run(job, limit, record.result);
+    run(job, record.result);
   } catch (const std::exception& error) {
     record = empty_record(job);
     record.result.reason = error.what();

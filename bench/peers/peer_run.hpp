@@ -20,8 +20,8 @@ struct PeerJob {
 LabRecord empty_record(const PeerJob& job);
 
 /// Prepares what all engines' runs of the scene need and is the same for them: before their processes begin.
-void prepare(const PeerJob& job, double limit);
-/// Steps of 1/hz s for as long as the scene runs; given up as slow after `limit` [s] of CPU time in steps.
-LabRecord run_peer(const PeerJob& job, double limit);
+void prepare(const PeerJob& job);
+/// Steps of 1/hz s for as long as the scene runs.
+LabRecord run_peer(const PeerJob& job);
 
 }  // namespace isostep::bench

@@ -12,13 +12,13 @@ namespace isostep::bench {
 struct ProcessEnd {
   std::string said;  // what `work` returned; empty where it did not come to that
   int signal = 0;    // that ended it; 0: none
-  bool out_of_time = false;
+  bool hung = false;
 };
 
 struct Work {
   std::size_t count = 0;
   int jobs = 1;                                 // at a time
-  int cpu_limit = 60;                           // [s] of each
+  int guard = 300;                              // [s] of each, by the clock on the wall
   std::function<void(std::size_t)> prepare;     // here, before the process begins
   std::function<std::string(std::size_t)> run;  // in the process; not more than 64 KiB
   std::function<void(std::size_t, const ProcessEnd&)> done;

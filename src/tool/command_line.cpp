@@ -148,8 +148,6 @@ class ToolCommands {
         "lab", "the cheapest scalar, solver, sub-steps and model that hold a scene's tolerance");
     lab->callback([this, lab] {
       if (!lab->get_subcommands().empty()) return;
-      if (lab_.all && lab->count("--limit") == 0) lab_.limit = lab::kReportLimit;
-      if (lab_.published && lab->count("--limit") == 0) lab_.limit = lab::kPublishedLimit;
       line_.choose([this] { return command_lab(lab_); });
     });
     lab->require_subcommand(0, 1);
@@ -192,8 +190,8 @@ class ToolCommands {
         ->check(CLI::Range(10, 1000));
     lab->add_option("--frames", lab_.frames, "at the scene's rate, which other rates match in time [the scene's]")
         ->check(CLI::Range(1, CommandLine::kMostFrames));
-    lab->add_option("--limit", lab_.limit, "seconds of CPU time after which a run is given up")
-        ->check(CLI::Range(0.01, 1e6))
+    lab->add_option("--limit", lab_.limit, "millions of body sub-steps: a longer run is left out")
+        ->check(CLI::Range(1e-3, 1e9))
         ->capture_default_str();
     lab->add_option("--jobs", lab_.jobs, "runs at a time [one a core]")->check(CLI::Range(1, 256));
     lab->add_option("--out", lab_.out, "directory of results.jsonl, where what is done is not done again")

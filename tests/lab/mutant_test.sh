@@ -8,7 +8,7 @@ set -u
 
 # figures TOOL NAME: every column but the times, of the stack in double with 4 sub-steps.
 figures() {
-  "$1" lab S1x5 --scalars double --solvers soft_step --substeps 4 --frames 300 --limit 1000 --out "" --csv "$dir/$2.csv" \
+  "$1" lab S1x5 --scalars double --solvers soft_step --substeps 4 --frames 300 --out "" --csv "$dir/$2.csv" \
     >"$dir/$2.txt" 2>&1 || {
     cat "$dir/$2.txt" >&2
     exit 1

@@ -21,7 +21,7 @@ lab::ReportOptions report_of(const LabOptions& options, const std::string& word)
   report.is_short = options.is_short;
   report.fresh = options.fresh;
   report.jobs = options.jobs;
-  report.limit = options.limit;
+  report.limit = 1e6 * options.limit;
   report.peers = options.peers;
   return report;
 }
@@ -49,7 +49,7 @@ int command_lab(const LabOptions& options) {
   sweep.out = options.out;
   sweep.jobs = options.jobs;
   sweep.frames = options.frames;
-  sweep.limit = options.limit;
+  sweep.limit = 1e6 * options.limit;
   sweep.fresh = options.fresh;
   const std::vector<lab::LabPoint> points =
       lab::grid(options.scene, {options.scalars, options.solvers, options.models, options.substeps, options.hz});

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tool/lab/work.hpp"
+
 namespace isostep::tool {
 
 struct LabOptions {
@@ -13,7 +15,7 @@ struct LabOptions {
   std::vector<std::string> scalars, solvers, models;  // empty: all
   std::vector<int> substeps, hz;                      // empty: see lab/sweep.hpp
   int frames = -1;                                    // -1: the scene's
-  double limit = 20;                                  // [s] CPU time of a run
+  double limit = 1e-6 * lab::kStandardLimit;          // [million] body sub-steps of a run, see lab/work.hpp
   int jobs = 0;                                       // 0: as many as cores
   bool fresh = false;
   std::string out = "build/lab";  // directory, or empty

@@ -27,10 +27,12 @@ bool counts_passes(const LabPoint& point);
 /// "S1 q32.32 direct 2x60 rigid": unique, for keys and progress.
 std::string name_of(const LabPoint& point);
 
-/// The statuses. done: it ran to its end. slow: given up at the limit of CPU time. refused: it never began, or had to
-/// stop, see `reason`.
+/// The statuses; all but the first have a `reason`. done: it ran to its end. left_out: it would be too long, and never
+/// began. hung: a peer did not end within the time that guards against processes that never do, which says nothing of
+/// how it would have fared. refused: it never began, or had to stop.
 inline constexpr const char* kDone = "done";
-inline constexpr const char* kSlow = "slow";
+inline constexpr const char* kLeftOut = "left_out";
+inline constexpr const char* kHung = "hung";
 inline constexpr const char* kRefused = "refused";
 
 /// A measure that was not taken: null in JSON.

@@ -1,4 +1,4 @@
-// Runs: a world stepped, timed and measured until its end, or until its time is up.
+// Runs: a world stepped, timed and measured until its end.
 // SPDX-License-Identifier: MIT
 #include "run_point.hpp"
 
@@ -12,6 +12,7 @@
 #include "rigid_run.hpp"
 #include "scenes/bars.hpp"
 #include "tool/common/tool.hpp"
+#include "work.hpp"
 
 namespace isostep::tool::lab {
 namespace {
@@ -34,8 +35,8 @@ double way_of(const Subject& subject, const scenes::Sight& start, const scenes::
 /// Watches one run, frame by frame.
 template <class Run> class Watch {
  public:
-  Watch(Run& run, const Subject& subject, const LabPoint& point, const Reference& reference, const RunLimits& limits)
-      : run_(run), subject_(subject), reference_(reference), limits_(limits) {
+  Watch(Run& run, const Subject& subject, const LabPoint& point, const Reference& reference, int frames)
+      : run_(run), subject_(subject), reference_(reference), frames_(frames) {
     result_.point = point;
     start_ = run.energy();
     judge_ = subject.trial != nullptr ? subject.trial->judge(subject.scene) : scenes::benchmark_judge(subject.scene);
@@ -43,14 +44,8 @@ template <class Run> class Watch {
   }
 
   LabResult run(const Cancel& cancel) {
-    for (int frame = 0; frame < limits_.frames; ++frame) {
+    for (int frame = 0; frame < frames_; ++frame) {
       if (cancel()) throw Cancelled{};
-      if (is_slow(frame)) {
-        result_.state = kSlow;
-        result_.reason =
-            "given up after " + std::to_string(frame) + " of " + std::to_string(limits_.frames) + " frames";
-        break;
-      }
       step();
       observe(frame);
     }
@@ -59,30 +54,21 @@ template <class Run> class Watch {
   }
 
  private:
-  /// Steps become dearer while bodies come together; cheaper only when they fall asleep. So without sleep a run that
-  /// has used a quarter of its time and would need twice all of it is hopeless. Only steps count, as in the result's
-  /// mean: a run given up at a limit stands for every later one with that limit.
-  bool is_slow(int frame) const {
-    const double limit = 1000 * limits_.limit;
-    if (spent_ > limit) return true;
-    return !subject_.scene.allow_sleep && spent_ > limit / 4 && spent_ * limits_.frames > 2 * limit * frame;
-  }
   void step() {
     run_.prepare();
     const double before = thread_milliseconds();
     const bool mended = run_.step();
     const double taken = thread_milliseconds() - before;
-    spent_ += taken;
     ms_.push_back(taken * result_.point.hz / 60);
     result_.faults += mended ? 1 : 0;
   }
   void observe(int frame) {
     const scenes::Energy energy = run_.energy();
     gain_ = std::max(gain_, energy.total() - start_.total());
-    if (frame >= limits_.frames - result_.point.hz) unrest_.push_back(energy.kinetic);
+    if (frame >= frames_ - result_.point.hz) unrest_.push_back(energy.kinetic);
     result_.joint_error = std::max(result_.joint_error, run_.joint_error());
     if (judge_) judge_->see(run_.sight(result_.faults));
-    const int second = std::min(result_.point.hz, limits_.frames);
+    const int second = std::min(result_.point.hz, frames_);
     if (frame + 1 == second && reference_.exists)
       result_.deviation = deviation_of(run_.sight(result_.faults), reference_.second);
   }
@@ -102,7 +88,6 @@ template <class Run> class Watch {
     result_.energy_gain = gain_ / mass;
     result_.energy_loss = (start_.total() - end.energy.total()) / mass;
     result_.unrest = mean(unrest_) / mass;
-    if (result_.state != kDone) return;
     result_.stood = stands(subject_, reference_, end);
     if (!judge_) return;
     if (subject_.trial == nullptr) {
@@ -120,20 +105,19 @@ template <class Run> class Watch {
   Run& run_;
   const Subject& subject_;
   const Reference& reference_;
-  RunLimits limits_;
+  int frames_;
   std::unique_ptr<scenes::Judge> judge_;
   LabResult result_;
   scenes::Energy start_;
-  double gain_ = 0;   // [J]
-  double spent_ = 0;  // [ms] CPU time of all steps
+  double gain_ = 0;  // [J]
   std::vector<double> ms_, unrest_;
 };
 
 template <class Run>
-LabResult watch(const Subject& subject, const LabPoint& point, const Reference& reference, const RunLimits& limits,
+LabResult watch(const Subject& subject, const LabPoint& point, const Reference& reference, int frames,
                 const Cancel& cancel) {
   Run run(subject, point);
-  return Watch<Run>(run, subject, point, reference, limits).run(cancel);
+  return Watch<Run>(run, subject, point, reference, frames).run(cancel);
 }
 
 /// The bodies that are where they began, as far as that is asked of anything.
@@ -163,14 +147,14 @@ std::vector<std::size_t> may_stand(const Subject& subject) {
 }
 
 template <class S>
-LabResult run_in(const Subject& subject, const LabPoint& point, const Reference& reference, const RunLimits& limits,
+LabResult run_in(const Subject& subject, const LabPoint& point, const Reference& reference, int frames,
                  const Cancel& cancel) {
   if (point.model == kArticulation) {
-    if constexpr (std::same_as<Finer<S>, S>) return watch<ArticulatedRun<S>>(subject, point, reference, limits, cancel);
+    if constexpr (std::same_as<Finer<S>, S>) return watch<ArticulatedRun<S>>(subject, point, reference, frames, cancel);
     else throw scenes::SceneError("", std::string("an articulation has too few bits in ") + ScalarTraits<S>::kName);
   }
-  return point.model == "particles" ? watch<ParticleRun<S>>(subject, point, reference, limits, cancel)
-                                    : watch<RigidRun<S>>(subject, point, reference, limits, cancel);
+  return point.model == "particles" ? watch<ParticleRun<S>>(subject, point, reference, frames, cancel)
+                                    : watch<RigidRun<S>>(subject, point, reference, frames, cancel);
 }
 
 bool nothing_collides(const scenes::Scene& scene) {
@@ -178,21 +162,17 @@ bool nothing_collides(const scenes::Scene& scene) {
                       [](const scenes::SceneBody& body) { return body.type == BodyType::dynamic && body.collide; });
 }
 
-template <class S> Reference reference_in(const Subject& subject, int frames, double limit, const Cancel& cancel) {
+template <class S> Reference reference_in(const Subject& subject, int frames, const Cancel& cancel) {
   Reference reference;
   reference.point = reference_point(subject);
+  const int second = std::min(subject.scene.hz, frames);
+  if (work_of(subject, reference.point, second) > kReferenceLimit) return reference;
   RigidRun<S> run(subject, reference.point);
   reference.start = run.sight(0);
-  reference.standing = may_stand(subject);
-  const int second = std::min(subject.scene.hz, frames);
-  const double begin = thread_milliseconds();
+  if (work_of(subject, reference.point, frames) <= kReferenceLimit) reference.standing = may_stand(subject);
   int faults = 0;
   for (int frame = 0; frame < frames && (frame < second || !reference.standing.empty()); ++frame) {
     if (cancel()) throw Cancelled{};
-    if (thread_milliseconds() - begin > 1000 * limit) {
-      reference.standing.clear();
-      break;
-    }
     run.prepare();
     faults += run.step() ? 1 : 0;
     if (frame + 1 != second && frame + 1 != frames) continue;
@@ -239,19 +219,18 @@ LabPoint reference_point(const Subject& subject) {
           substeps};
 }
 
-Reference reference_of(const Subject& subject, int frames, double limit, const Cancel& cancel) {
+Reference reference_of(const Subject& subject, int frames, const Cancel& cancel) {
   Reference reference;
   try {
-    with_scalar(ScalarTraits<double>::kName, [&](auto tag) {
-      reference = reference_in<typename decltype(tag)::Type>(subject, frames, limit, cancel);
-    });
+    with_scalar(ScalarTraits<double>::kName,
+                [&](auto tag) { reference = reference_in<typename decltype(tag)::Type>(subject, frames, cancel); });
   } catch (const scenes::SceneError&) {
     return {};
   }
   return reference;
 }
 
-LabResult run_point(const Subject& subject, const LabPoint& point, const Reference& reference, const RunLimits& limits,
+LabResult run_point(const Subject& subject, const LabPoint& point, const Reference& reference, int frames,
                     const Cancel& cancel) {
   LabResult result;
   result.point = point;
@@ -261,7 +240,7 @@ LabResult run_point(const Subject& subject, const LabPoint& point, const Referen
   result.reason = "this build has no scalar " + point.scalar;
   try {
     with_scalar(point.scalar, [&](auto tag) {
-      result = run_in<typename decltype(tag)::Type>(subject, point, reference, limits, cancel);
+      result = run_in<typename decltype(tag)::Type>(subject, point, reference, frames, cancel);
     });
   } catch (const scenes::SceneError& error) {
     result.reason = error.what();

@@ -26,21 +26,17 @@ double deviation_of(const scenes::Sight& a, const scenes::Sight& b);
 /// All that hardly moves in the reference is still there in the end.
 bool stands(const Subject& subject, const Reference& reference, const scenes::Sight& end);
 
-struct RunLimits {
-  int frames = 0;    // to run, at the point's rate
-  double limit = 0;  // [s] CPU time
-};
-
 /// It is called now and then: true, and the run ends as if it had never been.
 using Cancel = std::function<bool()>;
 struct Cancelled {};
 
 LabPoint reference_point(const Subject& subject);
-/// `frames` at the scene's own rate; beyond the limit [s] it does without what is not there yet. Throws Cancelled.
-Reference reference_of(const Subject& subject, int frames, double limit, const Cancel& cancel);
+/// `frames` at the scene's own rate. Where they are too long (kReferenceLimit) it does without what stands at the end,
+/// or without all. Throws Cancelled.
+Reference reference_of(const Subject& subject, int frames, const Cancel& cancel);
 
-/// Throws Cancelled.
-LabResult run_point(const Subject& subject, const LabPoint& point, const Reference& reference, const RunLimits& limits,
+/// `frames` at the point's rate. Throws Cancelled.
+LabResult run_point(const Subject& subject, const LabPoint& point, const Reference& reference, int frames,
                     const Cancel& cancel);
 
 }  // namespace isostep::tool::lab

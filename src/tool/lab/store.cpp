@@ -29,10 +29,7 @@ std::uintmax_t end_of_lines(const std::string& path) {
 bool stands_for(const LabRecord& record, const Wanted& wanted) {
   const LabResult& result = record.result;
   if (record.version != wanted.version) return false;
-  if (result.state == kDone) return result.frames == wanted.frames;
-  if (result.state == kRefused) return true;
-  const double whole_run = 1e-3 * result.ms_mean * 60 / result.point.hz * wanted.frames;  // [s]
-  return result.frames < wanted.frames && whole_run > wanted.limit;
+  return result.state == kRefused || result.frames == wanted.frames;
 }
 
 ResultStore::ResultStore(const std::string& directory) {

@@ -15,10 +15,8 @@ inline constexpr const char* kResultsFile = "results.jsonl";
 /// The conditions under which an earlier run stands for this one.
 struct Wanted {
   std::string version;
-  int frames = 0;    // at the point's rate
-  double limit = 0;  // [s]
+  int frames = 0;  // at the point's rate
 };
-/// A slow run stands for one that would be slow again.
 bool stands_for(const LabRecord& record, const Wanted& wanted);
 
 /// Open for appending. Whole lines alone are in the file at any moment but within `append`; what a crash cut off

@@ -76,9 +76,9 @@ std::string front_table(const Summary& summary, const std::vector<std::size_t>& 
 }
 
 std::string counts_text(const Summary& summary, std::size_t front) {
-  std::size_t done = 0, slow = 0, refused = 0, failed = 0;
+  std::size_t done = 0, left_out = 0, refused = 0, failed = 0;
   for (const LabResult& result : summary.results) {
-    if (result.state == kSlow) ++slow;
+    if (result.state == kLeftOut) ++left_out;
     else if (result.state != kDone) ++refused;
     else if (std::isfinite(excess_of(result, summary.tolerance))) ++done;
     else ++failed;
@@ -86,7 +86,7 @@ std::string counts_text(const Summary& summary, std::size_t front) {
   std::string text = std::to_string(front) + " runs on the front of cost against error; beside them " +
                      std::to_string(done - front) + " done";
   if (failed > 0) text += ", " + std::to_string(failed) + " that fell or left the range";
-  if (slow > 0) text += ", " + std::to_string(slow) + " too slow";
+  if (left_out > 0) text += ", " + std::to_string(left_out) + " left out as too long";
   if (refused > 0) text += ", " + std::to_string(refused) + " refused";
   return text;
 }

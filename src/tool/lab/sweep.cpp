@@ -19,9 +19,6 @@
 namespace isostep::tool::lab {
 namespace {
 
-/// A reference run may take so many times the limit of others, for all of them are compared with it.
-constexpr double kReferencePatience = 10;
-
 /// A scene with its reference, which is run when the first of its points is.
 struct Bench {
   Subject subject;
@@ -37,6 +34,7 @@ class Sweep {
       Bench& bench = bench_of(points[i].scene);
       const LabResult* known = options.fresh ? nullptr : store_.find(points[i], wanted(bench.subject, points[i]));
       if (known != nullptr) results_[i] = *known;
+      else if (work(i) > options.limit) results_[i] = left_out(i);
       else left_.push_back(i);
     }
     std::stable_sort(left_.begin(), left_.end(), [&](std::size_t a, std::size_t b) { return work(b) < work(a); });
@@ -67,14 +65,19 @@ class Sweep {
     return *bench;
   }
   Wanted wanted(const Subject& subject, const LabPoint& point) const {
-    return {subject.version, frames_at(subject.scene, options_.frames, point.hz), options_.limit};
+    return {subject.version, frames_at(subject.scene, options_.frames, point.hz)};
   }
-  /// The time that a run takes, about, in no unit: a step has costs of its own beside those of sub-steps.
   double work(std::size_t i) const {
-    constexpr double kStep = 4;  // [sub-steps]
     const Subject& subject = benches_.at(points_[i].scene)->subject;
-    const double bodies = static_cast<double>(subject.scene.bodies.size());
-    return bodies * frames_at(subject.scene, options_.frames, points_[i].hz) * (points_[i].substeps + kStep);
+    return work_of(subject, points_[i], wanted(subject, points_[i]).frames);
+  }
+  /// It is not kept: another limit, another answer.
+  LabResult left_out(std::size_t i) const {
+    LabResult result;
+    result.point = points_[i];
+    result.state = kLeftOut;
+    result.reason = too_long(work(i));
+    return result;
   }
 
   void take_runs(Progress& progress) {
@@ -84,12 +87,11 @@ class Sweep {
         const std::size_t i = left_[next];
         Bench& bench = *benches_.at(points_[i].scene);
         std::call_once(bench.once, [&] {
-          bench.reference =
-              reference_of(bench.subject, frames_at(bench.subject.scene, options_.frames, bench.subject.scene.hz),
-                           kReferencePatience * options_.limit, cancel);
+          bench.reference = reference_of(
+              bench.subject, frames_at(bench.subject.scene, options_.frames, bench.subject.scene.hz), cancel);
         });
-        const Wanted asked = wanted(bench.subject, points_[i]);
-        keep(i, run_point(bench.subject, points_[i], bench.reference, {asked.frames, asked.limit}, cancel), progress);
+        const int frames = wanted(bench.subject, points_[i]).frames;
+        keep(i, run_point(bench.subject, points_[i], bench.reference, frames, cancel), progress);
       }
     } catch (const Cancelled&) {
       return;

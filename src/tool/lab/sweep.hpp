@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "result.hpp"
+#include "work.hpp"
 
 namespace isostep::tool::lab {
 
@@ -27,7 +28,7 @@ struct SweepOptions {
   std::string out = "build/lab";  // directory of results.jsonl; empty: nothing is kept
   int jobs = 0;                   // runs at a time; 0: as many as there are cores
   int frames = -1;                // at the scene's own rate, which other rates match in time; -1: the scene's
-  double limit = 20;              // [s] CPU time of a run, beyond which it is given up as slow
+  double limit = kStandardLimit;  // work_of a run, beyond which it is left out
   bool fresh = false;             // run again what is already kept
   bool progress = true;           // one line on stderr
 };

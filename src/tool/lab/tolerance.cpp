@@ -148,7 +148,6 @@ double excess_of(const LabResult& result, const Tolerance& tolerance) {
 }
 
 std::string miss_of(const LabResult& result, const Tolerance& tolerance) {
-  if (result.state == kSlow) return "the limit of time";
   if (result.state != kDone) return result.reason;
   if (result.faults > 0) return "numbers in range: " + std::to_string(result.faults) + " steps had to mend some";
   if (tolerance.stands && fell(result)) return result.judged ? "its bar" : "what should stand: it fell";

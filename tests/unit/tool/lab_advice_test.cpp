@@ -75,7 +75,7 @@ TEST(LabTolerance, WhatIsNotDoneOrFellOrHasNoNumbersHoldsNothing) {
   const LabResult good = result("float", "pgs", 1, 1, 0.001);
   EXPECT_LE(excess_of(good, t), 1);
   LabResult r = good;
-  r.state = kSlow;
+  r.state = kLeftOut;
   EXPECT_TRUE(std::isinf(excess_of(r, t)));
   r = good;
   r.faults = 1;

@@ -6,8 +6,6 @@
 
 namespace isostep::tool::lab {
 
-inline constexpr double kPublishedLimit = 60;  // [s] a tower stands for ten minutes
-
 /// published.html, its pictures and its table; with peers, where the sources still are, bench/charts/published.png (of
 /// the first publication), published_steps.png (of the others) and bench/results/published.md are renewed too. A short
 /// report has the longest steps of tests that end within a minute of simulation, and the shortest where those compare.

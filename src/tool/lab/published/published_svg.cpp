@@ -105,7 +105,7 @@ std::string tick_text(double value) {
 /// What stands in place of a mark where there is no error.
 const char* sign_of(const Standing& s) {
   if (s.state == kRefused) return "–";
-  return s.state == kSlow ? "…" : "×";
+  return s.state == kLeftOut || s.state == kHung ? "…" : "×";
 }
 std::string mark_of(const Standing& s, double x, double y) {
   const char* const colour = s.ours ? "#009e73" : s.published ? kMuted : "#d55e00";
@@ -174,7 +174,7 @@ std::string legend() {
   }
   text += line_at(x, 48, x + 18, 48, "stroke=\"#0072b2\" stroke-width=\"1.4\" stroke-dasharray=\"4 3\"");
   text += svg_text(x + 24, 52, "what we must reach", std::string("font-size=\"12\" fill=\"") + kInk + "\"");
-  text += svg_text(x + 160, 52, "× diverged   … given up as slow   – cannot be told to it   ‹ below the scale",
+  text += svg_text(x + 160, 52, "× diverged   … left open: too long   – cannot be told to it   ‹ below the scale",
                    std::string("font-size=\"12\" fill=\"") + kInk + "\"");
   return text;
 }

@@ -19,7 +19,7 @@ struct Standing {
   bool is_articulation = false;  // ours in joint coordinates
   bool published = false;        // the figure is the authors'; its seconds are of another machine and are not taken
   std::string state = kDone;
-  bool ended = true;   // not so: too slow, refused, or without a number; `reason` says which
+  bool ended = true;   // not so: left out, hung, refused, or without a number; `reason` says which
   double figure = 0;   // in the test's unit
   double seconds = 0;  // CPU time of a second of simulation
   std::string reason;

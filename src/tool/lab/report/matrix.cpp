@@ -14,7 +14,7 @@ int rank_of(Fate fate) {
   switch (fate) {
     case Fate::survived: return 0;
     case Fate::failed: return 1;
-    case Fate::slow: return 2;
+    case Fate::open: return 2;
     case Fate::refused: return 3;
     default: return 4;
   }
@@ -42,7 +42,7 @@ bool is_of(const MatrixColumn& column, const LabPoint& point) {
 }  // namespace
 
 Fate fate_of(const LabResult& result) {
-  if (result.state == kSlow) return Fate::slow;
+  if (result.state == kLeftOut || result.state == kHung) return Fate::open;
   if (result.state != kDone) return Fate::refused;
   return result.judged && result.survived ? Fate::survived : Fate::failed;
 }

@@ -9,11 +9,11 @@
 
 namespace isostep::tool::lab {
 
-enum class Fate { untried, survived, failed, slow, refused };
-inline constexpr const char* kFateNames[] = {"not run", "survived", "failed", "slow", "refused"};
+enum class Fate { untried, survived, failed, open, refused };
+inline constexpr const char* kFateNames[] = {"not run", "survived", "failed", "left open", "refused"};
 
 /// The outcome of one trial by one method: of several settings the cheapest that survived, else the one that came
-/// nearest to its bar.
+/// nearest to its bar. It is open where every run was too long or hung.
 struct MatrixCell {
   Fate fate = Fate::untried;
   LabResult result;  // unless untried

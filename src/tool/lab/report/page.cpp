@@ -15,7 +15,7 @@ namespace {
 constexpr char kMatrixStyle[] = R"(table.matrix td.cell { text-align: center; min-width: 1.6rem; padding: 2px 3px; }
 table.matrix th.turned { writing-mode: vertical-rl; transform: rotate(180deg); font-weight: normal; }
 td.survived { background: #009e73; color: #fff; } td.failed { background: #d55e00; color: #fff; }
-td.slow { background: #f0c75e; } td.refused { background: #eaeef2; color: #57606a; }
+td.open { background: #f0c75e; } td.refused { background: #eaeef2; color: #57606a; }
 )";
 
 std::string picture(const std::string& svg, const std::string& prefix) {
@@ -58,7 +58,7 @@ std::string hint_of(const MatrixCell& cell) {
 
 std::string cell_html(const MatrixCell& cell, bool ours) {
   constexpr const char* kSigns[] = {"", "✓", "×", "…", "–"};
-  constexpr const char* kClasses[] = {"untried", "survived", "failed", "slow", "refused"};
+  constexpr const char* kClasses[] = {"untried", "survived", "failed", "open", "refused"};
   const int fate = static_cast<int>(cell.fate);
   const std::string sign = cell.fate == Fate::survived && ours ? effort_of(cell.result.point) : kSigns[fate];
   return std::string("<td class=\"cell ") + kClasses[fate] + "\" title=\"" + escaped(hint_of(cell)) + "\">" + sign +
@@ -151,12 +151,12 @@ std::string page_of(const ReportData& data) {
   text += html_section("accuracy", "Speed against accuracy",
                        "A line a scalar and solver, over sub-steps. Left is faster, down is more accurate.",
                        picture(data.accuracy, "a-"));
-  text += html_section(
-      "survival", "Where methods fail",
-      "Survived (the sub-steps that it takes, or from 120 on the steps a second), failed ×, too slow …, or "
-      "cannot be said to it –. Point at a "
-      "cell for its figure.",
-      matrix_html(data.matrix));
+  text += html_section("survival", "Where methods fail",
+                       "Survived (the sub-steps that it takes, or from 120 on the steps a second), failed ×, left open "
+                       "because it would take too long …, or "
+                       "cannot be said to it –. Point at a "
+                       "cell for its figure.",
+                       matrix_html(data.matrix));
   text +=
       html_section("growth", "Error growth",
                    "How far each scalar gets from the same method in double, with the same sub-steps: root mean square "

@@ -16,8 +16,8 @@ namespace {
 void run(const ReportOptions& options, const std::string& out, const std::string& words) {
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
   const int jobs = options.jobs > 0 ? options.jobs : static_cast<int>(cores);
-  const std::string command = shell_quoted(options.peers) + " --out " + shell_quoted(out) + " --jobs " +
-                              std::to_string(jobs) + " --limit " + std::to_string(options.limit) + " " + words;
+  const std::string command =
+      shell_quoted(options.peers) + " --out " + shell_quoted(out) + " --jobs " + std::to_string(jobs) + " " + words;
   const int status = std::system(command.c_str());
   stop_if_interrupted();
   if (status != 0) std::cerr << "isostep: " << options.peers << " failed: peers are as far as they are kept\n";

@@ -92,23 +92,22 @@ scenes::Reach reach_of(const LabResult& result) {
   return reach != scenes::Reach::no_bar && is_lost(result) ? scenes::Reach::misses : reach;
 }
 
-Plan whole_plan(double limit) {
+Plan whole_plan() {
   Plan plan = {{},
                {},
                {2, 4, 8, 16, 32},
                {2, 4, 8, 16},
                {{1, 4}, {1, 8}, {1, 16}, {1, 32}, {4, 8}, {8, 8}},
                scalar_names(),
-               rigid_solvers(),
-               limit};
+               rigid_solvers()};
   for (const SceneView& view : kViews) plan.scenes.push_back(view.scene);
   for (const scenes::Trial& trial : scenes::trials()) plan.trials.push_back(trial.name);
   return plan;
 }
 
-Plan short_plan(double limit) {
+Plan short_plan() {
   constexpr std::size_t kTrials = 16;
-  Plan plan = {{"S1x10", "S6v"}, {}, {4, 8}, {}, {{1, 8}}, scalar_names(), rigid_solvers(), std::min(limit, 2.0)};
+  Plan plan = {{"S1x10", "S6v"}, {}, {4, 8}, {}, {{1, 8}}, scalar_names(), rigid_solvers()};
   std::vector<std::pair<double, std::string>> by_size;
   for (const scenes::Trial& trial : scenes::trials()) by_size.push_back({size_of(trial), trial.name});
   std::stable_sort(by_size.begin(), by_size.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -137,7 +136,7 @@ std::vector<LabPoint> trial_points(const Plan& plan, std::size_t n, const std::v
   const auto key = [](const LabPoint& point) { return point.scene + " " + point.scalar + " " + point.solver; };
   for (const LabResult& result : before) {
     const bool survived = result.state == kDone && result.survived;
-    settled[key(result.point)] |= survived || result.state == kSlow || result.state == kRefused;
+    settled[key(result.point)] |= survived || result.state == kLeftOut || result.state == kRefused;
   }
   std::vector<LabPoint> points;
   for (const std::string& trial : plan.trials) {

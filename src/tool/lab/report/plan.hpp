@@ -45,16 +45,15 @@ struct Plan {
   std::vector<int> small_substeps, large_substeps;  // of scenes
   std::vector<Effort> trial_efforts;                // ascending: more only where less did not survive
   std::vector<std::string> scalars, solvers;
-  double limit;  // [s] of a run
 };
-Plan whole_plan(double limit);
+Plan whole_plan();
 /// The plan that takes under a minute on two cores.
-Plan short_plan(double limit);
+Plan short_plan();
 
 /// The whole grid of every scene.
 std::vector<LabPoint> scene_points(const Plan& plan);
 /// Those of the trials with the plan's n-th effort, but for methods that `before` says to leave: they survived with
-/// less, or were too slow, or are refused.
+/// less, or are too long, or are refused.
 std::vector<LabPoint> trial_points(const Plan& plan, std::size_t n, const std::vector<LabResult>& before);
 
 }  // namespace isostep::tool::lab

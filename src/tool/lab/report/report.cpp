@@ -31,7 +31,7 @@ class ReportWriter {
  public:
   explicit ReportWriter(const ReportOptions& options) : options_(options) {
     data_.is_short = options.is_short;
-    data_.plan = options.is_short ? short_plan(options.limit) : whole_plan(options.limit);
+    data_.plan = options.is_short ? short_plan() : whole_plan();
     open_report(options, "report.html");
     forget_other_versions();
   }
@@ -63,9 +63,7 @@ class ReportWriter {
 
   std::vector<LabResult> swept(const std::vector<LabPoint>& points, const std::string& what) {
     std::cerr << "lab: " << points.size() << " runs of " << what << "\n";
-    SweepOptions sweep_options = sweep_options_of(options_);
-    sweep_options.limit = data_.plan.limit;
-    return sweep(points, sweep_options);
+    return sweep(points, sweep_options_of(options_));
   }
   void add(std::vector<LabResult> results) {
     data_.results.insert(data_.results.end(), std::make_move_iterator(results.begin()),

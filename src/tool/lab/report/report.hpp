@@ -8,15 +8,13 @@
 
 namespace isostep::tool::lab {
 
-inline constexpr double kReportLimit = 8;  // [s] some 8000 runs
-
 /// lab --all and lab --published share these.
 struct ReportOptions {
   std::string out = "build/lab";  // directory; what it holds of this version is not run again
   bool is_short = false;          // a set for CI
   bool fresh = false;             // run again what is already kept
   int jobs = 0;                   // runs at a time; 0: as many as there are cores
-  double limit = kReportLimit;    // [s] CPU time of a run
+  double limit = kStandardLimit;  // of a run, see lab/work.hpp
   std::string peers;              // program that runs the peers; empty: what their file already holds
 };
 /// The runs of a report, kept in its directory.

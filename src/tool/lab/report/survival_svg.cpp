@@ -21,7 +21,7 @@ Paint paint_of(Fate fate) {
   switch (fate) {
     case Fate::survived: return {"#009e73", "#ffffff"};
     case Fate::failed: return {"#d55e00", "#ffffff"};
-    case Fate::slow: return {"#f0c75e", "#24292f"};
+    case Fate::open: return {"#f0c75e", "#24292f"};
     case Fate::refused: return {"#eaeef2", "#57606a"};
     default: return {"#ffffff", "#57606a"};
   }
@@ -31,7 +31,7 @@ std::string sign_of(const MatrixCell& cell, bool ours) {
   switch (cell.fate) {
     case Fate::survived: return ours ? effort_of(cell.result.point) : "✓";
     case Fate::failed: return "×";
-    case Fate::slow: return "…";
+    case Fate::open: return "…";
     case Fate::refused: return "–";
     default: return "";
   }
@@ -83,7 +83,7 @@ std::string legend() {
   constexpr Item kItems[] = {{"#009e73", "#ffffff", "8", "survived, with so many sub-steps"},
                              {"#009e73", "#ffffff", "240", "or with so many steps a second"},
                              {"#d55e00", "#ffffff", "×", "failed with any"},
-                             {"#f0c75e", "#24292f", "…", "too slow"},
+                             {"#f0c75e", "#24292f", "…", "left open: too long"},
                              {"#eaeef2", "#57606a", "–", "cannot be said to it"}};
   constexpr int kRow = 22, kEnd = 560;  // [px] from row to row; where one is full
   std::string text;
