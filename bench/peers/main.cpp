@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 
 #include "peer_run.hpp"
@@ -11,6 +10,7 @@
 #include "scenes/named.hpp"
 #include "scenes/published/published.hpp"
 #include "scenes/trials/trial.hpp"
+#include "tool/lab/progress.hpp"
 
 namespace isostep::bench {
 namespace {
@@ -102,7 +102,9 @@ void run(const Arguments& arguments) {
     std::erase_if(jobs, [&](const PeerJob& job) { return is_kept(kept, job); });
   }
   std::ofstream file(arguments.out, std::ios::binary | std::ios::app);
-  std::size_t count = 0;
+  double all = 0;
+  for (const PeerJob& job : jobs) all += work_of(job);
+  tool::lab::Progress progress(true, jobs.size(), all);
   Work work;
   work.count = jobs.size();
   work.jobs = arguments.jobs;
@@ -112,8 +114,7 @@ void run(const Arguments& arguments) {
   work.done = [&](std::size_t i, const ProcessEnd& end) {
     const LabRecord record = record_of(jobs[i], end, arguments.guard);
     file << to_line(record) << "\n" << std::flush;
-    std::fprintf(stderr, "peers %zu/%zu: %s %s %d/s %s %s\n", ++count, jobs.size(), jobs[i].scene.c_str(),
-                 jobs[i].maker.name, jobs[i].hz, record.result.state.c_str(), record.result.reason.c_str());
+    progress.done(work_of(jobs[i]), name_of(record.result.point) + " " + record.result.state);
   };
   in_processes(work);
   if (!file.flush()) throw std::runtime_error("cannot write " + arguments.out);

@@ -161,6 +161,11 @@ LabRecord empty_record(const PeerJob& job) {
   return record;
 }
 
+double work_of(const PeerJob& job) {
+  const Scene scene = scene_of(job);
+  return static_cast<double>(scene.bodies.size() + scene.joints.size()) * tool::lab::frames_at(scene, -1, job.hz);
+}
+
 void prepare(const PeerJob& job) { careful_of(job.scene); }
 
 LabRecord run_peer(const PeerJob& job) {

@@ -19,6 +19,8 @@ struct PeerJob {
 /// A record with point and version, of a run that never began: it is written when a process does not come back.
 LabRecord empty_record(const PeerJob& job);
 
+/// [body steps] For the time that is left of many.
+double work_of(const PeerJob& job);
 /// Prepares what all engines' runs of the scene need and is the same for them: before their processes begin.
 void prepare(const PeerJob& job);
 /// Steps of 1/hz s for as long as the scene runs.

@@ -108,7 +108,12 @@ const silent = (work) => (value) => { work(value); return [0]; };
 function answer(doubles) {
   const { buffer } = doubles instanceof Float64Array ? doubles : Float64Array.from(doubles);
   const bytes = Buffer.from(buffer);
-  for (let sent = 0; sent < bytes.length;) sent += writeSync(1, bytes, sent);
+  try {
+    for (let sent = 0; sent < bytes.length;) sent += writeSync(1, bytes, sent);
+  } catch (error) {
+    if (error.code !== "EPIPE") throw error;
+    process.exit(); // nobody waits for it any more
+  }
 }
 
 /** Answers until the other side is done with this process. */

@@ -21,6 +21,13 @@ grep -Eq '^advice: (double|q32\.32), .* at 60 Hz: [0-9.e-]+ ms; (the default|tha
 [ "$(lines)" = 8 ] || fail "expected 8 results"
 [ "$(wc -l <"$dir/runs.csv")" -eq 9 ] || fail "expected a header and 8 rows"
 
+# Progress is no part of what is printed.
+grep -q '^8 of 8 runs, about 0 s left: S1x5 ' "$dir/err" || fail "no word of how far it is"
+grep -q ' of 8 runs' "$dir/out" && fail "progress is in the table"
+lab springs --quick --json || fail "lab springs failed"
+[ "$(head -n 1 "$dir/out")" = '{' ] && [ "$(tail -n 1 "$dir/out")" = '}' ] || fail "springs print more than JSON"
+grep -Eq '^([0-9]+) of \1 runs, about 0 s left: net ' "$dir/err" || fail "springs do not say how far they are"
+
 # What is done is not done again, and the JSON is of the same runs.
 before=$(cksum <"$out/results.jsonl")
 small --json || fail "lab --json failed"

@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "gnuplot.hpp"
+#include "progress.hpp"
 #include "springs.hpp"
 #include "tool/common/files.hpp"
 #include "tool/common/tool.hpp"
@@ -19,8 +20,19 @@ using lab::SpringSample;
 using lab::SpringSystem;
 using lab::SpringVerdict;
 
+const char* verdict_of(const SpringSample& sample) {
+  return lab::kSpringVerdictNames[static_cast<int>(sample.verdict)];
+}
+const char* system_of(const SpringSample& sample) { return lab::kSpringSystemNames[static_cast<int>(sample.system)]; }
+
+/// [particles] What a run takes is about as much.
+double work_of(SpringSystem system) { return system == SpringSystem::net ? 64 : 1; }
+
 std::vector<SpringSample> sweep(const std::vector<double>& stiffnesses, int timings) {
   std::vector<SpringSample> samples;
+  const std::size_t each = scalar_names().size() * lab::kSpringMethods * stiffnesses.size();
+  const double work = work_of(SpringSystem::oscillator) + work_of(SpringSystem::net);
+  lab::Progress progress(true, 2 * each, work * static_cast<double>(each));
   for (const SpringSystem system : {SpringSystem::oscillator, SpringSystem::net}) {
     any_scalar([&](auto tag) {
       for (int method = 0; method < lab::kSpringMethods; ++method) {
@@ -28,6 +40,8 @@ std::vector<SpringSample> sweep(const std::vector<double>& stiffnesses, int timi
           stop_if_interrupted();
           const char* scalar = ScalarTraits<typename decltype(tag)::Type>::kName;
           samples.push_back(lab::measure_springs(system, scalar, method, stiffness, timings));
+          progress.done(work_of(system),
+                        std::string(system_of(samples.back())) + " " + scalar + " " + lab::spring_method_name(method));
         }
       }
       return false;
@@ -35,11 +49,6 @@ std::vector<SpringSample> sweep(const std::vector<double>& stiffnesses, int timi
   }
   return samples;
 }
-
-const char* verdict_of(const SpringSample& sample) {
-  return lab::kSpringVerdictNames[static_cast<int>(sample.verdict)];
-}
-const char* system_of(const SpringSample& sample) { return lab::kSpringSystemNames[static_cast<int>(sample.system)]; }
 
 std::string tsv_of(const std::vector<SpringSample>& samples) {
   std::string text = "system\tscalar\tmethod\tstiffness\tverdict\tenergy\tamplitude\tstep_ns\n";

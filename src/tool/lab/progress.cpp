@@ -33,29 +33,40 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(bool shown, std::size_t total, double work)
-    : shown_(shown && total > 0),
-      terminal_(is_terminal()),
-      total_(total),
-      work_(work),
-      begin_(real_milliseconds()),
-      last_(begin_) {}
+ProgressText::ProgressText(bool terminal, std::size_t total, double work, double now)
+    : terminal_(terminal), total_(total), work_(work), begin_(now), last_(now) {}
 
-Progress::~Progress() {
-  if (open_) std::fputs("\n", stderr);
+std::string ProgressText::begin() {
+  return terminal_ && total_ > 0 ? line("0 of " + std::to_string(total_) + " runs") : "";
 }
 
-void Progress::done(double work, const std::string& name) {
+std::string ProgressText::done(double work, const std::string& name, double now) {
   ++done_;
   work_done_ += work;
-  const double now = real_milliseconds();
-  if (!shown_ || (done_ < total_ && now - last_ < (terminal_ ? kOnTerminal : kInLog))) return;
+  if (done_ < total_ && now - last_ < (terminal_ ? kOnTerminal : kInLog)) return "";
   last_ = now;
   const double left = (now - begin_) * 1e-3 * std::max(work_ - work_done_, 0.0) / std::max(work_done_, 1e-9);
-  std::fprintf(stderr, "%s%zu of %zu runs, about %s left: %s%s", terminal_ ? "\r" : "", done_, total_,
-               clock_text(left).c_str(), name.c_str(), terminal_ ? "\x1b[K" : "\n");
-  std::fflush(stderr);
+  return line(std::to_string(done_) + " of " + std::to_string(total_) + " runs, about " + clock_text(left) +
+              " left: " + name);
+}
+
+std::string ProgressText::line(const std::string& text) {
   open_ = terminal_;
+  return terminal_ ? "\r" + text + "\x1b[K" : text + "\n";
+}
+
+Progress::Progress(bool shown, std::size_t total, double work)
+    : shown_(shown), text_(is_terminal(), total, work, real_milliseconds()) {
+  print(text_.begin());
+}
+Progress::~Progress() { print(text_.end()); }
+
+void Progress::done(double work, const std::string& name) { print(text_.done(work, name, real_milliseconds())); }
+
+void Progress::print(const std::string& text) const {
+  if (!shown_) return;
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
 }
 
 }  // namespace isostep::tool::lab

@@ -90,8 +90,9 @@ int write_published_report(const ReportOptions& options, bool full) {
   open_report(options, "published.html");
   const auto in = [&](const char* name) { return options.out + "/" + name; };
   const std::vector<LabPoint> points = points_of(options, full);
-  std::cerr << "lab: " << points.size() << " runs of published tests\n";
+  std::cerr << "lab, part 1 of 2: " << points.size() << " runs of published tests\n";
   std::vector<LabResult> results = sweep(points, sweep_options_of(options));
+  std::cerr << "lab, part 2 of 2: other engines\n";
   const std::string words = full ? "--published" : "--published --most-hz " + std::to_string(kMillisecond);
   const auto counts = [](const std::string& scene) { return scenes::find_published_test(scene) != nullptr; };
   std::vector<LabResult> peers = peers_of(options, {"published_peers.jsonl", words, counts});

@@ -11,6 +11,7 @@
 #include "scenes/script.hpp"
 #include "scenes/shapes.hpp"
 #include "tool/common/tool.hpp"
+#include "tool/lab/progress.hpp"
 
 namespace isostep::tool::lab {
 namespace {
@@ -70,7 +71,9 @@ scenes::Scene spinner() {
 
 std::vector<GrowthSample> measure_growth(int frames) {
   std::vector<GrowthSample> samples;
-  for (const scenes::Scene& scene : grown_scenes()) {
+  const std::vector<scenes::Scene> all = grown_scenes();
+  Progress progress(true, all.size(), static_cast<double>(all.size()));
+  for (const scenes::Scene& scene : all) {
     const int count = std::min(frames, scene.frames);
     const std::vector<scenes::Sight> exact = sights_of<double>(scene, count);
     any_scalar([&](auto tag) {
@@ -82,6 +85,7 @@ std::vector<GrowthSample> measure_growth(int frames) {
       }
       return false;
     });
+    progress.done(1, "growth in " + scene.name);
   }
   return samples;
 }

@@ -61,8 +61,12 @@ class ReportWriter {
     write_file(in("report.version"), version);
   }
 
+  /// The parts are the scenes, an effort each, peers, and the rest.
+  void begin_part(const std::string& what) {
+    std::cerr << "lab, part " << ++part_ << " of " << data_.plan.trial_efforts.size() + 3 << ": " << what << "\n";
+  }
   std::vector<LabResult> swept(const std::vector<LabPoint>& points, const std::string& what) {
-    std::cerr << "lab: " << points.size() << " runs of " << what << "\n";
+    begin_part(std::to_string(points.size()) + " runs of " + what);
     return sweep(points, sweep_options_of(options_));
   }
   void add(std::vector<LabResult> results) {
@@ -82,6 +86,7 @@ class ReportWriter {
 
   /// The program resumes by itself; its lines are read whether it was there or not.
   void run_peers() {
+    begin_part("other engines");
     add(peers_of(options_, {"peers.jsonl", "", [this](const std::string& scene) { return is_asked(scene); }}));
     data_.matrix = matrix_of(data_.plan.trials, data_.plan.scalars, data_.plan.solvers, data_.results);
   }
@@ -94,7 +99,7 @@ class ReportWriter {
   }
 
   void measure_the_rest() {
-    std::cerr << "lab: error growth, stages, springs\n";
+    begin_part("error growth, stages, springs");
     if (text_of(in("lab_growth.tsv")).empty()) {
       write_file(in("lab_growth.tsv"), growth_tsv(measure_growth(options_.is_short ? 120 : 600)));
     }
@@ -136,6 +141,7 @@ class ReportWriter {
 
   const ReportOptions& options_;
   ReportData data_;
+  std::size_t part_ = 0;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "scenes/script.hpp"
 #include "tool/common/tool.hpp"
 #include "tool/lab/median.hpp"
+#include "tool/lab/progress.hpp"
 
 namespace isostep::tool::lab {
 namespace {
@@ -44,12 +45,14 @@ template <class S> void measure(const scenes::Scene& scene, int settling, int ti
 
 std::vector<StageCost> measure_stages(int settling, int timed) {
   std::vector<StageCost> costs;
+  Progress progress(true, 3, 3);
   for (const char* name : {"S3", "S4", "S7"}) {
     const scenes::Scene scene = *scenes::find_scene(name);
     any_scalar([&](auto tag) {
       measure<typename decltype(tag)::Type>(scene, settling, timed, costs);
       return false;
     });
+    progress.done(1, std::string("stages of ") + name);
   }
   return costs;
 }
