@@ -16,7 +16,7 @@ LabResult result_of(const std::string& scene, const std::string& scalar, const s
   LabPoint point = default_point(scene, scalar);
   point.model = model;
   point.hz = hz;
-  return run_point(subject, point, {}, {frames_at(subject.scene, -1, hz), 1e3}, [] { return false; });
+  return run_point(subject, point, {}, frames_at(subject.scene, -1, hz), [] { return false; });
 }
 
 TEST(ArticulatedRun, KeepsTheEnergyOfAFlyingRobot) {

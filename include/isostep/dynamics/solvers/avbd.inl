@@ -117,7 +117,10 @@ template <class N> bool AvbdSystem<N>::solve(bool firm, std::uint64_t) {
       for (int r = 0; r < 3; ++r) blocks_[k].rows[r].answer = pushes.size[r];
     }
   }
-  for (std::uint32_t r = 0; !firm && r < 3 * block_count(); ++r) this->row(r).answer = kept_[r];
+  // What pushes for the first time begins with that: a contact without an answer counts as open.
+  for (std::uint32_t r = 0; !firm && r < 3 * block_count(); ++r) {
+    if (kept_[r] != N(0)) this->row(r).answer = kept_[r];
+  }
   this->work_ = static_cast<std::uint64_t>(kPasses) * block_count();
   return true;
 }
