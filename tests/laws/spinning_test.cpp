@@ -105,7 +105,7 @@ TYPED_TEST(Spinning, few_sub_steps_do_nearly_as_well) {
 }
 TYPED_TEST(Spinning, other_solvers_do_as_well) {
   for (const SolverName solver :
-       built({SolverName::pgs, SolverName::worst_first, SolverName::direct, SolverName::admm, SolverName::avbd})) {
+       built({SolverName::pgs, SolverName::worst_first, SolverName::direct, SolverName::admm})) {
     Drop drop;
     drop.solver = solver;
     this->expect_no_gain(drop, kBar);

@@ -33,6 +33,7 @@ template <class N> ISO_INLINE void solve_six(N (&a)[6][6], N (&b)[6]) {
 template <class N> void AvbdSystem<N>::tie(std::uint32_t body_count, std::uint64_t) {
   motions_.assign(body_count + 1, IslandMotion<N>::zero());
   this->list_blocks(body_count);
+  are_aside_ = false;
   slides_.assign(block_count(), 0);
   for (const IslandPatch<N>& patch : patches_) slides_[patch.first / 3] = 1;
 }
@@ -103,11 +104,8 @@ template <class N> void AvbdSystem<N>::descend(std::uint32_t body) {
 }
 
 template <class N> bool AvbdSystem<N>::solve(bool firm, std::uint64_t) {
+  keep_multipliers(firm);
   this->settle_answers();
-  if (!firm) {
-    kept_.clear();
-    for (std::uint32_t r = 0; r < 3 * block_count(); ++r) kept_.push_back(this->row(r).answer);
-  }
   const auto bodies = static_cast<std::uint32_t>(motions_.size());
   for (int pass = 0; pass < kPasses; ++pass) {
     for (const IslandPatch<N>& patch : patches_) this->limit_by_disc(patch);
@@ -117,12 +115,18 @@ template <class N> bool AvbdSystem<N>::solve(bool firm, std::uint64_t) {
       for (int r = 0; r < 3; ++r) blocks_[k].rows[r].answer = pushes.size[r];
     }
   }
-  // What pushes for the first time begins with that: a contact without an answer counts as open.
-  for (std::uint32_t r = 0; !firm && r < 3 * block_count(); ++r) {
-    if (kept_[r] != N(0)) this->row(r).answer = kept_[r];
-  }
   this->work_ = static_cast<std::uint64_t>(kPasses) * block_count();
   return true;
+}
+
+/// Sets multipliers aside while errors are closed, and takes them up again after.
+template <class N> void AvbdSystem<N>::keep_multipliers(bool firm) {
+  for (std::uint32_t r = 0; r < 3 * block_count(); ++r) {
+    IslandRow<N>& row = this->row(r);
+    if (!firm && !are_aside_) row.last = row.answer;
+    if (firm && are_aside_) row.answer = row.last;
+  }
+  are_aside_ = !firm;
 }
 
 }  // namespace isostep

@@ -169,6 +169,7 @@ template <class S> class IslandSolver {
   void relax_mechanisms(const StepContext<S>& context);
   void scale_right_sides(Island& island);
   void apply(const Island& island);
+  MotionRow<V> pushed(const Island& island, std::uint32_t body, const MotionRow<V>& free) const;
 
   IslandMethod method_;
   BodyRows<S> bodies_;

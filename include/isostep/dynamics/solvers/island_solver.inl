@@ -52,13 +52,17 @@ template <class S> void IslandSolver<S>::place_rows(const StepContext<S>& contex
 /// the new inertia. In islands with joints only the inertia changes now; the rows follow at the next sub-step.
 template <class S> void IslandSolver<S>::follow(const StepContext<S>& context, Island& island) {
   bool any = false;
-  for (const std::uint32_t row : island.bodies) {
+  const bool by_answers = island.system->moves_by_answers();
+  for (std::uint32_t i = 0; i < island.bodies.size(); ++i) {
+    const std::uint32_t row = island.bodies[i];
     if (!bodies_.is_followed(context, row)) continue;
     any = true;
     bodies_.renew_inertia(context, row);
     if (!island.joints.empty()) continue;
+    Vec3<V> free = bodies_.rows().velocity[row].angular;
+    if (!by_answers) free = free - pushed(island, i, MotionRow<V>::zero()).angular;
     find_root(row, bodies_.rows().mass[row].kappa);
-    free_velocity_[row].angular = bodies_.rows().velocity[row].angular;
+    free_velocity_[row].angular = free;
   }
   if (!any || !island.joints.empty()) return;
   const std::vector<SolverMass<S>>& mass = bodies_.rows().mass;
@@ -68,7 +72,7 @@ template <class S> void IslandSolver<S>::follow(const StepContext<S>& context, I
     const auto points = static_cast<std::int32_t>(context.contacts[c].count);
     FollowedContact<S>(memory_[c].bytes, 1, points, rolls(context, c))
         .turn_by(mass[g.row_a].kappa, mass[g.row_b].kappa);
-    take_back_turns(context, island, k);
+    if (by_answers) take_back_turns(context, island, k);
     place_contact(context, island, k);
   }
   island.system->assemble();
@@ -167,22 +171,29 @@ template <class S> void IslandSolver<S>::solve(const StepContext<S>& context, Is
 template <class S> void IslandSolver<S>::apply(const Island& island) {
   for (std::uint32_t i = 0; i < island.bodies.size(); ++i) {
     const std::uint32_t row = island.bodies[i];
-    const IslandMotion<N>& u = island.system->motion(i + 1);
-    const BodyRoot& root = roots_[row];
-    const int exponent = island.exponent + root.root_exponent;
-    MotionRow<V>& v = bodies_.rows().velocity[row];
-    const MotionRow<V>& free = free_velocity_[row];
-    const auto add = [](V old, N change, int e) { return System::add(old, System::value(change, e)); };
-    v.linear = {add(free.linear.x, root.root * u.linear.x, exponent),
-                add(free.linear.y, root.root * u.linear.y, exponent),
-                add(free.linear.z, root.root * u.linear.z, exponent)};
-    const Mat3<N>& t = root.turn;
-    const N x = t.rows[0].x * u.angular.x, y = t.rows[1].x * u.angular.x + t.rows[1].y * u.angular.y,
-            z = t.rows[2].x * u.angular.x + t.rows[2].y * u.angular.y + t.rows[2].z * u.angular.z;
-    const int turning = exponent + root.turn_exponent;
-    v.angular = {add(free.angular.x, root.root * x, turning), add(free.angular.y, root.root * y, turning),
-                 add(free.angular.z, root.root * z, turning)};
+    bodies_.rows().velocity[row] = pushed(island, i, free_velocity_[row]);
   }
+}
+
+/// Returns velocities plus what the answers give to a body of the island.
+template <class S>
+MotionRow<Velocity<S>> IslandSolver<S>::pushed(const Island& island, std::uint32_t body,
+                                               const MotionRow<V>& free) const {
+  const IslandMotion<N>& u = island.system->motion(body + 1);
+  const BodyRoot& root = roots_[island.bodies[body]];
+  const int exponent = island.exponent + root.root_exponent;
+  MotionRow<V> v = free;
+  const auto add = [](V old, N change, int e) { return System::add(old, System::value(change, e)); };
+  v.linear = {add(free.linear.x, root.root * u.linear.x, exponent),
+              add(free.linear.y, root.root * u.linear.y, exponent),
+              add(free.linear.z, root.root * u.linear.z, exponent)};
+  const Mat3<N>& t = root.turn;
+  const N x = t.rows[0].x * u.angular.x, y = t.rows[1].x * u.angular.x + t.rows[1].y * u.angular.y,
+          z = t.rows[2].x * u.angular.x + t.rows[2].y * u.angular.y + t.rows[2].z * u.angular.z;
+  const int turning = exponent + root.turn_exponent;
+  v.angular = {add(free.angular.x, root.root * x, turning), add(free.angular.y, root.root * y, turning),
+               add(free.angular.z, root.root * z, turning)};
+  return v;
 }
 
 template <class S> std::uint32_t IslandSolver<S>::unsolved() const {

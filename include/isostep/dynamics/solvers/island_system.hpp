@@ -32,7 +32,7 @@ template <class N> struct IslandRow {
   N right = N(0);
   N limit = N(0);
   N answer = N(0);
-  N last = N(0);  // answer of the pass before
+  N last = N(0);  // an answer that the method keeps: of the pass before, in pivoting
 };
 
 /// Three rows between two bodies. Body 0 does not move.
@@ -86,6 +86,8 @@ template <class N> class IslandSystem {
   /// Solves. Returns false if it found no solution within most_work: then answers are within bounds. With `firm`
   /// contacts do not yield either. Equations never do.
   virtual bool solve(bool firm, std::uint64_t most_work) = 0;
+  /// Returns true if u is W^T x, and not only near it.
+  virtual bool moves_by_answers() const { return true; }
   /// Returns the work of the smallest solve that is worth beginning.
   virtual std::uint64_t least_work() const = 0;
   /// Returns about how many products of blocks the last solve took: some 50 ns each in double.

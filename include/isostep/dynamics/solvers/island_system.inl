@@ -120,6 +120,7 @@ template <class N> void IslandSystem<N>::rescale(int by) {
   for (IslandBlock<N>& block : blocks_) {
     for (IslandRow<N>& row : block.rows) {
       row.answer = D::bounded(D::shifted(row.answer, by));
+      row.last = D::bounded(D::shifted(row.last, by));
       row.limit = D::bounded(D::shifted(row.limit, by));
     }
   }
