@@ -48,7 +48,9 @@ std::unique_ptr<btTypedConstraint> ball(const PeerJoint& joint, btRigidBody& a, 
 std::unique_ptr<btTypedConstraint> bullet_joint(const PeerJoint& joint, btRigidBody& a, btRigidBody& b, double hz) {
   switch (joint.type) {
     case JointType::ball: return ball(joint, a, b);
-    case JointType::hinge: return hinge(joint, a, b, hz);
+    case JointType::hinge:
+      if (joint.is_spring) throw scenes::SceneError("", "Bullet has no spring of a hinge");
+      return hinge(joint, a, b, hz);
     case JointType::fixed: return std::make_unique<btFixedConstraint>(a, b, frame(joint.on_a), frame(joint.on_b));
     case JointType::slider: return slider(joint, a, b);
     case JointType::distance: throw scenes::SceneError("", "Bullet has no distance joint");

@@ -173,6 +173,7 @@ const kinds = {
   rod: () => [new J.DistanceConstraintSettings(), { mPoint: anchorOf }],
 };
 kinds.rope = kinds.spring = kinds.rod;
+kinds.servo = kinds.hinge;
 
 function setLimits(settings, { type, limits, cone, shortest, length, rest, stiffness, damping }) {
   if (cone > 0) {
@@ -200,6 +201,17 @@ function startMotor(constraint, { type, motor: [speed] }) {
   if (type === "hinge") made.SetTargetAngularVelocity(speed);
   else made.SetTargetVelocity(speed);
 }
+function setSpring(settings, { stiffness, damping }) {
+  const spring = settings.mMotorSettings.mSpringSettings;
+  spring.mMode = J.ESpringMode_StiffnessAndDamping;
+  spring.mStiffness = stiffness;
+  spring.mDamping = damping;
+}
+function startServo(constraint, { rest }) {
+  const made = J.castObject(constraint, J.HingeConstraint);
+  made.SetMotorState(J.EMotorState_Position);
+  made.SetTargetAngle(rest);
+}
 function connect(joint) {
   const { type, a, b, motor } = joint;
   if (!(type in kinds)) refuse(`Jolt is given no ${type}`);
@@ -208,9 +220,11 @@ function connect(joint) {
   setEnds(settings, joint, oneOf, names);
   setLimits(settings, joint);
   if (motor !== null) setMotor(settings, joint);
+  if (type === "servo") setSpring(settings, joint);
   const made = settings.Create(a < 0 ? J.JoltInterface.prototype.sGetFixedToWorldBody() : bodies[a], bodies[b]);
   physics.AddConstraint(made);
   if (motor !== null) startMotor(made, joint);
+  if (type === "servo") startServo(made, joint);
   constraints.push(made);
 }
 

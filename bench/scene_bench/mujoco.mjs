@@ -62,7 +62,8 @@ function meshes() {
 
 // The forest: each body has a parent, -1 the world, and the joint to it, or none and is free.
 
-const isHeld = ({ type }) => type === "ball" || type === "hinge" || type === "slider" || type === "fixed";
+const isHeld = ({ type }) => type === "ball" || type === "hinge" || type === "servo" || type === "slider"
+  || type === "fixed";
 function plantForest() {
   nodes = scene.bodies.map(() => ({ parent: -1, joint: null, children: [], planted: false }));
   const near = new Map();
@@ -99,7 +100,7 @@ function endOfChild(index) {
   const { joint } = nodes[index];
   return joint.b === index ? [joint.on_b, axisOf(joint.on_b)] : [joint.on_a, scaled(axisOf(joint.on_a), -1)];
 }
-const names = { ball: "ball", hinge: "hinge", slider: "slide" };
+const names = { ball: "ball", hinge: "hinge", servo: "hinge", slider: "slide" };
 function jointText(index) {
   const { joint } = nodes[index];
   if (joint === null) return scene.bodies[index].type === "fixed" ? "" : element("freejoint", {});
@@ -108,7 +109,9 @@ function jointText(index) {
   const [end, axis] = endOfChild(index);
   const limits = joint.limits === null ? {} : { limited: "true", range: text(joint.limits) };
   const place = { pos: text(end.anchor), axis: text(axis) };
-  return element("joint", { name: `j${index}`, type: names[joint.type], ...place, ...limits });
+  const { rest, stiffness, damping } = joint;
+  const spring = joint.type === "servo" ? { springref: rest, stiffness, damping } : {};
+  return element("joint", { name: `j${index}`, type: names[joint.type], ...place, ...limits, ...spring });
 }
 function bodyText(index) {
   const body = scene.bodies[index], { parent, children } = nodes[index];
@@ -144,8 +147,8 @@ const heldTendons = () => scene.joints.map(({ type, shortest, length }, i) => (t
 /** A joint that closes a loop: a hinge is held at two points of its axis. */
 const hingeHalf = 0.5; // [m]
 function loop({ type, a, b, on_b: on, limits, motor }) {
-  if (limits !== null || motor !== null || type === "slider") {
-    refuse("MuJoCo is given no slider, limit or motor that closes a loop of joints");
+  if (limits !== null || motor !== null || type === "slider" || type === "servo") {
+    refuse("MuJoCo is given no slider, limit, motor or spring that closes a loop of joints");
   }
   const bodies = { body1: `b${b}`, ...(a < 0 ? {} : { body2: `b${a}` }) };
   if (type === "fixed") return element("weld", bodies);
@@ -229,7 +232,7 @@ function speedsOf(index) {
   const still = { velocity: [0, 0, 0], angular_velocity: [0, 0, 0] }, from = parent < 0 ? still : scene.bodies[parent];
   const relative = (name) => turned(back, body[name].map((value, i) => value - from[name][i]));
   if (joint.type === "ball") return relative("angular_velocity");
-  return [dot(relative(joint.type === "hinge" ? "angular_velocity" : "velocity"), endOfChild(index)[1])];
+  return [dot(relative(joint.type === "slider" ? "velocity" : "angular_velocity"), endOfChild(index)[1])];
 }
 const dofsOf = (index) => model.body_dofadr[1 + order.indexOf(index)];
 function setMotion(index) {

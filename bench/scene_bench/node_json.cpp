@@ -43,9 +43,10 @@ Json json_of(const PeerPart& part) {
 }
 
 Json json_of(const PeerEnd& end) { return {{"anchor", json_of(end.position)}, {"axes", json_of(end.orientation)}}; }
-/// A rope may go slack, a rod may not.
+/// A rope may go slack, a rod may not; a servo is a hinge with a spring.
 const char* name_of(const PeerJoint& joint) {
   if (JointType::slider < joint.type) throw scenes::SceneError("", "a joint that engines in Node are not asked for");
+  if (joint.type == JointType::hinge && joint.is_spring) return "servo";
   if (joint.type != JointType::distance) return kJointNames[static_cast<std::size_t>(joint.type)];
   if (joint.is_spring) return "spring";
   return joint.lower > 0 ? "rod" : "rope";

@@ -32,13 +32,20 @@ dJointID ball(dWorldID world, const PeerJoint& joint, const OdePlace& at) {
   return made;
 }
 /// ODE takes b for its first body where a is the world, and so the coordinate of b, but the axis as it is given.
-dJointID hinge(dWorldID world, const PeerJoint& joint, const OdePlace& at) {
+dJointID hinge(dWorldID world, const PeerJoint& joint, const OdePlace& at, double hz) {
   const dJointID made = dJointCreateHinge(world, nullptr);
   dJointAttach(made, at.a, at.b);
   dJointSetHingeAnchor(made, at.on_b.x, at.on_b.y, at.on_b.z);
   const Vec3<double> axis = at.a == nullptr ? at.axis : -at.axis;
   dJointSetHingeAxis(made, axis.x, axis.y, axis.z);
   set_drive(made, joint, dJointSetHingeParam);
+  if (!joint.is_spring) return made;
+  // A stop at both sides of the rest is a spring and damper by ERP and CFM, as its manual says.
+  const double step = joint.stiffness / hz;
+  dJointSetHingeParam(made, dParamLoStop, joint.rest);
+  dJointSetHingeParam(made, dParamHiStop, joint.rest);
+  dJointSetHingeParam(made, dParamStopERP, step / (step + joint.damping));
+  dJointSetHingeParam(made, dParamStopCFM, 1 / (step + joint.damping));
   return made;
 }
 dJointID slider(dWorldID world, const PeerJoint& joint, const OdePlace& at) {
@@ -70,7 +77,7 @@ dJointID distance(dWorldID world, const PeerJoint& joint, const OdePlace& at, do
 void add_ode_joint(dWorldID world, const PeerJoint& joint, const OdePlace& at, double hz) {
   switch (joint.type) {
     case JointType::ball: ball(world, joint, at); return;
-    case JointType::hinge: hinge(world, joint, at); return;
+    case JointType::hinge: hinge(world, joint, at, hz); return;
     case JointType::fixed: weld(world, at); return;
     case JointType::distance: distance(world, joint, at, hz); return;
     case JointType::slider: slider(world, joint, at); return;

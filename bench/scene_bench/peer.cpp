@@ -104,7 +104,7 @@ PeerEnd Peer::end_now(int body, const PeerEnd& end) const {
 double Peer::joint_error() const {
   double largest = 0;
   for (const PeerJoint& joint : joints_) {
-    if (joint.is_spring) continue;
+    if (joint.is_spring && joint.type == JointType::distance) continue;
     const PeerEnd on_a = end_now(joint.a, joint.on_a), on_b = end_now(joint.b, joint.on_b);
     Vec3<double> apart = on_b.position - on_a.position;
     const Vec3<double> axis = to_matrix(on_a.orientation).column(2);

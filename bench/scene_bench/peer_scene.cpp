@@ -138,6 +138,19 @@ double reduced_mass(const PeerJoint& joint, const std::vector<PeerBody>& bodies)
   }
   return inverse > 0 ? 1 / inverse : 0;
 }
+/// [kg m^2] The same of their inertias about the joint's axis.
+double reduced_inertia(const PeerJoint& joint, const std::vector<PeerBody>& bodies) {
+  double inverse = 0;
+  const auto add = [&](int index, const PeerEnd& end) {
+    if (index < 0 || bodies[static_cast<std::size_t>(index)].type != BodyType::dynamic) return;
+    const Vec3<double> axis = to_matrix(end.orientation).column(2),
+                       of = bodies[static_cast<std::size_t>(index)].inertia;
+    inverse += axis.x * axis.x / of.x + axis.y * axis.y / of.y + axis.z * axis.z / of.z;
+  };
+  add(joint.a, joint.on_a);
+  add(joint.b, joint.on_b);
+  return inverse > 0 ? 1 / inverse : 0;
+}
 void set_spring(PeerJoint& joint, const scenes::SceneJoint& of, double mass) {
   const double omega = scenes::kTurn * real(of.spring_frequency);  // [rad/s]
   joint.rest = real(of.spring_target);
@@ -158,14 +171,18 @@ void require_plain(const scenes::SceneJoint& joint) {
   const std::uint32_t limit = joint_flag::kLimit, spring = joint_flag::kSpring, plain = joint_flag::kCollideConnected;
   const bool turns = joint.type == JointType::hinge, slides = joint.type == JointType::slider,
              distance = joint.type == JointType::distance;
-  const std::uint32_t known =
-      plain | (turns || slides ? limit | joint_flag::kMotor : 0u) | (distance ? limit | spring : 0u);
+  const std::uint32_t known = plain | (turns || slides ? limit | joint_flag::kMotor : 0u) |
+                              (turns || distance ? spring : 0u) | (distance ? limit : 0u);
   const std::uint32_t both = limit | joint_flag::kCone;
   const bool shoulder = joint.type == JointType::ball && (joint.flags & both) == both &&
                         real(joint.lower) == -real(joint.upper) && (joint.flags & ~(plain | both)) == 0;
   if (shoulder) return;
-  if ((joint.flags & ~known) != 0 || (joint.flags & (limit | spring)) == (limit | spring)) {
-    throw SceneError("", "peers are given motors of hinges and sliders, and limits of those and of whole shoulders");
+  const bool is_sprung = (joint.flags & spring) != 0 && (joint.flags & (limit | joint_flag::kMotor)) != 0;
+  if ((joint.flags & ~known) != 0 || is_sprung) {
+    throw SceneError(
+        "",
+        "peers are given motors and limits of hinges and sliders, limits of whole shoulders, and springs of "
+        "hinges and distances by themselves");
   }
 }
 
@@ -226,7 +243,8 @@ PeerJoint peer_joint(const scenes::SceneJoint& of, const std::vector<PeerBody>& 
   joint.motor_force = real(of.max_force);
   joint.is_spring = (of.flags & joint_flag::kSpring) != 0;
   joint.collide = (of.flags & joint_flag::kCollideConnected) != 0;
-  if (joint.is_spring) set_spring(joint, of, reduced_mass(joint, bodies));
+  const bool turns = of.type == JointType::hinge;
+  if (joint.is_spring) set_spring(joint, of, turns ? reduced_inertia(joint, bodies) : reduced_mass(joint, bodies));
   if (joint.b < 0) turn_round(joint);
   return joint;
 }

@@ -39,8 +39,8 @@ struct PeerBody {
 };
 /// One end of a joint, in the frame of PeerBody; the world's for the world.
 using PeerEnd = Pose<double>;
-/// Hinges and sliders may have limits and motors, balls a cone and a twist as far to both sides, distance joints may be
-/// springs.
+/// Hinges and sliders may have limits and motors, balls a cone and a twist as far to both sides, hinges and distance
+/// joints may be springs.
 struct PeerJoint {
   JointType type;
   int a, b;             // a = -1: the world
@@ -51,7 +51,7 @@ struct PeerJoint {
   bool has_motor;
   double motor_speed, motor_force;  // [rad/s] and [N m] of a hinge, [m/s] and [N] of a slider; of b against a
   bool is_spring;
-  double rest, stiffness, damping;  // [m], [N/m], [N s/m]
+  double rest, stiffness, damping;  // [m], [N/m], [N s/m]; of a hinge [rad], [N m/rad], [N m s/rad]
   bool collide;                     // the two bodies with each other
 };
 /// Two hinges whose angles go together: ratio_a angle_a + ratio_b angle_b stays 0.

@@ -184,6 +184,13 @@ function hinge(made, { limits, motor }) {
   made.setDriveForceLimit(torque);
   made.setRevoluteJointFlag(eDRIVE_ENABLED, true);
 }
+/** Its turn is held by a spring towards the angle of the start. */
+function servo(made, { rest, stiffness, damping }) {
+  if (rest !== 0) refuse("PhysX is given servos of the angle of the start alone");
+  made.setMotion(PX.PxD6AxisEnum.eTWIST, PX.PxD6MotionEnum.eFREE);
+  using([new PX.PxD6JointDrive(stiffness, damping, stiff, false)],
+    (drive) => made.setDrive(PX.PxD6DriveEnum.eTWIST, drive));
+}
 function slider(made, { limits, motor }) {
   const { eX } = PX.PxD6AxisEnum, { eFREE, eLIMITED } = PX.PxD6MotionEnum;
   made.setMotion(eX, limits === null ? eFREE : eLIMITED);
@@ -215,7 +222,8 @@ function distance(made, { type, shortest, length, rest, stiffness, damping }) {
 }
 const nothing = () => {};
 const kinds = {
-  ball: ["Spherical", nothing], hinge: ["Revolute", hinge], slider: ["D6", slider], fixed: ["Fixed", nothing],
+  ball: ["Spherical", nothing], hinge: ["Revolute", hinge], servo: ["D6", servo], slider: ["D6", slider],
+  fixed: ["Fixed", nothing],
   rod: ["Distance", distance], rope: ["Distance", distance], spring: ["Distance", distance],
 };
 function connect(joint) {

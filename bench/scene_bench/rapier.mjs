@@ -70,7 +70,7 @@ function make(body, allowSleep) {
 }
 
 function requireKnown({ type, cone }) {
-  if (!["ball", "hinge", "slider", "fixed", "spring", "rope"].includes(type)) refuse(`Rapier has no ${type}`);
+  if (!["ball", "hinge", "servo", "slider", "fixed", "spring", "rope"].includes(type)) refuse(`Rapier has no ${type}`);
   if (cone > 0) refuse("Rapier has no cone");
 }
 
@@ -83,7 +83,7 @@ function connect(of) {
   const axis = (end) => vector(axisOf(end));
   const joint =
     type === "ball" ? RAPIER.JointData.spherical(p, q)
-    : type === "hinge" ? RAPIER.JointData.revoluteWithAxes(p, q, axis(on_a), axis(on_b))
+    : type === "hinge" || type === "servo" ? RAPIER.JointData.revoluteWithAxes(p, q, axis(on_a), axis(on_b))
     : type === "slider" ? RAPIER.JointData.prismatic(p, q, vector([1, 0, 0]))
     : type === "fixed" ? RAPIER.JointData.fixed(p, rotation(on_a.axes), q, rotation(on_b.axes))
     : type === "spring" ? RAPIER.JointData.spring(rest, stiffness, damping, p, q)
@@ -94,6 +94,10 @@ function connect(of) {
   if (type === "slider") {
     made.setFrameX1(rotation(xToZ(on_a.axes)));
     made.setFrameX2(rotation(xToZ(on_b.axes)));
+  }
+  if (type === "servo") {
+    made.configureMotorModel(RAPIER.MotorModel.ForceBased);
+    made.configureMotorPosition(rest, stiffness, damping);
   }
   if (motor !== null) {
     const [speed, force] = motor;

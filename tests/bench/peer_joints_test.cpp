@@ -105,5 +105,31 @@ TEST(PeerJoints, gears_turn_against_each_other_by_their_teeth_or_are_refused) {
   }
 }
 
+/// A wheel on the world that turns at 1 rad/s against a spring of 1 Hz: a quarter of a second later it is furthest.
+Scene sprung_wheel() {
+  Scene scene = scenes::weightless(60);
+  scene.hz = 240;
+  scene.bodies.push_back(cube(0, 1));
+  scene.bodies.back().angular_velocity = {0, 0, 1};
+  scene.joints.push_back(scenes::joint_of(JointType::hinge, -1, 0, {0, 0, 0}));
+  scene.joints.back().flags = joint_flag::kSpring;
+  scene.joints.back().spring_frequency = 1;
+  return scene;
+}
+TEST(PeerJoints, springs_of_hinges_are_as_stiff_as_ours_or_are_refused) {
+  int sprung = 0;
+  for (const Maker& maker : makers()) {
+    SCOPED_TRACE(maker.name);
+    try {
+      EXPECT_NEAR(scenes::angle_of(end_of(maker, sprung_wheel()).bodies[0]), 1 / scenes::kTurn,
+                  0.005);  // [rad] of .159
+      ++sprung;
+    } catch (const scenes::SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find("spring"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_GT(sprung, 1);
+}
+
 }  // namespace peer_joints_test
 }  // namespace isostep::bench

@@ -1,7 +1,7 @@
 // Tests of engines for robots: drift of energy and momentum, and how soon runs agree as the step shrinks.
 // Source:  Erez, Tassa, Todorov 2015, Simulation tools for model-based robotics: comparison of Bullet, Havok, MuJoCo,
-//          ODE and PhysX, ICRA. Differs: the same kinds of systems and measures, bodies and drives of our own; its
-//          figures are in pictures alone.
+//          ODE and PhysX, ICRA. Differs: the same kinds of systems and measures, bodies and drives of our own, so that
+//          its figures are not repeated.
 // SPDX-License-Identifier: MIT
 #include "hinged.hpp"
 #include "published.hpp"
@@ -192,7 +192,8 @@ constexpr PublishedBar kHumanoidSteps[] = {{100, 6e-3, 1e-4}};
 constexpr PublishedBar kSlip[] = {{100, 0.05, 0.01}};
 
 constexpr const char* kTheirChain = "a planar chain too, of another length and other masses";
-constexpr const char* kTheirHumanoid = "theirs has 25 degrees of freedom, touches and is steered; ours 16 and flies";
+constexpr const char* kTheirHumanoid =
+    "a humanoid too; ours has 16 degrees of freedom, is moved by motors and touches nothing";
 constexpr const char* kAway = "distance from the same engine's run in the shortest steps, after 0.5 s";
 
 PublishedTest erez_test(Trial trial, const char* differs, std::span<const int> rates,
@@ -231,7 +232,7 @@ std::span<const PublishedTest> erez_tests() {
                 kTheirHumanoid, kShrinking, kHumanoidSteps, true),
       erez_test({"erez_grasp", "grasp", "two fingers of two links hold a block by their motors, 5 s",
                  "furthest way of the block after the first second", "mm", 0, grasp, judge_of<Slip>},
-                "theirs is an arm with a hand that squeezes by springs and dampers", kGraspRates, kSlip),
+                "theirs squeezes by springs and dampers", kGraspRates, kSlip),
   };
   return tests;
 }

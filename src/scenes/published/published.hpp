@@ -30,7 +30,7 @@ struct PublishedTest {
   /// The figure is the distance of the run's outcome from that of the same engine in the shortest steps that it ran.
   bool compares_steps = false;
   std::span<const int> rates;                     // [1/s] of the steps, the longest first
-  std::span<const PublishedFigure> figures = {};  // none: theirs are of other scenes, or in pictures alone
+  std::span<const PublishedFigure> figures = {};  // none: theirs are of other scenes
   std::span<const PublishedBar> bars;
 };
 /// Its trial's bar becomes the first must.
