@@ -115,7 +115,7 @@ template <std::size_t kBodies> class SpreadOfEnds : public Judge {
   Sight end_;
 };
 
-constexpr int kPredictableRates[] = {100, 1000};
+constexpr int kPredictableRates[] = {100, 250};
 
 template <std::size_t kBodies = 1>
 PublishedTest predictable_test(const char* name, const char* number, const char* description, Scene (*make)(),
