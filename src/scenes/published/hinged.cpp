@@ -5,20 +5,13 @@
 #include "scenes/trials/scene_numbers.hpp"
 
 namespace isostep::scenes {
-namespace {
-
-Quat<double> attitude_of(const Rotation& q) {
-  return normalise(Quat<double>{value(q[0]), value(q[1]), value(q[2]), value(q[3])});
-}
-
-}  // namespace
 
 void turn_hinges(Scene& scene, std::size_t first_joint, std::span<const double> rates) {
   for (std::size_t i = 0; i < rates.size(); ++i) {
     const SceneJoint& joint = scene.joints[first_joint + i];
     const SceneBody& a = scene.bodies[static_cast<std::size_t>(joint.a)];
     SceneBody& b = scene.bodies[static_cast<std::size_t>(joint.b)];
-    const Vec3<double> axis = to_matrix(attitude_of(joint.orientation)).column(2), at = value(joint.anchor);
+    const Vec3<double> axis = to_matrix(value(joint.orientation)).column(2), at = value(joint.anchor);
     const Vec3<double> before = value(a.angular_velocity), spin = before + axis * rates[i];
     const Vec3<double> of_joint = value(a.velocity) + cross(before, at - value(a.position));
     b.angular_velocity = vector_of(point_of(spin));

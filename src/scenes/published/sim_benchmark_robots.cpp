@@ -142,18 +142,14 @@ constexpr int kRobotRow = 2;                     // of robots
 constexpr double kRobotPitch = 2;                // [m]
 constexpr double kStandingHeight = 0.542;        // [m] of a trunk whose feet touch the ground
 
-/// [kg m^2] The inertia of a body about an axis of the world.
+/// [kg m^2] What a body resists a torque about an axis of the world with.
 double inertia_about(const SceneBody& body, Vec3<double> axis) {
-  const Quat<double> q = {value(body.orientation[0]), value(body.orientation[1]), value(body.orientation[2]),
-                          value(body.orientation[3])};
-  const Vec3<double> own = transposed_times(to_matrix(normalise(q)), axis), of = value(body.inertia);
+  const Vec3<double> own = transposed_times(to_matrix(value(body.orientation)), axis), of = value(body.inertia);
   return 1 / (own.x * own.x / of.x + own.y * own.y / of.y + own.z * own.z / of.z);
 }
 /// A spring is told by frequency and damping of what two bodies resist with.
 void add_servo(const Scene& scene, SceneJoint& joint) {
-  const Quat<double> q = {value(joint.orientation[0]), value(joint.orientation[1]), value(joint.orientation[2]),
-                          value(joint.orientation[3])};
-  const Vec3<double> axis = to_matrix(normalise(q)).column(2);
+  const Vec3<double> axis = to_matrix(value(joint.orientation)).column(2);
   const double a = inertia_about(scene.bodies[static_cast<std::size_t>(joint.a)], axis);
   const double b = inertia_about(scene.bodies[static_cast<std::size_t>(joint.b)], axis);
   const double inertia = a * b / (a + b), rate = std::sqrt(kStiffness / inertia);

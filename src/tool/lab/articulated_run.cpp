@@ -30,20 +30,17 @@ template <class S> Quat<Unit<S>> told_turn(Quat<double> q) {
   return {x, y, z, told<Unit<S>>(q.w)};
 }
 
-Quat<double> attitude_of(const scenes::Rotation& q) {
-  return normalise(Quat<double>{value(q[0]), value(q[1]), value(q[2]), value(q[3])});
-}
 /// A frame of the world in that of a body.
 template <class S> Pose<S> frame_in(const SceneBody& body, const SceneJoint& joint) {
-  const Quat<double> back = conjugate(attitude_of(body.orientation));
+  const Quat<double> back = conjugate(value(body.orientation));
   return {told<S>(to_matrix(back) * (value(joint.anchor) - value(body.position))),
-          told_turn<S>(normalise(back * attitude_of(joint.orientation)))};
+          told_turn<S>(normalise(back * value(joint.orientation)))};
 }
 const SceneBody& body_at(const Scene& scene, int index) { return scene.bodies[static_cast<std::size_t>(index)]; }
 
 /// [rad/s] Of b against a, about the joint's axis.
 double rate_of(const Scene& scene, const SceneJoint& joint) {
-  const Vec3<double> axis = to_matrix(attitude_of(joint.orientation)).column(2);
+  const Vec3<double> axis = to_matrix(value(joint.orientation)).column(2);
   return dot(axis, value(body_at(scene, joint.b).angular_velocity) - value(body_at(scene, joint.a).angular_velocity));
 }
 
@@ -92,7 +89,7 @@ template <class S> void set_start(const Scene& scene, Articulation<S>& tree) {
   const SceneBody& trunk = scene.bodies.front();
   JointCoordinates<S> free;
   free.position = told<S>(value(trunk.position));
-  free.rotation = told_turn<S>(attitude_of(trunk.orientation));
+  free.rotation = told_turn<S>(value(trunk.orientation));
   free.velocity = told<S>(value(trunk.velocity));
   free.angular_velocity = told<S>(value(trunk.angular_velocity));
   bool taken = tree.set_coordinates(0, free);
