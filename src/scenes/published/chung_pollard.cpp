@@ -122,7 +122,7 @@ PublishedTest predictable_test(const char* name, const char* number, const char*
                                const char* differs, std::span<const PublishedBar> bars) {
   return with_first_bar({.trial = {name, number, description, "spread of the ends after 4 s", "m", 0, make,
                                    judge_of<SpreadOfEnds<kBodies>>},
-                         .source = "after Chung and Pollard",
+                         .source = "After Chung and Pollard",
                          .year = 2016,
                          .differs = differs,
                          .rates = kPredictableRates,

@@ -199,7 +199,7 @@ constexpr const char* kAway = "distance from the same engine's run in the shorte
 PublishedTest erez_test(Trial trial, const char* differs, std::span<const int> rates,
                         std::span<const PublishedBar> bars, bool compares_steps = false) {
   return with_first_bar({.trial = trial,
-                         .source = "after Erez, Tassa and Todorov",
+                         .source = "After Erez, Tassa and Todorov",
                          .year = 2015,
                          .differs = differs,
                          .compares_steps = compares_steps,
