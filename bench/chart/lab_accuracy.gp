@@ -9,22 +9,22 @@ scenes = listed(1)
 count = words(scenes)
 rows = (count + 2) / 3
 width = 1200
-height = 150 + 345 * rows
+height = 172 + 345 * rows
 load ARG0[1:strstrt(ARG0, "lab_accuracy.gp") - 1]."style.gp"
 set output out
 
 set datafile separator tab
 scalars = "float double q16.16 q32.32"
 solvers = "soft_step pgs worst_first direct"
-peers = "rapier-simd rapier-det bullet ode"
-names = "'Rapier, SIMD' 'Rapier, deterministic' 'Bullet' 'ODE'"
-# Colour: the scalar. Mark and dashes: the solver. Peers: hollow, in colours of their own.
+# Colour: the scalar. Mark and dashes: the solver. Peers: letters, with a + at their best settings.
+peers = "B Bullet  D DART  H Havok  J Jolt  M MuJoCo  O ODE  P PhysX PGS  T PhysX TGS  R Rapier SIMD  r Rapier deterministic"
+letter(engine) = engine[1:6] eq "physx-" ? (engine[7:7] eq "p" ? "P" : "T") : engine[1:10] eq "rapier-det" ? "r" : \
+  word("B D H J M O R", strstrt("bdhjmor", engine[1:1]))
+sign(engine) = letter(engine) . (strlen(engine) > 5 && engine[strlen(engine) - 4:] eq "-best" ? "+" : "")
+violet = "#8250df"
 array mark[4] = [7, 6, 9, 5]
 array dash[4] = [1, 3, 4, 2]
-array hue[4] = ["#8250df", "#bf3989", "#7d4e00", "#57606a"]
-array peer_mark[4] = [6, 8, 4, 10]
 do for [k = 1:4] {
-  set style line 20 + k linecolor rgb hue[k] pointtype peer_mark[k] pointsize 1.1 linewidth 2
   do for [m = 1:4] {
     set style line 100 + 10 * k + m linecolor rgb colours[k] dashtype dash[m] linewidth 1.2 \
       pointtype mark[m] pointsize 0.6
@@ -34,7 +34,7 @@ set style line 30 linecolor rgb "#cf222e" pointtype 2 pointsize 0.7 linewidth 1.
 
 series(scene, scalar, solver) = strcol(1) eq scene && strcol(5) eq scalar && strcol(6) eq solver
 kept(scene, scalar, solver) = series(scene, scalar, solver) && $10 == 0
-peer(scene, engine) = strcol(1) eq scene && strcol(4) eq engine
+peer(scene) = strcol(1) eq scene && strcol(4) ne "isostep"
 unset mxtics
 unset mytics
 unset key
@@ -45,23 +45,24 @@ set ytics font small
 set multiplot
 place(pixels) = 1 - pixels / real(height)
 set label 1 "Speed against accuracy, over sub-steps" at screen 0.04, place(28) left font font(18) textcolor rgb ink
-note = "CPU time of 1/60 s in ms across, error up, both logarithmic. Left is faster, down is more accurate. "
-set label 2 note . "Lines: 2 to 32 sub-steps." \
+note = "Across: CPU time of 1/60 s, ms. Up: the error in the title. Left is faster, down is more accurate. "
+set label 2 note . "Lines: isostep, 2 to 32 sub-steps." \
   at screen 0.04, place(52) left font font(12) textcolor rgb muted
 do for [k = 1:4] {
   set label 10 + k word(scalars, k) at screen 0.045 + 0.085 * (k - 1), place(82) left offset 1.4, -0.2 \
     point linecolor rgb colours[k] pointtype 7 pointsize 0.9 textcolor rgb ink font font(12)
   set label 20 + k word(solvers, k) at screen 0.42 + 0.11 * (k - 1), place(82) left offset 1.4, -0.2 \
     point linecolor rgb ink pointtype mark[k] pointsize 0.8 textcolor rgb ink font font(12) noenhanced
-  set label 30 + k word(names, k) at screen 0.045 + 0.155 * (k - 1), place(108) left offset 1.4, -0.2 \
-    point linestyle 20 + k textcolor rgb ink font font(12)
 }
-set label 40 "lost its scene; at the upper edge" at screen 0.68, place(108) left offset 1.4, -0.2 \
+set label 30 peers at screen 0.04, place(106) left textcolor rgb violet font font(12) noenhanced
+set label 40 "lost its scene; at the upper edge" at screen 0.045, place(130) left offset 1.4, -0.2 \
   point linestyle 30 textcolor rgb ink font font(12)
+set label 41 "+ with an engine's letter: at its best settings" at screen 0.35, place(130) left \
+  textcolor rgb violet font font(12)
 do for [n = 1:count] {
   scene = word(scenes, n)
   left = 0.05 + 0.32 * ((n - 1) % 3)
-  top = 165 + 345 * ((n - 1) / 3)
+  top = 187 + 345 * ((n - 1) / 3)
   set lmargin at screen left
   set rmargin at screen left + 0.27
   set tmargin at screen place(top)
@@ -90,10 +91,8 @@ do for [n = 1:count] {
        for [k = 1:4] for [m = 1:4] data skip 1 \
          using (series(scene, word(scalars, k), word(solvers, m)) && $10 != 0 ? $8 : NaN):(upper) with points \
          linecolor rgb colours[k] pointtype mark[m] pointsize 0.6, \
-       for [k = 1:4] data skip 1 using (peer(scene, word(peers, k)) && $10 == 0 ? $8 : NaN):9 with points \
-         linestyle 20 + k, \
-       for [k = 1:4] data skip 1 using (peer(scene, word(peers, k)) && $10 != 0 ? $8 : NaN):(upper) with points \
-         linestyle 20 + k, \
+       data skip 1 using (peer(scene) ? $8 : NaN):($10 == 0 ? $9 : upper):(sign(strcol(4))) with labels \
+         font font(10) textcolor rgb violet noenhanced, \
        data skip 1 using (strcol(1) eq scene && $10 != 0 ? $8 : NaN):(upper) with points linestyle 30
   unset label
 }

@@ -32,5 +32,12 @@ for peer in libbullet-dev libode-dev gnuplot-nox nodejs npm rapier3d-simd-compat
   [ "$(grep -c "$peer.* is not installed" "$scratch/error")" -eq 1 ] || fail "peers.sh has no line for $peer"
 done
 
+# The laboratory's pages name the versions that are brought.
+versions=$(grep -o '@[0-9][0-9.]*[0-9]' "$repository/bench/peers.sh" | tr -d @)
+[ "$(printf '%s\n' "$versions" | wc -l)" -eq 6 ] || fail "peers.sh brings other packages than six"
+for version in $versions; do
+  grep -qF "$version" "$repository/src/tool/lab/report/engines.cpp" || fail "engines.cpp does not name version $version"
+done
+
 [ "$failures" -eq 0 ] && echo "bench: words as expected"
 exit "$failures"

@@ -6,6 +6,7 @@
 set -u
 tool=$1
 . "$(dirname "$0")/../scratch.sh"
+. "$(dirname "$0")/needs_nothing.sh"
 out=$dir/lab
 
 report() { "$tool" lab --all --short --out "$out" "$@" >"$dir/out" 2>"$dir/err"; }
@@ -22,13 +23,15 @@ chmod +x "$dir/peers"
 report --peers "$dir/peers" || fail "lab --all --short failed"
 page=$out/report.html
 [ "$(cat "$dir/out")" = "$page" ] || fail "does not say where the page is"
-for section in advice accuracy survival growth springs stages; do
+for section in games names advice accuracy survival growth springs stages; do
   [ "$(grep -c "<section id=\"$section\">" "$page")" -eq 1 ] || fail "no section $section"
 done
 [ "$(tail -n 1 "$page")" = '</html>' ] || fail "the page does not end"
 grep -Eq '\{\{|\}\}|%s|nan|TODO' "$page" && fail "something in the page is unfinished"
-grep -Eq '(src|href)="https?:|@import|<script' "$page" && fail "the page wants a network or a script"
+needs_nothing "$page"
 grep -q 'ode: 0.05 ms' "$page" || fail "the peer is not in the page"
+grep -q '<p class="lead">Begin with soft_step and 8 sub-steps' "$page" || fail "no advice on top"
+grep -q 'ODE 0.16 (Debian)' "$page" || fail "the peer is not named in full"
 if command -v gnuplot >/dev/null 2>&1; then
   [ "$(grep -c '<svg' "$page")" -eq 4 ] || fail "not every picture is in the page"
 fi

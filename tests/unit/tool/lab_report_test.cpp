@@ -2,15 +2,20 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "tool/common/tool.hpp"
 #include "tool/lab/report/advice_table.hpp"
 #include "tool/lab/report/charts.hpp"
+#include "tool/lab/report/engines.hpp"
+#include "tool/lab/report/genres.hpp"
 #include "tool/lab/report/html.hpp"
 #include "tool/lab/report/page.hpp"
+#include "tool/lab/rigid_run.hpp"
 
 namespace isostep::tool::lab {
 namespace lab_report_test {
@@ -114,6 +119,21 @@ TEST(Matrix, PeersAreColumnsAndNeverRecommended) {
   EXPECT_EQ(matrix.rows[0].cells[4].fate, Fate::untried);
   EXPECT_EQ(matrix.rows[0].cells[5].fate, Fate::survived);
   EXPECT_EQ(matrix.recommended(0, "")->point.engine, kOwnEngine);
+}
+
+TEST(Matrix, APeersBestSettingsCountWhereItsDefaultsFail) {
+  LabResult plain = peer("tall_stack", "jolt", 1), best = peer("tall_stack", "jolt-best", 0.5);
+  plain.judged = best.judged = best.survived = true;
+  MatrixCell cell = small_matrix({plain, best}).rows[0].cells[4];
+  EXPECT_EQ(cell.fate, Fate::survived);
+  EXPECT_EQ(sign_of(cell), "+");
+  plain.survived = true;
+  for (const auto& both : {std::vector<LabResult>{plain, best}, std::vector<LabResult>{best, plain}}) {
+    const Matrix matrix = small_matrix(both);
+    ASSERT_EQ(matrix.columns.size(), 5u) << "an engine is a column";
+    EXPECT_EQ(matrix.columns[4].engine, "jolt");
+    EXPECT_EQ(sign_of(matrix.rows[0].cells[4]), "✓");
+  }
 }
 
 // ---- the plan
@@ -272,7 +292,7 @@ ReportData hand_made() {
 
 TEST(Page, HasEverySectionAndEscapesWhatResultsSay) {
   const std::string page = page_of(hand_made());
-  for (const char* id : {"advice", "accuracy", "survival", "growth", "springs", "stages"}) {
+  for (const char* id : {"games", "names", "advice", "accuracy", "survival", "growth", "springs", "stages"}) {
     EXPECT_EQ(count_of(page, "<section id=\"" + std::string(id) + "\">"), 1u) << id;
   }
   EXPECT_FALSE(holds(page, "<script"));
@@ -286,7 +306,55 @@ TEST(Page, IsTheSameForTheSameResults) { EXPECT_EQ(page_of(hand_made()), page_of
 
 TEST(Page, TheSummaryCountsWhatBothScalarsSurvive) {
   EXPECT_TRUE(holds(summary_of(hand_made()), "Survived in double and q32.32: 1 of 1."));
-  EXPECT_TRUE(holds(summary_of(hand_made()), "| ode failed "));
+  EXPECT_TRUE(holds(summary_of(hand_made()), "| failed: ode "));
+}
+
+// ---- who runs, and for which game
+
+TEST(Engines, NamesAreExplainedOnceAndOnlyThoseThatRan) {
+  const std::vector<std::vector<std::string>> cells = who_is_who({"isostep", "jolt", "jolt-best"});
+  const auto lines = [&](const std::string& name) {
+    return std::count_if(cells.begin(), cells.end(), [&](const auto& line) { return line[0] == name; });
+  };
+  EXPECT_EQ(lines("jolt"), 1);
+  EXPECT_EQ(lines("ode"), 0);
+  for (const std::string& solver : rigid_solvers()) EXPECT_EQ(lines(solver), 1) << solver;
+  for (const std::string& scalar : scalar_names()) EXPECT_EQ(lines(scalar), 1) << scalar;
+}
+
+TEST(Genres, TheCheapestSolverThatHoldsAllIsAdvised) {
+  ReportData data = hand_made();
+  data.plan.scenes = {};
+  data.plan.trials = {"card_house", "tall_stack"};
+  data.plan.scalars = {"double"};
+  const auto add = [&](const char* name, const char* solver, int substeps, double ms, bool survived) {
+    LabResult r = trial("double", solver, substeps, ms, 0, survived);
+    r.point.scene = name;
+    data.results.push_back(r);
+  };
+  data.results.clear();
+  add("card_house", "soft_step", 4, 0.1, true);
+  add("tall_stack", "soft_step", 4, 0.1, false);
+  add("tall_stack", "soft_step", 8, 0.2, true);
+  add("card_house", "direct", 4, 0.01, true);
+  add("tall_stack", "direct", 4, 0.5, true);
+  const auto advised = [&] { return genre_cells(data).at(1).at(3); };
+  EXPECT_EQ(genre_cells(data).at(1).at(0), "physics sandbox");
+  EXPECT_EQ(advised(), "soft_step, 8 sub-steps: 0.2 ms");
+  data.results[2].survived = false;
+  EXPECT_EQ(advised(), "direct, 4 sub-steps: 0.5 ms");
+  data.results[4].survived = false;
+  EXPECT_EQ(advised(), "soft_step, 4 sub-steps: 0.1 ms; but not tall_stack");
+  for (LabResult& r : data.results) r.survived = false;
+  EXPECT_EQ(advised(), "none");
+}
+
+TEST(Genres, TheSentenceCountsWhatAWorldsOwnSettingsHold) {
+  const std::string text = advice_sentence(hand_made());
+  EXPECT_TRUE(holds(text, "Begin with soft_step and 8 sub-steps")) << text;
+  EXPECT_TRUE(holds(text, "In double they hold the bars of 1 of 1 scenes and survive 0 of 1 trials.")) << "16 it takes";
+  EXPECT_TRUE(holds(text, "In q32.32 they hold the bars of 0 of 1 scenes and survive 1 of 1 trials"));
+  EXPECT_FALSE(holds(text, "In float")) << "it is not in the plan";
 }
 
 }  // namespace lab_report_test

@@ -72,15 +72,21 @@ std::string page_head(const std::string& title, const std::string& style) {
 <title>)" +
          escaped(title) + R"(</title>
 <style>
-body { font: 15px/1.5 system-ui, sans-serif; color: #24292f; background: #fff;
+:root { color-scheme: light dark; --ink: #24292f; --muted: #57606a; --ground: #fff; --head: #f6f8fa; --line: #d0d7de; }
+@media (prefers-color-scheme: dark) {
+  :root { --ink: #e6edf3; --muted: #9da7b3; --ground: #0d1117; --head: #161b22; --line: #30363d; }
+}
+body { font: 15px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--ground);
   max-width: 1240px; margin: 0 auto; padding: 1rem; }
 h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.5rem; }
-p, figcaption { color: #57606a; max-width: 50rem; }
-svg { max-width: 100%; height: auto; }
-.wide { overflow-x: auto; }
+p, figcaption { color: var(--muted); max-width: 50rem; }
+p.lead { color: var(--ink); font-size: 1.1rem; }
+figure { margin: 1rem 0; }
+figure, .wide { overflow-x: auto; }
+svg { display: block; width: 100%; min-width: 800px; height: auto; }
 table { border-collapse: collapse; font-size: 13px; }
-th, td { border: 1px solid #d0d7de; padding: 2px 7px; text-align: left; vertical-align: top; }
-th { background: #f6f8fa; }
+th, td { border: 1px solid var(--line); padding: 2px 7px; text-align: left; vertical-align: top; }
+th { background: var(--head); }
 )" + style +
          R"(</style>
 </head>

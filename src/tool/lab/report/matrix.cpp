@@ -6,6 +6,8 @@
 #include <set>
 #include <tuple>
 
+#include "engines.hpp"
+
 namespace isostep::tool::lab {
 namespace {
 
@@ -23,6 +25,7 @@ int rank_of(Fate fate) {
 bool is_preferred(const LabResult& a, const LabResult& b) {
   const Fate fate_a = fate_of(a), fate_b = fate_of(b);
   if (fate_a != fate_b) return rank_of(fate_a) < rank_of(fate_b);
+  if (fate_a == Fate::survived && is_best(a.point.engine) != is_best(b.point.engine)) return is_best(b.point.engine);
   if (fate_a != Fate::failed) return is_cheaper(a, b);
   const auto sound = [](const LabResult& r) { return r.faults == 0 && r.figure == r.figure; };
   if (sound(a) != sound(b)) return sound(a);
@@ -36,7 +39,7 @@ void add(MatrixCell& cell, const LabResult& result) {
 }
 
 bool is_of(const MatrixColumn& column, const LabPoint& point) {
-  return column.engine == point.engine && column.scalar == point.scalar && column.solver == point.solver;
+  return column.engine == engine_of(point.engine) && column.scalar == point.scalar && column.solver == point.solver;
 }
 
 }  // namespace
@@ -45,6 +48,18 @@ Fate fate_of(const LabResult& result) {
   if (result.state == kLeftOut || result.state == kHung) return Fate::open;
   if (result.state != kDone) return Fate::refused;
   return result.judged && result.survived ? Fate::survived : Fate::failed;
+}
+
+std::string sign_of(const MatrixCell& cell) {
+  switch (cell.fate) {
+    case Fate::survived:
+      if (cell.result.point.engine == kOwnEngine) return effort_of(cell.result.point);
+      return is_best(cell.result.point.engine) ? "+" : "✓";
+    case Fate::failed: return "×";
+    case Fate::open: return "…";
+    case Fate::refused: return "–";
+    default: return "";
+  }
 }
 
 std::string effort_of(const LabPoint& point) {
@@ -63,7 +78,7 @@ Matrix matrix_of(const std::vector<std::string>& trials, const std::vector<std::
     for (const std::string& solver : solvers) matrix.columns.push_back({scalar, solver, kOwnEngine});
   }
   std::set<std::string> peers;
-  for (const LabResult& result : results) peers.insert(result.point.engine);
+  for (const LabResult& result : results) peers.insert(engine_of(result.point.engine));
   peers.erase(kOwnEngine);
   for (const std::string& peer : peers) matrix.columns.push_back({"", "", peer});
   for (const std::string& trial : trials) {

@@ -12,15 +12,15 @@ namespace isostep::tool::lab {
 enum class Fate { untried, survived, failed, open, refused };
 inline constexpr const char* kFateNames[] = {"not run", "survived", "failed", "left open", "refused"};
 
-/// The outcome of one trial by one method: of several settings the cheapest that survived, else the one that came
-/// nearest to its bar. It is open where every run was too long or hung.
+/// The outcome of one trial by one method: of several settings the cheapest that survived, of a peer's the defaults if
+/// they did, else the one that came nearest to its bar. It is open where every run was too long or hung.
 struct MatrixCell {
   Fate fate = Fate::untried;
   LabResult result;  // unless untried
 };
 struct MatrixColumn {
   std::string scalar, solver;  // of ours
-  std::string engine;          // kOwnEngine, or a peer
+  std::string engine;          // kOwnEngine, or a peer, be it by its defaults or at its best: engines.hpp
 
   bool is_ours() const { return engine == kOwnEngine; }
 };
@@ -42,6 +42,8 @@ Matrix matrix_of(const std::vector<std::string>& trials, const std::vector<std::
                  const std::vector<std::string>& solvers, const std::vector<LabResult>& results);
 
 Fate fate_of(const LabResult& result);
+/// What a cell says: of ours the effort that survived, of a peer whether its defaults did or only its best settings.
+std::string sign_of(const MatrixCell& cell);
 /// "8" sub-steps, or where that did not do "240" steps a second.
 std::string effort_of(const LabPoint& point);
 /// Cheaper by time, then by sub-steps.

@@ -6,6 +6,8 @@
 #include <map>
 
 #include "advice_table.hpp"
+#include "engines.hpp"
+#include "genres.hpp"
 #include "html.hpp"
 #include "scenes/trials/trial.hpp"
 
@@ -13,9 +15,10 @@ namespace isostep::tool::lab {
 namespace {
 
 constexpr char kMatrixStyle[] = R"(table.matrix td.cell { text-align: center; min-width: 1.6rem; padding: 2px 3px; }
+table.matrix td:nth-child(2) { min-width: 13rem; }
 table.matrix th.turned { writing-mode: vertical-rl; transform: rotate(180deg); font-weight: normal; }
 td.survived { background: #009e73; color: #fff; } td.failed { background: #d55e00; color: #fff; }
-td.open { background: #f0c75e; } td.refused { background: #eaeef2; color: #57606a; }
+td.open { background: #f0c75e; color: #24292f; } td.refused { background: #eaeef2; color: #57606a; }
 )";
 
 std::string picture(const std::string& svg, const std::string& prefix) {
@@ -45,7 +48,9 @@ std::string figure_text(const LabResult& result) { return with_unit(result.figur
 std::string hint_of(const MatrixCell& cell) {
   if (cell.fate == Fate::untried) return "not run";
   const LabResult& r = cell.result;
-  const std::string who = r.point.engine == kOwnEngine ? r.point.scalar + ", " + setting_of(r.point) : r.point.engine;
+  const std::string who = r.point.engine == kOwnEngine
+                              ? r.point.scalar + ", " + setting_of(r.point)
+                              : full_name(engine_of(r.point.engine)) + (is_best(r.point.engine) ? ", at its best" : "");
   std::string text = who + ": " + kFateNames[static_cast<int>(cell.fate)];
   if (cell.fate == Fate::survived || cell.fate == Fate::failed) {
     text += ", " + figure_text(r) + " (bar " + with_unit(trial_of(r.point.scene).bar, trial_of(r.point.scene)) + "), " +
@@ -56,13 +61,11 @@ std::string hint_of(const MatrixCell& cell) {
   return text;
 }
 
-std::string cell_html(const MatrixCell& cell, bool ours) {
-  constexpr const char* kSigns[] = {"", "✓", "×", "…", "–"};
+std::string cell_html(const MatrixCell& cell) {
   constexpr const char* kClasses[] = {"untried", "survived", "failed", "open", "refused"};
   const int fate = static_cast<int>(cell.fate);
-  const std::string sign = cell.fate == Fate::survived && ours ? effort_of(cell.result.point) : kSigns[fate];
-  return std::string("<td class=\"cell ") + kClasses[fate] + "\" title=\"" + escaped(hint_of(cell)) + "\">" + sign +
-         "</td>";
+  return std::string("<td class=\"cell ") + kClasses[fate] + "\" title=\"" + escaped(hint_of(cell)) + "\">" +
+         sign_of(cell) + "</td>";
 }
 
 std::string recommendation(const LabResult* result) {
@@ -78,8 +81,8 @@ std::string matrix_head(const Matrix& matrix) {
     if (i > 0 && matrix.columns[i - 1].scalar == column.scalar) continue;
     const auto same = [&](const MatrixColumn& c) { return c.scalar == column.scalar; };
     const auto count = std::count_if(matrix.columns.begin(), matrix.columns.end(), same);
-    groups += "<th colspan=\"" + std::to_string(count) + "\">" + escaped(column.is_ours() ? column.scalar : "peers") +
-              "</th>";
+    groups += "<th colspan=\"" + std::to_string(count) + "\">" +
+              escaped(column.is_ours() ? column.scalar : "other engines") + "</th>";
   }
   return groups + "<th rowspan=\"2\">recommended, double</th><th rowspan=\"2\">recommended, q32.32</th></tr>\n" +
          names + "</tr>\n";
@@ -92,7 +95,7 @@ std::string matrix_html(const Matrix& matrix) {
     text += "<tr><td title=\"" + escaped(trial.description) + "\">" + escaped(matrix.rows[r].trial) + "</td><td>" +
             escaped(std::string(trial.measure) + ", at most " + with_unit(trial.bar, trial)) + "</td>";
     for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
-      text += cell_html(matrix.rows[r].cells[i], matrix.columns[i].is_ours());
+      text += cell_html(matrix.rows[r].cells[i]);
     }
     for (const char* scalar : {"double", "q32.32"}) {
       text += "<td>" + escaped(recommendation(matrix.recommended(r, scalar))) + "</td>";
@@ -126,44 +129,73 @@ std::string stage_table(const std::vector<StageCost>& costs) {
   return escaped_table(std::move(cells));
 }
 
+/// "survived: havok, jolt +; failed: ode": a + needed its best settings.
 std::string peer_verdicts(const Matrix& matrix, std::size_t row) {
   std::string text;
-  for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
-    if (matrix.columns[i].is_ours()) continue;
-    text += (text.empty() ? "" : ", ") + matrix.columns[i].engine + " " +
-            kFateNames[static_cast<int>(matrix.rows[row].cells[i].fate)];
+  for (const Fate fate : {Fate::survived, Fate::failed, Fate::open, Fate::refused}) {
+    std::string names;
+    for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
+      const MatrixCell& cell = matrix.rows[row].cells[i];
+      if (matrix.columns[i].is_ours() || cell.fate != fate) continue;
+      names += (names.empty() ? " " : ", ") + matrix.columns[i].engine + (sign_of(cell) == "+" ? " +" : "");
+    }
+    if (!names.empty())
+      text += (text.empty() ? "" : "; ") + std::string(kFateNames[static_cast<int>(fate)]) + ":" + names;
   }
   return text.empty() ? "-" : text;
+}
+
+std::vector<std::string> engines_in(const std::vector<LabResult>& results) {
+  std::vector<std::string> engines;
+  for (const LabResult& r : results) engines.push_back(r.point.engine);
+  return engines;
 }
 
 }  // namespace
 
 std::string page_of(const ReportData& data) {
   std::string text = page_head("isostep: the laboratory", kMatrixStyle);
-  text += "<h1>The laboratory</h1>\n<p>" + std::to_string(data.results.size()) + " runs of " +
-          std::to_string(data.plan.scenes.size()) + " scenes and " + std::to_string(data.plan.trials.size()) +
-          " trials." + (data.is_short ? " A short set: run without --short for all of it." : "") + "</p>\n";
+  text += "<h1>isostep: which settings a game needs</h1>\n<p class=\"lead\">" + escaped(advice_sentence(data)) +
+          "</p>\n<p>isostep is a physics engine with four kinds of numbers and several solvers. Here it ran " +
+          std::to_string(data.plan.scenes.size()) + " scenes, whose errors have bars, and " +
+          std::to_string(data.plan.trials.size()) +
+          " trials, where methods are known to fail, beside other engines: " + std::to_string(data.results.size()) +
+          " runs, one thread each." +
+          (data.is_short ? " This is a short set: run without --short for all of it." : "") + "</p>\n";
+  text += html_section("games", "For your game",
+                       "The cheapest setting that holds every scene and survives every trial of the line, and the CPU "
+                       "time of 1/60 s of the first of them. A scene resembles a game, no more: try yours by "
+                       "<code>isostep lab your_scene.json</code>.",
+                       escaped_table(genre_cells(data)));
+  text += html_section("names", "Who is who", "Solvers and numbers of isostep, and the other engines.",
+                       escaped_table(who_is_who(engines_in(data.results))));
   text += html_section(
-      "advice", "Advice",
+      "advice", "For each scene",
       "Per scene and scalar the cheapest setting that holds its bars, and the one that reaches the aim. CPU "
       "time of a step of 1/60 s, one thread.",
       escaped_table(advice_cells(data)));
-  text += html_section("accuracy", "Speed against accuracy",
-                       "A line a scalar and solver, over sub-steps. Left is faster, down is more accurate.",
-                       picture(data.accuracy, "a-"));
-  text += html_section("survival", "Where methods fail",
-                       "Survived (the sub-steps that it takes, or from 120 on the steps a second), failed ×, left open "
-                       "because it would take too long …, or "
-                       "cannot be said to it –. Point at a "
-                       "cell for its figure.",
-                       matrix_html(data.matrix));
+  text +=
+      html_section("accuracy", "Speed against accuracy",
+                   "A panel a scene. Across: CPU time of 1/60 s [ms]; up: the error in its title, in its unit; both "
+                   "logarithmic, so left is faster and down is more accurate. A line a scalar and solver, over "
+                   "sub-steps; letters are other engines.",
+                   picture(data.accuracy, "a-"));
+  text += html_section(
+      "survival", "Where methods fail",
+      "A number: survived with so many sub-steps, or from 120 on with so many steps a second. ✓ another engine "
+      "survived "
+      "by its defaults, + by its best settings only. × failed, … left open because it would take too long, – cannot be "
+      "told to it. Point at a cell for its figure.",
+      matrix_html(data.matrix));
   text +=
       html_section("growth", "Error growth",
                    "How far each scalar gets from the same method in double, with the same sub-steps: root mean square "
-                   "over bodies of points half a metre from their centres.",
+                   "over bodies of points half a metre from their centres [m], against time [s].",
                    picture(data.growth, "g-"));
   text += html_section("springs", "Stability of integrators",
-                       "Stiff springs, every integrator of particles, every scalar.", picture(data.springs, "s-"));
+                       "Stiff springs, every integrator of particles, every scalar: energy after 10 s, as a multiple "
+                       "of that at the start, against stiffness k h²/m.",
+                       picture(data.springs, "s-"));
   text += html_section("stages", "What each stage costs", "CPU time of a step's stages, by soft step at 8 sub-steps.",
                        picture(data.stage_chart, "c-") + stage_table(data.stages));
   return text + "</body>\n</html>\n";

@@ -10,7 +10,7 @@ namespace isostep::tool::lab {
 namespace {
 
 // [px]
-constexpr int kWide = 27, kHigh = 19, kLeft = 176, kTop = 190, kGap = 8, kMargin = 16;
+constexpr int kWide = 27, kHigh = 19, kLeft = 176, kTop = 206, kGap = 8, kMargin = 16;
 
 struct Paint {
   const char* fill;
@@ -27,16 +27,6 @@ Paint paint_of(Fate fate) {
   }
 }
 
-std::string sign_of(const MatrixCell& cell, bool ours) {
-  switch (cell.fate) {
-    case Fate::survived: return ours ? effort_of(cell.result.point) : "✓";
-    case Fate::failed: return "×";
-    case Fate::open: return "…";
-    case Fate::refused: return "–";
-    default: return "";
-  }
-}
-
 /// The left edges of columns, with a gap where the scalar changes.
 std::vector<int> edges_of(const Matrix& matrix) {
   std::vector<int> edges;
@@ -50,13 +40,13 @@ std::vector<int> edges_of(const Matrix& matrix) {
   return edges;
 }
 
-std::string square(int x, int y, const MatrixCell& cell, bool ours) {
+std::string square(int x, int y, const MatrixCell& cell) {
   const Paint paint = paint_of(cell.fate);
   char text[256];
   std::snprintf(text, sizeof text, "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"%s\"/>\n", x + 1, y + 1,
                 kWide - 2, kHigh - 2, paint.fill);
   const std::string style = std::string("text-anchor=\"middle\" font-size=\"11\" fill=\"") + paint.ink + "\"";
-  return text + svg_text(x + kWide / 2.0, y + kHigh / 2.0 + 4, sign_of(cell, ours), style);
+  return text + svg_text(x + kWide / 2.0, y + kHigh / 2.0 + 4, sign_of(cell), style);
 }
 
 std::string heads_of(const Matrix& matrix, const std::vector<int>& edges) {
@@ -70,7 +60,7 @@ std::string heads_of(const Matrix& matrix, const std::vector<int>& edges) {
     text += svg_text(x, kTop - 8, column.is_ours() ? column.solver : column.engine, turn);
     const bool first = i == 0 || matrix.columns[i - 1].scalar != column.scalar;
     if (!first) continue;
-    text += svg_text(edges[i] + 34, kTop - 92, column.is_ours() ? column.scalar : "peers",
+    text += svg_text(edges[i] + 34, kTop - 92, column.is_ours() ? column.scalar : "other engines",
                      "font-size=\"13\" font-weight=\"bold\" fill=\"#24292f\"");
   }
   return text;
@@ -82,9 +72,11 @@ std::string legend() {
   };
   constexpr Item kItems[] = {{"#009e73", "#ffffff", "8", "survived, with so many sub-steps"},
                              {"#009e73", "#ffffff", "240", "or with so many steps a second"},
+                             {"#009e73", "#ffffff", "✓", "survived, by defaults"},
+                             {"#009e73", "#ffffff", "+", "only by its best settings"},
                              {"#d55e00", "#ffffff", "×", "failed with any"},
                              {"#f0c75e", "#24292f", "…", "left open: too long"},
-                             {"#eaeef2", "#57606a", "–", "cannot be said to it"}};
+                             {"#eaeef2", "#57606a", "–", "cannot be told to it"}};
   constexpr int kRow = 22, kEnd = 560;  // [px] from row to row; where one is full
   std::string text;
   int x = kMargin, y = 38;
@@ -123,7 +115,7 @@ std::string survival_svg(const Matrix& matrix) {
     text += svg_text(kLeft - 8, y + kHigh / 2.0 + 4, matrix.rows[r].trial,
                      "text-anchor=\"end\" font-size=\"12\" fill=\"#24292f\"");
     for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
-      text += square(edges[i], y, matrix.rows[r].cells[i], matrix.columns[i].is_ours());
+      text += square(edges[i], y, matrix.rows[r].cells[i]);
     }
   }
   return text + "</svg>\n";
