@@ -89,7 +89,8 @@ enum {
 };
 typedef uint32_t iso_solver;
 enum {
-  ISO_SOLVER_SOFT_STEP = 0, ISO_SOLVER_PGS = 1, ISO_SOLVER_WORST_FIRST = 2, ISO_SOLVER_DIRECT = 3
+  ISO_SOLVER_SOFT_STEP = 0, ISO_SOLVER_PGS = 1, ISO_SOLVER_WORST_FIRST = 2, ISO_SOLVER_DIRECT = 3, ISO_SOLVER_AVBD = 4,
+  ISO_SOLVER_ADMM = 5
 };
 typedef uint32_t iso_projection;
 enum {
@@ -241,7 +242,7 @@ typedef struct iso_step_report {
   uint32_t stopped; /* bodies put back and stopped because a number was not finite */
   uint32_t crowded; /* bodies that did not find all their pairs: beyond Settings::most_pairs */
   uint32_t cut_compounds; /* pairs of bodies some of whose parts were left out, by the same budget */
-  uint32_t unsolved; /* islands that `direct` or, for each of its passes, `worst_first` left too early */
+  uint32_t unsolved; /* islands left too early: by `direct`, `admm` or a pass of `worst_first` */
   uint8_t reserved1[4];
 } iso_step_report;
 typedef struct iso_world_counts {
