@@ -54,8 +54,8 @@ template <class S> class SpinningJoints : public ::testing::Test {
 TYPED_TEST_SUITE(SpinningJoints, AllScalars);
 
 /// A joint that turned bodies by their inertia of a step before gave them up to forty times their energy, and so did
-/// one of which one arm bent and the other did not: eight in a hundred gained 2 % and more. Few do yet, by little. Joints
-/// that avbd leaves apart stretch as they turn, and gain up to a fifth.
+/// one of which one arm bent and the other did not: eight in a hundred gained 2 % and more. Few do yet, by little.
+/// Joints that avbd leaves apart stretch as they turn, and gain up to a fifth.
 TYPED_TEST(SpinningJoints, of_two_free_bodies_gain_little) {
   using S = TypeParam;
   const int seeds = sampled(400, 60);

@@ -1,4 +1,5 @@
-// The solvers of whole islands for every shipped scalar, and their systems for the two numbers that those are written in.
+// The solvers of whole islands for every shipped scalar, and their systems for the two numbers that those are written
+// in.
 // SPDX-License-Identifier: MIT
 #include "isostep/dynamics/solvers/island_solver.inl"
 

@@ -16,9 +16,8 @@ inline constexpr double kStandardLimit = 120e6;
 inline constexpr double kReferenceLimit = 10 * kStandardLimit;
 
 /// Steps, times sub-steps and what a step has to do besides, times bodies and joints, times what a solver takes for one
-/// of them beside soft_step. In trials worst_first takes 0.4 to 21 us, direct and admm 0.5 us to 1 ms: it depends on how
-/// often
-/// an island must be factorised, which nobody knows beforehand.
+/// of them beside soft_step. In trials worst_first takes 0.4 to 21 us, direct and admm 0.5 us to 1 ms: it depends on
+/// how often an island must be factorised, which nobody knows beforehand.
 double work_of(const Subject& subject, const LabPoint& point, int frames);
 
 /// "too long: 130 million body sub-steps": why a run of more than the limit is left out.

@@ -37,10 +37,10 @@ template <class N> class AdmmSystem final : public IslandSystem<N> {
   static constexpr std::uint32_t kMostBodies = 400;  // a wall of 210 takes 80 ms a step
   static constexpr int kSweeps = 16;
 
-  void tie(std::uint32_t body_count, std::uint64_t most_work) override;
-  void assemble() override;
-  bool solve(bool firm, std::uint64_t most_work) override;
-  std::uint64_t least_work() const override { return elimination_work() + kIterations * iteration_work(); }
+  void tie(std::uint32_t body_count, std::uint64_t most_work);
+  void assemble();
+  bool solve(bool firm, std::uint64_t most_work);
+  std::uint64_t least_work() const { return elimination_work() + kIterations * iteration_work(); }
 
  private:
   using Pair = typename SparseCholesky<N>::Pair;

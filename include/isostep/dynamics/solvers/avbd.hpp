@@ -31,11 +31,10 @@ template <class N> class AvbdSystem final : public IslandSystem<N> {
   static constexpr int kPasses = 4;   // with two, cubes on a slope tremble; with one, walls burst
   static constexpr int kPenalty = 1;  // exponent of two
 
-  void tie(std::uint32_t body_count, std::uint64_t most_work) override;
-  void assemble() override;
-  bool solve(bool firm, std::uint64_t most_work) override;
-  bool moves_by_answers() const override { return false; }
-  std::uint64_t least_work() const override { return kPasses * this->block_count(); }
+  void tie(std::uint32_t body_count, std::uint64_t most_work);
+  void assemble();
+  bool solve(bool firm, std::uint64_t most_work);
+  std::uint64_t least_work() const { return kPasses * this->block_count(); }
 
  private:
   using Base::at_body_, Base::blocks_, Base::first_, Base::motions_, Base::patches_;

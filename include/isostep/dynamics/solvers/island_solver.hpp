@@ -4,25 +4,17 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "isostep/core/disjoint_sets.hpp"
 #include "isostep/core/instantiate.hpp"
 #include "isostep/dynamics/solvers/body_rows.hpp"
 #include "isostep/dynamics/solvers/impacts.hpp"
-#include "isostep/dynamics/solvers/island_system.hpp"
+#include "isostep/dynamics/solvers/island_method.hpp"
 #include "isostep/dynamics/solvers/prepared_joints.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 
 namespace isostep {
-
-/// How an island is solved.
-enum class IslandMethod : std::uint32_t {
-  pivoting,  // pivoting.hpp
-  descent,   // avbd.hpp
-  splitting  // admm.hpp
-};
 
 /// Source:  Millington 2010, Game Physics Engine Development, ch. 18; Baraff 1994, Fast contact force computation for
 ///          nonpenetrating rigid bodies, SIGGRAPH. Differs: velocities and impulses, not accelerations and forces.
@@ -87,17 +79,8 @@ template <class S> class IslandSolver {
     std::uint32_t a, b;  // rows of SolverBodies
     Value reduced;       // [kg] reduced mass: what impulses are counted in
   };
-  /// Owns the system of an island. Of a copy it has yet to be made: what is remembered is scratch.
-  struct SystemOwner : std::unique_ptr<IslandSystem<N>> {
-    SystemOwner() = default;
-    SystemOwner(SystemOwner&&) = default;
-    SystemOwner& operator=(SystemOwner&&) = default;
-    SystemOwner(const SystemOwner&) : std::unique_ptr<IslandSystem<N>>() {}
-    SystemOwner& operator=(const SystemOwner&) { return *this; }
-    using std::unique_ptr<IslandSystem<N>>::operator=;
-  };
   struct Island {
-    SystemOwner system;
+    MethodSystem<N> system;
     std::vector<std::uint32_t> joints, contacts, bodies;      // bodies: their rows; numbered 1.. in the system
     std::vector<std::uint32_t> joint_blocks, contact_blocks;  // first block of each
     std::vector<Ends> ends;                                   // of each block
@@ -115,7 +98,6 @@ template <class S> class IslandSolver {
   };
 
   // island_solver_islands.inl
-  static std::unique_ptr<IslandSystem<N>> make_system(IslandMethod method);
   void find_islands(const StepContext<S>& context);
   Island& island_of(std::uint32_t row_a, std::uint32_t row_b);
   std::uint32_t add_blocks(Island& island, std::uint32_t row_a, std::uint32_t row_b, std::uint32_t count);

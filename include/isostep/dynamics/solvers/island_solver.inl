@@ -45,14 +45,14 @@ template <class S> void IslandSolver<S>::place_rows(const StepContext<S>& contex
     place_joint(joints_[island.joints[k]], island, island.joint_blocks[k]);
   }
   for (std::uint32_t k = 0; k < island.contacts.size(); ++k) place_contact(context, island, k);
-  island.system->assemble();
+  island.system.assemble();
 }
 
 /// Follows bodies that turn fast (contact_follow.hpp): free velocities become the current ones without the answers, by
 /// the new inertia. In islands with joints only the inertia changes now; the rows follow at the next sub-step.
 template <class S> void IslandSolver<S>::follow(const StepContext<S>& context, Island& island) {
   bool any = false;
-  const bool by_answers = island.system->moves_by_answers();
+  const bool by_answers = island.system.moves_by_answers();
   for (std::uint32_t i = 0; i < island.bodies.size(); ++i) {
     const std::uint32_t row = island.bodies[i];
     if (!bodies_.is_followed(context, row)) continue;
@@ -75,7 +75,7 @@ template <class S> void IslandSolver<S>::follow(const StepContext<S>& context, I
     if (by_answers) take_back_turns(context, island, k);
     place_contact(context, island, k);
   }
-  island.system->assemble();
+  island.system.assemble();
 }
 
 /// Subtracts a contact's answers from the free velocities of bodies that it follows.
@@ -160,8 +160,8 @@ template <class S> void IslandSolver<S>::solve(const StepContext<S>& context, Is
   system.settle();
   const bool firm = pass != Pass::biased;  // what yields in positions is closed, in velocities it would stay
   const std::uint64_t even = island.work_left / island.solves_left--;
-  const std::uint64_t kept = min(island.work_left, system.least_work() * island.solves_left);
-  const bool solved = system.solve(firm, system.is_swept() ? even : island.work_left - kept);
+  const std::uint64_t kept = min(island.work_left, island.system.least_work() * island.solves_left);
+  const bool solved = island.system.solve(firm, system.is_swept() ? even : island.work_left - kept);
   island.work_left -= min(island.work_left, system.work());
   island.unsolved = island.unsolved || !solved;
   apply(island);

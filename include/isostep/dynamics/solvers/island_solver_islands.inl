@@ -2,25 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "isostep/dynamics/solvers/admm.hpp"
-#include "isostep/dynamics/solvers/avbd.hpp"
 #include "isostep/dynamics/solvers/island_solver.hpp"
-#include "isostep/dynamics/solvers/pivoting.hpp"
 
 namespace isostep {
 
 template <class S> bool IslandSolver<S>::rolls(const StepContext<S>& context, std::uint32_t c) {
   return context.geometry[c].material.rolling_resistance > S(0);
-}
-
-template <class S>
-std::unique_ptr<IslandSystem<typename IslandSolver<S>::N>> IslandSolver<S>::make_system(IslandMethod method) {
-  switch (method) {
-    case IslandMethod::pivoting: break;
-    case IslandMethod::descent: return std::make_unique<AvbdSystem<N>>();
-    case IslandMethod::splitting: return std::make_unique<AdmmSystem<N>>();
-  }
-  return std::make_unique<PivotingSystem<N>>();
 }
 
 template <class S>
@@ -36,7 +23,7 @@ typename IslandSolver<S>::Island& IslandSolver<S>::island_of(std::uint32_t row_a
     island.exponent = 0;
     island.begun = false;
     island.unsolved = island.pushed = false;
-    if (island.system == nullptr) island.system = make_system(method_);
+    island.system.choose(method_);
     island.system->begin();
   }
   Island& island = islands_[island_of_[set] - 1];
@@ -113,7 +100,7 @@ template <class S> void IslandSolver<S>::find_islands(const StepContext<S>& cont
     island.asked.resize(3 * island.system->block_count());
     island.work_left = kMostWork * static_cast<std::uint64_t>(context.substeps);
     island.solves_left = 2 * static_cast<std::uint32_t>(context.substeps);
-    island.system->tie(static_cast<std::uint32_t>(island.bodies.size()), island.work_left / island.solves_left);
+    island.system.tie(static_cast<std::uint32_t>(island.bodies.size()), island.work_left / island.solves_left);
   }
 }
 

@@ -201,7 +201,7 @@ template <class S> bool IslandSolver<S>::tighten(Island& island) {
     if (tightens) place_joint(joint, island, island.joint_blocks[k]);
     any = any || tightens;
   }
-  if (any) island.system->assemble();
+  if (any) island.system.assemble();
   return any;
 }
 

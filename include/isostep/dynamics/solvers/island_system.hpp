@@ -52,7 +52,13 @@ template <class N> struct IslandPatch {
   static constexpr std::uint32_t kNoRolling = ~0u;
 };
 
-/// The rows of an island and their bounds; the methods that solve them derive from it. Each finds x such that for
+/// The rows of an island and their bounds; the methods that solve them derive from it. A method has four calls:
+///   tie         once all blocks between bodies 0..body_count are added; solves take about most_work each
+///   assemble    takes over the current rows
+///   solve       returns false if it found no solution within most_work: then answers are within bounds. With `firm`
+///               contacts do not yield either; equations never do
+///   least_work  of the smallest solve that is worth beginning
+/// Each finds x such that for
 /// K x + soft x - right: it is 0 where x is within its bounds, >= 0 where x is at the lower one and <= 0 where x is at
 /// the upper one. K = W W^T. Limits of friction follow from the load.
 /// Symbols: u = W^T x, the change of M^1/2 v. All of right, limit, answer and u share an exponent, which the caller
@@ -66,8 +72,6 @@ template <class N> class IslandSystem {
   static constexpr N kContactGive = N(0x1p-12), kEquationGive = N(0x1p-20);
   static constexpr int kLeastGive = -20;  // their least exponent
 
-  virtual ~IslandSystem() = default;
-
   /// Begins without blocks.
   void begin();
   std::uint32_t add_block(std::uint32_t body_a, std::uint32_t body_b);
@@ -78,18 +82,6 @@ template <class N> class IslandSystem {
   /// Returns u of a body.
   ISO_INLINE const IslandMotion<N>& motion(std::uint32_t body) const { return motions_[body]; }
 
-  /// Ties the blocks, once all between bodies 0..body_count are added. A step divides its work among solves of
-  /// most_work each.
-  virtual void tie(std::uint32_t body_count, std::uint64_t most_work) = 0;
-  /// Takes over the current rows.
-  virtual void assemble() = 0;
-  /// Solves. Returns false if it found no solution within most_work: then answers are within bounds. With `firm`
-  /// contacts do not yield either. Equations never do.
-  virtual bool solve(bool firm, std::uint64_t most_work) = 0;
-  /// Returns true if u is W^T x, and not only near it.
-  virtual bool moves_by_answers() const { return true; }
-  /// Returns the work of the smallest solve that is worth beginning.
-  virtual std::uint64_t least_work() const = 0;
   /// Returns about how many products of blocks the last solve took: some 50 ns each in double.
   ISO_INLINE std::uint64_t work() const { return work_; }
   ISO_INLINE bool is_swept() const { return too_large_; }

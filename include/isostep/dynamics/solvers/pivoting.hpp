@@ -36,12 +36,12 @@ template <class N> class PivotingSystem final : public IslandSystem<N> {
   static constexpr int kSweeps = 16, kLeastSweeps = 4;
   static constexpr std::uint64_t kSweepWork = 4;  // of a block in a sweep: three rows at two ends
 
-  void tie(std::uint32_t body_count, std::uint64_t most_work) override;
-  void assemble() override;
+  void tie(std::uint32_t body_count, std::uint64_t most_work);
+  void assemble();
   /// With `firm` it takes more passes. Answers that pivoting did not end with are within bounds, and joints hold. Too
   /// large systems are only swept, as often as most_work allows, kLeastSweeps times at least.
-  bool solve(bool firm, std::uint64_t most_work) override;
-  std::uint64_t least_work() const override { return kLeastPivots * elimination_work(); }
+  bool solve(bool firm, std::uint64_t most_work);
+  std::uint64_t least_work() const { return kLeastPivots * elimination_work(); }
 
   ISO_INLINE int pivots() const { return pivots_; }  // of the last solve
 
