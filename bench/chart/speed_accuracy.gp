@@ -13,15 +13,17 @@ scenes = "S1 S2 S3 S4 S5 S9 S6 S7"
 titles = "'S1  stack of 20: sag' 'S2  wall of 210: worst overlap' 'S3  pyramid of 1240: worst overlap' " . \
   "'S4  pile of 1000: mean overlap' 'S5  4000 spheres: mean overlap' 'S9  drum of 600: worst overlap' " . \
   "'S6  chain with 100 kg: worst joint' 'S7  50 ragdolls: worst joint'"
-engines = "float double q16.16 q32.32 rapier-simd rapier-det bullet ode box3d jolt"
-names = "'float' 'double' 'Q16.16' 'Q32.32' 'Rapier, SIMD' 'Rapier, deterministic' 'Bullet' 'ODE' 'Box3D, by its dated ratio' 'Jolt, by its dated ratio'"
+engines = "float double q16.16 q32.32"
+# Other engines are letters: at their defaults, for their best settings would be as many again.
+peers = "bullet dart havok jolt mujoco ode physx-pgs physx-tgs rapier-simd rapier-det box3d jolt-native"
+letters = "B D H J M O P T R r X N"
+names = "'float' 'double' 'Q16.16' 'Q32.32'"
+titles_of_peers = "'Bullet' 'DART' 'Havok' 'Jolt' 'MuJoCo' 'ODE' 'PhysX, PGS' 'PhysX, TGS' 'Rapier, SIMD' 'Rapier, det.' 'Box3D *' 'Jolt, native *'"
 
-# Ours filled in the colours of style.gp; peers hollow; Box3D and Jolt are of the dated run.
-array hue[10] = [colours[1], colours[2], colours[3], colours[4], "#8250df", "#bf3989", "#7d4e00", "#57606a", "#0a7ea4", "#9a6700"]
-array mark[10] = [7, 5, 9, 13, 6, 8, 4, 10, 12, 14]
-do for [k = 1:10] {
-  set style line k linecolor rgb hue[k] pointtype mark[k] pointsize (k <= 4 ? 1.35 : 1.15) linewidth (k <= 4 ? 1 : 2)
-}
+# Ours filled in the colours of style.gp.
+violet = "#8250df"
+array mark[4] = [7, 5, 9, 13]
+do for [k = 1:4] { set style line k linecolor rgb colours[k] pointtype mark[k] pointsize 1.35 linewidth 1 }
 set style line 20 linecolor rgb "#cf222e" pointtype 2 pointsize 1.0 linewidth 2
 
 # Runs that kept their scene, at their error; those that lost it, at the upper edge.
@@ -36,13 +38,18 @@ set ytics font small
 
 set multiplot
 set label 1 "Step time against error" at screen 0.06, 0.977 left font font(18) textcolor rgb ink
-set label 2 "CPU time of a step in ms across, error in mm up, both logarithmic. Left is faster, down is more accurate. " . day . "." \
+set label 2 "CPU time of a step [ms] across, error [mm] up, both logarithmic. Left is faster, down more accurate. " . day \
   at screen 0.06, 0.953 left font font(12) textcolor rgb muted
-place(k) = 0.293 - 0.022 * (k - 1) - (k > 4 ? 0.01 : 0) - (k > 8 ? 0.01 : 0)
-do for [k = 1:10] {
+place(k) = 0.293 - 0.022 * (k - 1)
+do for [k = 1:12] {
+  set label 30 + k word(letters, k) . "  " . word(titles_of_peers, k) at screen 0.725 + 0.13 * ((k - 1) / 6), \
+    place(5.4 + (k - 1) % 6) left font font(12) textcolor rgb violet noenhanced
+}
+set label 22 "* by an earlier ratio to Rapier SIMD" at screen 0.725, 0.062 left font font(10) textcolor rgb muted
+do for [k = 1:4] {
   set label 10 + k word(names, k) at screen 0.725, place(k) left offset 1.6, -0.25 point linestyle k font font(12) textcolor rgb ink
 }
-set label 21 "lost its scene; at the upper edge" at screen 0.725, 0.043 left offset 1.6, -0.25 \
+set label 21 "lost its scene; at the top" at screen 0.725, 0.038 left offset 1.6, -0.25 \
   point linestyle 20 font font(12) textcolor rgb ink
 do for [n = 1:8] {
   scene = word(scenes, n)
@@ -70,9 +77,13 @@ do for [n = 1:8] {
       set ytics add ((top < 100 * E_min || step == 1 ? sprintf("%g", value) : "") value)
     }
   }
-  plot for [k = 1:10] data skip 1 using ((k > 4 && kept(scene, word(engines, k))) ? $4 : NaN):5 with points linestyle k, \
-       for [k = 1:10] data skip 1 using (lost(scene, word(engines, k)) ? $4 : NaN):(top) with points linestyle k, \
-       for [k = 1:10] data skip 1 using (lost(scene, word(engines, k)) ? $4 : NaN):(top) with points linestyle 20, \
+  plot for [k = 1:12] data skip 1 using (kept(scene, word(peers, k)) ? $4 : NaN):5:(word(letters, k)) with labels \
+         font font(11) textcolor rgb violet, \
+       for [k = 1:12] data skip 1 using (lost(scene, word(peers, k)) ? $4 : NaN):(top):(word(letters, k)) with labels \
+         font font(11) textcolor rgb violet offset -1, 0, \
+       for [k = 1:4] data skip 1 using (lost(scene, word(engines, k)) ? $4 : NaN):(top) with points linestyle k, \
+       for [k = 1:4] data skip 1 using (lost(scene, word(engines, k)) ? $4 : NaN):(top) with points linestyle 20, \
+       for [k = 1:12] data skip 1 using (lost(scene, word(peers, k)) ? $4 : NaN):(top) with points linestyle 20, \
        for [k = 1:4] data skip 1 using (kept(scene, word(engines, k)) ? $4 : NaN):5 with points linestyle k
   unset label
 }

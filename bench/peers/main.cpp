@@ -54,7 +54,7 @@ std::vector<int> rates_of(const Arguments& arguments, const std::string& scene) 
 }
 
 std::vector<PeerJob> jobs_of(const Arguments& arguments) {
-  const std::vector<Maker> makers = all_peer_makers();
+  const std::vector<Maker> makers = peer_makers();
   for (const std::string& name : arguments.engines) {
     const bool is_there = std::any_of(makers.begin(), makers.end(), [&](const Maker& m) { return m.name == name; });
     if (!is_there) throw CLI::ValidationError("--engines", "no engine " + name + " here");
@@ -127,7 +127,7 @@ int main(int count, char** words) {
   isostep::bench::Arguments arguments;
   CLI::App app("Scenes, trials and published tests in other engines, as lines of the laboratory's results");
   std::string engines;
-  for (const auto& maker : isostep::bench::all_peer_makers()) engines += maker.name + std::string(", ");
+  for (const auto& maker : isostep::bench::peer_makers()) engines += maker.name + std::string(", ");
   app.add_option("--scenes", arguments.scenes, "Names, separated by commas; none: S1 to S9 and every trial")
       ->delimiter(',');
   app.add_flag("--published", arguments.published, "Every published test, beside --scenes");

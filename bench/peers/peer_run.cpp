@@ -173,6 +173,10 @@ LabRecord run_peer(const PeerJob& job) {
   try {
     record.result.state = tool::lab::kDone;
     run(job, record.result);
+  } catch (const NoAnswer& error) {
+    record = empty_record(job);
+    record.result.state = tool::lab::kHung;
+    record.result.reason = error.what();
   } catch (const std::exception& error) {
     record = empty_record(job);
     record.result.reason = error.what();

@@ -31,6 +31,10 @@ template <class Name> std::vector<std::string> names_of(const std::vector<Row>& 
 
 std::string ms_text(double ms) { return print(ms < 0.01 ? "%.4f" : ms < 1 ? "%.3f" : "%.2f", ms); }
 
+constexpr std::string_view kBest = "-best";
+bool is_best(std::string_view engine) { return engine.ends_with(kBest); }
+std::string_view plain(std::string_view engine) { return engine.substr(0, engine.size() - kBest.size()); }
+
 std::string cell(const Row* row, const std::optional<Fastest>& fastest) {
   if (row == nullptr || !row->refused.empty()) return "-";
   const double ms = shown_ms(*row);
@@ -40,6 +44,14 @@ std::string cell(const Row* row, const std::optional<Fastest>& fastest) {
   if (row->failed) text += " x";
   if (row->ours && fastest) text += print(" (%.2f)", ms / fastest->ms);
   return text;
+}
+/// An engine's defaults and, behind a stroke, its best settings.
+std::string both_cells(const std::vector<Row>& rows, const std::string& scene, const std::string& engine,
+                       const std::optional<Fastest>& fastest) {
+  const Row* const best = find(rows, scene, engine + "-best");
+  const std::string text = cell(find(rows, scene, engine), fastest);
+  if (best == nullptr || (text == "-" && !best->refused.empty())) return text;
+  return text + " / " + cell(best, fastest);
 }
 std::string dated_cell(const std::vector<Row>& rows, const std::string& scene, const char* engine,
                        const std::optional<Fastest>& fastest) {
@@ -54,18 +66,24 @@ std::string dated_cell(const std::vector<Row>& rows, const std::string& scene, c
 
 double shown_ms(const Row& row) { return row.scene == "S8" ? row.asleep_ms : row.ms; }
 
-const char* title_of(std::string_view engine) {
+std::string title_of(std::string_view engine) {
+  if (is_best(engine)) return title_of(plain(engine)) + ", best";
   constexpr std::pair<std::string_view, const char*> kTitles[] = {{"float", "float"},
                                                                   {"double", "double"},
                                                                   {"q16.16", "q16.16"},
                                                                   {"q32.32", "q32.32"},
                                                                   {"rapier-simd", "Rapier SIMD"},
                                                                   {"rapier-det", "Rapier det."},
+                                                                  {"havok", "Havok"},
+                                                                  {"jolt", "Jolt"},
+                                                                  {"physx-pgs", "PhysX PGS"},
+                                                                  {"physx-tgs", "PhysX TGS"},
+                                                                  {"mujoco", "MuJoCo"},
                                                                   {"bullet", "Bullet"},
                                                                   {"ode", "ODE"},
+                                                                  {"dart", "DART"},
                                                                   {"box3d", "Box3D *"},
-                                                                  {"jolt", "Jolt *"},
-                                                                  {"physx", "PhysX *"}};
+                                                                  {"jolt-native", "Jolt native *"}};
   for (const auto& [name, title] : kTitles) {
     if (name == engine) return title;
   }
@@ -109,7 +127,11 @@ std::string anchor_since(const std::vector<Row>& rows) {
 }
 
 std::string comparison(const std::vector<Row>& rows) {
-  const std::vector<std::string> engines = names_of(rows, [](const Row& row) { return row.engine; });
+  const std::vector<std::string> names = names_of(rows, [](const Row& row) { return row.engine; });
+  std::vector<std::string> engines = names;
+  std::erase_if(engines, [&](const std::string& name) {
+    return is_best(name) && std::count(names.begin(), names.end(), plain(name)) != 0;
+  });
   const bool anchored = std::count(engines.begin(), engines.end(), kAnchor) != 0;
   std::vector<std::vector<std::string>> cells(1, {"ms a step"});
   for (const std::string& engine : engines) cells[0].push_back(title_of(engine));
@@ -119,7 +141,7 @@ std::string comparison(const std::vector<Row>& rows) {
   for (const std::string& scene : names_of(rows, [](const Row& row) { return row.scene; })) {
     const std::optional<Fastest> fastest = fastest_peers(rows, scene).of_all();
     std::vector<std::string> line = {scene == "S8" ? "S8 asleep" : scene};
-    for (const std::string& engine : engines) line.push_back(cell(find(rows, scene, engine), fastest));
+    for (const std::string& engine : engines) line.push_back(both_cells(rows, scene, engine, fastest));
     if (anchored) {
       for (const char* engine : kDatedEngines) line.push_back(dated_cell(rows, scene, engine, fastest));
     }

@@ -11,7 +11,7 @@ namespace isostep::bench {
 /// A time to be compared: S8's is that of a step with everybody asleep, less than 0 where that never came.
 double shown_ms(const Row& row);
 /// The name of an engine in a report.
-const char* title_of(std::string_view engine);
+std::string title_of(std::string_view engine);
 
 /// The time that a dated engine would take today: its ratio to kAnchor then, times kAnchor's time among these rows.
 std::optional<double> estimated_ms(const std::vector<Row>& rows, std::string_view scene, std::string_view engine);
@@ -30,7 +30,8 @@ FastestPeers fastest_peers(const std::vector<Row>& rows, std::string_view scene)
 /// kAnchor's time here over that of the dated run, scene by scene: "S1 1.03, S2 0.99".
 std::string anchor_since(const std::vector<Row>& rows);
 
-/// Markdown: a line a scene, a column an engine; ours with the ratio to the fastest of all peers.
+/// Markdown: a line a scene, a column an engine, its best settings behind a stroke; ours with the ratio to the fastest
+/// of all peers.
 std::string comparison(const std::vector<Row>& rows);
 
 }  // namespace isostep::bench

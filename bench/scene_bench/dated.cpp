@@ -1,6 +1,6 @@
 // The dated figures: CPU ms a step, lowest of several interleaved runs, on a quiet 2-core Zen 5 virtual machine.
-// Box3D 30c67b5 (SSE2, 4 sub-steps), Jolt 5.5.1 (cross-platform deterministic, AVX2), PhysX 5.6 (WebAssembly, PGS),
-// Rapier 0.20 (WebAssembly, SIMD).
+// Box3D 30c67b5 (SSE2, 4 sub-steps), Jolt 5.5.1 (cross-platform deterministic, AVX2), Rapier 0.20 (WebAssembly,
+// SIMD).
 // SPDX-License-Identifier: MIT
 #include "dated.hpp"
 
@@ -35,7 +35,7 @@ constexpr Line kLines[] = {
       {0.042, false, 0.096},
       {0.698, false, 0.098},
       {0.0006, false, kNone}}},
-    {"jolt",
+    {"jolt-native",
      {{0.022, true, kNone},
       {0.383, false, kNone},
       {4.50, false, kNone},
@@ -44,15 +44,6 @@ constexpr Line kLines[] = {
       {0.030, true, kNone},
       {0.747, false, 0.072},
       {0.0006, false, kNone}}},
-    {"physx",
-     {{0.028, true, kNone},
-      {0.265, true, kNone},
-      {3.18, false, kNone},
-      {2.63, false, kNone},
-      {10.3, false, kNone},
-      {0.030, true, kNone},
-      {0.943, false, kNone},
-      {0.005, false, kNone}}},
 };
 
 }  // namespace

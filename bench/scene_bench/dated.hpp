@@ -11,7 +11,7 @@ namespace isostep::bench {
 /// is today.
 inline constexpr const char* kAnchor = "rapier-simd";
 
-inline constexpr const char* kDatedEngines[] = {"box3d", "jolt", "physx"};
+inline constexpr const char* kDatedEngines[] = {"box3d", "jolt-native"};
 
 struct Dated {
   double ms;     // [ms] CPU time of a step, float, one thread; S8: with everybody asleep

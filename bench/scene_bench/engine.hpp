@@ -28,6 +28,11 @@ struct Answered {
   std::uint64_t hits;  // of all of them
 };
 
+/// An engine that gave no answer in time, which says nothing of what it would have done.
+struct NoAnswer : scenes::SceneError {
+  using SceneError::SceneError;
+};
+
 /// An engine is built by a Maker, then before_step and a step follow once a frame; only steps are timed. Measures are
 /// in double and cheap but for `overlap`, which is asked for once, at the end.
 class Engine {
@@ -71,19 +76,15 @@ struct Maker {
 };
 /// Every engine that can be run: our scalars, then peers.
 std::vector<Maker> makers();
-
-/// Those of the scene benchmark that are not ours.
+/// Those that are not ours; an engine's most careful settings, NAME-best, come behind it.
 std::vector<Maker> peer_makers();
-/// Those, and what only the laboratory runs: more engines, and engines at their most careful.
-std::vector<Maker> all_peer_makers();
 
 std::unique_ptr<Engine> make_bullet(const scenes::Scene& scene, const EngineOptions& options);
 std::unique_ptr<Engine> make_bullet_best(const scenes::Scene& scene, const EngineOptions& options);
 std::unique_ptr<Engine> make_ode(const scenes::Scene& scene, const EngineOptions& options);
 std::unique_ptr<Engine> make_ode_best(const scenes::Scene& scene, const EngineOptions& options);
 std::unique_ptr<Engine> make_dart(const scenes::Scene& scene, const EngineOptions& options);
-/// The makers of the packages that npm has brought: those of the benchmark, or all the others.
-enum class NodeRows { benchmark, others };
-std::vector<Maker> node_makers(NodeRows rows);
+/// The makers of the packages that npm has brought.
+std::vector<Maker> node_makers();
 
 }  // namespace isostep::bench

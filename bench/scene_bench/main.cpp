@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 
+#include "compare.hpp"
 #include "program.hpp"
 #include "report.hpp"
 #include "scenes/named.hpp"
@@ -61,11 +62,10 @@ scenes::Scene scene_of(const std::string& name, const Arguments& arguments) {
 }
 
 void say_absent_peers() {
-  constexpr std::pair<const char*, const char*> kPeers[] = {
-      {"rapier-simd", "Rapier SIMD"}, {"rapier-det", "Rapier deterministic"}, {"bullet", "Bullet"}, {"ode", "ODE"}};
   const std::vector<Maker> all = makers();
-  for (const auto& [name, title] : kPeers) {
-    if (!holds(all, name)) std::fprintf(stderr, "%s is not there, left out\n", title);
+  for (const char* name :
+       {"rapier-simd", "rapier-det", "havok", "jolt", "physx-pgs", "mujoco", "bullet", "ode", "dart"}) {
+    if (!holds(all, name)) std::fprintf(stderr, "%s is not there, left out\n", title_of(name).c_str());
   }
 }
 
@@ -109,7 +109,7 @@ Memories measure_memories(const Arguments& arguments, const std::vector<Maker>& 
     std::fprintf(stderr, "%s: memory\n", name.c_str());
     const scenes::Scene scene = scene_of(name, arguments);
     for (const Maker& maker : engines) {
-      memories[{name, maker.name}] = measure_memory(scene, maker, arguments.race.engine);
+      memories[{name, maker.name}] = measure_memory(scene, maker, arguments.race.engine, arguments.race.patience);
     }
   }
   return memories;
@@ -149,15 +149,18 @@ void run(const Arguments& arguments) {
 
 int main(int count, char** words) {
   isostep::bench::Arguments arguments;
-  CLI::App app("The benchmark scenes in every scalar, beside Rapier, Bullet and ODE");
+  CLI::App app("The benchmark scenes in every scalar, beside other engines");
   app.add_option("--scenes", arguments.scenes, "Names, separated by commas")->delimiter(',');
   app.add_option("--engines", arguments.engines,
-                 "Scalars, rapier-simd, rapier-det, bullet, ode, separated by commas; none: all")
+                 "Scalars and other engines as the tables name them, separated by commas; none: all")
       ->delimiter(',');
   app.add_option("--rounds", arguments.race.rounds, "Runs of each scene; times are the lowest of them")
       ->check(CLI::Range(1, 99));
   app.add_option("--frames", arguments.race.frames, "Of a run; 0: as many as the scene says")
       ->check(CLI::Range(0, 100000));
+  app.add_option("--patience", arguments.race.patience, "[s] CPU time of an engine's steps of a round; then it is left")
+      ->check(CLI::Range(0.01, 86400.0))
+      ->capture_default_str();
   app.add_option("--block", arguments.race.block, "Frames an engine runs before the next has its turn")
       ->check(CLI::Range(1, 1000));
   app.add_option("--substeps", arguments.race.engine.substeps, "Of ours; 0: the default")->check(CLI::Range(0, 64));

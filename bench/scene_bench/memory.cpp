@@ -1,4 +1,4 @@
-// Peak memory, in a child of its own. Of an engine with a child itself, Rapier's Node, the larger of the two is told.
+// Peak memory, in a child of its own. Of an engine with a child itself, Node, the larger of the two is told.
 // SPDX-License-Identifier: MIT
 #include "memory.hpp"
 
@@ -16,11 +16,12 @@ namespace isostep::bench {
 
 namespace {
 
-int run(const scenes::Scene& scene, const Maker& maker, const EngineOptions& options) try {
+int run(const scenes::Scene& scene, const Maker& maker, const EngineOptions& options, double patience) try {
   const std::unique_ptr<Engine> engine = maker.make(scene, options);
-  for (int frame = 0; frame < scene.frames; ++frame) {
+  double spent = 0;  // [ms]
+  for (int frame = 0; frame < scene.frames && spent < 1e3 * patience; ++frame) {
     engine->before_step(frame);
-    engine->step();
+    spent += engine->timed_steps(1);
   }
   return 0;
 } catch (const std::exception& error) {
@@ -39,11 +40,11 @@ double megabytes(const rusage& used) {
 
 }  // namespace
 
-Memory measure_memory(const scenes::Scene& scene, const Maker& maker, const EngineOptions& options) {
+Memory measure_memory(const scenes::Scene& scene, const Maker& maker, const EngineOptions& options, double patience) {
   rusage own = {}, used = {};
   getrusage(RUSAGE_SELF, &own);
   const pid_t child = fork();
-  if (child == 0) _exit(run(scene, maker, options));
+  if (child == 0) _exit(run(scene, maker, options, patience));
   int status = 0;
   if (child < 0 || wait4(child, &status, 0, &used) != child || status != 0) return {};
   return {megabytes(own), megabytes(used)};
@@ -51,7 +52,7 @@ Memory measure_memory(const scenes::Scene& scene, const Maker& maker, const Engi
 
 #else
 
-Memory measure_memory(const scenes::Scene&, const Maker&, const EngineOptions&) { return {}; }
+Memory measure_memory(const scenes::Scene&, const Maker&, const EngineOptions&, double) { return {}; }
 
 #endif
 

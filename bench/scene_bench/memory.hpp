@@ -10,9 +10,10 @@ namespace isostep::bench {
 /// less than 0 where the system does not tell.
 struct Memory {
   double before = -1;  // with the scene read, but no world made of it
-  double peak = -1;    // over the whole run
+  double peak = -1;    // over the whole run, or as far as patience went
 };
-/// It is to be called before this process has grown, for the measured one begins as its copy.
-Memory measure_memory(const scenes::Scene& scene, const Maker& maker, const EngineOptions& options);
+/// Ends after `patience` [s] of CPU time in steps. It is to be called before this process has grown, for the measured
+/// one begins as its copy.
+Memory measure_memory(const scenes::Scene& scene, const Maker& maker, const EngineOptions& options, double patience);
 
 }  // namespace isostep::bench

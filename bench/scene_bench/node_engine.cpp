@@ -21,16 +21,15 @@ struct NodeRow {
   const char* script;
   const char* variant;  // that the script knows
   const char* settings;
-  NodeRows rows = NodeRows::others;
 };
 constexpr char kSimd[] = "@dimforge/rapier3d-simd-compat", kDeterministic[] = "@dimforge/rapier3d-deterministic-compat",
                kHavok[] = "@babylonjs/havok", kJolt[] = "jolt-physics", kPhysx[] = "physx-js-webidl",
-               kMujoco[] = "@mujoco/mujoco";
+               kMujoco[] = "@mujoco/mujoco", kRapier[] = "rapier.mjs";
 constexpr NodeRow kRows[] = {
-    {"rapier-simd", kSimd, "rapier.mjs", "", "4 iterations", NodeRows::benchmark},
-    {"rapier-det", kDeterministic, "rapier.mjs", "", "4 iterations", NodeRows::benchmark},
-    {"rapier-simd-best", kSimd, "rapier.mjs", "best", "16 iterations"},
-    {"rapier-det-best", kDeterministic, "rapier.mjs", "best", "16 iterations"},
+    {"rapier-simd", kSimd, kRapier, "", "4 iterations"},
+    {"rapier-simd-best", kSimd, kRapier, "best", "16 iterations"},
+    {"rapier-det", kDeterministic, kRapier, "", "4 iterations"},
+    {"rapier-det-best", kDeterministic, kRapier, "best", "16 iterations"},
     {"havok", kHavok, "havok.mjs", "", "defaults"},
     {"jolt", kJolt, "jolt.mjs", "", "10 velocity and 2 position steps"},
     {"jolt-best", kJolt, "jolt.mjs", "best", "20 velocity and 6 position steps, 4 collision steps"},
@@ -66,11 +65,11 @@ class NodeEngine : public Peer {
   std::string settings() const override { return std::string(row_.package) + ", " + row_.settings; }
 
   void take(const scenes::DrawnQueries& drawn) override {
-    if (row_.rows == NodeRows::benchmark) node_.ask({{"take", json_of(drawn)}}, 1);
+    if (answers_queries()) node_.ask({{"take", json_of(drawn)}}, 1);
   }
   /// Rapier alone is asked, and has no batches.
   std::optional<Answered> ask(Query query) override {
-    if (row_.rows != NodeRows::benchmark || query == Query::rays || query == Query::casts) return std::nullopt;
+    if (!answers_queries() || query == Query::rays || query == Query::casts) return std::nullopt;
     const std::vector<double> answer = node_.ask({{"ask", kQueryNames[static_cast<std::size_t>(query)]}}, 2);
     return Answered{answer[0], static_cast<std::uint64_t>(answer[1])};
   }
@@ -96,6 +95,8 @@ class NodeEngine : public Peer {
 
  private:
   static constexpr std::size_t kNumbers = 14;  // a body
+
+  bool answers_queries() const { return row_.script == kRapier; }
 
   Json scene_json() const {
     const auto all = [](const auto& list) {
@@ -128,14 +129,14 @@ template <std::size_t... rows> std::vector<Maker> makers_of(std::index_sequence<
 
 }  // namespace
 
-std::vector<Maker> node_makers(NodeRows rows) {
+std::vector<Maker> node_makers() {
   static const bool node = std::system("node --version >/dev/null 2>&1") == 0;
   if (!node) return {};
   const std::vector<Maker> all = makers_of(std::make_index_sequence<std::size(kRows)>());
   std::vector<Maker> found;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool is_there = std::filesystem::exists(package_directory(kRows[i]) + "/package.json");
-    if (kRows[i].rows == rows && is_there) found.push_back(all[i]);
+    if (is_there) found.push_back(all[i]);
   }
   return found;
 }

@@ -4,13 +4,16 @@
 
 #include <spawn.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <bit>
+#include <cerrno>
+#include <csignal>
 #include <iterator>
 
-#include "scenes/scene.hpp"
+#include "engine.hpp"
 
 extern char** environ;
 
@@ -18,7 +21,15 @@ namespace isostep::bench {
 
 static_assert(std::endian::native == std::endian::little, "node_peer.mjs writes little-endian doubles");
 
+constexpr timeval kPatience = {120, 0};  // [s] for one answer
+
+void NodeProcess::give_up() const {
+  kill(pid_, SIGKILL);
+  throw NoAnswer("", script_ + " gave no answer within " + std::to_string(kPatience.tv_sec) + " s");
+}
+
 std::size_t NodeProcess::bytes_of(std::ptrdiff_t count) const {
+  if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) give_up();
   if (count <= 0) throw scenes::SceneError("", script_ + " has ended; what it said is above");
   return static_cast<std::size_t>(count);
 }
@@ -27,6 +38,7 @@ NodeProcess::NodeProcess(const std::string& script, std::string package, std::st
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw scenes::SceneError("", "no socket");
   socket_ = ends[0];
+  setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
   std::string words[] = {"node", "--no-liftoff",  // optimised before the first step
                          ISOSTEP_BENCH_SOURCE_DIR "/scene_bench/" + script, std::move(package), std::move(variant)};
   char* arguments[std::size(words) + 1] = {};

@@ -10,7 +10,8 @@
 
 namespace isostep::bench {
 
-/// `node SCRIPT PACKAGE VARIANT`, which ends when its socket does. What fails is a SceneError.
+/// `node SCRIPT PACKAGE VARIANT`, which ends when its socket does. What fails is a SceneError. A request that takes
+/// more than two minutes, as a crowd's single step may, ends the process and is a NoAnswer.
 class NodeProcess {
  public:
   /// `script`: beside this file; `package`: a directory.
@@ -23,6 +24,7 @@ class NodeProcess {
 
  private:
   std::size_t bytes_of(std::ptrdiff_t count) const;
+  [[noreturn]] void give_up() const;
 
   std::string script_;
   int socket_ = -1;

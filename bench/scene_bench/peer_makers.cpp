@@ -7,30 +7,18 @@ namespace isostep::bench {
 std::vector<Maker> peer_makers() {
   std::vector<Maker> all;
 #if defined(ISOSTEP_BENCH_NODE)
-  for (const Maker& maker : node_makers(NodeRows::benchmark)) all.push_back(maker);
+  all = node_makers();
 #endif
 #if defined(ISOSTEP_BENCH_BULLET)
   all.push_back({"bullet", false, make_bullet});
-#endif
-#if defined(ISOSTEP_BENCH_ODE)
-  all.push_back({"ode", false, make_ode});
-#endif
-  return all;
-}
-
-std::vector<Maker> all_peer_makers() {
-  std::vector<Maker> all = peer_makers();
-#if defined(ISOSTEP_BENCH_BULLET)
   all.push_back({"bullet-best", false, make_bullet_best});
 #endif
 #if defined(ISOSTEP_BENCH_ODE)
+  all.push_back({"ode", false, make_ode});
   all.push_back({"ode-best", false, make_ode_best});
 #endif
 #if defined(ISOSTEP_BENCH_DART)
   all.push_back({"dart", false, make_dart});
-#endif
-#if defined(ISOSTEP_BENCH_NODE)
-  for (const Maker& maker : node_makers(NodeRows::others)) all.push_back(maker);
 #endif
   return all;
 }

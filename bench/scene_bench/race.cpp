@@ -10,6 +10,7 @@
 #include "scenes/limits.hpp"
 #include "scenes/named.hpp"
 #include "scenes/shapes.hpp"
+#include "text.hpp"
 #include "verdict.hpp"
 
 namespace isostep::bench {
@@ -20,11 +21,12 @@ constexpr int kEnergyFrames = 60;
 /// One engine's run, and what is noted beside it.
 struct Lane {
   std::unique_ptr<Engine> engine;        // none: refused
-  std::string refused;                   // and why
+  std::string refused;                   // and why; or why it was left on its way
   std::unique_ptr<scenes::Judge> judge;  // of scenes whose figure is taken over the whole run
   std::vector<scenes::BodySight> start;
   scenes::Energy energy_start;
   std::vector<double> times;  // [ms] a frame
+  double spent = 0;           // [ms] their sum
   double kinetic = 0, joint_worst = 0, limit_worst = 0, limit_end = 0, energy_most = 0;
   int asleep_at = -1;
   std::vector<double> turned;  // [rad] of a trial's bodies about z
@@ -58,6 +60,7 @@ void run_frames(Lane& lane, const scenes::Scene& scene, int from, int to) {
     const scenes::Sight before = is_trial(scene) ? lane.engine->sight() : scenes::Sight{};
     lane.engine->before_step(frame);
     lane.times.push_back(lane.engine->timed_steps(1));
+    lane.spent += lane.times.back();
     if (!scene.joints.empty()) watch_joints(lane, scene, limits);
     if (lane.judge) lane.judge->see(lane.engine->sight());
     if (is_trial(scene)) watch_turns(lane, before, lane.engine->sight());
@@ -166,10 +169,14 @@ Lane start_lane(const scenes::Scene& scene, const Maker& maker, const EngineOpti
   return lane;
 }
 
+/// Who had no figures in the first round is not asked again.
 std::vector<Lane> start_lanes(const scenes::Scene& scene, const std::vector<Maker>& makers,
-                              const RaceOptions& options) {
+                              const std::vector<Row>& rows, const EngineOptions& options) {
   std::vector<Lane> lanes;
-  for (const Maker& maker : makers) lanes.push_back(start_lane(scene, maker, options.engine));
+  for (std::size_t i = 0; i < makers.size(); ++i) {
+    if (rows[i].refused.empty()) lanes.push_back(start_lane(scene, makers[i], options));
+    else lanes.emplace_back().refused = rows[i].refused;
+  }
   return lanes;
 }
 
@@ -179,10 +186,24 @@ void name(Row& row, const scenes::Scene& scene, const Maker& maker) {
   row.ours = maker.ours;
 }
 
-void run_round(std::vector<Lane>& lanes, const scenes::Scene& scene, int block) {
-  for (int from = 0; from < scene.frames; from += block) {
+void leave(Lane& lane, const std::string& reason) {
+  lane.engine.reset();
+  lane.refused = reason;
+}
+/// An engine that fails on its way, or takes too long, keeps no other from the end.
+void run_block(Lane& lane, const scenes::Scene& scene, int from, int to, double patience) try {
+  run_frames(lane, scene, from, to);
+  if (to < scene.frames && lane.spent > 1e3 * patience)
+    leave(lane, print("%d of %d steps took %.0f s", to, scene.frames, 1e-3 * lane.spent));
+} catch (const scenes::SceneError& error) {
+  leave(lane, error.what());
+}
+
+void run_round(std::vector<Lane>& lanes, const scenes::Scene& scene, const RaceOptions& options) {
+  for (int from = 0; from < scene.frames; from += options.block) {
+    const int to = std::min(from + options.block, scene.frames);
     for (Lane& lane : lanes) {
-      if (lane.engine) run_frames(lane, scene, from, std::min(from + block, scene.frames));
+      if (lane.engine) run_block(lane, scene, from, to, options.patience);
     }
   }
 }
@@ -195,8 +216,8 @@ std::vector<Row> race(const scenes::Scene& scene, const std::vector<Maker>& make
   for (std::size_t i = 0; i < makers.size(); ++i) name(rows[i], scene, makers[i]);
   for (int round = 0; round < options.rounds; ++round) {
     std::fprintf(stderr, "%s: round %d of %d\n", scene.name.c_str(), round + 1, options.rounds);
-    std::vector<Lane> lanes = start_lanes(scene, makers, options);
-    run_round(lanes, scene, options.block);
+    std::vector<Lane> lanes = start_lanes(scene, makers, rows, options.engine);
+    run_round(lanes, scene, options);
     for (std::size_t i = 0; i < lanes.size(); ++i) {
       rows[i].refused = lanes[i].refused;
       if (!lanes[i].engine) continue;

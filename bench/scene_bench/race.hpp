@@ -11,7 +11,7 @@ namespace isostep::bench {
 struct Row {
   std::string scene, engine, settings;
   bool ours = false;
-  std::string refused;  // why the engine cannot be given the scene: then nothing else counts
+  std::string refused;  // why there is nothing else: the engine cannot be given the scene, or takes too long in it
   // CPU time of the step, the lowest of the rounds.
   double ms = 0, p99 = 0, max = 0;  // [ms] over the second half; S9: over the whole run
   double asleep_ms = -1;            // [ms] a step with everybody asleep; less than 0: never
@@ -41,8 +41,9 @@ struct Row {
 
 struct RaceOptions {
   int rounds = 2;
-  int block = 20;  // [frames] an engine runs before the next has its turn
-  int frames = 0;  // of a run; 0: as many as the scene says
+  int block = 20;        // [frames] an engine runs before the next has its turn
+  int frames = 0;        // of a run; 0: as many as the scene says
+  double patience = 30;  // [s] CPU time of an engine's steps in a round: what takes longer is left, for others wait
   EngineOptions engine;
 };
 

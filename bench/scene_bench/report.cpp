@@ -148,7 +148,7 @@ std::vector<std::string> figures(const Row& row, const FastestPeers& fastest) {
     std::vector<std::string> line(13, "-");
     line[0] = row.scene;
     line[1] = row.engine;
-    line[11] = print("refused: %s", row.refused.c_str());
+    line[11] = print("no figures: %s", row.refused.c_str());
     return line;
   }
   std::vector<std::string> line = {row.scene, row.engine, print("%.4f%s", row.ms, row.failed ? " x" : ""),
@@ -185,7 +185,8 @@ std::string memory_table(const std::vector<Row>& rows) {
 constexpr char kLegend[] =
     "\nCPU time of a step, median of the settled half (S9: of the run), lowest of the rounds. Bold: the fastest peer. "
     "In "
-    "brackets: ours as a multiple of it. x: the scene was lost.\n";
+    "brackets: ours as a multiple of it. Behind a stroke: an engine's best settings, see bench/pages/peers.md. x: the "
+    "scene was lost.\n";
 constexpr char kDatedLegend[] =
     "\\* not run here: its ratio to Rapier SIMD in the run of bench/scene_bench/dated.cpp, times Rapier SIMD above, "
     "which "

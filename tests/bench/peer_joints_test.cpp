@@ -18,7 +18,7 @@ constexpr double kNear = 0.03;                 // [1] of a second's motion: ten 
 scenes::SceneBody cube(double x, double mass) {
   return scenes::apart(scenes::weighing(scenes::body_of(scenes::box_part({0.5, 0.5, 0.5}), {x, 0, 0}), mass));
 }
-/// The end of a joint that is the world. None: a is a body of a hundred times the mass.
+/// The end of a joint that is the world. None: a is a body a hundred times as heavy as b.
 enum class World { a, b, none };
 SceneJoint joint_of(JointType type, World world) {
   const bool a = world == World::a, b = world == World::b;
@@ -52,6 +52,9 @@ double second_of(const Maker& maker, const SceneJoint& joint, World world) {
 /// Calls `check` with every engine, kind of joint and way to hang it up.
 template <class Check> void for_all(Check&& check) {
   for (const Maker& maker : makers()) {
+    const std::string_view name = maker.name;
+    if (name == "dart") continue;           // its hinges and sliders are of trees: it refuses them
+    if (name.ends_with("-best")) continue;  // the same joints, more exactly
     for (const JointType type : {JointType::hinge, JointType::slider}) {
       for (const World world : {World::a, World::b, World::none}) {
         SCOPED_TRACE(std::string(maker.name) + " " + kJointNames[static_cast<int>(type)] + " " +
@@ -95,7 +98,8 @@ Scene gears() {
 TEST(PeerJoints, gears_turn_against_each_other_by_their_teeth_or_are_refused) {
   for (const Maker& maker : makers()) {
     SCOPED_TRACE(maker.name);
-    if (std::string_view(maker.name).starts_with("rapier")) {
+    const std::string_view name = maker.name;
+    if (!maker.ours && !name.starts_with("bullet") && !name.starts_with("ode")) {
       EXPECT_THROW(end_of(maker, gears()), scenes::SceneError);
       continue;
     }

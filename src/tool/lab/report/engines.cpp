@@ -37,6 +37,8 @@ constexpr Words kSolvers[] = {
     {"pgs", "pgs", "one step of time and passes over all contacts, as most engines do"},
     {"worst_first", "worst_first", "small steps of time, always the worst contact next; slow in crowds"},
     {"direct", "direct", "all contacts of touching bodies solved at once; exact, for small groups"},
+    {"admm", "admm", "all contacts of touching bodies solved at once, friction whole; for hundreds of bodies"},
+    {"avbd", "avbd", "augmented vertex block descent: body after body, against penalties; for comparison"},
 };
 constexpr Words kScalars[] = {
     {"float", "float", "32 bits, floating; fastest"},
