@@ -59,11 +59,11 @@ TYPED_TEST(Allocation, AWarmSceneStepsWithoutAnyWhateverItsSolver) {
     if (left_out(SolverName{name}) != nullptr) continue;
     World<S> world(solver_settings<S>(static_cast<SolverName>(name)));
     const SolverScene<S> scene(world);
-    for (std::uint64_t frame = 0; frame < 240; ++frame) scene.play(world, frame);
+    for (std::uint64_t frame = 0; frame < 300; ++frame) scene.play(world, frame);
     EXPECT_GT(world.counts().contacts, 9u);
     EXPECT_EQ(world.counts().joints, 6u);
     const Count count;
-    for (std::uint64_t frame = 240; frame < 270; ++frame) scene.play(world, frame);
+    for (std::uint64_t frame = 300; frame < 330; ++frame) scene.play(world, frame);
     EXPECT_EQ(count.so_far(), 0u) << kSolverNames[name];
   }
 }
