@@ -38,8 +38,8 @@ struct Drawn {
   int wheels() const { return 2 * axles; }
 };
 
-/// Not yet of avbd and admm: in the few turns that mechanisms take with an island they find no answer, and a vehicle at a
-/// wall lacks up to a tenth of its thrust, and creeps.
+/// Not yet of avbd and admm: in the few turns that mechanisms take with an island they find no answer, and a vehicle at
+/// a wall lacks up to a tenth of its thrust, and creeps.
 const std::vector<SolverName> kHolders =
     built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first, SolverName::direct});
 
