@@ -29,6 +29,17 @@ inline std::vector<SolverName> built(std::initializer_list<SolverName> all) {
   return here;
 }
 
+/// Those that the build holds, without `others`.
+inline std::vector<SolverName> all_but(std::initializer_list<SolverName> others) {
+  std::vector<SolverName> rest;
+  for (const SolverName solver : kBuiltSolvers) {
+    bool is_other = false;
+    for (const SolverName other : others) is_other = is_other || solver == other;
+    if (!is_other) rest.push_back(solver);
+  }
+  return rest;
+}
+
 }  // namespace isostep::test
 
 /// It stands first in a test of the book's methods: skips it where they are left out, and says so.

@@ -169,7 +169,7 @@ Lane start_lane(const scenes::Scene& scene, const Maker& maker, const EngineOpti
   return lane;
 }
 
-/// Who had no figures in the first round is not asked again.
+/// Leaves out an engine that had no figures in the first round.
 std::vector<Lane> start_lanes(const scenes::Scene& scene, const std::vector<Maker>& makers,
                               const std::vector<Row>& rows, const EngineOptions& options) {
   std::vector<Lane> lanes;

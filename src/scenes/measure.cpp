@@ -14,9 +14,7 @@
 namespace isostep::scenes {
 namespace {
 
-template <class U> Quat<double> unit_in_double(const Quat<U>& q) {
-  return normalise(Quat<double>{to_double(q.x), to_double(q.y), to_double(q.z), to_double(q.w)});
-}
+template <class U> Quat<double> unit_in_double(const Quat<U>& q) { return normalise(in_double(q)); }
 
 template <class S, class Visit> void each_body(const WorldState<S>& state, Visit&& visit) {
   const auto each = [&](const BodySet<S>& set) {

@@ -10,6 +10,9 @@
 namespace isostep::scenes {
 
 template <class T> Vec3<double> in_double(Vec3<T> v) { return {to_double(v.x), to_double(v.y), to_double(v.z)}; }
+template <class U> Quat<double> in_double(const Quat<U>& q) {
+  return {to_double(q.x), to_double(q.y), to_double(q.z), to_double(q.w)};
+}
 inline double length_of(Vec3<double> v) { return std::sqrt(dot(v, v)); }
 
 /// The overlap over pairs of parts that may collide and are closer than 1 cm, overlapping ones included.

@@ -16,13 +16,9 @@ template <class S> Sight sight_of(const World<S>& world, int faults) {
   std::stable_sort(bodies.begin(), bodies.end(),
                    [&](BodyId a, BodyId b) { return world.user_data(a) < world.user_data(b); });
   for (const BodyId body : bodies) {
-    const Quat<Unit<S>> q = world.pose(body).orientation;
-    sight.bodies.push_back({in_double(world.center_of_mass(body)),
-                            {to_double(q.x), to_double(q.y), to_double(q.z), to_double(q.w)},
-                            in_double(world.velocity(body)),
-                            in_double(world.angular_velocity(body)),
-                            world.type(body) == BodyType::dynamic,
-                            world.is_awake(body)});
+    sight.bodies.push_back({in_double(world.center_of_mass(body)), in_double(world.pose(body).orientation),
+                            in_double(world.velocity(body)), in_double(world.angular_velocity(body)),
+                            world.type(body) == BodyType::dynamic, world.is_awake(body)});
   }
   if (!world.state().joint_slots.entries().empty()) sight.joint_error = largest_joint_error(world);
   sight.energy = measure_energy(world);

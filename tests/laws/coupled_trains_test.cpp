@@ -174,7 +174,9 @@ TYPED_TEST(CoupledTrains, hold_a_motor_whatever_the_wheels_weigh) {
       }
       EXPECT_LT(worst, pick<S>(2e-3, 2e-3, 2e-2, 2e-3)) << "rad out of mesh";
       EXPECT_LT(this->off(b, train, 0), pick<S>(5e-5, 5e-6, 2e-2, 5e-6)) << "rad out of mesh";
-      EXPECT_NEAR(std::abs(to_double(b.w.state(b.couplings[0])->load)), 2, pick<S>(0.02, 0.02, 0.2, 0.02));
+      const bool gropes = solver == SolverName::avbd || solver == SolverName::admm;  // in the turns of mechanisms
+      EXPECT_NEAR(std::abs(to_double(b.w.state(b.couplings[0])->load)), 2,
+                  pick<S>(0.02, 0.02, gropes ? 0.2 : 0.1, 0.02));
     }
   }
 }

@@ -176,8 +176,7 @@ TYPED_TEST(Couplings, a_differential_turns_one_wheel_twice_as_fast_where_the_oth
 
 TYPED_TEST(Couplings, hold_with_every_solver) {
   using S = TypeParam;
-  for (const SolverName solver : built({SolverName::soft_step, SolverName::pgs, SolverName::direct,
-                                        SolverName::worst_first, SolverName::admm, SolverName::avbd})) {
+  for (const SolverName solver : kBuiltSolvers) {
     World<S> world(this->with(solver));
     const JointId a = this->disc(world, 0, this->motor(4, 2000)), b = this->disc(world, 4);
     ASSERT_TRUE(world.add(gears<S>(a, 1, b, 2)));

@@ -29,12 +29,9 @@ template <class S> class JointLoads : public ::testing::Test {
 };
 TYPED_TEST_SUITE(JointLoads, AllScalars);
 
-const std::vector<SolverName> kAll = built({SolverName::soft_step, SolverName::pgs, SolverName::direct,
-                                            SolverName::worst_first, SolverName::admm, SolverName::avbd});
-
 TYPED_TEST(JointLoads, a_weight_pulls_with_its_weight_and_a_beam_turns_with_its_lever) {
   using S = TypeParam;
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     for (const JointType type : {JointType::ball, JointType::fixed, JointType::hinge, JointType::slider}) {
       World<S> w(awake<S>(solver));
       const bool beam = type == JointType::fixed || type == JointType::slider;

@@ -291,8 +291,7 @@ TYPED_TEST(OneWays, keep_what_sleeps_on_them_and_are_refused_with_bad_numbers) {
 
 TYPED_TEST(OneWays, are_rolled_back_while_bodies_are_inside) {
   using S = TypeParam;
-  for (const SolverName solver : built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first,
-                                        SolverName::direct, SolverName::admm, SolverName::avbd})) {
+  for (const SolverName solver : kBuiltSolvers) {
     Settings<S> s = settings<S>();
     s.solver = solver;
     this->w = World<S>(s);

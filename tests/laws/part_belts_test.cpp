@@ -9,8 +9,6 @@
 namespace isostep::test {
 namespace part_belts_test {
 
-const std::vector<SolverName> kAll = built({SolverName::soft_step, SolverName::pgs, SolverName::worst_first,
-                                            SolverName::direct, SolverName::admm, SolverName::avbd});
 const char* name_of(SolverName solver) { return kSolverNames[static_cast<int>(solver)]; }
 
 template <class S> class PartBelts : public ::testing::Test {
@@ -53,7 +51,7 @@ TYPED_TEST_SUITE(PartBelts, AllScalars);
 
 // Half a percent of 2 m/s, as for a belt that is a body of its own.
 TYPED_TEST(PartBelts, two_belts_of_one_body_run_opposite_ways_and_a_third_part_stands) {
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     for (const BodyType type : {BodyType::static_, BodyType::kinematic}) {
       this->begin(solver);
       const BodyId body = this->planks(3, type);
@@ -197,7 +195,7 @@ TYPED_TEST(PartBelts, refuse_what_is_no_part_and_change_nothing) {
 }
 
 TYPED_TEST(PartBelts, are_rolled_back_and_equal_on_all_lanes) {
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     std::vector<std::uint64_t> first;
     for (const Simd simd : {Simd::scalar, Simd::best}) {
       this->begin(solver);

@@ -11,8 +11,6 @@
 namespace isostep::test {
 namespace soft_limits_test {
 
-const std::vector<SolverName> kAll = built({SolverName::soft_step, SolverName::pgs, SolverName::direct,
-                                            SolverName::worst_first, SolverName::admm, SolverName::avbd});
 constexpr double kTurn = 6.283185307179586;
 constexpr std::uint32_t kAllLocks = joint_flag::kLockPoint | joint_flag::kLockTurns;
 
@@ -62,7 +60,7 @@ TYPED_TEST_SUITE(SoftLimits, AllScalars);
 /// At rest g = w^2 x: 9.8 m/s^2 at 2 Hz are 62 mm.
 TYPED_TEST(SoftLimits, sag_as_far_as_their_spring_says) {
   using S = TypeParam;
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     Hung<S> h = this->hang(solver, this->soft(JointAxis::y, -0.5, 1, 2, 1), -9.8);
     this->run(h, 300);
     const double w = kTurn * 2;
@@ -74,7 +72,7 @@ TYPED_TEST(SoftLimits, sag_as_far_as_their_spring_says) {
 /// An angle: M = inertia w^2 x.
 TYPED_TEST(SoftLimits, of_a_turn_hold_an_arm_as_their_spring_says) {
   using S = TypeParam;
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     const AxisDrive<S> drive = this->soft(JointAxis::twist, -0.25, 0.25, 3, 1);
     Hung<S> h = this->hang(solver, drive, 0);
     for (int i = 0; i < 300; ++i) {
@@ -90,7 +88,7 @@ TYPED_TEST(SoftLimits, of_a_turn_hold_an_arm_as_their_spring_says) {
 /// exp(-pi w h / 2) of the speed, with h the whole step in pgs. It is beyond the limit for half a swing.
 TYPED_TEST(SoftLimits, throw_back_what_they_caught_in_half_a_swing) {
   using S = TypeParam;
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     Hung<S> hung = this->hang(solver, this->soft(JointAxis::x, -0.5, 0.5, 2, 0), 0);
     hung.world.set_velocity(hung.body, vec<S>(2, 0, 0), vec<S>(0, 0, 0));
     double deepest = 0;
@@ -115,7 +113,7 @@ TYPED_TEST(SoftLimits, throw_back_what_they_caught_in_half_a_swing) {
 TYPED_TEST(SoftLimits, return_no_more_than_they_took) {
   using S = TypeParam;
   Dice dice(7);
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     int returned = 0;
     for (int i = 0; i < 40; ++i) {
       const double frequency = dice.magnitude(1, 240), speed = dice.in(0.5, 8),
@@ -140,7 +138,7 @@ TYPED_TEST(SoftLimits, return_no_more_than_they_took) {
 /// w^2 = w1^2 + w2^2, about the weighted mean of both targets.
 TYPED_TEST(SoftLimits, add_to_the_spring_of_their_axis) {
   using S = TypeParam;
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     AxisDrive<S> drive = this->soft(JointAxis::x, -0.25, 0.25, 4, 1);
     drive.spring_frequency = S(3);
     drive.spring_damping = S(1);
@@ -154,7 +152,7 @@ TYPED_TEST(SoftLimits, add_to_the_spring_of_their_axis) {
 /// A servo pushes a body as far as the limit, and leaves it there.
 TYPED_TEST(SoftLimits, let_a_servo_rest) {
   using S = TypeParam;
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     AxisDrive<S> drive = this->soft(JointAxis::x, -0.25, 0.25, 6, 1);
     drive.spring_frequency = S(2);
     drive.spring_damping = S(1);
@@ -175,7 +173,7 @@ TYPED_TEST(SoftLimits, let_a_servo_rest) {
 /// A motor that pushes on sinks in by its force.
 TYPED_TEST(SoftLimits, hold_a_motor) {
   using S = TypeParam;
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     AxisDrive<S> drive = this->soft(JointAxis::x, -0.25, 0.25, 3, 1);
     drive.motor = true;
     drive.motor_speed = S(1);
@@ -219,7 +217,7 @@ TYPED_TEST(SoftLimits, of_a_cone_yield_along_the_swing) {
 TYPED_TEST(SoftLimits, and_springs_are_as_stiff_as_the_mass_says_that_they_are_made_for) {
   using S = TypeParam;
   const double w = kTurn * 2;
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     for (const double made_for : {1.0, 4.0}) {
       AxisDrive<S> limit = this->soft(JointAxis::y, -0.5, 1, 2, 1);
       limit.spring_mass = num<S>(made_for);
@@ -235,7 +233,7 @@ TYPED_TEST(SoftLimits, and_springs_are_as_stiff_as_the_mass_says_that_they_are_m
 TYPED_TEST(SoftLimits, of_a_turn_are_made_for_an_inertia) {
   using S = TypeParam;
   const double inertia = 2 * (0.25 * 0.25 + 0.25 * 0.25) / 3;
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     AxisDrive<S> spring;
     spring.axis = JointAxis::twist;
     spring.spring_frequency = S(1);
@@ -257,7 +255,7 @@ TYPED_TEST(SoftLimits, of_a_turn_are_made_for_an_inertia) {
 
 TYPED_TEST(SoftLimits, go_back_exactly) {
   using S = TypeParam;
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     Hung<S> h = this->hang(solver, this->soft(JointAxis::y, -0.25, 0.25, 2, 0.125), -9.8);
     bool passed = false;
     expect_exact_rollback(h.world, 120, [&](World<S>& w, int) {

@@ -33,13 +33,10 @@ template <class S> class SpinResistance : public ::testing::Test {
 };
 TYPED_TEST_SUITE(SpinResistance, AllScalars);
 
-const std::vector<SolverName> kAll = built({SolverName::soft_step, SolverName::worst_first, SolverName::direct,
-                                            SolverName::pgs, SolverName::admm, SolverName::avbd});
-
 TYPED_TEST(SpinResistance, slows_a_ball_by_friction_times_its_radius) {
   using S = TypeParam;
   const double slowing = 0.5 * 10 * 0.03125 / 0.1;  // [rad/s^2]
-  for (const SolverName solver : kAll) {
+  for (const SolverName solver : kBuiltSolvers) {
     World<S> w = this->on_ground(solver, 0.03125);
     const BodyId id = this->add_spinning_ball(w, 0.5, 0.03125, 4);
     run(w, 6);  // until the ground bears it

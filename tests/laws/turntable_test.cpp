@@ -79,8 +79,7 @@ TYPED_TEST(Turntable, a_rider_stays_within_a_millimetre_in_a_minute) {
 
 TYPED_TEST(Turntable, so_it_does_in_every_solver) {
   using S = TypeParam;
-  for (const SolverName solver :
-       built({SolverName::pgs, SolverName::worst_first, SolverName::direct, SolverName::admm, SolverName::avbd})) {
+  for (const SolverName solver : all_but({SolverName::soft_step})) {
     Settings<S> s = settings<S>();
     s.solver = solver;
     EXPECT_LT(this->drift(s, {20, {0, 0, 0}, {0, 2, 0}}), drift_bar<S>()) << kSolverNames[static_cast<int>(solver)];

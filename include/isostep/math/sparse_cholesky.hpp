@@ -43,6 +43,7 @@ template <class N> class SparseCholesky {
 
   bool is_analysed() const;
   /// The pattern: `size` vectors and which of them are coupled, two different ones to a pair; a pair may come again.
+  /// A = 0. The pattern of the last call costs a comparison.
   void analyse(std::uint32_t size, const std::vector<Pair>& pairs);
   /// A = 0
   void clear();

@@ -68,10 +68,10 @@ template <class S> class ImplicitSprings {
     return System::quotient(System::value(acceleration), rate);
   }
 
-  std::vector<std::uint32_t> unknowns_, last_unknowns_;  // slots, ascending
-  std::vector<std::uint32_t> number_of_;                 // of each slot, among the unknowns
-  std::vector<Edge> edges_, last_edges_;                 // by spring's slot
-  std::vector<std::uint32_t> pair_of_;                   // of each edge, in the system; kNoParticle: an end is fixed
+  std::vector<std::uint32_t> unknowns_;   // slots, ascending
+  std::vector<std::uint32_t> number_of_;  // of each slot, among the unknowns
+  std::vector<Edge> edges_;               // by spring's slot
+  std::vector<std::uint32_t> pair_of_;    // of each edge, in the system; kNoParticle: an end is fixed
   std::vector<typename SparseCholesky<Number>::Pair> pairs_;
   SparseCholesky<Number> system_;
   std::vector<Tension> tensions_;     // of each edge

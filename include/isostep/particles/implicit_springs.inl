@@ -80,13 +80,6 @@ void ImplicitSprings<S>::list_unknowns(const std::vector<Spring<S>>& springs,
 }
 
 template <class S> void ImplicitSprings<S>::analyse() {
-  bool same = system_.is_analysed() && unknowns_.size() == last_unknowns_.size() && edges_.size() == last_edges_.size();
-  for (std::size_t i = 0; same && i < unknowns_.size(); ++i) same = unknowns_[i] == last_unknowns_[i];
-  for (std::size_t i = 0; same && i < edges_.size(); ++i) {
-    const Edge &now = edges_[i], &last = last_edges_[i];
-    same = now.spring == last.spring && now.a == last.a && now.b == last.b;
-  }
-  if (same) return;
   pairs_.clear();
   pair_of_.clear();
   for (const Edge& edge : edges_) {
@@ -95,8 +88,6 @@ template <class S> void ImplicitSprings<S>::analyse() {
     if (coupled) pairs_.push_back({edge.a, edge.b});
   }
   system_.analyse(static_cast<std::uint32_t>(unknowns_.size()), pairs_);
-  last_unknowns_ = unknowns_;
-  last_edges_ = edges_;
 }
 
 template <class S>

@@ -97,6 +97,7 @@ template <class N> struct SparseCholesky<N>::Parts {
   using Column = Eigen::Matrix<N, Eigen::Dynamic, 1>;
 
   bool analysed = false;
+  Pairs pattern;
   std::vector<Index> place;                                                           // of each vector
   Matrix matrix;                                                                      // A's upper half
   Matrix reduced;                                                                     // A with unknowns held
@@ -282,6 +283,10 @@ template <class N> bool SparseCholesky<N>::is_analysed() const { return parts_ !
 template <class N> void SparseCholesky<N>::analyse(std::uint32_t size, const std::vector<Pair>& pairs) {
   if (parts_ == nullptr) parts_.reset(new Parts);
   Parts& parts = *parts_;
+  if (parts.analysed && parts.place.size() == size && parts.pattern == pairs) {
+    clear();
+    return;
+  }
   parts.place = elimination_order(static_cast<Index>(size), pairs);
   const Pattern blocks = upper_blocks(parts.place, pairs);
   parts.build(blocks);
@@ -295,6 +300,7 @@ template <class N> void SparseCholesky<N>::analyse(std::uint32_t size, const std
   }
   clear();
   parts.factors.analyzePattern(parts.matrix);
+  parts.pattern = pairs;
   parts.analysed = true;
 }
 

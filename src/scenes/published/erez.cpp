@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kShort = 50;  // frames of 10 ms: the time after which runs are compared
 
-/// What a run is compared by with another one: the places of its bodies at its end.
+/// Compares a run with another one by the places of its bodies at its end.
 class EndOfRun : public Judge {
  public:
   void see(const Sight& sight) override { end_ = sight; }

@@ -11,7 +11,7 @@ inline constexpr double kGravity = 10;  // [m/s^2] downwards, of a scene that na
 
 inline double value(const Number& number) { return value_of<double>(number, ""); }
 inline Vec3<double> value(const Vector& v) { return {value(v[0]), value(v[1]), value(v[2])}; }
-/// Of unit length.
+/// The rotation, at unit length.
 inline Quat<double> value(const Rotation& q) {
   return normalise(Quat<double>{value(q[0]), value(q[1]), value(q[2]), value(q[3])});
 }

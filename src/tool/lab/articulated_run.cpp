@@ -140,9 +140,7 @@ template <class S> scenes::Energy ArticulatedRun<S>::energy() const {
     const LinkMass<S>& of = tree_.definition().links[i].mass;
     const double mass = to_double(of.mass);
     const LinkVelocity<S> moves = tree_.link_velocity(i);
-    const Quat<Unit<S>> q = tree_.link_pose(i).orientation;
-    const Mat3<double> axes =
-        to_matrix(normalise(Quat<double>{to_double(q.x), to_double(q.y), to_double(q.z), to_double(q.w)}));
+    const Mat3<double> axes = to_matrix(normalise(scenes::in_double(tree_.link_pose(i).orientation)));
     const Vec3<double> v = scenes::in_double(moves.linear),
                        spin = transposed_times(axes, scenes::in_double(moves.angular));
     const Vec3<double> inertia = scenes::in_double(of.inertia);
@@ -159,14 +157,9 @@ template <class S> scenes::Sight ArticulatedRun<S>::sight(int faults) const {
   scenes::Sight sight;
   sight.time = static_cast<double>(tree_.tick()) / tree_.definition().settings.hz;
   for (std::uint32_t i = 0; i < tree_.links(); ++i) {
-    const Quat<Unit<S>> q = tree_.link_pose(i).orientation;
     const LinkVelocity<S> moves = tree_.link_velocity(i);
-    sight.bodies.push_back({scenes::in_double(tree_.link_centre(i)),
-                            {to_double(q.x), to_double(q.y), to_double(q.z), to_double(q.w)},
-                            scenes::in_double(moves.linear),
-                            scenes::in_double(moves.angular),
-                            true,
-                            true});
+    sight.bodies.push_back({scenes::in_double(tree_.link_centre(i)), scenes::in_double(tree_.link_pose(i).orientation),
+                            scenes::in_double(moves.linear), scenes::in_double(moves.angular), true, true});
   }
   sight.energy = energy();
   sight.faults = faults;

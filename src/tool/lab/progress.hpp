@@ -28,7 +28,7 @@ class ProgressText {
   double begin_, last_;
 };
 
-/// The same on stderr by the real clock, so that stdout has nothing but results.
+/// Prints a ProgressText on stderr by the real clock, so that stdout has nothing but results.
 class Progress {
  public:
   Progress(bool shown, std::size_t total, double work);

@@ -13,9 +13,9 @@ constexpr double kStep = 4;  // [sub-steps] pairs, islands and all that a step d
 
 /// [1] The time of a body's sub-step beside that of soft_step, in crowds.
 double weight_of(const std::string& solver) {
-  if (solver == kSolverNames[static_cast<std::uint32_t>(SolverName::worst_first)]) return 16;
   const auto name = solver_named(solver);
-  return name && solves_islands(*name) ? 32 : 1;
+  if (!name) return 1;
+  return *name == SolverName::worst_first ? 16 : solves_islands(*name) ? 32 : 1;
 }
 
 }  // namespace

@@ -69,6 +69,22 @@ template <class Method> class IslandProblem : public testing::Test {
     low_[r] = kind == RowBound::above ? 0 : kind == RowBound::boxed ? -0.3 : -kFar;
     high_[r] = kind == RowBound::below ? 0 : kind == RowBound::boxed ? 0.3 : kFar;
   }
+  /// One body on one point, pushed along its tangents x and z; its normal is y.
+  void begin_on_a_point(double x, double z) {
+    build(1, 1, 0);
+    for (std::uint32_t r = 0; r < 3; ++r) {
+      system_.row(r).ends[1] = IslandMotion<N>::zero();
+      system_.row(r).ends[1].linear[r == 0 ? 0 : r == 1 ? 2 : 1] = number<N>(0.5);
+    }
+    right_ << x, z, 1;
+    bound(0, RowBound::boxed);
+    bound(1, RowBound::boxed);
+    bound(2, RowBound::above);
+    system_.patches().clear();
+    system_.patches().push_back({0, 2, 1, IslandPatch<N>::kNoRolling, number<N>(0.5), N(0), N(0), 0, 0, 0});
+    system_.tie(bodies_, kWork);
+    system_.assemble();
+  }
   bool solve() {
     system_.tie(bodies_, kWork);
     system_.assemble();
@@ -195,23 +211,8 @@ TYPED_TEST(Pivots, PivotsEndWithTheirBudget) {
 }
 
 TYPED_TEST(Pivots, FrictionIsBoundedByTheLoad) {
-  using Number = typename TypeParam::D::N;
-  // One body on one point: tangents x and z, normal y.
-  this->build(1, 1, 0);
-  for (std::uint32_t r = 0; r < 3; ++r) {
-    this->system_.row(r).ends[1] = IslandMotion<Number>::zero();
-    this->system_.row(r).ends[1].linear[r == 0 ? 0 : r == 1 ? 2 : 1] = number<Number>(0.5);
-  }
   for (const double push : {0.2, 0.9}) {
-    this->right_ << push, 0, 1;
-    this->bound(0, RowBound::boxed);
-    this->bound(1, RowBound::boxed);
-    this->bound(2, RowBound::above);
-    this->system_.patches().clear();
-    this->system_.patches().push_back(
-        {0, 2, 1, IslandPatch<Number>::kNoRolling, number<Number>(0.5), Number(0), Number(0), 0, 0, 0});
-    this->system_.tie(this->bodies_, kWork);
-    this->system_.assemble();
+    this->begin_on_a_point(push, 0);
     this->system_.guess_friction(0, true);
     ASSERT_TRUE(this->system_.solve(false, kWork));
     EXPECT_NEAR(this->answer(2), 4, 2e-3);
@@ -240,22 +241,8 @@ TYPED_TEST(Repeats, solves_come_to_the_answer_that_enumeration_finds) {
 
 /// A body on one point: friction is within a disc of the load, and opposes the push however that lies to the tangents.
 TYPED_TEST(Repeats, friction_opposes_the_push_on_a_disc_of_the_load) {
-  using Number = typename TypeParam::D::N;
-  this->build(1, 1, 0);
-  for (std::uint32_t r = 0; r < 3; ++r) {
-    this->system_.row(r).ends[1] = IslandMotion<Number>::zero();
-    this->system_.row(r).ends[1].linear[r == 0 ? 0 : r == 1 ? 2 : 1] = number<Number>(0.5);
-  }
   for (const double push : {0.3, 0.9}) {
-    this->right_ << push * 0.6, push * 0.8, 1;
-    this->bound(0, RowBound::boxed);
-    this->bound(1, RowBound::boxed);
-    this->bound(2, RowBound::above);
-    this->system_.patches().clear();
-    this->system_.patches().push_back(
-        {0, 2, 1, IslandPatch<Number>::kNoRolling, number<Number>(0.5), Number(0), Number(0), 0, 0, 0});
-    this->system_.tie(this->bodies_, kWork);
-    this->system_.assemble();
+    this->begin_on_a_point(push * 0.6, push * 0.8);
     for (int i = 0; i < 30; ++i) this->system_.solve(true, kWork);
     const double friction = push < 0.5 ? 4 * push : 2;  // K is a quarter
     EXPECT_NEAR(this->answer(2), 4, 4e-3);

@@ -103,9 +103,10 @@ TYPED_TEST(StepSolvers, the_solver_of_the_settings_moves_the_bodies_and_tells_th
     touch.points[0].arm_b = vec<S>(0, 0.5, 0);
     geometry.push_back(touch);
     all_used.insert(solve_from(3));
-    EXPECT_NEAR(to_double(ball.velocity.y), 0, 0.1);
+    const double near = state.settings.solver == SolverName::avbd ? 0.1 : 0.05;  // it has four passes for 6 m/s
+    EXPECT_NEAR(to_double(ball.velocity.y), 0, near);
     ASSERT_EQ(this->solver.impulses().size(), 1u);
-    EXPECT_NEAR(to_double(this->solver.impulses()[0]), 6, 0.1);
+    EXPECT_NEAR(to_double(this->solver.impulses()[0]), 6, near);
     EXPECT_EQ(state.contacts[0].flags, contact_flag::kTouching);
   }
   EXPECT_EQ(all_used.size(), std::size(kBuiltSolvers)) << "each name has a solver of its own";

@@ -69,8 +69,7 @@ template <class N> class AdmmSystem final : public IslandSystem<N> {
   bool is_solved();
 
   SparseCholesky<N> cholesky_;
-  std::vector<Pair> pairs_, last_pairs_;
-  std::uint32_t last_bodies_ = 0;
+  std::vector<Pair> pairs_;
   int scale_ = 0;  // A is factorised times 2^-scale
   bool is_factored_ = false;
   std::vector<N> x_, v_, p_;  // of each row

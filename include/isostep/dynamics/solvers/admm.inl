@@ -2,9 +2,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
+
 #include "isostep/dynamics/solvers/admm.hpp"
 
 namespace isostep {
+namespace detail {
+
+/// Computes x q y^T.
+template <class N> ISO_INLINE GeneralBlock<N> weighed_product(const Vec3<N>& x, const Vec3<N>& y, N q) {
+  GeneralBlock<N> k;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) k.rows[i][j] = x[i] * q * y[j];
+  }
+  return k;
+}
+template <class N> ISO_INLINE SymmetricBlock<N> weighed_square(const Vec3<N>& x, N q) {
+  const GeneralBlock<N> k = weighed_product(x, x, q);
+  return {k.rows[0][0], k.rows[0][1], k.rows[0][2], k.rows[1][1], k.rows[1][2], k.rows[2][2]};
+}
+
+}  // namespace detail
 
 template <class N> void AdmmSystem<N>::tie(std::uint32_t body_count, std::uint64_t most_work) {
   motions_.assign(body_count + 1, IslandMotion<N>::zero());
@@ -21,10 +39,7 @@ template <class N> void AdmmSystem<N>::tie(std::uint32_t body_count, std::uint64
   }
   too_large_ = most_work < elimination_work();
   if (too_large_) return;
-  if (cholesky_.is_analysed() && last_bodies_ == body_count && last_pairs_ == pairs_) return;
   cholesky_.analyse(2 * body_count, pairs_);
-  last_bodies_ = body_count;
-  last_pairs_ = pairs_;
 }
 
 /// The tangents of a patch share a weight: their disc is a disc in the measure of the projection.
@@ -48,10 +63,7 @@ template <class N> bool AdmmSystem<N>::factorise() {
   const auto bodies = static_cast<std::uint32_t>(motions_.size()) - 1;
   // Fixed point: no entry exceeds one, however many rows a body has.
   scale_ = 0;
-  if (D::kRoom != 0) {
-    scale_ = 3 - kEquationWeight;
-    for (std::uint32_t n = 3 * block_count(); n != 0; n >>= 1) ++scale_;
-  }
+  if (D::kRoom != 0) scale_ = 3 - kEquationWeight + static_cast<int>(std::bit_width(3 * block_count()));
   cholesky_.clear();
   const N one = D::times_power(N(1), -scale_), none = N(0);
   for (std::uint32_t i = 0; i < 2 * bodies; ++i) cholesky_.add_diagonal(i, {one, none, none, one, none, one});
@@ -67,28 +79,18 @@ template <class N> bool AdmmSystem<N>::factorise() {
       const IslandRow<N>& row = block.rows[r];
       if (row.bound == RowBound::absent) continue;
       const N q = D::quotient(one, p_[3 * b + r] + row.soft);
-      const auto outer = [q](const Vec3<N>& x, const Vec3<N>& y) {
-        GeneralBlock<N> k;
-        for (int i = 0; i < 3; ++i) {
-          for (int j = 0; j < 3; ++j) k.rows[i][j] = x[i] * q * y[j];
-        }
-        return k;
-      };
-      const auto square = [&](const Vec3<N>& x) -> SymmetricBlock<N> {
-        const GeneralBlock<N> k = outer(x, x);
-        return {k.rows[0][0], k.rows[0][1], k.rows[0][2], k.rows[1][1], k.rows[1][2], k.rows[2][2]};
-      };
       for (int end = 0; end < 2; ++end) {
         if (block.body[end] == 0) continue;
         const IslandMotion<N>& w = row.ends[end];
         const std::uint32_t at = 2 * (block.body[end] - 1);
-        cholesky_.add_diagonal(at, square(w.linear));
-        cholesky_.add_diagonal(at + 1, square(w.angular));
-        cholesky_.add_pair(block.body[end] - 1, outer(w.linear, w.angular));
+        cholesky_.add_diagonal(at, detail::weighed_square(w.linear, q));
+        cholesky_.add_diagonal(at + 1, detail::weighed_square(w.angular, q));
+        cholesky_.add_pair(block.body[end] - 1, detail::weighed_product(w.linear, w.angular, q));
       }
       if (!both) continue;
       const Vec3<N> a[2] = {row.ends[0].linear, row.ends[0].angular}, c[2] = {row.ends[1].linear, row.ends[1].angular};
-      for (std::uint32_t i = 0; i < 4; ++i) cholesky_.add_pair(pair + i, outer(a[i / 2], c[i % 2]));
+      for (std::uint32_t i = 0; i < 4; ++i)
+        cholesky_.add_pair(pair + i, detail::weighed_product(a[i / 2], c[i % 2], q));
     }
   }
   is_factored_ = cholesky_.factorise();
@@ -148,35 +150,33 @@ template <class N> void AdmmSystem<N>::begin_multipliers() {
 template <class N> void AdmmSystem<N>::project() {
   constexpr N kOver = N(0.6);  // over-relaxation by 1.6 (Boyd et al., 3.4.3)
   change_ = gap_ = N(0);
-  const auto size = [](N x) { return x < N(0) ? -x : x; };
+  const auto take = [&](std::uint32_t r, N next) {
+    N& answer = this->row(r).answer;
+    change_ = max(change_, abs(p_[r] * (next - answer)));
+    answer = next;
+  };
   for (std::uint32_t r = 0; r < x_.size(); ++r) {
-    IslandRow<N>& of = this->row(r);
+    const IslandRow<N>& of = this->row(r);
     if (of.bound == RowBound::absent) continue;
     if (of.bound == RowBound::equal) {
-      change_ = max(change_, size(p_[r] * (x_[r] - of.answer)));
-      of.answer = x_[r];
+      take(r, x_[r]);
       continue;
     }
-    gap_ = max(gap_, size((x_[r] - of.answer) * of.diagonal));
-    x_[r] = D::bounded(x_[r] + (x_[r] - of.answer) * kOver + v_[r]);
-    v_[r] = x_[r];
-    if (of.bound == RowBound::boxed) continue;
-    const N next = clamped(of, x_[r]);
-    change_ = max(change_, size(p_[r] * (next - of.answer)));
-    of.answer = next;
-    v_[r] = v_[r] - next;
+    gap_ = max(gap_, abs((x_[r] - of.answer) * of.diagonal));
+    v_[r] = x_[r] = D::bounded(x_[r] + (x_[r] - of.answer) * kOver + v_[r]);
+    if (of.bound == RowBound::boxed) continue;  // its limit follows from the answers of the others
+    take(r, clamped(of, x_[r]));
+    v_[r] -= of.answer;
   }
   for (const IslandPatch<N>& patch : patches_) {
     this->limit_by_disc(patch);
     Base::hold_in_disc(x_[patch.first], x_[patch.first + 1], this->row(patch.first).limit);
   }
   for (std::uint32_t r = 0; r < x_.size(); ++r) {
-    IslandRow<N>& of = this->row(r);
+    const IslandRow<N>& of = this->row(r);
     if (of.bound != RowBound::boxed) continue;
-    const N next = clamped(of, x_[r]);
-    change_ = max(change_, size(p_[r] * (next - of.answer)));
-    of.answer = next;
-    v_[r] = D::bounded(v_[r] - next);
+    take(r, clamped(of, x_[r]));
+    v_[r] -= of.answer;
   }
 }
 
@@ -184,7 +184,7 @@ template <class N> bool AdmmSystem<N>::is_solved() {
   N asked = N(0);
   for (const IslandBlock<N>& block : blocks_) {
     for (const IslandRow<N>& row : block.rows) {
-      if (row.bound != RowBound::absent) asked = max(asked, row.right < N(0) ? -row.right : row.right);
+      if (row.bound != RowBound::absent) asked = max(asked, abs(row.right));
     }
   }
   return !(asked * kTolerance < max(gap_, change_));

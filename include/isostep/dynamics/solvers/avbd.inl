@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
+
 #include "isostep/dynamics/solvers/avbd.hpp"
 
 namespace isostep {
@@ -74,8 +76,7 @@ template <class N> typename AvbdSystem<N>::Pushes AvbdSystem<N>::pushes_of(std::
 template <class N> void AvbdSystem<N>::descend(std::uint32_t body) {
   const std::uint32_t rows = 3 * (first_[body + 1] - first_[body]);
   // Scaled so that no sum of parts, each at most 2^(kPenalty + 2), exceeds one.
-  int scale = kPenalty + 3;
-  for (std::uint32_t n = rows; n != 0; n >>= 1) ++scale;
+  const int scale = kPenalty + 3 + static_cast<int>(std::bit_width(rows));
   N a[6][6] = {};
   for (int i = 0; i < 6; ++i) a[i][i] = D::times_power(N(1), -scale);
   const IslandMotion<N>& u = motions_[body];

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <variant>
 
 #include "isostep/dynamics/solvers/admm.hpp"
@@ -13,7 +12,7 @@
 
 namespace isostep {
 
-/// How an island is solved.
+/// The method that solves an island.
 enum class IslandMethod : std::uint32_t {
   pivoting,  // pivoting.hpp
   descent,   // avbd.hpp
@@ -31,31 +30,34 @@ template <class N> class MethodSystem {
     if (method == IslandMethod::splitting) system_.template emplace<2>();
   }
   ISO_INLINE IslandSystem<N>& operator*() {
-    return with([](auto& system) -> IslandSystem<N>& { return system; });
+    return with(system_, [](auto& system) -> IslandSystem<N>& { return system; });
   }
-  ISO_INLINE const IslandSystem<N>& operator*() const { return *const_cast<MethodSystem&>(*this); }
+  ISO_INLINE const IslandSystem<N>& operator*() const {
+    return with(system_, [](const auto& system) -> const IslandSystem<N>& { return system; });
+  }
   ISO_INLINE IslandSystem<N>* operator->() { return &**this; }
   ISO_INLINE const IslandSystem<N>* operator->() const { return &**this; }
 
   void tie(std::uint32_t body_count, std::uint64_t most_work) {
-    with([&](auto& system) { system.tie(body_count, most_work); });
+    with(system_, [&](auto& system) { system.tie(body_count, most_work); });
   }
   void assemble() {
-    with([](auto& system) { system.assemble(); });
+    with(system_, [](auto& system) { system.assemble(); });
   }
   bool solve(bool firm, std::uint64_t most_work) {
-    return with([&](auto& system) { return system.solve(firm, most_work); });
+    return with(system_, [&](auto& system) { return system.solve(firm, most_work); });
   }
-  std::uint64_t least_work() {
-    return with([](auto& system) { return system.least_work(); });
+  std::uint64_t least_work() const {
+    return with(system_, [](const auto& system) { return system.least_work(); });
   }
+  /// Returns true if u is W^T x, and not only near it.
   bool moves_by_answers() const { return system_.index() != static_cast<std::size_t>(IslandMethod::descent); }
 
  private:
-  template <class Act> ISO_INLINE decltype(auto) with(Act&& act) {
-    if (auto* descent = std::get_if<1>(&system_)) return act(*descent);
-    if (auto* splitting = std::get_if<2>(&system_)) return act(*splitting);
-    return act(*std::get_if<0>(&system_));
+  template <class Systems, class Act> static ISO_INLINE decltype(auto) with(Systems& systems, const Act& act) {
+    if (auto* descent = std::get_if<1>(&systems)) return act(*descent);
+    if (auto* splitting = std::get_if<2>(&systems)) return act(*splitting);
+    return act(*std::get_if<0>(&systems));
   }
 
   std::variant<PivotingSystem<N>, AvbdSystem<N>, AdmmSystem<N>> system_;

@@ -1,4 +1,4 @@
-// IslandNumber<N>: what the direct solver requires of LinearSystem<S>::Number beyond its operators.
+// IslandNumber<N>: what solvers of islands require of LinearSystem<S>::Number beyond its operators.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -53,7 +53,7 @@ template <class S> class IslandSolver {
 
   /// The most IslandSystem::work of an island, times the step's sub-steps: some 25 ms each in double. A standing tower
   /// of 400 blocks takes 50 000, a heap that falls into place ten times as much, one in a corner any number. A solve
-  /// may take all that is left, but must leave kLeastPivots for each later solve.
+  /// may take all that is left, but must leave least_work() for each later solve.
   static constexpr std::uint64_t kMostWork = 500'000;
 
   /// A biased pass closes errors; a relaxed pass leaves them.
@@ -139,7 +139,7 @@ template <class S> class IslandSolver {
   void keep_contact(const StepContext<S>& context, Island& island, std::uint32_t k);
   void keep(const StepContext<S>& context, Island& island);
 
-  // direct.inl
+  // island_solver.inl
   void place_rows(const StepContext<S>& context, Island& island);
   void follow(const StepContext<S>& context, Island& island);
   void take_back_turns(const StepContext<S>& context, Island& island, std::uint32_t k);
@@ -151,7 +151,7 @@ template <class S> class IslandSolver {
   void relax_mechanisms(const StepContext<S>& context);
   void scale_right_sides(Island& island);
   void apply(const Island& island);
-  MotionRow<V> pushed(const Island& island, std::uint32_t body, const MotionRow<V>& free) const;
+  MotionRow<V> with_answers(const Island& island, std::uint32_t body, const MotionRow<V>& free) const;
 
   IslandMethod method_;
   BodyRows<S> bodies_;

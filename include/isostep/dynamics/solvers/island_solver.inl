@@ -1,4 +1,4 @@
-// Bodies of direct.hpp: the stages of a step.
+// Bodies of island_solver.hpp: the stages of a step.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -60,7 +60,7 @@ template <class S> void IslandSolver<S>::follow(const StepContext<S>& context, I
     bodies_.renew_inertia(context, row);
     if (!island.joints.empty()) continue;
     Vec3<V> free = bodies_.rows().velocity[row].angular;
-    if (!by_answers) free = free - pushed(island, i, MotionRow<V>::zero()).angular;
+    if (!by_answers) free = free - with_answers(island, i, MotionRow<V>::zero()).angular;
     find_root(row, bodies_.rows().mass[row].kappa);
     free_velocity_[row].angular = free;
   }
@@ -171,14 +171,14 @@ template <class S> void IslandSolver<S>::solve(const StepContext<S>& context, Is
 template <class S> void IslandSolver<S>::apply(const Island& island) {
   for (std::uint32_t i = 0; i < island.bodies.size(); ++i) {
     const std::uint32_t row = island.bodies[i];
-    bodies_.rows().velocity[row] = pushed(island, i, free_velocity_[row]);
+    bodies_.rows().velocity[row] = with_answers(island, i, free_velocity_[row]);
   }
 }
 
-/// Returns velocities plus what the answers give to a body of the island.
+/// Returns velocities of a body of the island, with what the answers give to it.
 template <class S>
-MotionRow<Velocity<S>> IslandSolver<S>::pushed(const Island& island, std::uint32_t body,
-                                               const MotionRow<V>& free) const {
+MotionRow<Velocity<S>> IslandSolver<S>::with_answers(const Island& island, std::uint32_t body,
+                                                     const MotionRow<V>& free) const {
   const IslandMotion<N>& u = island.system->motion(body + 1);
   const BodyRoot& root = roots_[island.bodies[body]];
   const int exponent = island.exponent + root.root_exponent;

@@ -57,7 +57,7 @@ template <class N> bool IslandSystem<N>::set_limit(std::uint32_t r, N limit) {
   return limit * N(0x1p-5) + answer_slack_ < moved;
 }
 
-/// Limits friction as the contact kernels do: to an octagon inside the cone, exact along both tangents.
+/// Limits friction to an octagon inside the cone, exact along both tangents.
 template <class N> bool IslandSystem<N>::limit_patch(const IslandPatch<N>& patch) {
   N load = N(0);
   for (std::uint32_t p = 0; p < patch.points; ++p) {
@@ -88,9 +88,9 @@ template <class N> void IslandSystem<N>::limit_by_disc(const IslandPatch<N>& pat
 
 /// Brings a pair of tangents back into the disc, along its radius. Returns true if it was outside.
 template <class N> bool IslandSystem<N>::hold_in_disc(N& x, N& y, N limit) {
-  const N size_x = x < N(0) ? -x : x, size_y = y < N(0) ? -y : y, most = max(size_x, size_y);
+  const N most = max(abs(x), abs(y));
   if (!(N(0) < most)) return false;
-  const N ratio = D::quotient(min(size_x, size_y), most) * N(0.5);
+  const N ratio = D::quotient(min(abs(x), abs(y)), most) * N(0.5);
   const N half = most * D::root(N(0.25) + ratio * ratio);  // of the length: the root stays below one
   if (!(limit * N(0.5) < half)) return false;
   const N share = D::quotient(limit * N(0.5), half);

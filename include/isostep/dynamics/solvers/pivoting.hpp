@@ -68,8 +68,7 @@ template <class N> class PivotingSystem final : public IslandSystem<N> {
   std::uint32_t find_wrong();
   static RowState turned(const IslandRow<N>& row, N residual, N answer_slack, N right_slack);
 
-  std::vector<Pair> pairs_, last_pairs_;
-  std::uint32_t last_count_ = 0;  // blocks that are analysed
+  std::vector<Pair> pairs_;
   SparseCholesky<N> cholesky_;
   int loss_ = 0;
   std::vector<std::uint8_t> held_, factored_;

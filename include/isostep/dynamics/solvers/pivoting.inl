@@ -26,10 +26,7 @@ template <class N> void PivotingSystem<N>::tie(std::uint32_t body_count, std::ui
   }
   too_large_ = most_work < least_work();
   if (too_large_) return;
-  if (cholesky_.is_analysed() && last_count_ == block_count() && last_pairs_ == pairs_) return;
   cholesky_.analyse(block_count(), pairs_);
-  last_count_ = block_count();
-  last_pairs_ = pairs_;
 }
 
 /// Returns about how many products of blocks a factorisation takes: exactly, if every block meets every other.

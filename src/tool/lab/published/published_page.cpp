@@ -78,7 +78,7 @@ const Standing* find(const std::vector<Standing>& standings, bool (*chosen)(cons
   return found == standings.end() ? nullptr : &*found;
 }
 
-/// How often a world's own settings are first.
+/// Says how often a world's own settings are first.
 std::string places_sentence(const std::vector<LabResult>& results) {
   int all = 0, in_double = 0, in_fixed = 0;
   for (const PublishedTest& test : scenes::published_tests()) {
@@ -98,23 +98,16 @@ std::string places_sentence(const std::vector<LabResult>& results) {
 
 std::string published_page(const std::vector<LabResult>& results) {
   std::string text = page_head("isostep: published comparisons", "svg { min-width: 1150px; }\n");
-  text += "<h1>Published comparisons, repeated</h1>\n<p class=\"lead\">" + places_sentence(results) +
-          "</p>\n<p>Scenes and measures are the authors' or like theirs; each table says where not. Figures with a "
-          "year are "
-          "theirs. All other engines ran here, one thread each. Smaller errors are better. Seconds of another year's "
-          "machine "
-          "are not compared. An articulation is the same tree in joint coordinates; it has no contacts.</p>\n";
+  text += "<h1>Published comparisons, repeated</h1>\n<p class=\"lead\">" + places_sentence(results) + "</p>\n";
+  text +=
+      "<p>Scenes and measures are the authors' or like theirs; each table says where not. Figures with a year are "
+      "theirs. All other engines ran here, one thread each. Smaller errors are better. Seconds of another year's "
+      "machine are not compared. An articulation is the same tree in joint coordinates; it has no contacts.</p>\n";
   text += "<figure>" + published_svg(scenes::published_tests(), results) + "</figure>\n";
-  std::vector<std::string> engines;
-  for (const LabResult& r : results) engines.push_back(r.point.engine);
-  std::vector<std::vector<std::string>> names = who_is_who(engines);
-  for (auto& line : names) {
-    for (std::string& cell : line) cell = escaped(cell);
-  }
   text += html_section("names", "Who is who",
                        "A name that ends in -best is the same engine with the settings that its documentation has for "
                        "precision.",
-                       html_table(names));
+                       escaped_table(who_is_who(engines_in(results))));
   for (const PublishedTest& test : scenes::published_tests()) {
     text +=
         html_section(test.trial.name, escaped(test.trial.number), escaped(heading_of(test)), table_of(test, results));

@@ -61,6 +61,12 @@ std::string full_name(std::string_view engine) {
   return found == std::end(kEngines) ? std::string(engine) : found->full;
 }
 
+std::vector<std::string> engines_in(const std::vector<LabResult>& results) {
+  std::vector<std::string> engines;
+  for (const LabResult& r : results) engines.push_back(r.point.engine);
+  return engines;
+}
+
 std::vector<std::vector<std::string>> who_is_who(const std::vector<std::string>& rows) {
   std::vector<std::vector<std::string>> cells = {{"name here", "in full", "what it is"}};
   for (const Words& w : kSolvers)

@@ -119,6 +119,13 @@ std::string html_table(const std::vector<std::vector<std::string>>& cells) {
   return text + "</table></div>\n";
 }
 
+std::string escaped_table(std::vector<std::vector<std::string>> cells) {
+  for (auto& line : cells) {
+    for (std::string& cell : line) cell = escaped(cell);
+  }
+  return html_table(cells);
+}
+
 std::string markdown_table(std::vector<std::vector<std::string>> cells) {
   std::vector<std::size_t> widths(cells.front().size(), 3);
   for (auto& line : cells) {

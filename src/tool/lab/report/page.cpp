@@ -26,13 +26,6 @@ std::string picture(const std::string& svg, const std::string& prefix) {
   return inlined.empty() ? "<p>No picture: gnuplot was not there.</p>\n" : "<figure>" + inlined + "</figure>\n";
 }
 
-std::string escaped_table(std::vector<std::vector<std::string>> cells) {
-  for (auto& line : cells) {
-    for (std::string& cell : line) cell = escaped(cell);
-  }
-  return html_table(cells);
-}
-
 const scenes::Trial& trial_of(const std::string& name) {
   static const scenes::Trial unknown = {"", "", "", "", "", 0, nullptr, nullptr};
   const scenes::Trial* trial = scenes::find_trial(name);
@@ -143,12 +136,6 @@ std::string peer_verdicts(const Matrix& matrix, std::size_t row) {
       text += (text.empty() ? "" : "; ") + std::string(kFateNames[static_cast<int>(fate)]) + ":" + names;
   }
   return text.empty() ? "-" : text;
-}
-
-std::vector<std::string> engines_in(const std::vector<LabResult>& results) {
-  std::vector<std::string> engines;
-  for (const LabResult& r : results) engines.push_back(r.point.engine);
-  return engines;
 }
 
 }  // namespace
