@@ -71,12 +71,13 @@ void WorstFirstResolver<S, Queue>::add_point(const StepContext<S>& context, std:
   const S linear = row.share.a + row.share.b;
   row.normal = pushing(g.normal);
   row.mass = detail::mass_of(detail::coupling_of(row.normal, row.normal, linear));
-  const Tangents<Unit<S>> basis = tangents_of(g.normal);
+  const bool in_plane = g.line == Vec3<Unit<S>>::zero();
+  const Tangents<Unit<S>> basis = in_plane ? tangents_of(g.normal) : Tangents<Unit<S>>{g.line, cross(g.normal, g.line)};
   row.friction.rows[0] = pushing(basis.t);
-  row.friction.rows[1] = pushing(basis.u);
+  if (in_plane) row.friction.rows[1] = pushing(basis.u);
   detail::invert_pair(row.friction, linear);
   row.friction.surface[0] = saturate_to<V>(dot_sum(g.material.surface_velocity, basis.t));
-  row.friction.surface[1] = saturate_to<V>(dot_sum(g.material.surface_velocity, basis.u));
+  if (in_plane) row.friction.surface[1] = saturate_to<V>(dot_sum(g.material.surface_velocity, basis.u));
   row.mu = g.material.friction;
   row.separation = convert<V>(at.separation);
   load_impulses(context.contacts[contact], point, row);

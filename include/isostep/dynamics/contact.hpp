@@ -76,6 +76,7 @@ template <class S> ISO_INLINE MixedMaterial<S> mix(const Material<S>& a, const M
 template <class S> struct ContactGeometry {
   std::uint32_t row_a, row_b;
   Vec3<Unit<S>> normal;  // [1] from a to b, world
+  Vec3<Unit<S>> line;    // [1] friction acts along it alone, as a slide over a grain has it. Zero: in all directions
   struct Point {
     Vec3<S> arm_a, arm_b;  // [m] from each centre of mass, world
     S separation;          // [m] negative: overlap

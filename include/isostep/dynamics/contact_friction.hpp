@@ -14,8 +14,8 @@ template <class S> ISO_INLINE bool mixes_alone(const Material<S>& m) {
 template <class S> ISO_INLINE S static_friction_of(const Material<S>& m) { return max(m.friction, m.static_friction); }
 
 namespace detail {
-/// [m/s] A contact that slips faster slides. A slower one sticks and jitters; the friction basis of contact_prepare.inl
-/// uses the same limit. A body that gravity pulls loose passes it within a step or a few.
+/// [m/s] A contact that slips faster slides. A slower one sticks and jitters. A body that gravity pulls loose passes it
+/// within a step or a few.
 template <class S> inline constexpr Velocity<S> kSlidingSpeed = Velocity<S>(0.05);
 
 template <class S> ISO_INLINE Vec3<Velocity<S>> flattened(Vec3<Velocity<S>> v, Vec3<Unit<S>> n) {
@@ -80,9 +80,8 @@ template <class S> struct SurfaceContact {
 
 /// Chooses g.material.friction. Contacts that did not slide have the static coefficient, sliding ones the dynamic one.
 /// With a grain, the solver's circular cone gets the radius of the ellipse along the friction force: in the direction
-/// of friction_line while the contact slides, of the last step's friction impulse while it sticks. Solvers push against
-/// the slip, so the part of the slip across that direction is added to the surface velocity: friction does not resist
-/// it.
+/// of friction_line while the contact slides, of the last step's friction impulse while it sticks. While it slides,
+/// g.line is that direction, and the slip across it is added to the surface velocity: friction does not resist it.
 template <class S>
 ISO_INLINE void choose_friction(const SurfaceContact<S>& of, Vec3<Velocity<S>> borne, ContactGeometry<S>& g) {
   using V = Velocity<S>;
@@ -93,7 +92,7 @@ ISO_INLINE void choose_friction(const SurfaceContact<S>& of, Vec3<Velocity<S>> b
   if (of.a.is_there() || of.b.is_there()) {
     Vec3<Unit<S>> line = normalise(leads ? slip : detail::flattened<S>(borne, g.normal));
     if (leads) {
-      line = friction_line(of.a, of.b, g.normal, line);
+      g.line = line = friction_line(of.a, of.b, g.normal, line);
       const V along = round_to<V>(dot_sum(slip, line));
       const Vec3<V> part = {round_to<V>(product(along, line.x)), round_to<V>(product(along, line.y)),
                             round_to<V>(product(along, line.z))};

@@ -124,10 +124,14 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       const V speed = along(tangent.direction, tangent.row, a, b) + V::load(tangent.surface);
       wanted[k] = V::load(tangent.row.impulse) - times(L::load(tangent.row.effective_mass), speed);
     }
-    // The cone as an octagon inside it: |x| + (sqrt 2 - 1) |y| <= limit where |x| is the larger. Exact along either
-    // axis, and the basis lies along the friction. What is beyond keeps its direction.
-    const V x = abs(wanted[0]), y = abs(wanted[1]);
-    const V size = max(x, y) + times(L::broadcast(S(0.41421356237309504880)), min(x, y));
+    // The cone as a polygon of 16 sides inside it, x + tan(pi/16) y <= limit and (cos(3 pi/16) x + sin(3 pi/16) y) /
+    // cos(pi/16) <= limit where x is the larger. Exact along either axis, and the basis lies along the friction; 2 %
+    // short at most. What is beyond keeps its direction.
+    const V of_t = abs(wanted[0]), of_u = abs(wanted[1]);
+    const V x = max(of_t, of_u), y = min(of_t, of_u);
+    const V size =
+        max(x + times(L::broadcast(S(0.19891236737965800691)), y),
+            times(L::broadcast(S(0.84775906502257351226)), x) + times(L::broadcast(S(0.56645449735052153652)), y));
     const auto slides = less(limit, size);
     if (any(slides)) {
       const L part = quotient_where<L>(slides, limit, size);

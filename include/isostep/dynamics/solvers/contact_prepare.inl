@@ -66,10 +66,10 @@ template <class S, int W, class Isa> struct ContactPreparer {
         contacts, [](const Contact<S>& c) ISO_INLINE_LAMBDA { return &c.normal_impulse[0]; }, w);
     return {{w[0], w[1], w[2], w[3]}, {w[4], w[5], w[6]}, w[7]};
   }
-  static ISO_INLINE Vec3<U> gather_normal(const Geometry* const* geometry) {
-    U w[4];  // the last is no direction
+  static ISO_INLINE Vec3<U> gather_direction(const Geometry* const* geometry, Vec3<Unit<S>> Geometry::*direction) {
+    U w[4];  // the last is the next field's
     gather<4>(
-        geometry, [](const Geometry& g) ISO_INLINE_LAMBDA { return &g.normal.x; }, w);
+        geometry, [direction](const Geometry& g) ISO_INLINE_LAMBDA { return &(g.*direction).x; }, w);
     return {w[0], w[1], w[2]};
   }
   static ISO_INLINE Arms gather_point(const Geometry* const* geometry, int p, L& separation) {
@@ -111,6 +111,12 @@ template <class S, int W, class Isa> struct ContactPreparer {
   static ISO_INLINE std::uint32_t bouncing(const Geometry* const* geometry) {
     std::uint32_t bits = 0;
     ISO_UNROLL for (int i = 0; i < W; ++i) bits |= (S(0) < geometry[i]->material.restitution ? 1u : 0u) << i;
+    return bits;
+  }
+  /// Returns a bit for each contact whose friction acts along a line.
+  static ISO_INLINE std::uint32_t lined(const Geometry* const* geometry) {
+    std::uint32_t bits = 0;
+    ISO_UNROLL for (int i = 0; i < W; ++i) bits |= (geometry[i]->line == Vec3<Unit<S>>::zero() ? 0u : 1u) << i;
     return bits;
   }
   /// Returns a bit for each contact that did not touch in the last step.
@@ -209,8 +215,10 @@ template <class S, int W, class Isa> struct ContactPreparer {
   /// takes that of the friction it already bears, or any if there is none. The kernel's cone is exact along the basis.
   static ISO_INLINE Tangents<U> friction_basis(Vec3<U> n, Vec3<V> borne, V limit, Vec3<V> slip) {
     const Vec3<V> slide = flatten(slip, n);
-    // What sticks trembles by less than its friction could stop in a sub-step, and than .05 m/s.
-    const Mask slides = less(min(V::broadcast(Velocity<S>(0.05)), limit), max_abs(slide));
+    // A contact that sticks trembles by less than its friction stops in a sub-step, and than .05 m/s. A slip below
+    // 1e-4 m/s is noise: where a body falls straight down, it would turn the basis any way.
+    const V trembling = max(min(V::broadcast(Velocity<S>(0.05)), limit), V::broadcast(Velocity<S>(0.0001)));
+    const Mask slides = less(trembling, max_abs(slide));
     if (all(slides)) return basis_along(slides, slide, n);
     const Vec3<V> force = flatten(borne, n);
     const Mask bears = less(limit, V::broadcast(Velocity<S>(8)) * max_abs(force));  // below an eighth: noise
@@ -246,7 +254,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     share_masses(a, b, make.share_a, make.share_b);
     make.share_a.store(block.share_a);
     make.share_b.store(block.share_b);
-    const Vec3<U> normal = gather_normal(geometry);
+    const Vec3<U> normal = gather_direction(geometry, &Geometry::normal);
     const Vec3<L> n = {convert<L>(normal.x), convert<L>(normal.y), convert<L>(normal.z)};
     store(n, block.normal);
     const Materials material = gather_material(geometry);
@@ -284,7 +292,12 @@ template <class S, int W, class Isa> struct ContactPreparer {
     const Vec3<V> surface = {convert<V>(material.surface.x), convert<V>(material.surface.y),
                              convert<V>(material.surface.z)};
     const V limit = round_to<V>(product(material.friction, total));
-    const Tangents<U> basis = friction_basis(normal, impulses.friction, limit, relative_velocity(a, b, arms) + surface);
+    Tangents<U> basis = friction_basis(normal, impulses.friction, limit, relative_velocity(a, b, arms) + surface);
+    const Mask lines = Mask::from_bits(lined(geometry));
+    if (any(lines)) {
+      const Vec3<U> line = gather_direction(geometry, &Geometry::line);
+      basis = {select(lines, line, basis.t), select(lines, cross(normal, line), basis.u)};
+    }
     const Vec3<U> directions[2] = {basis.t, basis.u};
     for (int k = 0; k < 2; ++k) {
       FrictionRow<S, W>& tangent = block.tangents[k];
@@ -293,6 +306,11 @@ template <class S, int W, class Isa> struct ContactPreparer {
       make.pushing(t, arms, round_to<V>(dot_sum(impulses.friction, d)), tangent.row);
       store(t, tangent.direction);
       round_to<V>(dot_sum(surface, d)).store(tangent.surface);
+    }
+    if (any(lines)) {
+      AngularRow<S, W>& across = block.tangents[1].row;
+      select(lines, L::zero(), L::load(across.effective_mass)).store(across.effective_mass);
+      select(lines, V::zero(), V::load(across.impulse)).store(across.impulse);
     }
 
     const L patch = run.points > 1 ? patch_radius(arms_b, arms.b, run.points, share) : L::zero();

@@ -263,6 +263,7 @@ ISO_INLINE void NarrowPhase<S>::fill_contact(const PartPair& parts, const Manifo
   g.row_a = a.row;
   g.row_b = b.row;
   g.normal = manifold.normal;
+  g.line = Vec3<Unit<S>>::zero();
   const Material<S>&of_a = materials[parts.frame_a], &of_b = materials[parts.frame_b];
   g.material = a.varied || b.varied
                    ? mix(material_of_leaf(a, parts.child_a, of_a), material_of_leaf(b, parts.child_b, of_b))
