@@ -79,7 +79,7 @@ class ToolCommands {
                               ->check(CLI::IsMember(scalar_names()))
                               ->needs(html);
     command->add_option("--beside-tolerance", run_.beside_tolerance, "metres beyond which a body has parted")
-        ->check(CLI::Range(0.001, 1000.0))
+        ->check(CommandLine::number_between(0.001, 1000.0))
         ->needs(beside)
         ->capture_default_str();
     command->add_flag("--json", run_.json, "one JSON object");
@@ -94,7 +94,7 @@ class ToolCommands {
         ->capture_default_str();
     command->add_option("--object", bake_.object, "bake the faces of this object alone [all]");
     command->add_option("--scale", bake_.scale, "metres that a unit of the file is")
-        ->check(CLI::Range(1e-9, 1e9))
+        ->check(CommandLine::number_between(1e-9, 1e9))
         ->capture_default_str();
     command->add_option("--up", bake_.up, "the axis of the file that points up")
         ->check(CLI::IsMember(std::vector<std::string>{"y", "z"}))
@@ -191,7 +191,7 @@ class ToolCommands {
     lab->add_option("--frames", lab_.frames, "at the scene's rate, which other rates match in time [the scene's]")
         ->check(CLI::Range(1, CommandLine::kMostFrames));
     lab->add_option("--limit", lab_.limit, "millions of body sub-steps: a longer run is left out")
-        ->check(CLI::Range(1e-3, 1e9))
+        ->check(CommandLine::number_between(1e-3, 1e9))
         ->capture_default_str();
     lab->add_option("--jobs", lab_.jobs, "runs at a time [one a core]")->check(CLI::Range(1, 256));
     lab->add_option("--out", lab_.out, "directory of results.jsonl, where what is done is not done again")

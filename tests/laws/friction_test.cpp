@@ -152,6 +152,70 @@ TYPED_TEST(FrictionLaws, a_sledge_that_runs_where_the_slope_falls_across_its_run
   }
 }
 
+/// The slower it is and the less its runners grip, the more would friction throw it from one side of them to the other.
+TYPED_TEST(FrictionLaws, a_sledge_that_runs_slowly_stops_where_the_ellipse_says) {
+  using S = TypeParam;
+  constexpr double kMu = 0.6;
+  for (const SolverName solver : kBuiltSolvers) {
+    for (const double f : {0.25, 1.0 / 16, 1.0 / 64}) {
+      for (const double across : {0.0, 0.01, 0.1, 0.3}) {
+        World<S> w = tilted<S>(0, solver);
+        add_floor(w, material<S>(kMu));
+        const BodyId id = add_slab(w, material<S>(kMu, 0, {f, 1, 1}), {0.5, 0, across});
+        const double seconds = 0.5 / (kMu * kG * f);  // until it would stop without the slip across
+        const int frames = static_cast<int>(60 * seconds / 2);
+        run(w, frames);
+        const D3 v = slowed({0.5, 0, across}, {f, 1, 1}, kMu * kG, frames / 60.0);
+        SCOPED_TRACE(::testing::Message() << static_cast<int>(solver) << " " << f << " " << across);
+        EXPECT_NEAR(to_double(w.velocity(id).x), v.x, pick<S>(0.02, 0.02, 0.05, 0.02));
+        run(w, frames + 30);
+        EXPECT_LT(length(real(w.velocity(id))), 0.01);
+      }
+    }
+  }
+}
+
+TYPED_TEST(FrictionLaws, a_sledge_stops_on_a_slope_that_its_runners_hold_on) {
+  using S = TypeParam;
+  constexpr double kMu = 0.6, kRunners = 0.25, kSlope = 0.1;
+  for (const SolverName solver : kBuiltSolvers) {
+    for (const double across : {0.0, 0.3, 1.0}) {
+      World<S> w = tilted<S>(std::atan(kSlope), solver);
+      add_floor(w, material<S>(kMu));
+      const BodyId id = add_slab(w, material<S>(kMu, 0, {kRunners, 1, 1}), {0.2, 0, across});
+      run(w, 120);
+      const D3 at = real(w.center_of_mass(id));
+      run(w, 120);
+      EXPECT_LT(length(real(w.center_of_mass(id)) - at), pick<S>(1e-3, 1e-3, 5e-3, 1e-3))
+          << static_cast<int>(solver) << " " << across;
+    }
+  }
+}
+
+/// It slips in all directions, and grips in all but one.
+TYPED_TEST(FrictionLaws, a_sledge_that_spins_in_place_is_braked_by_what_its_directions_leave_on_average) {
+  using S = TypeParam;
+  constexpr double kMu = 0.5, kSpin = 8;
+  for (const SolverName solver : kBuiltSolvers) {
+    const auto left_after = [&](D3 grain, double drift) {
+      World<S> w = tilted<S>(0, solver);
+      add_floor(w, material<S>(kMu));
+      const BodyId id = add_slab(w, material<S>(kMu, 0, grain), {drift, 0, 0});
+      EXPECT_TRUE(w.set_velocity(id, vec<S>(drift, 0, 0), vec<S>(0, kSpin, 0)));
+      run(w, 24);
+      return kSpin - to_double(w.angular_velocity(id).y);
+    };
+    const double plain = left_after({1, 1, 1}, 0);
+    EXPECT_GT(plain, 3) << static_cast<int>(solver);
+    for (const double drift : {0.0, 0.001, 0.04}) {
+      EXPECT_NEAR(left_after({1.0 / 64, 1, 1}, drift), 2 / kPi * plain, 0.15 * plain)
+          << static_cast<int>(solver) << " " << drift;
+      EXPECT_NEAR(left_after({0.25, 1, 0.25}, drift), 0.25 * plain, 0.05 * plain)
+          << static_cast<int>(solver) << " " << drift;
+    }
+  }
+}
+
 TYPED_TEST(FrictionLaws, a_sledge_rests_across_a_slope_and_not_along_it) {
   using S = TypeParam;
   for (const SolverName solver : kBuiltSolvers) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -43,6 +44,17 @@ class CommandLine {
 
   template <std::size_t N> static std::vector<std::string> names_in(const char* const (&names)[N]) {
     return {std::begin(names), std::end(names)};
+  }
+  /// From `least` to `most`. A CLI::Range takes "nan" too: it compares.
+  static CLI::Validator number_between(double least, double most) {
+    CLI::Validator range = CLI::Range(least, most);
+    return range & CLI::Validator(
+                       [](const std::string& word) {
+                         double number = 0;
+                         const bool read = CLI::detail::lexical_cast(word, number);
+                         return read && std::isnan(number) ? word + " is not a number" : std::string();
+                       },
+                       "");
   }
   /// A word that is there and says nothing: a variable of somebody's script that is not set.
   static std::string refuse_blank(const std::string& word) {

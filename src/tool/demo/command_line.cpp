@@ -25,7 +25,8 @@ class DemoCommands {
     command->add_option("paths", verify_.paths, "replays, goldens.txt, or directories of them")->excludes(goldens);
     command->add_option("--jobs", verify_.jobs, "files at a time")->check(CLI::Range(1, 256))->capture_default_str();
     command->add_flag("--json", verify_.json, "one JSON object");
-    command->add_option("--max-seconds", verify_.max_seconds, "stop after so long")->check(CLI::Range(0.001, 1e6));
+    command->add_option("--max-seconds", verify_.max_seconds, "stop after so long")
+        ->check(CommandLine::number_between(0.001, 1e6));
     command->add_option("--max-memory", verify_.max_memory, "stop where replaying takes more MiB (Linux)")
         ->check(CLI::Range(1, 1 << 24));
     command->footer(

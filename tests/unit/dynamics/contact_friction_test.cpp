@@ -61,6 +61,30 @@ TYPED_TEST(ContactFriction, friction_takes_the_most_power_that_its_ellipse_allow
   }
 }
 
+TYPED_TEST(ContactFriction, what_spins_is_left_the_root_mean_square_of_its_ellipses_axes) {
+  using S = TypeParam;
+  Dice dice(23);
+  for (int i = 0; i < 50; ++i) {
+    const double fx = dice.in(0.1, 1), fy = dice.in(0.1, 1), fz = dice.in(0.1, 1), angle = dice.in(-3, 3);
+    const D3 n = dice.direction();
+    const Grain<S> grain = grain_of<S>({fx, fy, fz}, {0, 0, 1}, angle);
+    const Tangents<double> across = tangents_of(n);
+    double least = 1, most = 0;  // the ellipse's half axes
+    for (int k = 0; k < 1024; ++k) {
+      const D3 d = across.t * std::cos(kPi / 1024 * k) + across.u * std::sin(kPi / 1024 * k);
+      const double radius = to_double(grain.factor_along(unit<S>(d)));
+      least = std::min(least, radius);
+      most = std::max(most, radius);
+    }
+    const double seen = to_double(grain.factor_around(unit<S>(n)));
+    EXPECT_NEAR(seen, std::sqrt((least * least + most * most) / 2), pick<S>(1e-4, 1e-4, 1e-2, 1e-4));
+  }
+  EXPECT_EQ(grain_of<S>({1, 1, 1}).factor_around(unit<S>({1, 2, 3})), S(1));
+  const double tiny = 1.0 / 64;  // the least that a material may have
+  EXPECT_NEAR(to_double(grain_of<S>({tiny, tiny, tiny}).factor_around(unit<S>({1, 2, 3}))), tiny, tiny / 16);
+  EXPECT_NEAR(to_double(grain_of<S>({1, tiny, tiny}).factor_around(unit<S>({1, 0, 0}))), tiny, tiny / 16);
+}
+
 TYPED_TEST(ContactFriction, of_two_grains_that_of_which_less_is_left_counts) {
   using S = TypeParam;
   const Grain<S> a = grain_of<S>({0.25, 1, 1}), b = grain_of<S>({1, 1, 0.5}), none = grain_of<S>({1, 1, 1});
@@ -89,6 +113,7 @@ TYPED_TEST(ContactFriction, bodies_that_trade_places_get_mirrored_friction) {
     one.b = dice.one_in(4) ? one.a : draw();
     one.slip = velocity<S>(dice.arrow(0, 1));
     one.first_slip = velocity<S>(dice.arrow(0, 0.1));
+    one.load = num<Velocity<S>>(dice.in(0, 2));
     const Vec3<Velocity<S>> borne = velocity<S>(dice.arrow(0, 0.1));
     ContactGeometry<S> g = {}, mirrored = {};
     g.normal = unit<S>(dice.direction());
@@ -107,7 +132,7 @@ TYPED_TEST(ContactFriction, bodies_that_trade_places_get_mirrored_friction) {
 
 TYPED_TEST(ContactFriction, what_slips_has_the_dynamic_coefficient_and_what_trembles_the_static_one) {
   using S = TypeParam;
-  SurfaceContact<S> c = {num<S>(0.4), num<S>(0.7), grain_of<S>({1, 1, 1}), grain_of<S>({1, 1, 1}), {}, {}};
+  SurfaceContact<S> c = {num<S>(0.4), num<S>(0.7), grain_of<S>({1, 1, 1}), grain_of<S>({1, 1, 1}), {}, {}, {}};
   const auto chosen = [&](D3 slip, D3 first) {
     ContactGeometry<S> g = {};
     g.normal = unit<S>({0, 1, 0});

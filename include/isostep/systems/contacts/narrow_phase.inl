@@ -7,6 +7,7 @@
 #include "isostep/collision/narrowphase/flat_patch.hpp"
 #include "isostep/core/lower_bound.hpp"
 #include "isostep/dynamics/contact_friction.hpp"
+#include "isostep/dynamics/solver_name.hpp"
 #include "isostep/systems/contacts/flush_contacts.inl"
 #include "isostep/systems/contacts/narrow_phase.hpp"
 #include "isostep/systems/contacts/part_pairs.inl"
@@ -333,6 +334,13 @@ void NarrowPhase<S>::settle_friction(const PartPair& parts, const Contact<S>& co
   };
   surface.slip = slip_at(Arms::middle_of(g, contact.count));
   surface.first_slip = slip_at({g.points[0].arm_a, g.points[0].arm_b});
+  surface.load = Velocity<S>(0);
+  for (std::uint32_t p = 0; p < contact.count; ++p) {
+    surface.load = saturating_add(surface.load, contact.normal_impulse[p]);
+  }
+  const Settings<S>& settings = state_.settings;
+  const std::int32_t rate = integration_rate(settings.solver, settings.hz, settings.substeps);
+  surface.load = saturate_to<Velocity<S>>(product(S(rate / settings.hz), surface.load));
   choose_friction(surface, contact.friction_impulse, g);
 }
 /// Returns the old contacts of the key's bodies. The cursor is among them or next to them.
