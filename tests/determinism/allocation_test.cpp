@@ -95,7 +95,7 @@ TYPED_TEST(Allocation, PairsOfMaterialsAreFoundWithoutAny) {
     pair.kind_b = 1 + i / 2;
     EXPECT_TRUE(this->world_.add(pair));
   }
-  this->world_.step();
+  for (int frame = 0; frame < 120; ++frame) this->world_.step();  // until grains have turned what they turn
   const Count count;
   for (int frame = 0; frame < 60; ++frame) this->world_.step();
   EXPECT_EQ(count.so_far(), 0u);
