@@ -29,7 +29,7 @@ inline std::vector<SolverName> built(std::initializer_list<SolverName> all) {
   return here;
 }
 
-/// Those that the build holds, without `others`.
+/// Returns the solvers that the build holds, without `others`.
 inline std::vector<SolverName> all_but(std::initializer_list<SolverName> others) {
   std::vector<SolverName> rest;
   for (const SolverName solver : kBuiltSolvers) {

@@ -152,7 +152,7 @@ TYPED_TEST(BulletRooms, hold_ten_thousand_bullets_but_one) {
   this->add_bullets(dice, sampled(10000, 2500) / 4);  // of each scalar
   for (int i = 0; i < kFrames; ++i) this->world_.step();
   // Not mended: of 60 000 in float one ends outside, a hull wedged where three walls meet, deeper than they are thick.
-  EXPECT_LE(this->outside(), 1);
+  EXPECT_LE(this->outside(), (std::is_same_v<TypeParam, float> ? 1 : 0));
 }
 
 TYPED_TEST(BulletRooms, that_move_and_turn_hold_bullets) {

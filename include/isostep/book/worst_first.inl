@@ -72,12 +72,14 @@ void WorstFirstResolver<S, Queue>::add_point(const StepContext<S>& context, std:
   row.normal = pushing(g.normal);
   row.mass = detail::mass_of(detail::coupling_of(row.normal, row.normal, linear));
   const bool in_plane = g.line == Vec3<Unit<S>>::zero();
-  const Tangents<Unit<S>> basis = in_plane ? tangents_of(g.normal) : Tangents<Unit<S>>{g.line, cross(g.normal, g.line)};
-  row.friction.rows[0] = pushing(basis.t);
-  if (in_plane) row.friction.rows[1] = pushing(basis.u);
+  const Tangents<Unit<S>> basis = tangents_of(g.normal);
+  const auto rub = [&](int k, Vec3<Unit<S>> d) {
+    row.friction.rows[k] = pushing(d);
+    row.friction.surface[k] = saturate_to<V>(dot_sum(g.material.surface_velocity, d));
+  };
+  rub(0, in_plane ? basis.t : g.line);
+  if (in_plane) rub(1, basis.u);
   detail::invert_pair(row.friction, linear);
-  row.friction.surface[0] = saturate_to<V>(dot_sum(g.material.surface_velocity, basis.t));
-  if (in_plane) row.friction.surface[1] = saturate_to<V>(dot_sum(g.material.surface_velocity, basis.u));
   row.mu = g.material.friction;
   row.separation = convert<V>(at.separation);
   load_impulses(context.contacts[contact], point, row);
@@ -100,8 +102,7 @@ template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::load_impulses(const Contact<S>& contact, std::uint32_t point, Point& row) {
   row.impulse = min(contact.normal_impulse[point], most_beside(points_.size(), row));
   row.total_impulse = -row.impulse;  // the first warm start is the last step's
-  V weight = V(0);
-  for (std::uint32_t p = 0; p < contact.count; ++p) weight = saturating_add(weight, contact.normal_impulse[p]);
+  const V weight = total_normal_impulse(contact);
   if (!(V(0) < weight)) return;
   const S part = divide_to<S>(row.impulse, weight);
   for (int k = 0; k < 2; ++k) {

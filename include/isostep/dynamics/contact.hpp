@@ -50,6 +50,13 @@ template <class S> struct Contact {
 };
 static_assert(kHasNoPadding<Contact<float>> && kHasNoPadding<Contact<double>>);
 
+/// [m/s] Returns the sum of the normal impulses of a contact's points.
+template <class S> ISO_INLINE Velocity<S> total_normal_impulse(const Contact<S>& contact) {
+  Velocity<S> total = Velocity<S>(0);
+  for (std::uint32_t p = 0; p < contact.count; ++p) total = saturating_add(total, contact.normal_impulse[p]);
+  return total;
+}
+
 /// The mixture of two materials.
 template <class S> struct MixedMaterial {
   S friction;                // [1]

@@ -18,6 +18,7 @@ namespace detail {
 /// within a step or a few.
 template <class S> inline constexpr Velocity<S> kSlidingSpeed = Velocity<S>(0.05);
 
+/// Returns a velocity without its part along n.
 template <class S> ISO_INLINE Vec3<Velocity<S>> flattened(Vec3<Velocity<S>> v, Vec3<Unit<S>> n) {
   const Velocity<S> along = round_to<Velocity<S>>(dot_sum(v, n));
   return v - Vec3<Velocity<S>>{round_to<Velocity<S>>(product(along, n.x)), round_to<Velocity<S>>(product(along, n.y)),
@@ -132,11 +133,8 @@ ISO_INLINE void choose_friction(const SurfaceContact<S>& of, Vec3<Velocity<S>> b
   if (of.a.is_there() || of.b.is_there()) {
     if (leads) {
       const Vec3<Unit<S>> line = detail::friction_line_over_step(of, g.normal, slip);
-      const V along = round_to<V>(dot_sum(slip, line));
-      const Vec3<V> part = {round_to<V>(product(along, line.x)), round_to<V>(product(along, line.y)),
-                            round_to<V>(product(along, line.z))};
-      g.material.surface_velocity += convert<S>(part - slip);
       g.line = line;
+      g.material.surface_velocity += convert<S>(-detail::flattened<S>(slip, line));
       friction = friction * factor_along(of.a, of.b, line);
     } else if (slides) {
       friction = friction * min(of.a.factor_around(g.normal), of.b.factor_around(g.normal));

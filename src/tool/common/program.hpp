@@ -45,16 +45,13 @@ class CommandLine {
   template <std::size_t N> static std::vector<std::string> names_in(const char* const (&names)[N]) {
     return {std::begin(names), std::end(names)};
   }
-  /// From `least` to `most`. A CLI::Range takes "nan" too: it compares.
+  /// Accepts numbers from `least` to `most`. A CLI::Range alone accepts "nan" too.
   static CLI::Validator number_between(double least, double most) {
-    CLI::Validator range = CLI::Range(least, most);
-    return range & CLI::Validator(
-                       [](const std::string& word) {
-                         double number = 0;
-                         const bool read = CLI::detail::lexical_cast(word, number);
-                         return read && std::isnan(number) ? word + " is not a number" : std::string();
-                       },
-                       "");
+    return CLI::Range(least, most) & CLI::Validator(refuse_nan, "");
+  }
+  static std::string refuse_nan(const std::string& word) {
+    double number = 0;
+    return CLI::detail::lexical_cast(word, number) && std::isnan(number) ? word + " is not a number" : "";
   }
   /// A word that is there and says nothing: a variable of somebody's script that is not set.
   static std::string refuse_blank(const std::string& word) {

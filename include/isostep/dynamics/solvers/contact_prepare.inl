@@ -5,6 +5,7 @@
 
 #include <cstddef>
 
+#include "isostep/dynamics/contact_friction.hpp"
 #include "isostep/dynamics/solvers/contact_kernels.hpp"
 #include "isostep/math/lanes_select.hpp"
 #include "isostep/math/mat3.hpp"
@@ -215,9 +216,9 @@ template <class S, int W, class Isa> struct ContactPreparer {
   /// takes that of the friction it already bears, or any if there is none. The kernel's cone is exact along the basis.
   static ISO_INLINE Tangents<U> friction_basis(Vec3<U> n, Vec3<V> borne, V limit, Vec3<V> slip) {
     const Vec3<V> slide = flatten(slip, n);
-    // A contact that sticks trembles by less than its friction stops in a sub-step, and than .05 m/s. A slip below
-    // 1e-4 m/s is noise: where a body falls straight down, it would turn the basis any way.
-    const V trembling = max(min(V::broadcast(Velocity<S>(0.05)), limit), V::broadcast(Velocity<S>(0.0001)));
+    // A contact that sticks trembles by less than its friction stops in a sub-step, and by less than it slides. A slip
+    // below 1e-4 m/s is noise: where a body falls straight down, it would turn the basis any way.
+    const V trembling = max(min(V::broadcast(detail::kSlidingSpeed<S>), limit), V::broadcast(Velocity<S>(0.0001)));
     const Mask slides = less(trembling, max_abs(slide));
     if (all(slides)) return basis_along(slides, slide, n);
     const Vec3<V> force = flatten(borne, n);

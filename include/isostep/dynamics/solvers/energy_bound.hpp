@@ -18,8 +18,8 @@ namespace isostep {
 /// on its rim gained twelve times its energy in forty seconds, a rocking can a tenth in twenty. The bound scales the
 /// motion of a group, velocities and turns, by one factor, which neither lifts a point off what it touches nor lets it
 /// slip nor opens a joint.
-/// Of bodies on contacts it takes no more than a turn by t in a step can have made, about t^2 of the energy and of g r:
-/// a body that is pushed out of an overlap rises, and goes on.
+/// The bound takes of bodies on contacts no more than a turn by t in a step can have made, about t^2 of the energy and
+/// of g r: a body that is pushed out of an overlap rises, and goes on.
 /// A group is what contacts and joints tie, up to kMost bodies: larger groups hide what one body makes. It lies on or
 /// hangs from what stands still: otherwise the factor would take momentum. Groups with motors, springs, drives or
 /// scaled masses, on moving bodies, on belts or with mechanisms are left alone, as energy comes and goes there. Work of

@@ -18,7 +18,7 @@ bool is_best(std::string_view row);
 /// "Jolt 5, jolt-physics 1.1.0 from npm"; an engine that is not known is called as it is.
 std::string full_name(std::string_view engine);
 
-/// The engine of each result, as often as it ran.
+/// Returns the engine of each result, as often as it ran.
 std::vector<std::string> engines_in(const std::vector<LabResult>& results);
 /// A head, and a line a name with what it is: solvers, scalars and, of the engines in `rows`, each once. Plain text.
 std::vector<std::vector<std::string>> who_is_who(const std::vector<std::string>& rows);

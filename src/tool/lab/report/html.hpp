@@ -28,7 +28,7 @@ std::string svg_text(double x, double y, const std::string& words, const std::st
 
 /// The first line is the head. Cells are HTML already.
 std::string html_table(const std::vector<std::vector<std::string>>& cells);
-/// The same of cells that are plain text.
+/// Returns the same for cells that are plain text.
 std::string escaped_table(std::vector<std::vector<std::string>> cells);
 /// The table in Markdown: columns as wide as they must be. Cells are plain text; a bar in them is escaped.
 std::string markdown_table(std::vector<std::vector<std::string>> cells);
