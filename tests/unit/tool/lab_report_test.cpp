@@ -309,6 +309,13 @@ TEST(Page, TheSummaryCountsWhatBothScalarsSurvive) {
   EXPECT_TRUE(holds(summary_of(hand_made()), "| failed: ode "));
 }
 
+TEST(Page, TheSummaryNamesWhatTheDefaultFails) {
+  ReportData data = hand_made();
+  EXPECT_TRUE(holds(summary_of(data), "The default fails in double or q32.32: tall_stack."));  // 16 in double
+  data.results.push_back(trial("double", "soft_step", 4, 0.4, 0.1, true));
+  EXPECT_TRUE(holds(summary_of(data), "The default fails in double or q32.32: none."));
+}
+
 // ---- who runs, and for which game
 
 TEST(Engines, NamesAreExplainedOnceAndOnlyThoseThatRan) {

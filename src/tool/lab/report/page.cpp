@@ -10,6 +10,7 @@
 #include "genres.hpp"
 #include "html.hpp"
 #include "scenes/trials/trial.hpp"
+#include "tool/lab/sweep.hpp"
 
 namespace isostep::tool::lab {
 namespace {
@@ -122,6 +123,24 @@ std::string stage_table(const std::vector<StageCost>& costs) {
   return escaped_table(std::move(cells));
 }
 
+bool survives_by_default(const ReportData& data, const std::string& trial, const std::string& scalar) {
+  const LabPoint own = default_point(trial, scalar);
+  return std::any_of(data.results.begin(), data.results.end(), [&](const LabResult& result) {
+    LabPoint point = result.point;
+    if (point.substeps < own.substeps) point.substeps = own.substeps;  // fewer are enough
+    return point == own && fate_of(result) == Fate::survived;
+  });
+}
+/// "The default fails in double or q32.32: newtons_cradle."
+std::string failures_of_default(const ReportData& data) {
+  std::string names;
+  for (const MatrixRow& row : data.matrix.rows) {
+    const auto survives = [&](const char* scalar) { return survives_by_default(data, row.trial, scalar); };
+    if (!survives("double") || !survives("q32.32")) names += (names.empty() ? "" : ", ") + row.trial;
+  }
+  return "The default fails in double or q32.32: " + (names.empty() ? "none" : names) + ".";
+}
+
 /// "survived: havok, jolt +; failed: ode": a + needed its best settings.
 std::string peer_verdicts(const Matrix& matrix, std::size_t row) {
   std::string text;
@@ -172,7 +191,8 @@ std::string page_of(const ReportData& data) {
       "A number: survived with so many sub-steps, or from 120 on with so many steps a second. ✓ another engine "
       "survived "
       "by its defaults, + by its best settings only. × failed, … left open because it would take too long, – cannot be "
-      "told to it. Point at a cell for its figure.",
+      "told to it. Point at a cell for its figure. " +
+          escaped(failures_of_default(data)),
       matrix_html(data.matrix));
   text +=
       html_section("growth", "Error growth",
@@ -202,7 +222,8 @@ std::string summary_of(const ReportData& data) {
   std::string text =
       "# The laboratory, in short\n\nWritten by `./isostep lab --all`. Per trial the cheapest setting "
       "that survives, its figure, and the CPU time of a step of 1/60 s.\nSurvived in double and q32.32: " +
-      std::to_string(both) + " of " + std::to_string(data.matrix.rows.size()) + ".\n\n" + markdown_table(cells) +
+      std::to_string(both) + " of " + std::to_string(data.matrix.rows.size()) +
+      ". " + failures_of_default(data) + "\n\n" + markdown_table(cells) +
       "\nPer scene the cheapest setting that holds its bars:\n\n" + markdown_table(advice_cells(data));
   return text;
 }
