@@ -3,6 +3,7 @@
 
 #include "built.hpp"
 #include "isostep/dynamics/friction_presets.hpp"
+#include "random/dice.hpp"
 #include "unit/world/worlds.hpp"
 
 namespace isostep::test {
@@ -271,6 +272,35 @@ TYPED_TEST(FrictionLaws, it_does_not_matter_which_of_two_bodies_comes_first) {
     v[floor_first ? 0 : 1] = real(w.velocity(id));
   }
   expect_near(v[0], v[1], pick<S>(1e-3, 1e-9, 1e-2, 1e-6));
+}
+
+/// A contact on a grain has one row of friction while it slides, and two while it sticks.
+TYPED_TEST(FrictionLaws, sledges_that_meet_roll_back_to_every_step) {
+  using S = TypeParam;
+  constexpr std::size_t kFrames = 90;
+  for (const SolverName solver : kBuiltSolvers) {
+    World<S> w = tilted<S>(0.1, solver);
+    add_floor(w, material<S>(0.5, 0, {0.5, 1, 1}));
+    Dice dice(31);
+    for (int i = 0; i < 8; ++i) {
+      const D3 grain = {dice.in(0.1, 1), 1, dice.in(0.1, 1)}, v = {dice.in(-3, 3), 0, dice.in(-3, 3)};
+      BodyDefinition<S> d = moving<S>(add_box(w, 0.4, 0.125, 0.4), {0.9 * (i % 3), 0.2 + 0.3 * i, 0.9 * (i % 2)}, v);
+      d.material = material<S>(dice.in(0.2, 0.8), 0, grain);
+      w.create(d);
+    }
+    std::vector<typename World<S>::Snapshot> before(kFrames);
+    std::vector<std::uint64_t> hashes;
+    for (typename World<S>::Snapshot& snapshot : before) {
+      w.save(snapshot);
+      w.step();
+      hashes.push_back(w.hash());
+    }
+    for (std::size_t i = kFrames; i-- > 0;) {
+      ASSERT_TRUE(w.load(before[i]));
+      w.step();
+      EXPECT_EQ(w.hash(), hashes[i]) << static_cast<int>(solver) << " " << i;
+    }
+  }
 }
 
 TYPED_TEST(FrictionLaws, a_record_of_two_kinds_overrides_the_mixture_of_those_alone) {

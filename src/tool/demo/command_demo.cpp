@@ -82,7 +82,7 @@ int command_demo(const DemoOptions& options) {
     return false;
   });
   std::printf(
-      "Each scene is recorded with the widest lanes this processor has, then replayed from its file with one lane:\n"
+      "Each scene is recorded with the widest lanes of this build, then replayed from its file with one lane:\n"
       "every frame's hash must come out the same.\n\n");
   std::printf("%-6s %-7s %6s  %9s %8s  %-16s  %-7s %s\n", "scene", "scalar", "frames", "ms/step", "KB", "last hash",
               "lanes", "replayed");

@@ -101,7 +101,7 @@ template <class N> bool AdmmSystem<N>::factorise() {
 template <class N> bool AdmmSystem<N>::solve_all() {
   constexpr int kDown = D::kRoom != 0 ? 8 : 0;  // room for what stiff rows ask of u
   right_.assign(2 * (motions_.size() - 1), Vec3<N>{N(0), N(0), N(0)});
-  x_.resize(p_.size());
+  x_.assign(p_.size(), N(0));  // a patch may lack its second row
   for (std::uint32_t r = 0; r < p_.size(); ++r) {
     const IslandBlock<N>& block = blocks_[r / 3];
     const IslandRow<N>& of = this->row(r);
