@@ -17,8 +17,9 @@ namespace {
   throw ToolError(status, path + ": " + std::generic_category().message(errno));
 }
 
-void write_to(const std::string& path, const void* bytes, std::size_t size) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
+/// Errors name `path`, for which `aside` stands until it is whole.
+void write_aside(const std::string& aside, const std::string& path, const void* bytes, std::size_t size) {
+  std::FILE* file = std::fopen(aside.c_str(), "wb");
   if (file == nullptr) fail(exit_status::kOutput, path);
   const bool written = std::fwrite(bytes, 1, size, file) == size;
   const int error = errno;
@@ -64,7 +65,7 @@ std::vector<std::uint8_t> read_file(const std::string& path) {
 
 void write_file(const std::string& path, std::string_view content) {
   const std::string aside = aside_of(path);
-  write_to(aside, content.data(), content.size());
+  write_aside(aside, path, content.data(), content.size());
   move_into_place(aside, path);
 }
 void write_file(const std::string& path, Bytes content) {

@@ -209,6 +209,7 @@ int command_run(const RunOptions& options) {
     require_page(options);
     shot.emplace();
   }
+  for (const std::string& path : {options.hashes, options.dump, options.save, options.html}) expect_writable(path);
   int status = exit_status::kSoftware;
   with_game(options.scene, options.scalar, [&](auto tag, const auto& scene) {
     std::optional<Run<typename decltype(tag)::Type>> run;

@@ -103,9 +103,10 @@ TEST_F(CommandLine, ReportsFilesThatAreNotThereWith66) {
 
 TEST_F(CommandLine, ReportsPlacesThatCannotBeWrittenWith74) {
   const std::string nowhere = path("no/such/folder");
-  for (const char* option : {"--record", "--hashes", "--dump", "--save"}) {
-    const Answer answer = run({"run", "S1x5", "--frames", "1", option, nowhere});
-    expect_one_line(answer, 74, "no/such/folder");
+  for (const char* option : {"--record", "--hashes", "--dump", "--save", "--html"}) {
+    // Half a year of frames: it is said before the run.
+    const Answer answer = run({"run", "S1x5", "--frames", "1000000000", option, nowhere});
+    expect_one_line(answer, 74, "no/such/folder: ");
   }
 }
 
