@@ -101,7 +101,6 @@ template <class N> bool AdmmSystem<N>::factorise() {
 template <class N> bool AdmmSystem<N>::solve_all() {
   constexpr int kDown = D::kRoom != 0 ? 8 : 0;  // room for what stiff rows ask of u
   right_.assign(2 * (motions_.size() - 1), Vec3<N>{N(0), N(0), N(0)});
-  x_.assign(p_.size(), N(0));  // a patch may lack its second row
   for (std::uint32_t r = 0; r < p_.size(); ++r) {
     const IslandBlock<N>& block = blocks_[r / 3];
     const IslandRow<N>& of = this->row(r);
@@ -134,6 +133,7 @@ template <class N> bool AdmmSystem<N>::solve_all() {
 /// Begins with the multipliers that answer the current answers: what rows at their bounds lack.
 template <class N> void AdmmSystem<N>::begin_multipliers() {
   for (const IslandPatch<N>& patch : patches_) this->limit_by_disc(patch);
+  x_.assign(v_.size(), N(0));  // a patch may lack its second row, which its disc reads too
   for (std::uint32_t r = 0; r < v_.size(); ++r) {
     const IslandRow<N>& of = this->row(r);
     v_[r] = N(0);

@@ -222,9 +222,9 @@ std::string summary_of(const ReportData& data) {
   std::string text =
       "# The laboratory, in short\n\nWritten by `./isostep lab --all`. Per trial the cheapest setting "
       "that survives, its figure, and the CPU time of a step of 1/60 s.\nSurvived in double and q32.32: " +
-      std::to_string(both) + " of " + std::to_string(data.matrix.rows.size()) +
-      ". " + failures_of_default(data) + "\n\n" + markdown_table(cells) +
-      "\nPer scene the cheapest setting that holds its bars:\n\n" + markdown_table(advice_cells(data));
+      std::to_string(both) + " of " + std::to_string(data.matrix.rows.size()) + ". " + failures_of_default(data) +
+      "\n\n" + markdown_table(cells) + "\nPer scene the cheapest setting that holds its bars:\n\n" +
+      markdown_table(advice_cells(data));
   return text;
 }
 
