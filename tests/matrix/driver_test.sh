@@ -135,8 +135,9 @@ grep -q '^flipped-bit.*SIMD' "$dir/out" && fail "the reference build is shown wi
 matrix 69 --target far
 matrix 1 --target tomorrow
 
-# No time: what has not begun and must be built is left out, and is not green where it was asked for.
-matrix 1 --target hangs --target good --target flipped-bit --jobs 1 --within 1
+# No time: what has not begun and must be built is left out, and is not green where it was asked for. `hangs` begins on
+# day 4.
+ISOSTEP_MATRIX_DAY=4 matrix 1 --target hangs --target good --target flipped-bit --jobs 1 --within 1
 says '^good .* - .* not run here: 1 s were over$' && says '^flipped-bit .* seen, as it must: '
 # Another one begins each day.
 for day in 4,hangs 5,good; do
