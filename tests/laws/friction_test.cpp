@@ -193,6 +193,36 @@ TYPED_TEST(FrictionLaws, a_sledge_stops_on_a_slope_that_its_runners_hold_on) {
   }
 }
 
+/// From rest, by a pull that is neither along the runners nor across them. A floor that leaves half of the friction in
+/// all directions cuts the sledge's ellipse.
+TYPED_TEST(FrictionLaws, a_sledge_that_is_pulled_askew_holds_and_goes_as_the_ellipse_says) {
+  using S = TypeParam;
+  constexpr double kMu = 0.5;
+  for (const SolverName solver : kBuiltSolvers) {
+    for (const double runners : {0.25, 1.0 / 16}) {
+      for (const double yaw : {0.3, 0.8, 1.2}) {
+        for (const double part : {0.9, 1.1, 1.5}) {  // of what the ellipse holds
+          const double floor = part == 1.1 ? 0.5 : 1;
+          const D3 f = {runners, 1, floor},
+                   own = {std::cos(yaw), 0, std::sin(yaw)};  // of the pull, in the body's frame
+          const double angle = std::atan(part * kMu / std::hypot(own.x / f.x, own.z / f.z));
+          World<S> w = tilted<S>(angle, solver);
+          add_floor(w, material<S>(kMu, 0, {floor, floor, floor}));
+          const BodyId id = add_slab(w, material<S>(kMu, 0, {runners, 1, 1}), {0, 0, 0}, yaw);
+          run(w, 120);
+          const D3 v = rotated<S>(turn<S>({0, 1, 0}, -yaw), real(w.velocity(id)));
+          const D3 pull = own * (kG * std::sin(angle));
+          const D3 law = part < 1 ? D3{0, 0, 0} : slowed({0, 0, 0}, f, kMu * kG * std::cos(angle), 2, pull);
+          const double near = part < 1 ? 0.002 : 0.005 + 0.01 * length(law);
+          SCOPED_TRACE(::testing::Message() << static_cast<int>(solver) << " " << runners << " " << yaw << " " << part);
+          EXPECT_NEAR(v.x, law.x, near + pick<S>(0, 0, 0.01, 0));
+          EXPECT_NEAR(v.z, law.z, near + pick<S>(0, 0, 0.01, 0));
+        }
+      }
+    }
+  }
+}
+
 /// It slips in all directions, and grips in all but one.
 TYPED_TEST(FrictionLaws, a_sledge_that_spins_in_place_is_braked_by_what_its_directions_leave_on_average) {
   using S = TypeParam;

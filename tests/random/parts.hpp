@@ -88,8 +88,9 @@ template <class S> void draw_surface(std::uint64_t seed, Material<S>& material) 
   Dice dice(seed);
   if (dice.one_in(3)) material.static_friction = num<S>(dice.in(0, 2));
   if (dice.one_in(3)) {
-    const double x = dice.in(1.0 / 16, 1), y = dice.in(1.0 / 16, 1);
-    material.anisotropy = vec<S>(x, y, dice.in(1.0 / 16, 1));
+    const auto factor = [&] { return std::exp2(-dice.in(0, 6)); };  // as little as a material may have
+    const double x = factor(), y = factor();
+    material.anisotropy = vec<S>(x, y, factor());
   }
   if (dice.one_in(2)) material.kind = 1 + dice.below(kMaterialKinds);
 }

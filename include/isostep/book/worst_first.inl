@@ -71,14 +71,14 @@ void WorstFirstResolver<S, Queue>::add_point(const StepContext<S>& context, std:
   const S linear = row.share.a + row.share.b;
   row.normal = pushing(g.normal);
   row.mass = detail::mass_of(detail::coupling_of(row.normal, row.normal, linear));
-  const bool in_plane = g.line == Vec3<Unit<S>>::zero();
-  const Tangents<Unit<S>> basis = tangents_of(g.normal);
+  const Tangents<Unit<S>> basis = friction_tangents(g);
   const auto rub = [&](int k, Vec3<Unit<S>> d) {
     row.friction.rows[k] = pushing(d);
     row.friction.surface[k] = saturate_to<V>(dot_sum(g.material.surface_velocity, d));
   };
-  rub(0, in_plane ? basis.t : g.line);
-  if (in_plane) rub(1, basis.u);
+  rub(0, basis.t);
+  rub(1, basis.u);
+  row.friction.ratio = g.ratio;
   detail::invert_pair(row.friction, linear);
   row.mu = g.material.friction;
   row.separation = convert<V>(at.separation);
@@ -141,7 +141,8 @@ void WorstFirstResolver<S, Queue>::add_rolling(const ContactGeometry<S>& g, std:
 template <class S, class Queue>
 void WorstFirstResolver<S, Queue>::add_spinning(const ContactGeometry<S>& g, const SolverMass<S>& a,
                                                 const SolverMass<S>& b, Point& row) {
-  const S slope = saturate_to<S>(product(g.material.friction, g.material.spin_resistance));
+  S slope = saturate_to<S>(product(g.material.friction, g.material.spin_resistance));
+  if (g.ratio < Unit<S>(1)) slope = round_to<S>(product(slope, spinning_factor(g.ratio)));
   const auto spinning = [&](S radius) {
     const Vec3<S> jacobian = convert<S>(g.normal) * radius;
     return detail::weighed_row(Vec3<S>::zero(), jacobian, jacobian, a, b, row.share);

@@ -71,7 +71,7 @@ inline constexpr char kZeroOfStatic[] = "0 of a static body";
 
 /// [1] Returns true if all factors are 1/64 to 1: the squares of quotients by them fit every scalar.
 template <class S> bool is_grain(Vec3<S> factors) {
-  const auto good = [](S f) { return S(1.0 / 64) <= f && f <= S(1); };
+  const auto good = [](S f) { return S(kLeastGrain) <= f && f <= S(1); };
   return good(factors.x) && good(factors.y) && good(factors.z);
 }
 

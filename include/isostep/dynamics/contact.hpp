@@ -32,9 +32,9 @@ struct ContactKey {
 
 /// Bits of Contact::flags.
 namespace contact_flag {
-inline constexpr std::uint32_t kTouching = 1u << 0;   // carried an impulse in the last step: what events speak of
-inline constexpr std::uint32_t kReported = 1u << 1;   // of a body or part with kReportContacts: events tell of it
-}
+inline constexpr std::uint32_t kTouching = 1u << 0;  // carried an impulse in the last step: what events speak of
+inline constexpr std::uint32_t kReported = 1u << 1;  // of a body or part with kReportContacts: events tell of it
+}  // namespace contact_flag
 
 /// State: a contact with points. Impulses are velocity changes of the pair's reduced mass, m = ma mb / (ma + mb).
 template <class S> struct Contact {
@@ -83,7 +83,8 @@ template <class S> ISO_INLINE MixedMaterial<S> mix(const Material<S>& a, const M
 template <class S> struct ContactGeometry {
   std::uint32_t row_a, row_b;
   Vec3<Unit<S>> normal;  // [1] from a to b, world
-  Vec3<Unit<S>> line;    // [1] friction acts along it alone, as a slide over a grain has it. Zero: in all directions
+  Vec3<Unit<S>> axis;    // [1] along which a grain leaves most of the friction, in the plane of contact
+  Unit<S> ratio;         // [1] what it leaves across, over that. 1: friction has no axis
   struct Point {
     Vec3<S> arm_a, arm_b;  // [m] from each centre of mass, world
     S separation;          // [m] negative: overlap
@@ -92,6 +93,12 @@ template <class S> struct ContactGeometry {
   } points[kMaxContactPoints];
   MixedMaterial<S> material;
 };
+
+/// Returns the tangents along which a contact's friction has limits of its own, or any where it has no axis.
+template <class S> ISO_INLINE Tangents<Unit<S>> friction_tangents(const ContactGeometry<S>& g) {
+  if (g.ratio < Unit<S>(1)) return {g.axis, cross(g.normal, g.axis)};
+  return tangents_of(g.normal);
+}
 
 namespace detail {
 /// Holds the arms from both bodies to the middle of a contact's points, where its friction acts, or to the first point.

@@ -9,6 +9,9 @@
 
 namespace isostep {
 
+/// [1] The least of a material's anisotropy, and so the least ratio of an ellipse of friction.
+inline constexpr double kLeastGrain = 1.0 / 64;
+
 /// A surface. A contact mixes two surfaces: friction and spin resistance are the root of the product, the rest the
 /// larger of both. Two kinds that the world's table of pairs (material_pair.hpp) lists have the values of the table.
 /// contact_friction.hpp: which coefficient of friction a contact has in a step.

@@ -102,6 +102,11 @@ template <class S> Scene<S> random_scene(Random& random, std::uint32_t count, st
     const double flat = std::sqrt(1 - height * height);
     g.normal = random.below(6) == 0 ? vector<Unit<S>>(0, 0, random.below(2) == 0 ? -1 : 1)
                                     : vector<Unit<S>>(flat * std::cos(angle), height, flat * std::sin(angle));
+    g.ratio = Unit<S>(1);
+    if (random.below(3) == 0) {
+      g.axis = tangents_of(g.normal).t;
+      g.ratio = from_double<Unit<S>>(0.5 + random.within(0.4));
+    }
     for (std::uint32_t p = 0; p < points; ++p) {
       if (random.below(4) != 0) c.normal_impulse[p] = from_double<V>(random.within(0.5) + 0.5);
       g.points[p] = {random_vector<S>(random, 1), random_vector<S>(random, 1), from_double<S>(random.within(0.01))};
@@ -269,6 +274,7 @@ template <class S> Scene<S> ball_scene(bool beside) {
   g.row_a = beside ? 1 : 0;
   g.row_b = 2;
   g.normal = vector<Unit<S>>(0, 1, 0);
+  g.ratio = Unit<S>(1);
   g.points[0] = {vector<S>(0, 1, 0), vector<S>(0, -1, 0), from_double<S>(0.25)};
   g.material = {from_double<S>(0.5), S(0), from_double<S>(0.125), from_double<S>(0.0625), Vec3<S>::zero()};
   scene.contacts = {c};

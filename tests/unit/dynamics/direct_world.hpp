@@ -58,6 +58,7 @@ template <class S> class DirectWorld {
     g.row_a = a == kNoBody ? 0 : a + 1;
     g.row_b = b + 1;
     g.normal = {Unit<S>(0), Unit<S>(1), Unit<S>(0)};
+    g.ratio = Unit<S>(1);
     g.material.friction = number(friction);
     geometry.push_back(g);
     step_impulses.push_back(V(0));

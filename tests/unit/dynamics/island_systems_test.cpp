@@ -69,8 +69,8 @@ template <class Method> class IslandProblem : public testing::Test {
     low_[r] = kind == RowBound::above ? 0 : kind == RowBound::boxed ? -0.3 : -kFar;
     high_[r] = kind == RowBound::below ? 0 : kind == RowBound::boxed ? 0.3 : kFar;
   }
-  /// One body on one point, pushed along its tangents x and z; its normal is y.
-  void begin_on_a_point(double x, double z) {
+  /// One body on one point, pushed along its tangents x and z; its normal is y. Friction along z: `ratio` of the limit.
+  void begin_on_a_point(double x, double z, double ratio = 1) {
     build(1, 1, 0);
     for (std::uint32_t r = 0; r < 3; ++r) {
       system_.row(r).ends[1] = IslandMotion<N>::zero();
@@ -81,7 +81,8 @@ template <class Method> class IslandProblem : public testing::Test {
     bound(1, RowBound::boxed);
     bound(2, RowBound::above);
     system_.patches().clear();
-    system_.patches().push_back({0, 2, 1, IslandPatch<N>::kNoRolling, number<N>(0.5), N(0), N(0), 0, 0, 0});
+    system_.patches().push_back(
+        {0, 2, 1, IslandPatch<N>::kNoRolling, number<N>(0.5), N(0), N(0), number<N>(ratio), 0, 0, 0});
     system_.tie(bodies_, kWork);
     system_.assemble();
   }
@@ -248,6 +249,28 @@ TYPED_TEST(Repeats, friction_opposes_the_push_on_a_disc_of_the_load) {
     EXPECT_NEAR(this->answer(2), 4, 4e-3);
     EXPECT_NEAR(this->answer(0), 0.6 * friction, 4e-3);
     EXPECT_NEAR(this->answer(1), 0.8 * friction, 4e-3);
+  }
+}
+
+/// On a grain it is the force of the ellipse that is nearest to the one that would hold the body.
+TYPED_TEST(Repeats, friction_on_a_grain_is_the_force_of_its_ellipse_that_takes_most_power) {
+  constexpr double kRatio = 0.25;
+  for (const double push : {0.1, 0.3, 0.9}) {
+    const double x = push * 0.6, z = push * 0.8;
+    this->begin_on_a_point(x, z, kRatio);
+    for (int i = 0; i < 60; ++i) this->system_.solve(true, kWork);
+    double nearest[2] = {4 * x, 4 * z};  // K is a quarter
+    if (std::hypot(nearest[0], nearest[1] / kRatio) > 2) {
+      double least = 1e9;
+      for (int i = 0; i < 100000; ++i) {
+        const double at[2] = {2 * std::cos(i * 1e-4), 2 * kRatio * std::sin(i * 1e-4)};
+        const double distance = std::hypot(at[0] - 4 * x, at[1] - 4 * z);
+        if (distance < least) least = distance, nearest[0] = at[0], nearest[1] = at[1];
+      }
+    }
+    EXPECT_NEAR(this->answer(2), 4, 4e-3);
+    EXPECT_NEAR(this->answer(0), nearest[0], 4e-3) << push;
+    EXPECT_NEAR(this->answer(1), nearest[1], 4e-3) << push;
   }
 }
 

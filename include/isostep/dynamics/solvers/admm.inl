@@ -42,7 +42,7 @@ template <class N> void AdmmSystem<N>::tie(std::uint32_t body_count, std::uint64
   cholesky_.analyse(2 * body_count, pairs_);
 }
 
-/// The tangents of a patch share a weight: their disc is a disc in the measure of the projection.
+/// The tangents of a patch share a weight, so that the nearest force of their cone is nearest in that measure.
 template <class N> void AdmmSystem<N>::assemble() {
   this->weigh_rows();
   p_.assign(3 * std::size_t{block_count()}, N(0));
@@ -132,7 +132,7 @@ template <class N> bool AdmmSystem<N>::solve_all() {
 
 /// Begins with the multipliers that answer the current answers: what rows at their bounds lack.
 template <class N> void AdmmSystem<N>::begin_multipliers() {
-  for (const IslandPatch<N>& patch : patches_) this->limit_by_disc(patch);
+  for (const IslandPatch<N>& patch : patches_) this->limit_by_cone(patch);
   x_.assign(v_.size(), N(0));  // a patch may lack its second row, which its disc reads too
   for (std::uint32_t r = 0; r < v_.size(); ++r) {
     const IslandRow<N>& of = this->row(r);
@@ -169,8 +169,8 @@ template <class N> void AdmmSystem<N>::project() {
     v_[r] -= of.answer;
   }
   for (const IslandPatch<N>& patch : patches_) {
-    this->limit_by_disc(patch);
-    Base::hold_in_disc(x_[patch.first], x_[patch.first + 1], this->row(patch.first).limit);
+    this->limit_by_cone(patch);
+    Base::hold_in_cone(x_[patch.first], x_[patch.first + 1], this->row(patch.first).limit, patch.ratio);
   }
   for (std::uint32_t r = 0; r < x_.size(); ++r) {
     const IslandRow<N>& of = this->row(r);

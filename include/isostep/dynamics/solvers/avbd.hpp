@@ -18,7 +18,8 @@ namespace isostep {
 ///          The penalty is 2^kPenalty of the row's effective mass, in any unit of mass; the paper's begin at 1 N/m and
 ///          grow. Growing ones would have to be in the state, and above 2 the multipliers of a stack of twenty boxes
 ///          grow without end. A solve that closes errors keeps no multipliers. Rows at a bound do not stiffen their
-///          bodies. Friction is the disc of its load. Passes go through the bodies forwards and backwards in turn.
+///          bodies. Friction is held in the cone of its load, and resists to be turned along its rim. Passes go through
+///          the bodies forwards and backwards in turn.
 /// Limits:  kPasses a solve, whatever is left: it never says that it found no solution. Bodies move by u, so action and
 ///          reaction differ by what the last pass left; by W^T x walls and cards tremble.
 ///          Rods that strike at hundreds of radians a second gain energy.
@@ -43,15 +44,18 @@ template <class N> class AvbdSystem final : public IslandSystem<N> {
   struct Pushes {
     N size[3];
     bool yields[3];
+    N rim[2];   // direction [1] along which friction at its limit turns
+    N resists;  // [1] the part of the tangents' stiffness that is left along it
   };
 
   N answer_of(const IslandBlock<N>& block, int r) const;
   Pushes pushes_of(std::uint32_t block) const;
+  static void lean(Pushes& pushes, N x, N y, N ratio);
   void descend(std::uint32_t body);
   void keep_multipliers(bool firm);
 
-  std::vector<std::uint8_t> slides_;  // blocks whose first two rows are the tangents of a patch
-  bool are_aside_ = false;            // multipliers: they are in IslandRow::last
+  std::vector<N> ratios_;   // of blocks whose first two rows are the tangents of a patch: IslandPatch::ratio; else 0
+  bool are_aside_ = false;  // multipliers: they are in IslandRow::last
 };
 
 }  // namespace isostep

@@ -36,11 +36,18 @@ template <class N> void AvbdSystem<N>::tie(std::uint32_t body_count, std::uint64
   motions_.assign(body_count + 1, IslandMotion<N>::zero());
   this->list_blocks(body_count);
   are_aside_ = false;
-  slides_.assign(block_count(), 0);
-  for (const IslandPatch<N>& patch : patches_) slides_[patch.first / 3] = 1;
 }
 
-template <class N> void AvbdSystem<N>::assemble() { this->weigh_rows(); }
+/// The tangents of a grain share a penalty, so that the nearest force of their ellipse takes most power.
+template <class N> void AvbdSystem<N>::assemble() {
+  this->weigh_rows();
+  ratios_.assign(block_count(), N(0));
+  for (const IslandPatch<N>& patch : patches_) {
+    ratios_[patch.first / 3] = patch.ratio;
+    N &x = this->row(patch.first).diagonal, &y = this->row(patch.first + 1).diagonal;
+    if (patch.ratio < N(1)) x = y = max(x, y);
+  }
+}
 
 /// Returns what a row pushes with: its multiplier and its penalty, of a compliant row less than its spring.
 template <class N> N AvbdSystem<N>::answer_of(const IslandBlock<N>& block, int r) const {
@@ -57,19 +64,46 @@ template <class N> N AvbdSystem<N>::answer_of(const IslandBlock<N>& block, int r
 /// Finds what the rows of a block push with, and which of them yield, because they are at a bound.
 template <class N> typename AvbdSystem<N>::Pushes AvbdSystem<N>::pushes_of(std::uint32_t b) const {
   const IslandBlock<N>& block = blocks_[b];
+  const bool slides = N(0) < ratios_[b];
   Pushes pushes = {};
   for (int r = 0; r < 3; ++r) {
     const IslandRow<N>& row = block.rows[r];
     pushes.yields[r] = row.bound == RowBound::absent;
     if (pushes.yields[r]) continue;
     const N wanted = answer_of(block, r);
-    pushes.size[r] = slides_[b] != 0 && r < 2 ? wanted : clamped(row, wanted);
+    pushes.size[r] = slides && r < 2 ? wanted : clamped(row, wanted);
     pushes.yields[r] = pushes.size[r] != wanted;
   }
-  if (slides_[b] != 0 && Base::hold_in_disc(pushes.size[0], pushes.size[1], block.rows[0].limit)) {
-    pushes.yields[0] = pushes.yields[1] = true;
-  }
+  if (!slides) return pushes;
+  const N x = pushes.size[0], y = pushes.size[1];
+  if (!Base::hold_in_cone(pushes.size[0], pushes.size[1], block.rows[0].limit, ratios_[b])) return pushes;
+  pushes.yields[0] = pushes.yields[1] = true;
+  lean(pushes, x, y, ratios_[b]);
   return pushes;
+}
+
+/// Finds the stiffness of friction that was (x, y) before it was held at the rim of its cone. It has none across the
+/// rim, and a part of its own along it.
+/// Symbols: (x, y) = (1 + g A) size, A = diag(1, 1 / ratio^2). n = A size is normal to the rim, s is along it. The
+///          projection's derivative is s s^T / (s^T (1 + g A) s). a, b = the entries of (1 + g A)^-1.
+template <class N> void AvbdSystem<N>::lean(Pushes& pushes, N x, N y, N ratio) {
+  const N square = ratio * ratio, along = square * pushes.size[0], across = pushes.size[1];
+  const N most = max(abs(along), abs(across)), half = N(0.5);
+  if (!(N(0) < most)) return;
+  const N n[2] = {D::quotient(along, most) * half, D::quotient(across, most) * half};
+  const N length = D::root(n[0] * n[0] + n[1] * n[1]);
+  pushes.rim[0] = -D::quotient(n[1], length);
+  pushes.rim[1] = D::quotient(n[0], length);
+  N a, b;
+  if (abs(y) < abs(x)) {
+    a = D::quotient(pushes.size[0], x);
+    b = D::quotient(square * a, square * a + (N(1) - a));
+  } else {
+    b = D::quotient(pushes.size[1], y);
+    a = D::quotient(b, b + square * (N(1) - b));
+  }
+  const N sum = pushes.rim[0] * pushes.rim[0] * b + pushes.rim[1] * pushes.rim[1] * a;
+  if (N(0) < sum) pushes.resists = D::quotient(a * b, sum);
 }
 
 /// Moves a body to where its rows and its inertia balance.
@@ -81,21 +115,26 @@ template <class N> void AvbdSystem<N>::descend(std::uint32_t body) {
   for (int i = 0; i < 6; ++i) a[i][i] = D::times_power(N(1), -scale);
   const IslandMotion<N>& u = motions_[body];
   N b[6] = {-u.linear.x, -u.linear.y, -u.linear.z, -u.angular.x, -u.angular.y, -u.angular.z};
+  const auto stiffen = [&](const N(&w)[6], N diagonal, N soft, N part) {
+    const N stiffness = D::quotient(D::times_power(part, -scale), D::times_power(diagonal, -kPenalty) + soft);
+    for (int i = 0; i < 6; ++i) {
+      const N of = w[i] * stiffness;
+      for (int j = 0; j <= i; ++j) a[i][j] += of * w[j];
+    }
+  };
   for (std::uint32_t k = first_[body]; k < first_[body + 1]; ++k) {
     const IslandBlock<N>& block = blocks_[at_body_[k]];
     const Pushes pushes = pushes_of(at_body_[k]);
+    N rim[6] = {};
     for (int r = 0; r < 3; ++r) {
       const IslandRow<N>& row = block.rows[r];
       const IslandMotion<N>& end = row.ends[block.body[0] == body ? 0 : 1];
       const N w[6] = {end.linear.x, end.linear.y, end.linear.z, end.angular.x, end.angular.y, end.angular.z};
       for (int i = 0; i < 6; ++i) b[i] = D::sum(b[i], w[i] * pushes.size[r]);
-      if (pushes.yields[r]) continue;
-      const N stiffness = D::quotient(D::times_power(N(1), -scale), D::times_power(row.diagonal, -kPenalty) + row.soft);
-      for (int i = 0; i < 6; ++i) {
-        const N part = w[i] * stiffness;
-        for (int j = 0; j <= i; ++j) a[i][j] += part * w[j];
-      }
+      for (int i = 0; r < 2 && i < 6; ++i) rim[i] += w[i] * pushes.rim[r];
+      if (!pushes.yields[r]) stiffen(w, row.diagonal, row.soft, N(1));
     }
+    if (N(0) < pushes.resists) stiffen(rim, max(block.rows[0].diagonal, block.rows[1].diagonal), N(0), pushes.resists);
   }
   for (N& x : b) x = D::times_power(x, -scale);
   detail::solve_six(a, b);
@@ -109,7 +148,7 @@ template <class N> bool AvbdSystem<N>::solve(bool firm, std::uint64_t) {
   this->settle_answers();
   const auto bodies = static_cast<std::uint32_t>(motions_.size());
   for (int pass = 0; pass < kPasses; ++pass) {
-    for (const IslandPatch<N>& patch : patches_) this->limit_by_disc(patch);
+    for (const IslandPatch<N>& patch : patches_) this->limit_by_cone(patch);
     for (std::uint32_t i = 1; i < bodies; ++i) descend(pass % 2 == 0 ? i : bodies - i);
     for (std::uint32_t k = 0; k < block_count(); ++k) {
       const Pushes pushes = pushes_of(k);

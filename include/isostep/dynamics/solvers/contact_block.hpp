@@ -48,7 +48,8 @@ template <class S, int W, int P> struct ContactBlock {
   S normal[3][W];  // [1] from a to b
   S share_a[W];    // [1] MassShare
   S share_b[W];
-  S friction[W];  // [1]
+  S friction[W];     // [1] along the first tangent
+  Unit<S> ratio[W];  // [1] that along the second, over it: below one of a grain
   FrictionRow<S, W> tangents[2];
   AngularRow<S, W> twist;  // its radius is inside the Jacobian
   S twist_friction[W];     // [1] friction that acts at that radius: a part of `friction`, as the patch's own is smaller

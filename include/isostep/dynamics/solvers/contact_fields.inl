@@ -37,6 +37,7 @@ template <class S> class LaneOfBlock {
     visit("share_a", block.share_a);
     visit("share_b", block.share_b);
     visit("friction", block.friction);
+    visit("ratio", block.ratio);
     visit("tangents", block.tangents);
     visit("twist", block.twist);
     visit("twist_friction", block.twist_friction);

@@ -21,6 +21,7 @@ namespace {
 template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
   using L = Lanes<S, W, Isa>;
   using V = Lanes<Velocity<S>, W, Isa>;
+  using U = Lanes<Unit<S>, W, Isa>;
   using Block = std::conditional_t<Rolling, RollingBlock<S, W, P>, ContactBlock<S, W, P>>;
 
   struct Motion {
@@ -77,6 +78,26 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     }
     turn(row, impulse, a, b);
   }
+  /// Brings friction of the contacts whose bits are set into their ellipses: `resting`, what brings rows to rest, or,
+  /// where that is outside, what a step that is equal for both rows leads to.
+  static ISO_NOINLINE void hold_in_ellipses(const ContactBlock<S, W, P>& c, std::uint32_t bits, const V& limit,
+                                            const V (&equal)[2], V (&resting)[2]) {
+    alignas(kLaneAlignment<S, W>) Velocity<S> most[W], rest[2][W], step[2][W];
+    limit.store(most);
+    for (int k = 0; k < 2; ++k) {
+      resting[k].store(rest[k]);
+      equal[k].store(step[k]);
+    }
+    for (int i = 0; i < W; ++i) {
+      if (((bits >> i) & 1u) == 0) continue;
+      Velocity<S> x = rest[0][i], y = rest[1][i];
+      if (!hold_impulse_in_ellipse<S>(c.ratio[i], most[i], x, y)) continue;
+      rest[0][i] = step[0][i];
+      rest[1][i] = step[1][i];
+      hold_impulse_in_ellipse<S>(c.ratio[i], most[i], rest[0][i], rest[1][i]);
+    }
+    for (int k = 0; k < 2; ++k) resting[k] = V::load(rest[k]);
+  }
   /// Stores an accumulated impulse, `wanted` within +-limit. Returns its change.
   static ISO_INLINE V accumulate(AngularRow<S, W>& row, V wanted, V limit) {
     const V next = clamp(wanted, V::zero() - limit, limit);
@@ -118,11 +139,11 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     const V stopping = V::load(twist.impulse) - times(L::load(twist.effective_mass), spin);
     turn(twist, accumulate(twist, stopping, times(L::load(c.twist_friction), load)), a, b);
     const V limit = times(L::load(c.friction), load);
-    V wanted[2];
+    V wanted[2], slip[2];
     for (int k = 0; k < 2; ++k) {
       const FrictionRow<S, W>& tangent = c.tangents[k];
-      const V speed = along(tangent.direction, tangent.row, a, b) + V::load(tangent.surface);
-      wanted[k] = V::load(tangent.row.impulse) - times(L::load(tangent.row.effective_mass), speed);
+      slip[k] = along(tangent.direction, tangent.row, a, b) + V::load(tangent.surface);
+      wanted[k] = V::load(tangent.row.impulse) - times(L::load(tangent.row.effective_mass), slip[k]);
     }
     // The cone as a polygon of 16 sides inside it, x + tan(pi/16) y <= limit and (cos(3 pi/16) x + sin(3 pi/16) y) /
     // cos(pi/16) <= limit where x is the larger. Exact along either axis, and the basis lies along the friction; 2 %
@@ -132,7 +153,15 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     const V size =
         max(x + times(L::broadcast(S(0.19891236737965800691)), y),
             times(L::broadcast(S(0.84775906502257351226)), x) + times(L::broadcast(S(0.56645449735052153652)), y));
-    const auto slides = less(limit, size);
+    auto slides = less(limit, size);
+    const auto grained = less(U::load(c.ratio), U::broadcast(Unit<S>(1)));
+    if (any(grained)) {
+      const L step = min(L::load(c.tangents[0].row.effective_mass), L::load(c.tangents[1].row.effective_mass));
+      const V equal[2] = {V::load(c.tangents[0].row.impulse) - times(step, slip[0]),
+                          V::load(c.tangents[1].row.impulse) - times(step, slip[1])};
+      hold_in_ellipses(c, to_bits(grained), limit, equal, wanted);
+      slides = slides & ~grained;
+    }
     if (any(slides)) {
       const L part = quotient_where<L>(slides, limit, size);
       for (V& w : wanted) w = select(slides, times(part, w), w);

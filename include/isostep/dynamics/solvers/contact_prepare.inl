@@ -53,6 +53,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
   static_assert(offsetof(Contact<S>, twist_impulse) == offsetof(Contact<S>, normal_impulse) + 7 * sizeof(S));
   static_assert(sizeof(Point) == 7 * sizeof(S) && sizeof(SolverMass<S>) == 10 * sizeof(S));
   static_assert(offsetof(Geometry, material) == offsetof(Geometry, points) + kMaxContactPoints * sizeof(Point));
+  static_assert(offsetof(Geometry, ratio) == offsetof(Geometry, axis) + sizeof(Vec3<Unit<S>>));
   static_assert(sizeof(MixedMaterial<S>) == 7 * sizeof(S));
 
   template <int Words, class T, class Record, class Field>
@@ -67,10 +68,17 @@ template <class S, int W, class Isa> struct ContactPreparer {
         contacts, [](const Contact<S>& c) ISO_INLINE_LAMBDA { return &c.normal_impulse[0]; }, w);
     return {{w[0], w[1], w[2], w[3]}, {w[4], w[5], w[6]}, w[7]};
   }
-  static ISO_INLINE Vec3<U> gather_direction(const Geometry* const* geometry, Vec3<Unit<S>> Geometry::*direction) {
+  static ISO_INLINE Vec3<U> gather_normal(const Geometry* const* geometry) {
     U w[4];  // the last is the next field's
     gather<4>(
-        geometry, [direction](const Geometry& g) ISO_INLINE_LAMBDA { return &(g.*direction).x; }, w);
+        geometry, [](const Geometry& g) ISO_INLINE_LAMBDA { return &g.normal.x; }, w);
+    return {w[0], w[1], w[2]};
+  }
+  static ISO_INLINE Vec3<U> gather_axis(const Geometry* const* geometry, U& ratio) {
+    U w[4];
+    gather<4>(
+        geometry, [](const Geometry& g) ISO_INLINE_LAMBDA { return &g.axis.x; }, w);
+    ratio = w[3];
     return {w[0], w[1], w[2]};
   }
   static ISO_INLINE Arms gather_point(const Geometry* const* geometry, int p, L& separation) {
@@ -114,10 +122,10 @@ template <class S, int W, class Isa> struct ContactPreparer {
     ISO_UNROLL for (int i = 0; i < W; ++i) bits |= (S(0) < geometry[i]->material.restitution ? 1u : 0u) << i;
     return bits;
   }
-  /// Returns a bit for each contact whose friction acts along a line.
-  static ISO_INLINE std::uint32_t lined(const Geometry* const* geometry) {
+  /// Returns a bit for each contact whose friction has an axis.
+  static ISO_INLINE std::uint32_t grained(const Geometry* const* geometry) {
     std::uint32_t bits = 0;
-    ISO_UNROLL for (int i = 0; i < W; ++i) bits |= (geometry[i]->line == Vec3<Unit<S>>::zero() ? 0u : 1u) << i;
+    ISO_UNROLL for (int i = 0; i < W; ++i) bits |= (geometry[i]->ratio < Unit<S>(1) ? 1u : 0u) << i;
     return bits;
   }
   /// Returns a bit for each contact that did not touch in the last step.
@@ -255,7 +263,7 @@ template <class S, int W, class Isa> struct ContactPreparer {
     share_masses(a, b, make.share_a, make.share_b);
     make.share_a.store(block.share_a);
     make.share_b.store(block.share_b);
-    const Vec3<U> normal = gather_direction(geometry, &Geometry::normal);
+    const Vec3<U> normal = gather_normal(geometry);
     const Vec3<L> n = {convert<L>(normal.x), convert<L>(normal.y), convert<L>(normal.z)};
     store(n, block.normal);
     const Materials material = gather_material(geometry);
@@ -294,11 +302,13 @@ template <class S, int W, class Isa> struct ContactPreparer {
                              convert<V>(material.surface.z)};
     const V limit = round_to<V>(product(material.friction, total));
     Tangents<U> basis = friction_basis(normal, impulses.friction, limit, relative_velocity(a, b, arms) + surface);
-    const Mask lines = Mask::from_bits(lined(geometry));
-    if (any(lines)) {
-      const Vec3<U> line = gather_direction(geometry, &Geometry::line);
-      basis = {select(lines, line, basis.t), select(lines, cross(normal, line), basis.u)};
+    U ratio = U::broadcast(Unit<S>(1));
+    const Mask grain = Mask::from_bits(grained(geometry));
+    if (any(grain)) {
+      const Vec3<U> axis = gather_axis(geometry, ratio);
+      basis = {select(grain, axis, basis.t), select(grain, cross(normal, axis), basis.u)};
     }
+    ratio.store(block.ratio);
     const Vec3<U> directions[2] = {basis.t, basis.u};
     for (int k = 0; k < 2; ++k) {
       FrictionRow<S, W>& tangent = block.tangents[k];
@@ -308,14 +318,14 @@ template <class S, int W, class Isa> struct ContactPreparer {
       store(t, tangent.direction);
       round_to<V>(dot_sum(surface, d)).store(tangent.surface);
     }
-    if (any(lines)) {
-      AngularRow<S, W>& across = block.tangents[1].row;
-      select(lines, L::zero(), L::load(across.effective_mass)).store(across.effective_mass);
-      select(lines, V::zero(), V::load(across.impulse)).store(across.impulse);
-    }
 
     const L patch = run.points > 1 ? patch_radius(arms_b, arms.b, run.points, share) : L::zero();
     prepare_twist(n, patch, material, impulses.twist, make, block);
+    if (any(grain)) {  // as spinning_factor()
+      const U half = U::broadcast(Unit<S>(0.5));
+      const L twist = L::load(block.twist_friction), factor = convert<L>(root(half + half * (ratio * ratio)));
+      select(grain, twist * factor, twist).store(block.twist_friction);
+    }
     V::broadcast(-Velocity<S>(0)).store(block.spin);
     if (run.rolling) {
       prepare_rolling(a, b, first, normal, material.rolling, make, *reinterpret_cast<RollingRows<S, W>*>(memory));
@@ -361,7 +371,8 @@ template <class S, int W, class Isa> struct ContactPreparer {
     const std::size_t bytes = block_bytes<S, W>(run.points, run.rolling);
     // Lanes that are left over hold a contact of nothing with nothing, whose impulses stay zero.
     const Contact<S> no_contact = {};
-    const Geometry no_geometry = {};
+    Geometry no_geometry = {};
+    no_geometry.ratio = Unit<S>(1);
     auto* memory = static_cast<unsigned char*>(run.blocks);
     BlockBodies* bodies = run.bodies;
     for (std::int32_t at = 0; at < run.count; at += W, memory += bytes, ++bodies) {

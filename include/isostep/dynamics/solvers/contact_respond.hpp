@@ -35,6 +35,7 @@ template <class S> class RespondingContact : public ContactLane<S> {
     const V twist = saturate_to<V>(product(this->template get<S>(block + offsetof(Block, twist_friction)), most));
     const V rolling =
         block == 0 ? V(0) : saturate_to<V>(product(this->template get<S>(offsetof(Rolling, lever)), most));
+    const Unit<S> ratio = this->template get<Unit<S>>(block + offsetof(Block, ratio));
     V left = limit;  // as solve_tangents() of the kernel
     this->each_row([&](std::size_t at, std::size_t direction) ISO_INLINE_LAMBDA {
       const V old = impulse_at(at);
@@ -44,6 +45,7 @@ template <class S> class RespondingContact : public ContactLane<S> {
       else if (at < this->normal(0)) {
         next = clamp(old, -left, left);
         left = min(limit, saturate_to<V>(product(S(2.41421356237309504880), limit - abs(next))));
+        left = round_to<V>(product(left, ratio));
       }
       change(at, direction, next - old, a, b);
     });

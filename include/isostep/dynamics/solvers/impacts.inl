@@ -274,8 +274,9 @@ template <class S> void Impacts<S>::rub(const StepContext<S>& context, SolverBod
     if (!(S(0) < g.material.friction) || !(V(0) < touch.impulse)) continue;
     const Bouncing& of = bouncing_[touch.bouncing];
     const SolverMass<S> mass_a = seen(context, bodies, of, true), mass_b = seen(context, bodies, of, false);
-    const Tangents<Unit<S>> basis = tangents_of(g.normal);
+    const Tangents<Unit<S>> basis = friction_tangents(g);
     TangentPair<S> pair = {};
+    pair.ratio = g.ratio;
     const auto& at = g.points[touch.point];
     const auto across = [&](Vec3<Unit<S>> d) {
       const Vec3<S> t = convert<S>(d);

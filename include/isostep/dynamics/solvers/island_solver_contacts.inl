@@ -37,6 +37,7 @@ template <class S> void IslandSolver<S>::place_contact(const StepContext<S>& con
     return System::number(value, exponent);
   };
   patch.friction = factor(block.friction[0], patch.friction_exponent);
+  patch.ratio = System::number(System::value(block.ratio[0]), 0);
   patch.twist_friction = factor(block.twist_friction[0], patch.twist_exponent);
   if (patch.rolling == IslandPatch<N>::kNoRolling) return;
   const auto& rolling = *reinterpret_cast<const RollingRows<S, 1>*>(memory_[c].bytes);

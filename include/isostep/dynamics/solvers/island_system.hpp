@@ -48,6 +48,7 @@ template <class N> struct IslandPatch {
   std::uint32_t points;
   std::uint32_t rolling;              // the first of two rows, or kNoRolling
   N friction, twist_friction, lever;  // [1] limits over the load, times 2^exponent
+  N ratio;                            // [1] of the limits of the two tangents: below one of a grain
   int friction_exponent, twist_exponent, lever_exponent;
   static constexpr std::uint32_t kNoRolling = ~0u;
 };
@@ -98,10 +99,12 @@ template <class N> class IslandSystem {
  protected:
   void list_blocks(std::uint32_t body_count);
   void weigh_rows();
-  bool limit_patch(const IslandPatch<N>& patch);
+  N limit_turns(const IslandPatch<N>& patch, bool& moved);
+  bool limit_patch(const IslandPatch<N>& patch, bool moves);
+  bool limit_grain(const IslandPatch<N>& patch, N limit, bool moves);
   bool set_limit(std::uint32_t r, N limit);
-  void limit_by_disc(const IslandPatch<N>& patch);
-  static bool hold_in_disc(N& x, N& y, N limit);
+  void limit_by_cone(const IslandPatch<N>& patch);
+  static bool hold_in_cone(N& x, N& y, N limit, N ratio);
   void settle_answers();
   void gather_motions(bool held_only);
   N speed(const IslandBlock<N>& block, int r) const;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/dynamics/friction_ellipse.hpp"
 #include "isostep/dynamics/solvers/island_system.hpp"
 
 namespace isostep {
@@ -57,8 +58,8 @@ template <class N> bool IslandSystem<N>::set_limit(std::uint32_t r, N limit) {
   return limit * N(0x1p-5) + answer_slack_ < moved;
 }
 
-/// Limits friction to an octagon inside the cone, exact along both tangents.
-template <class N> bool IslandSystem<N>::limit_patch(const IslandPatch<N>& patch) {
+/// Limits twist and rolling by the load. Returns the limit of friction along the first tangent.
+template <class N> N IslandSystem<N>::limit_turns(const IslandPatch<N>& patch, bool& moved) {
   N load = N(0);
   for (std::uint32_t p = 0; p < patch.points; ++p) {
     const N x = row(patch.normal + p).answer;
@@ -66,32 +67,64 @@ template <class N> bool IslandSystem<N>::limit_patch(const IslandPatch<N>& patch
   }
   const auto share = [load](N factor, int exponent)
                          ISO_INLINE_LAMBDA { return D::bounded(D::shifted(load * factor, exponent)); };
-  const N limit = share(patch.friction, patch.friction_exponent);
-  bool moved = set_limit(patch.first + 2, share(patch.twist_friction, patch.twist_exponent));
+  moved = set_limit(patch.first + 2, share(patch.twist_friction, patch.twist_exponent));
+  if (patch.rolling != IslandPatch<N>::kNoRolling) {
+    const N rolling = share(patch.lever, patch.lever_exponent);
+    for (std::uint32_t r = 0; r < 2; ++r) moved = set_limit(patch.rolling + r, rolling) || moved;
+  }
+  return share(patch.friction, patch.friction_exponent);
+}
+
+/// Limits friction to an octagon inside the cone, exact along both tangents. `moves`: motions are those of the answers.
+template <class N> bool IslandSystem<N>::limit_patch(const IslandPatch<N>& patch, bool moves) {
+  bool moved = false;
+  const N limit = limit_turns(patch, moved);
+  if (patch.ratio < N(1)) return limit_grain(patch, limit, moves) || moved;
   moved = set_limit(patch.first, limit) || moved;
-  const N x = row(patch.first).answer;
-  const N rest = limit - (x < N(0) ? -x : x);
+  const N rest = limit - abs(row(patch.first).answer);
   // (sqrt 2 + 1) rest
   const N across = N(0) < rest ? rest + rest + rest * N(0.41421356237309504880) : N(0);
-  moved = set_limit(patch.first + 1, across < limit ? across : limit) || moved;
-  if (patch.rolling == IslandPatch<N>::kNoRolling) return moved;
-  const N rolling = share(patch.lever, patch.lever_exponent);
-  for (std::uint32_t r = 0; r < 2; ++r) moved = set_limit(patch.rolling + r, rolling) || moved;
-  return moved;
+  return set_limit(patch.first + 1, across < limit ? across : limit) || moved;
 }
 
-/// Limits friction as limit_patch() does, but tangents to the disc of the cone: both have its radius.
-template <class N> void IslandSystem<N>::limit_by_disc(const IslandPatch<N>& patch) {
-  limit_patch(patch);
-  row(patch.first + 1).limit = row(patch.first).limit;
+/// Limits friction on a grain to a rectangle: about the ellipse while it holds, else the one whose corner is the force
+/// that the answers, and what slips, lead to.
+template <class N> bool IslandSystem<N>::limit_grain(const IslandPatch<N>& patch, N limit, bool moves) {
+  const IslandBlock<N>& block = blocks_[patch.first / 3];
+  const N heaviest = max(block.rows[0].diagonal, block.rows[1].diagonal);
+  N to[2] = {block.rows[0].answer, block.rows[1].answer};
+  for (int r = 0; moves && r < 2; ++r) {
+    if (block.rows[r].bound == RowBound::absent) continue;
+    to[r] = D::bounded(to[r] - D::bounded_quotient(residual(block, r), heaviest));
+  }
+  const bool slides = hold_in_cone(to[0], to[1], limit, patch.ratio);
+  const bool moved = set_limit(patch.first, slides ? abs(to[0]) : limit);
+  return set_limit(patch.first + 1, slides ? abs(to[1]) : limit * patch.ratio) || moved;
 }
 
-/// Brings a pair of tangents back into the disc, along its radius. Returns true if it was outside.
-template <class N> bool IslandSystem<N>::hold_in_disc(N& x, N& y, N limit) {
+/// Limits tangents to what the cone admits along each, alone.
+template <class N> void IslandSystem<N>::limit_by_cone(const IslandPatch<N>& patch) {
+  bool moved = false;
+  const N limit = limit_turns(patch, moved);
+  set_limit(patch.first, limit);
+  set_limit(patch.first + 1, patch.ratio < N(1) ? limit * patch.ratio : limit);
+}
+
+/// Brings a pair of tangents back into the cone: along the radius of its disc, or to the nearest point of its ellipse.
+/// Returns true if it was outside.
+template <class N> bool IslandSystem<N>::hold_in_cone(N& x, N& y, N limit, N ratio) {
+  if (ratio < N(1)) {
+    struct Numbers {
+      static ISO_INLINE N quotient(N a, N b) { return D::quotient(a, b); }
+      static ISO_INLINE N root(N a) { return D::root(a); }
+      static ISO_INLINE N part(N of, N a) { return of * a; }
+    };
+    return hold_in_ellipse<Numbers>(ratio, limit, x, y);
+  }
   const N most = max(abs(x), abs(y));
   if (!(N(0) < most)) return false;
-  const N ratio = D::quotient(min(abs(x), abs(y)), most) * N(0.5);
-  const N half = most * D::root(N(0.25) + ratio * ratio);  // of the length: the root stays below one
+  const N fraction = D::quotient(min(abs(x), abs(y)), most) * N(0.5);
+  const N half = most * D::root(N(0.25) + fraction * fraction);  // of the length: the root stays below one
   if (!(limit * N(0.5) < half)) return false;
   const N share = D::quotient(limit * N(0.5), half);
   x = x * share;
@@ -101,7 +134,7 @@ template <class N> bool IslandSystem<N>::hold_in_disc(N& x, N& y, N limit) {
 
 template <class N> void IslandSystem<N>::guess_friction(std::uint32_t patch, bool fresh) {
   const IslandPatch<N>& of = patches_[patch];
-  limit_patch(of);
+  limit_patch(of, false);
   const auto guess = [&](std::uint32_t r) {
     IslandRow<N>& friction = row(r);
     if (fresh) friction.limit = D::kMost;
@@ -202,7 +235,7 @@ template <class N> void IslandSystem<N>::settle_answers() {
 template <class N> void IslandSystem<N>::sweep(int sweeps) {
   settle_answers();
   for (int i = 0; i < sweeps; ++i) {
-    for (const IslandPatch<N>& patch : patches_) limit_patch(patch);
+    for (const IslandPatch<N>& patch : patches_) limit_patch(patch, true);
     for (IslandBlock<N>& block : blocks_) {
       for (int r = 0; r < 3; ++r) {
         IslandRow<N>& row = block.rows[r];

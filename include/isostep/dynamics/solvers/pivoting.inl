@@ -215,7 +215,7 @@ template <class N> bool PivotingSystem<N>::solve(bool firm, std::uint64_t most_w
       solved = descend();
     }
     bool again = yielded(firm);
-    for (const IslandPatch<N>& patch : patches_) again = limit_patch(patch) || again;
+    for (const IslandPatch<N>& patch : patches_) again = limit_patch(patch, true) || again;
     if (!again) break;
     for (IslandBlock<N>& block : blocks_) {
       for (IslandRow<N>& row : block.rows) row.last = takes_back(row, firm) ? clamped(row, row.answer) : N(0);

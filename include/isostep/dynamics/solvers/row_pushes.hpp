@@ -6,6 +6,7 @@
 
 #include "isostep/core/fields.hpp"
 #include "isostep/dynamics/contact.hpp"
+#include "isostep/dynamics/friction_ellipse.hpp"
 #include "isostep/dynamics/joints/joint_rows.hpp"
 #include "isostep/dynamics/solver_body.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
@@ -15,12 +16,13 @@ namespace isostep {
 /// Two rows that are solved at once: friction, rolling resistance, or one row about the normal. Turns hold mass shares.
 template <class S> struct TangentPair {
   JointRow<S> rows[2];
-  S xx, xy, yy;            // [1] inverse of their coupling: what brings both to rest
-  S sliding;               // [1] inverse of a bound of its largest eigenvalue
-  Velocity<S> surface[2];  // [m/s] speed of b's surface against a's along the rows
-  Velocity<S> impulse[2];  // [m/s] accumulated
+  S xx, xy, yy;                // [1] inverse of their coupling: what brings both to rest
+  S sliding;                   // [1] inverse of a bound of its largest eigenvalue
+  Unit<S> ratio = Unit<S>(1);  // [1] of the limits of the two: below one the disc is an ellipse
+  Velocity<S> surface[2];      // [m/s] speed of b's surface against a's along the rows
+  Velocity<S> impulse[2];      // [m/s] accumulated
 
-  ISO_FIELDS(rows, xx, xy, yy, sliding, surface, impulse)
+  ISO_FIELDS(rows, xx, xy, yy, sliding, ratio, surface, impulse)
 };
 
 namespace detail {
@@ -99,8 +101,9 @@ template <class S> ISO_INLINE void invert_pair(TangentPair<S>& pair, S linear) {
 template <class V> struct PairChange { V x, y; };
 
 /// Returns the change that brings a pair to rest. If that would leave a disc of radius `limit`, returns the one towards
-/// the point of its rim that opposes the slip. There the step must be equal along both rows: the inverse coupling leads
-/// elsewhere, as a point off the centre is lighter across than along its arm.
+/// the point of its rim that opposes the slip; of an ellipse, towards the one that takes most power from it. There the
+/// step must be equal along both rows: the inverse coupling leads elsewhere, as a point off the centre is lighter
+/// across than along its arm.
 template <class S>
 ISO_INLINE PairChange<Velocity<S>> resting_change(const TangentPair<S>& pair, Velocity<S> limit, const Motion<S>& a,
                                                   const Motion<S>& b) {
@@ -114,9 +117,15 @@ ISO_INLINE PairChange<Velocity<S>> resting_change(const TangentPair<S>& pair, Ve
   };
   const V x = less(old_x, product(pair.xx, u) + product(pair.xy, v));
   const V y = less(old_y, product(pair.xy, u) + product(pair.yy, v));
+  V to_x = less(old_x, product(pair.sliding, u)), to_y = less(old_y, product(pair.sliding, v));
+  if (pair.ratio < Unit<S>(1)) {
+    V rest_x = x, rest_y = y;
+    if (!hold_impulse_in_ellipse<S>(pair.ratio, limit, rest_x, rest_y)) return {x - old_x, y - old_y};
+    hold_impulse_in_ellipse<S>(pair.ratio, limit, to_x, to_y);
+    return {to_x - old_x, to_y - old_y};
+  }
   if (!(limit < abs(x) + abs(y))) return {x - old_x, y - old_y};
   if (!(limit < direction_of(x, y, V(0)).length)) return {x - old_x, y - old_y};
-  const V to_x = less(old_x, product(pair.sliding, u)), to_y = less(old_y, product(pair.sliding, v));
   const Direction<V> way = direction_of(to_x, to_y, V(0));
   if (!(limit < way.length)) return {to_x - old_x, to_y - old_y};
   return {way.x * limit - old_x, way.y * limit - old_y};

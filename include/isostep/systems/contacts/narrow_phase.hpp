@@ -58,7 +58,8 @@ template <class S> class NarrowPhase {
       of_contact("row_a", g.row_a);
       of_contact("row_b", g.row_b);
       of_contact("normal", g.normal);
-      of_contact("line", g.line);
+      of_contact("axis", g.axis);
+      of_contact("ratio", g.ratio);
       of_contact("points", std::span(g.points, state_.contacts[i].count));
       of_contact("material", g.material);
     });

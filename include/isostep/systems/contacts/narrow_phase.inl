@@ -209,7 +209,8 @@ ISO_INLINE void NarrowPhase<S>::fill_contact(const PartPair& parts, const Manifo
   g.row_a = a.row;
   g.row_b = b.row;
   g.normal = manifold.normal;
-  g.line = Vec3<Unit<S>>::zero();
+  g.axis = Vec3<Unit<S>>::zero();
+  g.ratio = Unit<S>(1);
   const Material<S>&of_a = materials[parts.frame_a], &of_b = materials[parts.frame_b];
   g.material = a.varied || b.varied
                    ? mix(material_of_leaf(a, parts.child_a, of_a), material_of_leaf(b, parts.child_b, of_b))
@@ -279,10 +280,7 @@ void NarrowPhase<S>::settle_friction(const PartPair& parts, const Contact<S>& co
   };
   surface.slip = slip_at(Arms::middle_of(g, contact.count));
   surface.first_slip = slip_at({g.points[0].arm_a, g.points[0].arm_b});
-  const Settings<S>& settings = state_.settings;
-  const std::int32_t rate = integration_rate(settings.solver, settings.hz, settings.substeps);
-  surface.load = saturate_to<Velocity<S>>(product(S(rate / settings.hz), total_normal_impulse(contact)));
-  choose_friction(surface, contact.friction_impulse, g);
+  choose_friction(surface, g);
 }
 /// Returns the old contacts of the key's bodies. The cursor is among them or next to them.
 template <class S>
