@@ -62,9 +62,10 @@ TYPED_TEST(FrictionEllipses, one_grain_leaves_the_ellipse_in_which_its_ellipsoid
 TYPED_TEST(FrictionEllipses, two_grains_leave_an_ellipse_that_neither_exceeds_and_that_touches_both) {
   using S = TypeParam;
   Dice dice(23);
-  const double near = pick<S>(0.01, 1e-3, 0.1, 2e-3);  // the search itself errs by 5e-4
+  const double near = pick<S>(0.02, 5e-3, 0.05, 5e-3);
+  constexpr double kSearch = 0.02;  // what the search itself may miss of a place where two touch
   for (int i = 0; i < 200; ++i) {
-    const auto factor = [&] { return std::exp2(-dice.in(0, 4)); };
+    const auto factor = [&] { return std::exp2(-dice.in(0, 6)); };
     const auto draw = [&] {
       const double fx = factor(), fy = factor(), fz = factor(), angle = dice.in(-3, 3);
       return grain_of<S>({fx, fy, fz}, dice.direction(), angle);
@@ -86,8 +87,8 @@ TYPED_TEST(FrictionEllipses, two_grains_leave_an_ellipse_that_neither_exceeds_an
       within_a = within_a && of_b <= of_a;
       within_b = within_b && of_a <= of_b;
     }
-    EXPECT_TRUE(within_a || to_a < near) << i;
-    EXPECT_TRUE(within_b || to_b < near) << i;
+    EXPECT_TRUE(within_a || to_a < near + kSearch) << i;
+    EXPECT_TRUE(within_b || to_b < near + kSearch) << i;
   }
 }
 
