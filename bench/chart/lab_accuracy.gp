@@ -15,17 +15,17 @@ set output out
 
 set datafile separator tab
 scalars = "float double q16.16 q32.32"
-solvers = "soft_step pgs worst_first direct"
+solvers = "soft_step pgs worst_first direct avbd admm"
 # Colour: the scalar. Mark and dashes: the solver. Peers: letters, with a + at their best settings.
 peers = "B Bullet  D DART  H Havok  J Jolt  M MuJoCo  O ODE  P PhysX PGS  T PhysX TGS  R Rapier SIMD  r Rapier deterministic"
 letter(engine) = engine[1:6] eq "physx-" ? (engine[7:7] eq "p" ? "P" : "T") : engine[1:10] eq "rapier-det" ? "r" : \
   word("B D H J M O R", strstrt("bdhjmor", engine[1:1]))
 sign(engine) = letter(engine) . (strlen(engine) > 5 && engine[strlen(engine) - 4:] eq "-best" ? "+" : "")
 violet = "#8250df"
-array mark[4] = [7, 6, 9, 5]
-array dash[4] = [1, 3, 4, 2]
+array mark[6] = [7, 6, 9, 5, 11, 13]
+array dash[6] = [1, 3, 4, 2, 5, 3]
 do for [k = 1:4] {
-  do for [m = 1:4] {
+  do for [m = 1:6] {
     set style line 100 + 10 * k + m linecolor rgb colours[k] dashtype dash[m] linewidth 1.2 \
       pointtype mark[m] pointsize 0.6
   }
@@ -51,8 +51,10 @@ set label 2 note . "Lines: isostep, 2 to 32 sub-steps." \
 do for [k = 1:4] {
   set label 10 + k word(scalars, k) at screen 0.045 + 0.085 * (k - 1), place(82) left offset 1.4, -0.2 \
     point linecolor rgb colours[k] pointtype 7 pointsize 0.9 textcolor rgb ink font font(12)
-  set label 20 + k word(solvers, k) at screen 0.42 + 0.11 * (k - 1), place(82) left offset 1.4, -0.2 \
-    point linecolor rgb ink pointtype mark[k] pointsize 0.8 textcolor rgb ink font font(12) noenhanced
+}
+do for [m = 1:6] {
+  set label 20 + m word(solvers, m) at screen 0.4 + 0.1 * (m - 1), place(82) left offset 1.4, -0.2 \
+    point linecolor rgb ink pointtype mark[m] pointsize 0.8 textcolor rgb ink font font(12) noenhanced
 }
 set label 30 peers at screen 0.04, place(106) left textcolor rgb violet font font(12) noenhanced
 set label 40 "lost its scene; at the upper edge" at screen 0.045, place(130) left offset 1.4, -0.2 \
@@ -85,10 +87,10 @@ do for [n = 1:count] {
       if (step == 1 || upper < 100 * E_min) { set ytics add (sprintf("%g", value) value) }
     }
   }
-  plot for [k = 1:4] for [m = 1:4] data skip 1 \
+  plot for [k = 1:4] for [m = 1:6] data skip 1 \
          using (kept(scene, word(scalars, k), word(solvers, m)) ? $8 : NaN):9 with linespoints \
          linestyle 100 + 10 * k + m, \
-       for [k = 1:4] for [m = 1:4] data skip 1 \
+       for [k = 1:4] for [m = 1:6] data skip 1 \
          using (series(scene, word(scalars, k), word(solvers, m)) && $10 != 0 ? $8 : NaN):(upper) with points \
          linecolor rgb colours[k] pointtype mark[m] pointsize 0.6, \
        data skip 1 using (peer(scene) ? $8 : NaN):($10 == 0 ? $9 : upper):(sign(strcol(4))) with labels \
