@@ -12,10 +12,6 @@ namespace contact_friction_test {
 template <class S> class ContactFriction : public ::testing::Test {};
 TYPED_TEST_SUITE(ContactFriction, AllScalars);
 
-template <class S> Vec3<Unit<S>> unit(D3 v) {
-  v = v * (1 / length(v));
-  return {num<Unit<S>>(v.x), num<Unit<S>>(v.y), num<Unit<S>>(v.z)};
-}
 template <class S> Vec3<Velocity<S>> velocity(D3 v) {
   return {num<Velocity<S>>(v.x), num<Velocity<S>>(v.y), num<Velocity<S>>(v.z)};
 }
@@ -26,7 +22,7 @@ TYPED_TEST(ContactFriction, what_slips_has_the_dynamic_coefficient_and_what_trem
   SurfaceContact<S> c = {num<S>(0.4), num<S>(0.7), plain, plain, {}, {}};
   const auto chosen = [&](D3 slip, D3 first) {
     ContactGeometry<S> g = {};
-    g.normal = unit<S>({0, 1, 0});
+    g.normal = {Unit<S>(0), Unit<S>(1), Unit<S>(0)};
     c.slip = velocity<S>(slip);
     c.first_slip = velocity<S>(first);
     choose_friction(c, g);
