@@ -18,7 +18,7 @@ template <class S> struct Grain {
   ISO_INLINE bool is_there() const { return !(factors == Vec3<S>{S(1), S(1), S(1)}); }
 };
 
-/// What a contact's grain leaves of its friction. The half axes are `wide` along `axis` and `wide ratio` across it.
+/// Holds what a contact's grain leaves of its friction. Half axes: `wide` along `axis`, `wide ratio` across it.
 template <class S> struct FrictionEllipse {
   Vec3<Unit<S>> axis;  // [1] in the plane of the contact. Zero for a circle
   Unit<S> wide, ratio;
@@ -112,7 +112,7 @@ template <class U> ISO_INLINE U spinning_factor(U ratio) { return sqrt(U(0.5) + 
 /// if it was outside. Repeated with x and y less what slips times one step for both, this finds the force of the
 /// ellipse that dissipates most power: a body that slides along its runners hardly slows, and loses speed across them
 /// at once.
-/// `Numbers` gives quotients of two forces or of two ratios, as a ratio: |a| < 2 |b|. No ratio reaches two.
+/// `Numbers` divides two forces or two ratios, |a| < 2 |b|, and multiplies as IslandNumber does. No ratio reaches two.
 /// Source:  Moreau 1974 (maximal dissipation); Michalowski, Mroz 1978, Arch. Mech. 30(3).
 /// Symbols: the nearest point is x / (1 + g), y ratio^2 / (ratio^2 + g) with the g for which it lies on the ellipse.
 ///          Forces are scaled by ratio / (2 max(|x|, |y|)): reach = the limit, excess = reach g. Newton's iteration for
@@ -147,17 +147,19 @@ template <class Numbers, class T, class U> ISO_INLINE bool hold_in_ellipse(U rat
                                : Numbers::quotient(both * to_y, of_a * Numbers::quotient(to_y, to_x) + of_b);
     excess = excess + (length + length - U(1)) * step;
   }
-  x = Numbers::part(limit, Numbers::quotient(a, length));
-  y = Numbers::part(limit, ratio * Numbers::quotient(b, length));
+  x = Numbers::rounded(Numbers::times(limit, Numbers::quotient(a, length)));
+  y = Numbers::rounded(Numbers::times(limit, ratio * Numbers::quotient(b, length)));
   return true;
 }
 
 namespace detail {
+/// Impulses, and ratios of them.
 template <class S> struct EllipseNumbers {
   using U = Unit<S>;
   template <class T> static ISO_INLINE U quotient(T a, T b) { return divide_to<U>(a, b); }
   static ISO_INLINE U root(U a) { return sqrt(a); }
-  static ISO_INLINE Velocity<S> part(Velocity<S> of, U a) { return round_to<Velocity<S>>(product(of, a)); }
+  static ISO_INLINE auto times(Velocity<S> a, U b) { return product(a, b); }
+  template <class Sum> static ISO_INLINE Velocity<S> rounded(Sum a) { return round_to<Velocity<S>>(a); }
 };
 }  // namespace detail
 

@@ -164,20 +164,14 @@ TYPED_TEST(FrictionEllipses, what_is_outside_is_brought_to_the_nearest_point) {
       pick<S>(2e-6, 1e-8, 2e-5, 1e-8));
 }
 
-template <class N> struct OfIslands {
-  using D = IslandNumber<N>;
-  static N quotient(N a, N b) { return D::quotient(a, b); }
-  static N root(N a) { return D::root(a); }
-  static N part(N of, N a) { return of * a; }
-};
-
 TEST(FrictionEllipseOfIslands, what_is_outside_is_brought_to_the_nearest_point) {
   using F = Fixed<std::int64_t, 62>;
   using E = Exact<double>;
-  expect_nearest<F, F>([](F ratio, F limit, F& x, F& y) { return hold_in_ellipse<OfIslands<F>>(ratio, limit, x, y); },
-                       1.0 / 16, 1e-8);
-  expect_nearest<E, E>([](E ratio, E limit, E& x, E& y) { return hold_in_ellipse<OfIslands<E>>(ratio, limit, x, y); },
-                       1000, 1e-8);
+  expect_nearest<F, F>(
+      [](F ratio, F limit, F& x, F& y) { return hold_in_ellipse<IslandNumber<F>>(ratio, limit, x, y); }, 1.0 / 16,
+      1e-8);
+  expect_nearest<E, E>(
+      [](E ratio, E limit, E& x, E& y) { return hold_in_ellipse<IslandNumber<E>>(ratio, limit, x, y); }, 1000, 1e-8);
 }
 
 }  // namespace friction_ellipse_test

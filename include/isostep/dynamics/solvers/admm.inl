@@ -133,7 +133,7 @@ template <class N> bool AdmmSystem<N>::solve_all() {
 /// Begins with the multipliers that answer the current answers: what rows at their bounds lack.
 template <class N> void AdmmSystem<N>::begin_multipliers() {
   for (const IslandPatch<N>& patch : patches_) this->limit_by_cone(patch);
-  x_.assign(v_.size(), N(0));  // a patch may lack its second row, which its disc reads too
+  x_.assign(v_.size(), N(0));  // a patch may lack its second row, which its cone reads too
   for (std::uint32_t r = 0; r < v_.size(); ++r) {
     const IslandRow<N>& of = this->row(r);
     v_[r] = N(0);

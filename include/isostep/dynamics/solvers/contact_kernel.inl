@@ -12,6 +12,28 @@
 namespace isostep {
 namespace {
 
+/// Brings friction of the contacts whose bits are set into their ellipses: `resting`, what brings rows to rest, or,
+/// where that is outside, what a step that is equal for both rows leads to.
+template <class S, int W, class V>
+ISO_NOINLINE void hold_in_ellipses(const Unit<S> (&ratio)[W], std::uint32_t bits, const V& limit, const V (&equal)[2],
+                                   V (&resting)[2]) {
+  alignas(kLaneAlignment<S, W>) Velocity<S> most[W], rest[2][W], step[2][W];
+  limit.store(most);
+  for (int k = 0; k < 2; ++k) {
+    resting[k].store(rest[k]);
+    equal[k].store(step[k]);
+  }
+  for (int i = 0; i < W; ++i) {
+    if (((bits >> i) & 1u) == 0) continue;
+    Velocity<S> x = rest[0][i], y = rest[1][i];
+    if (!hold_impulse_in_ellipse<S>(ratio[i], most[i], x, y)) continue;
+    rest[0][i] = step[0][i];
+    rest[1][i] = step[1][i];
+    hold_impulse_in_ellipse<S>(ratio[i], most[i], rest[0][i], rest[1][i]);
+  }
+  for (int k = 0; k < 2; ++k) resting[k] = V::load(rest[k]);
+}
+
 /// Source:  Catto 2024, Solver2D: Soft Step. Impulses are velocity changes of the reduced mass, so that every
 ///          coefficient is near one at any masses.
 /// Symbols: n = normal from a to b, v, w = linear and angular velocity, d = displacement since the step began, lambda =
@@ -78,26 +100,6 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
     }
     turn(row, impulse, a, b);
   }
-  /// Brings friction of the contacts whose bits are set into their ellipses: `resting`, what brings rows to rest, or,
-  /// where that is outside, what a step that is equal for both rows leads to.
-  static ISO_NOINLINE void hold_in_ellipses(const ContactBlock<S, W, P>& c, std::uint32_t bits, const V& limit,
-                                            const V (&equal)[2], V (&resting)[2]) {
-    alignas(kLaneAlignment<S, W>) Velocity<S> most[W], rest[2][W], step[2][W];
-    limit.store(most);
-    for (int k = 0; k < 2; ++k) {
-      resting[k].store(rest[k]);
-      equal[k].store(step[k]);
-    }
-    for (int i = 0; i < W; ++i) {
-      if (((bits >> i) & 1u) == 0) continue;
-      Velocity<S> x = rest[0][i], y = rest[1][i];
-      if (!hold_impulse_in_ellipse<S>(c.ratio[i], most[i], x, y)) continue;
-      rest[0][i] = step[0][i];
-      rest[1][i] = step[1][i];
-      hold_impulse_in_ellipse<S>(c.ratio[i], most[i], rest[0][i], rest[1][i]);
-    }
-    for (int k = 0; k < 2; ++k) resting[k] = V::load(rest[k]);
-  }
   /// Stores an accumulated impulse, `wanted` within +-limit. Returns its change.
   static ISO_INLINE V accumulate(AngularRow<S, W>& row, V wanted, V limit) {
     const V next = clamp(wanted, V::zero() - limit, limit);
@@ -159,7 +161,7 @@ template <class S, int W, class Isa, int P, bool Rolling> struct ContactKernel {
       const L step = min(L::load(c.tangents[0].row.effective_mass), L::load(c.tangents[1].row.effective_mass));
       const V equal[2] = {V::load(c.tangents[0].row.impulse) - times(step, slip[0]),
                           V::load(c.tangents[1].row.impulse) - times(step, slip[1])};
-      hold_in_ellipses(c, to_bits(grained), limit, equal, wanted);
+      hold_in_ellipses<S>(c.ratio, to_bits(grained), limit, equal, wanted);
       slides = slides & ~grained;
     }
     if (any(slides)) {

@@ -113,14 +113,7 @@ template <class N> void IslandSystem<N>::limit_by_cone(const IslandPatch<N>& pat
 /// Brings a pair of tangents back into the cone: along the radius of its disc, or to the nearest point of its ellipse.
 /// Returns true if it was outside.
 template <class N> bool IslandSystem<N>::hold_in_cone(N& x, N& y, N limit, N ratio) {
-  if (ratio < N(1)) {
-    struct Numbers {
-      static ISO_INLINE N quotient(N a, N b) { return D::quotient(a, b); }
-      static ISO_INLINE N root(N a) { return D::root(a); }
-      static ISO_INLINE N part(N of, N a) { return of * a; }
-    };
-    return hold_in_ellipse<Numbers>(ratio, limit, x, y);
-  }
+  if (ratio < N(1)) return hold_in_ellipse<D>(ratio, limit, x, y);
   const N most = max(abs(x), abs(y));
   if (!(N(0) < most)) return false;
   const N fraction = D::quotient(min(abs(x), abs(y)), most) * N(0.5);
