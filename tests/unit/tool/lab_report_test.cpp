@@ -310,9 +310,19 @@ TEST(Page, TheSummaryCountsWhatBothScalarsSurvive) {
 }
 
 TEST(Page, TheSummaryNamesWhatTheDefaultFails) {
+  const std::string begin = "The default fails in double or q32.32: ";
   ReportData data = hand_made();
-  EXPECT_TRUE(holds(summary_of(data), "The default fails in double or q32.32: tall_stack."));  // 16 in double
-  data.results.push_back(trial("double", "soft_step", 4, 0.4, 0.1, true));
+  EXPECT_TRUE(holds(summary_of(data), begin + "none."));  // double ran with 16 sub-steps alone
+  data.results.push_back(trial("double", "soft_step", 8, 0.4, 0.3, false));
+  EXPECT_TRUE(holds(summary_of(data), begin + "tall_stack."));
+  data.results.push_back(trial("double", "soft_step", 4, 0.4, 0.1, true));  // fewer sub-steps are enough
+  EXPECT_TRUE(holds(summary_of(data), begin + "none."));
+}
+
+TEST(Page, WhatTheLimitLeftOutIsNoFailureOfTheDefault) {
+  ReportData data = hand_made();
+  data.results.push_back(trial("double", "soft_step", 8, 0, 0, false));
+  data.results.back().state = kLeftOut;
   EXPECT_TRUE(holds(summary_of(data), "The default fails in double or q32.32: none."));
 }
 
