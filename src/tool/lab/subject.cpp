@@ -12,6 +12,12 @@
 namespace isostep::tool::lab {
 namespace {
 
+#ifdef ISOSTEP_QUICK_BUILD
+constexpr const char* kBuild = "-quick";
+#else
+constexpr const char* kBuild = "";
+#endif
+
 scenes::Scene scene_of(const std::string& name_or_file) {
   if (const auto found = scenes::find_scene(name_or_file)) return *found;
   if (ParticleGames::find(name_or_file))
@@ -23,7 +29,7 @@ std::string digest(const Subject& subject) {
   std::string text = write_scene(subject.scene);
   if (subject.trial != nullptr)
     text += subject.trial->measure + std::string(subject.trial->unit) + std::to_string(subject.trial->bar);
-  return hex(behaviour_version()) + "-" + hex(hash_bytes(text.data(), text.size()));
+  return hex(behaviour_version()) + "-" + hex(hash_bytes(text.data(), text.size())) + kBuild;
 }
 
 }  // namespace

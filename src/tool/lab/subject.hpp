@@ -16,7 +16,7 @@ struct Subject {
   const scenes::Trial* trial = nullptr;
   Offer<scenes::Scene> spheres;
   Offer<ParticlePlan> particles;
-  std::string version;  // of the engine's results and of what is run and judged
+  std::string version;  // of the engine's results, of what is run and judged, and of the build's speed
 };
 inline constexpr const char* kModels[] = {"rigid", "spheres", "particles"};
 

@@ -78,12 +78,13 @@ const Standing* find(const std::vector<Standing>& standings, bool (*chosen)(cons
   return found == standings.end() ? nullptr : &*found;
 }
 
-/// Says how often a world's own settings are first.
+/// Says how often a world's own settings are first, of the comparisons that another engine ended.
 std::string places_sentence(const std::vector<LabResult>& results) {
   int all = 0, in_double = 0, in_fixed = 0;
   for (const PublishedTest& test : scenes::published_tests()) {
     for (const int hz : rates_of(test, results)) {
       const std::vector<Standing> standings = standings_of(test, hz, results);
+      if (best_other(standings) == nullptr) continue;
       ++all;
       in_double += place_of(standings, is_double) == 1 ? 1 : 0;
       in_fixed += place_of(standings, is_fixed) == 1 ? 1 : 0;
@@ -129,7 +130,7 @@ std::string published_summary(const std::vector<LabResult>& results) {
       };
       const auto place = [&](bool (*chosen)(const Standing&)) {
         const int at = place_of(all, chosen);
-        return at == 0 ? std::string("-") : std::to_string(at);
+        return at == 0 || best == nullptr ? std::string("-") : std::to_string(at);
       };
       cells.push_back({test.trial.number, step_text(hz), std::string(test.trial.measure) + " [" + test.trial.unit + "]",
                        bar == nullptr ? "" : short_number(bar->must), bar == nullptr ? "" : short_number(bar->aim),
@@ -139,9 +140,8 @@ std::string published_summary(const std::vector<LabResult>& results) {
     }
   }
   return "# Published comparisons, in short\n\nWritten by `./isostep lab --published`. Our figures are those of a "
-         "world's own settings; places are among all engines, ours as one, in double and in q32.32. An articulation "
-         "has "
-         "the same tree in joint coordinates, in double.\n\n" +
+         "world's own settings; places are among all engines, ours as one, in double and in q32.32, and there is none "
+         "where no other engine ended. An articulation has the same tree in joint coordinates, in double.\n\n" +
          markdown_table(cells);
 }
 
