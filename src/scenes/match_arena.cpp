@@ -97,7 +97,7 @@ void add_pucks(Scene& scene, int players, double distance) {
 MatchSettings within_range(MatchSettings settings) {
   settings.players = clamp(settings.players, 1, static_cast<std::int32_t>(kMostPucks));
   settings.pile = clamp(settings.pile, 0, 4000);
-  settings.hz = clamp(settings.hz, 10, 1000);
+  settings.hz = clamp(settings.hz, kLeastHz, kMostHz);
   settings.substeps = clamp(settings.substeps, 1, min(64, kMaxRate / settings.hz));
   return settings;
 }

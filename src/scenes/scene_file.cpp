@@ -187,7 +187,7 @@ Scene read_scene(std::string_view json, const std::string& folder) {
   reader.vector("gravity", scene.gravity);
   reader.flag("allow_sleep", scene.allow_sleep);
   reader.number("restitution_threshold", scene.restitution_threshold);
-  scene.hz = read_count(reader, "hz", 10, 1000, scene.hz);
+  scene.hz = read_count(reader, "hz", kLeastHz, kMostHz, scene.hz);
   scene.substeps = read_count(reader, "substeps", 1, 64, scene.substeps);
   if (reader.has("solver")) scene.solver = static_cast<SolverName>(reader.choice("solver", kSolverNames));
   if (reader.has("projection"))

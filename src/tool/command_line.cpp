@@ -45,7 +45,7 @@ class ToolCommands {
     command->add_option("scene", run_.scene, "a named scene, a scene file, or with --html a recording")->required();
     CommandLine::add_scalar(command, run_.scalar);
     CommandLine::add_frames(command, run_.frames);
-    command->add_option("--hz", run_.game.hz, "steps per second [the scene's]")->check(CLI::Range(10, 1000));
+    command->add_option("--hz", run_.game.hz, "steps per second [the scene's]")->check(CLI::Range(kLeastHz, kMostHz));
     command->add_option("--substeps", run_.game.substeps, "per step [the scene's]")->check(CLI::Range(1, 64));
     command->add_option("--solver", run_.game.solver, "how contacts are solved [the scene's]")
         ->check(CLI::IsMember(CommandLine::names_in(kSolverNames)));
@@ -187,7 +187,7 @@ class ToolCommands {
     lab->add_option("--hz", lab_.hz, "steps per second [the scene's]")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(CLI::Range(10, 1000));
+        ->check(CLI::Range(kLeastHz, kMostHz));
     lab->add_option("--frames", lab_.frames, "at the scene's rate, which other rates match in time [the scene's]")
         ->check(CLI::Range(1, CommandLine::kMostFrames));
     lab->add_option("--limit", lab_.limit, "millions of body sub-steps: a longer run is left out")

@@ -43,7 +43,7 @@ template <class S> bool is_sound(const Pose<S>& pose, S reach) {
 template <class S> bool is_number(S x, S low, S high) { return is_finite(x) && low <= x && x <= high; }
 
 template <class S> void check_settings(const ArticulationSettings<S>& s, DefinitionCheck& checks) {
-  checks.ask(10 <= s.hz && s.hz <= 1000, "settings.hz", "10 to 1000");
+  checks.ask(kLeastHz <= s.hz && s.hz <= kMostHz, "settings.hz", "10 to 10000");
   checks.ask(1 <= s.substeps && s.substeps <= 64 && s.hz * s.substeps <= kMaxRate, "settings.substeps",
              "1 to 64, and hz * substeps up to 16384");
   checks.ask(is_finite(s.gravity) && within(s.gravity, S(1024)), "settings.gravity",

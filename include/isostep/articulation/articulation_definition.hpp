@@ -12,7 +12,7 @@ namespace isostep {
 
 /// The step rate of an articulation, the place where it hangs, and gravity.
 template <class S> struct ArticulationSettings {
-  std::int32_t hz = 60;                    // [1/s] steps, 10..1000
+  std::int32_t hz = 60;                    // [1/s] steps, 10..10000
   std::int32_t substeps = 8;               // per step, 1..64, hz * substeps <= kMaxRate
   Vec3<S> gravity = {S(0), S(-10), S(0)};  // [m/s^2] along the world's axes
   Pose<S> base = Pose<S>::identity();      // [m] in the world: the frame a link without a parent is joined to

@@ -11,6 +11,8 @@
 
 namespace isostep {
 
+/// [1/s] The fewest and the most steps a second.
+inline constexpr std::int32_t kLeastHz = 10, kMostHz = 10000;
 /// The most sub-steps a second. Every scalar can count them and divide by them: Q16.16 ends at 32767, and solvers
 /// multiply the rate by angles below two.
 inline constexpr std::int32_t kMaxRate = 16384;
@@ -20,7 +22,7 @@ inline constexpr std::int32_t kLeastPairs = 64, kMostPairs = 1 << 24;
 
 /// The settings of a world. Rates are whole numbers, so the time step is exact and equal on every machine.
 template <class S> struct Settings {
-  std::int32_t hz = 60;                    // [1/s] steps, 10..1000
+  std::int32_t hz = 60;                    // [1/s] steps, 10..10000
   std::int32_t substeps = 8;               // per step, 1..64, hz * substeps <= kMaxRate; of pgs: passes
   Vec3<S> gravity = {S(0), S(-10), S(0)};  // [m/s^2]
   bool allow_sleep = true;

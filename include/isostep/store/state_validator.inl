@@ -24,7 +24,7 @@ template <class S> class StateValidator {
 
   const char* broken_rule() {
     const Settings<S>& s = state_.settings;
-    if (s.hz < 10 || s.hz > 1000 || s.substeps < 1 || s.substeps > 64 || substep_rate(s) > kMaxRate ||
+    if (s.hz < kLeastHz || kMostHz < s.hz || s.substeps < 1 || s.substeps > 64 || substep_rate(s) > kMaxRate ||
         !is_finite(s.gravity) || !detail::within(s.gravity, Limits<S>::speed()) ||
         static_cast<std::uint32_t>(s.solver) >= kSolvers || s.id_space >= SlotMap::kIdSpaces ||
         s.most_pairs < kLeastPairs || kMostPairs < s.most_pairs ||

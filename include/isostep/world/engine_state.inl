@@ -13,7 +13,7 @@ namespace isostep {
 namespace detail {
 /// Clamps every field to its range. Replaces a solver that is unknown or left out by soft_step.
 template <class S> Settings<S> in_range(Settings<S> s) {
-  s.hz = clamp(s.hz, 10, 1000);
+  s.hz = clamp(s.hz, kLeastHz, kMostHz);
   s.substeps = clamp(s.substeps, 1, min(64, kMaxRate / s.hz));
   if (static_cast<std::uint32_t>(s.solver) >= kSolvers || left_out(s.solver) != nullptr)
     s.solver = SolverName::soft_step;
@@ -39,7 +39,7 @@ template <class S> WorldEngine<S>::WorldEngine(const Settings<S>& settings) {
   const FaultReport report =
       detail::Checklist()
           .proper(instead == nullptr, "solver", instead)
-          .in_range(s.hz == settings.hz, "hz", "10 to 1000")
+          .in_range(s.hz == settings.hz, "hz", "10 to 10000")
           .in_range(s.substeps == settings.substeps, "substeps", "1 to 64, hz * substeps up to kMaxRate")
           .in_range(s.gravity == settings.gravity, "gravity", "components up to Limits::speed()")
           .in_range(s.solver == settings.solver, "solver", "one of SolverName")

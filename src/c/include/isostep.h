@@ -553,7 +553,7 @@ typedef struct iso_f32_contact_point {
 typedef struct iso_f32_settings {
   uint32_t size; /* [bytes] of this struct, as _init sets it */
   uint32_t reserved0;
-  int32_t hz; /* [1/s] steps, 10..1000 */
+  int32_t hz; /* [1/s] steps, 10..10000 */
   int32_t substeps; /* per step, 1..64, hz * substeps <= kMaxRate; of pgs: passes */
   iso_f32_vec3 gravity; /* [m/s^2] */
   uint8_t allow_sleep;

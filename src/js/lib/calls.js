@@ -61,7 +61,7 @@ export class Calls {
     const status = this.module.call(name, ...words);
     if (status !== 0) this.fail(name, status);
   }
-  /** Throws a status in words: "world_create: hz: a number is beyond the scalar's limits; expected 10 to 1000". */
+  /** Throws a status in words: "world_create: hz: a number is beyond the scalar's limits; expected 10 to 10000". */
   fail(name, status) {
     const sentence = this.module.text(this.module.call('iso_last_error'));
     const parts = /^(\w+): (?:([\w.]+): )?([^;]+)(?:; expected (.*))?$/.exec(sentence);
