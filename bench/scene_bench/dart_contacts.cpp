@@ -19,7 +19,7 @@ namespace {
 
 using dart::collision::CollisionObject;
 
-constexpr std::size_t kMostRows = 6000;  // of a group; its matrix and the copies of it then take a gigabyte
+constexpr std::size_t kMostRows = 3000;  // of a group; a step of as many takes seconds
 
 /// DART's shapes may change; nothing here sees more of them than what they are made of.
 dart::dynamics::ShapeNode& shape_of(const CollisionObject& object) {
@@ -74,7 +74,7 @@ void DartSolver::touch() {
 /// DART's matrices are full.
 void DartSolver::solveConstrainedGroup(dart::constraint::ConstrainedGroup& group) {
   if (group.getTotalDimension() > kMostRows) {
-    throw scenes::SceneError("", "DART is given no pile of more than 2000 contacts: its time grows as their cube");
+    throw scenes::SceneError("", "DART is given no pile of more than 1000 contacts: its time grows as their cube");
   }
   BoxedLcpConstraintSolver::solveConstrainedGroup(group);
 }

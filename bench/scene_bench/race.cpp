@@ -54,9 +54,11 @@ void watch_turns(Lane& lane, const scenes::Sight& before, const scenes::Sight& n
   }
 }
 
-void run_frames(Lane& lane, const scenes::Scene& scene, int from, int to) {
+/// Ends after the step with which the engine has spent more than `patience` [ms]. Returns the frames that it has run.
+int run_frames(Lane& lane, const scenes::Scene& scene, int from, int to, double patience) {
   const scenes::JointLimits limits(scene);
-  for (int frame = from; frame < to; ++frame) {
+  int frame = from;
+  while (frame < to && lane.spent <= patience) {
     const scenes::Sight before = is_trial(scene) ? lane.engine->sight() : scenes::Sight{};
     lane.engine->before_step(frame);
     lane.times.push_back(lane.engine->timed_steps(1));
@@ -65,10 +67,11 @@ void run_frames(Lane& lane, const scenes::Scene& scene, int from, int to) {
     if (lane.judge) lane.judge->see(lane.engine->sight());
     if (is_trial(scene)) watch_turns(lane, before, lane.engine->sight());
     if (scene.allow_sleep && lane.asleep_at < 0 && lane.engine->all_asleep()) lane.asleep_at = frame + 1;
-    if (frame < scene.frames - kEnergyFrames) continue;
+    if (frame++ < scene.frames - kEnergyFrames) continue;
     const scenes::Energy energy = lane.engine->sight().energy;
     lane.kinetic += energy.kinetic / energy.mass / kEnergyFrames;
   }
+  return frame;
 }
 
 /// Reach: from the world's end of the first joint to the last body, straight chains only.
@@ -192,9 +195,9 @@ void leave(Lane& lane, const std::string& reason) {
 }
 /// An engine that fails on its way, or takes too long, keeps no other from the end.
 void run_block(Lane& lane, const scenes::Scene& scene, int from, int to, double patience) try {
-  run_frames(lane, scene, from, to);
-  if (to < scene.frames && lane.spent > 1e3 * patience)
-    leave(lane, print("%d of %d steps took %.0f s", to, scene.frames, 1e-3 * lane.spent));
+  const int done = run_frames(lane, scene, from, to, 1e3 * patience);
+  if (done < scene.frames && lane.spent > 1e3 * patience)
+    leave(lane, print("%d of %d steps took %.0f s", done, scene.frames, 1e-3 * lane.spent));
 } catch (const scenes::SceneError& error) {
   leave(lane, error.what());
 }
