@@ -59,14 +59,14 @@ do for [m = 1:6] {
 set label 30 peers at screen 0.04, place(106) left textcolor rgb violet font font(12) noenhanced
 set label 40 "lost its scene; at the upper edge" at screen 0.045, place(130) left offset 1.4, -0.2 \
   point linestyle 30 textcolor rgb ink font font(12)
-set label 41 "+ with an engine's letter: at its best settings" at screen 0.35, place(130) left \
+set label 41 "+ with an engine's letter: at its best settings.   An error of 1e-06 is that or less." at screen 0.3, place(130) left \
   textcolor rgb violet font font(12)
 do for [n = 1:count] {
   scene = word(scenes, n)
-  left = 0.05 + 0.32 * ((n - 1) % 3)
+  left = 0.078 + 0.318 * ((n - 1) % 3)
   top = 187 + 345 * ((n - 1) / 3)
   set lmargin at screen left
-  set rmargin at screen left + 0.27
+  set rmargin at screen left + 0.262
   set tmargin at screen place(top)
   set bmargin at screen place(top + 262)
   unset logscale
@@ -87,6 +87,8 @@ do for [n = 1:count] {
       if (step == 1 || upper < 100 * E_min) { set ytics add (sprintf("%g", value) value) }
     }
   }
+  set xlabel "CPU time of 1/60 s [ms]" font small offset 0, 0.5
+  set ylabel (n % 3 == 1 ? "error, in the title's unit" : "") font small offset 1.5, 0
   plot for [k = 1:4] for [m = 1:6] data skip 1 \
          using (kept(scene, word(scalars, k), word(solvers, m)) ? $8 : NaN):9 with linespoints \
          linestyle 100 + 10 * k + m, \

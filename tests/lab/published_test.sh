@@ -30,7 +30,7 @@ for test in simbenchmark_rolling simbenchmark_666 simbenchmark_bouncing simbench
 done
 [ "$(tail -n 1 "$page")" = '</html>' ] || fail "the page does not end"
 needs_nothing "$page"
-grep -Eq '<p class="lead">Of [0-9]+ comparisons, .* in [1-9][0-9]* in double' "$page" || fail "no place of ours on top"
+grep -Eq '<p class="lead">isostep ran [0-9]+ comparisons, .* in [1-9][0-9]* of them in double' "$page" || fail "no place of ours on top"
 grep -q '<section id="names">' "$page" || fail "nobody is named in full"
 grep -q '<td>better</td>' "$page" || fail "the peer is not in the page"
 grep -q 'its numbers are none' "$page" || fail "a peer without a number has one"

@@ -125,6 +125,7 @@ PublishedTest predictable_test(const char* name, const char* number, const char*
                          .source = "After Chung and Pollard",
                          .year = 2016,
                          .differs = differs,
+                         .starts_differ_by = kChange,
                          .rates = kPredictableRates,
                          .bars = bars});
 }
@@ -135,7 +136,7 @@ constexpr PublishedBar kWallBars[] = {{100, 0.04, 1e-5}};
 constexpr PublishedBar kBrickBars[] = {{100, 0.01, 1e-5}};
 constexpr PublishedBar kStackBars[] = {{100, 0.4, 1e-5}};
 constexpr const char* kManyAtOnce =
-    "our scenes, with 64 bodies at one place that do not meet; q16.16 holds no such change, its 0 says nothing";
+    "our scenes, with 64 bodies at one place that do not meet; q16.16, which holds no such change, does not run";
 
 }  // namespace
 

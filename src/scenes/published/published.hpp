@@ -29,6 +29,7 @@ struct PublishedTest {
   const char* differs = "";  // where theirs is another scene, or was run otherwise than ours
   /// The figure is the distance of the run's outcome from that of the same engine in the shortest steps that it ran.
   bool compares_steps = false;
+  double starts_differ_by = 0;                    // [m] a scalar that cannot hold it does not run
   std::span<const int> rates;                     // [1/s] of the steps, the longest first
   std::span<const PublishedFigure> figures = {};  // none: theirs are of other scenes
   std::span<const PublishedBar> bars;

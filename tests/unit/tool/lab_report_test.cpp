@@ -369,9 +369,33 @@ TEST(Genres, TheCheapestSolverThatHoldsAllIsAdvised) {
 TEST(Genres, TheSentenceCountsWhatAWorldsOwnSettingsHold) {
   const std::string text = advice_sentence(hand_made());
   EXPECT_TRUE(holds(text, "Begin with soft_step and 8 sub-steps")) << text;
-  EXPECT_TRUE(holds(text, "In double they hold the bars of 1 of 1 scenes and survive 0 of 1 trials.")) << "16 it takes";
-  EXPECT_TRUE(holds(text, "In q32.32 they hold the bars of 0 of 1 scenes and survive 1 of 1 trials"));
+  EXPECT_TRUE(holds(text, "In double they hold the bars of 1 of 1 scenes; of 1 trials they survive 0 and fail 0."))
+      << "16 it takes";
+  EXPECT_TRUE(holds(text, "In q32.32 they hold the bars of 0 of 1 scenes; of 1 trials they survive 1 and fail 0."));
   EXPECT_FALSE(holds(text, "In float")) << "it is not in the plan";
+}
+
+TEST(Genres, TheSentenceSaysWhatIsMissingOfOtherEngines) {
+  ReportData data = hand_made();
+  data.results.push_back(trial("", "", 0, 0.1, 0, true));
+  data.results.back().point.engine = "jolt";
+  data.matrix = matrix_of(data.plan.trials, data.plan.scalars, data.plan.solvers, data.results);
+  EXPECT_TRUE(holds(advice_sentence(data), "survives most: 1 of the 1 trials that it ended"));
+  EXPECT_FALSE(holds(advice_sentence(data), "incomplete"));
+  data.plan.trials.push_back("card_house");
+  data.matrix = matrix_of(data.plan.trials, data.plan.scalars, data.plan.solvers, data.results);
+  EXPECT_TRUE(holds(advice_sentence(data), "incomplete: 2 of 4 are not there."));  // jolt's and ode's
+}
+
+TEST(Genres, NothingSlowerThanAFrameIsAdvised) {
+  ReportData data = hand_made();
+  data.plan.scenes = {};
+  data.plan.trials = {"tall_stack"};
+  data.plan.scalars = {"double"};
+  data.results = {trial("double", "soft_step", 8, 17, 0, true)};
+  EXPECT_EQ(genre_cells(data).at(1).at(3), "none");
+  data.results[0].ms = 16;
+  EXPECT_EQ(genre_cells(data).at(1).at(3), "soft_step, 8 sub-steps: 16 ms");
 }
 
 }  // namespace lab_report_test

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <iterator>
 
+#include "isostep/core/scalars.hpp"
 #include "isostep/dynamics/settings.hpp"
 #include "published_page.hpp"
 #include "scenes/trials/scene_numbers.hpp"
@@ -44,6 +45,13 @@ std::vector<int> rates_of(const scenes::PublishedTest& test, bool is_short, bool
   return {rates.front()};
 }
 
+/// [m]
+double resolution_of(const std::string& scalar) {
+  double resolution = 0;
+  with_scalar(scalar, [&](auto tag) { resolution = to_double(isostep::resolution<typename decltype(tag)::Type>()); });
+  return resolution;
+}
+
 /// The same in joint coordinates.
 LabPoint articulated(LabPoint point) {
   point.model = kArticulation;
@@ -61,6 +69,7 @@ std::vector<LabPoint> points_of(const ReportOptions& options, bool full) {
     for (const int hz : rates_of(test, options.is_short, full)) {
       point.hz = hz;
       for (const std::string& scalar : scalar_names()) {
+        if (resolution_of(scalar) > test.starts_differ_by && test.starts_differ_by > 0) continue;
         point.scalar = scalar;
         for (const int substeps : substeps_at(hz)) {
           point.substeps = substeps;
@@ -102,7 +111,7 @@ int write_published_report(const ReportOptions& options, bool full) {
   write_file(in("published.svg"), published_svg(first, results));
   write_file(in("published_steps.svg"), published_svg(all.subspan(first.size()), results));
   write_file(in("published.html"), published_page(results));
-  const std::string summary = published_summary(results);
+  const std::string summary = published_summary(results) + "\n" + stamp();
   write_file(in("published.md"), summary);
   if (!options.peers.empty()) renew_repository(options.out, summary);
   std::cout << in("published.html") << "\n";

@@ -16,7 +16,7 @@ namespace {
 using scenes::PublishedTest;
 
 // [px]
-constexpr int kLeft = 168, kHead = 72, kTop = 46, kLine = 21, kPanel = 190, kScale = 128, kBottom = 34, kMargin = 16;
+constexpr int kLeft = 168, kHead = 72, kTop = 74, kLine = 21, kPanel = 206, kScale = 128, kBottom = 34, kMargin = 16;
 constexpr std::size_t kPanelsInBand = 6;
 constexpr double kDecades = 6;  // below what we must reach: a smaller error stands at the edge
 
@@ -116,6 +116,19 @@ std::string mark_of(const Standing& s, double x, double y) {
   return text;
 }
 
+/// The words in lines that a panel holds.
+std::vector<std::string> lines_of(const std::string& words) {
+  constexpr std::size_t kColumns = 32;
+  std::vector<std::string> lines(1);
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t end = std::min(words.find(' ', at), words.size());
+    if (!lines.back().empty() && kColumns < lines.back().size() + 1 + end - at) lines.emplace_back();
+    lines.back() += (lines.back().empty() ? "" : " ") + words.substr(at, end - at);
+    at = end + 1;
+  }
+  return lines;
+}
+
 std::string panel(const PublishedTest& test, const std::vector<LabResult>& results,
                   const std::vector<std::string>& engines, int left, int top) {
   const std::vector<Standing> standings = drawn_of(test, results);
@@ -123,10 +136,14 @@ std::string panel(const PublishedTest& test, const std::vector<LabResult>& resul
   const double low = top + kLine * static_cast<double>(engines.size());
   const auto x_of = [&](double figure) { return left + kScale * scale.at(figure); };
   std::string text =
-      svg_text(left, top - 38, test.trial.number, std::string("font-weight=\"bold\" fill=\"") + kInk + "\"");
+      svg_text(left, top - 66, test.trial.number, std::string("font-weight=\"bold\" fill=\"") + kInk + "\"");
   const std::string small = std::string("font-size=\"11\" fill=\"") + kMuted + "\"";
-  text +=
-      svg_text(left, top - 23, std::string("[") + test.trial.unit + "], steps of " + step_text(rate_of(test)), small);
+  double line = top - 52;
+  for (const std::string& words :
+       lines_of(std::string(test.trial.measure) + " [" + test.trial.unit + "], steps of " + step_text(rate_of(test)))) {
+    text += svg_text(left, line, words, small);
+    line += 13;
+  }
   for (const double tick : scale.ticks()) {
     text += line_at(x_of(tick), top - 4, x_of(tick), low, "stroke=\"#d0d7de\" stroke-width=\"1\"");
     text += svg_text(x_of(tick), low + 15, tick_text(tick), small + " text-anchor=\"middle\"");
@@ -173,8 +190,8 @@ std::string legend() {
     x += 196;
   }
   text += line_at(x, 48, x + 18, 48, "stroke=\"#0072b2\" stroke-width=\"1.4\" stroke-dasharray=\"4 3\"");
-  text += svg_text(x + 24, 52, "what we must reach", std::string("font-size=\"12\" fill=\"") + kInk + "\"");
-  text += svg_text(x + 160, 52, "× diverged   … left open: too long   – cannot be told to it   ‹ below the scale",
+  text += svg_text(x + 24, 52, "bar of this project", std::string("font-size=\"12\" fill=\"") + kInk + "\"");
+  text += svg_text(x + 160, 52, "× diverged   … too long   – refused   ‹ below the scale",
                    std::string("font-size=\"12\" fill=\"") + kInk + "\"");
   return text;
 }

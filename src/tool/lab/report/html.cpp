@@ -78,6 +78,7 @@ std::string page_head(const std::string& title, const std::string& style) {
 }
 body { font: 15px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--ground);
   max-width: 1240px; margin: 0 auto; padding: 1rem; }
+a { color: inherit; }
 h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.5rem; }
 p, figcaption { color: var(--muted); max-width: 50rem; }
 p.lead { color: var(--ink); font-size: 1.1rem; }
@@ -98,6 +99,19 @@ std::string html_section(const char* id, const std::string& title, const std::st
                          const std::string& content) {
   return std::string("<section id=\"") + id + "\">\n<h2>" + title + "</h2>\n<p>" + note + "</p>\n" + content +
          "</section>\n";
+}
+
+std::string contents_of(const std::string& sections) {
+  const std::string begin = "<section id=\"", middle = "\">\n<h2>", end = "</h2>";
+  std::string links;
+  for (std::size_t at = 0; (at = sections.find(begin, at)) != std::string::npos;) {
+    const std::size_t id = at + begin.size(), id_end = sections.find(middle, id), title = id_end + middle.size();
+    const std::size_t title_end = sections.find(end, title);
+    links += (links.empty() ? "<a href=\"#" : " · <a href=\"#") + sections.substr(id, id_end - id) + "\">" +
+             sections.substr(title, title_end - title) + "</a>";
+    at = title_end;
+  }
+  return "<nav><p>" + links + "</p></nav>\n";
 }
 
 std::string svg_text(double x, double y, const std::string& words, const std::string& attributes) {

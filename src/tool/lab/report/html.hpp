@@ -23,6 +23,9 @@ std::string page_head(const std::string& title, const std::string& style);
 /// A section of a page; all but the id is HTML already.
 std::string html_section(const char* id, const std::string& title, const std::string& note, const std::string& content);
 
+/// A line of links to sections, by their titles.
+std::string contents_of(const std::string& sections);
+
 /// A line of text in an SVG.
 std::string svg_text(double x, double y, const std::string& words, const std::string& attributes);
 

@@ -10,7 +10,7 @@
 namespace isostep::tool::lab {
 
 enum class Fate { untried, survived, failed, open, refused };
-inline constexpr const char* kFateNames[] = {"not run", "survived", "failed", "left open", "refused"};
+inline constexpr const char* kFateNames[] = {"not run", "survived", "failed", "too long", "refused"};
 
 /// The outcome of one trial by one method: of several settings the cheapest that survived, of a peer's the defaults if
 /// they did, else the one that came nearest to its bar. It is open where every run was too long or hung.

@@ -164,25 +164,26 @@ std::string peer_verdicts(const Matrix& matrix, std::size_t row) {
 }  // namespace
 
 std::string page_of(const ReportData& data) {
-  std::string text = page_head("isostep: the laboratory", kMatrixStyle);
-  text += "<h1>isostep: which settings a game needs</h1>\n<p class=\"lead\">" + escaped(advice_sentence(data)) +
+  std::string head = page_head("isostep: the laboratory", kMatrixStyle);
+  head += "<h1>isostep: which settings a game needs</h1>\n<p class=\"lead\">" + escaped(advice_sentence(data)) +
           "</p>\n<p>isostep is a physics engine with four kinds of numbers and several solvers. Here it ran " +
-          std::to_string(data.plan.scenes.size()) + " scenes, whose errors have bars, and " +
-          std::to_string(data.plan.trials.size()) +
+          std::to_string(data.plan.scenes.size()) + " scenes and " + std::to_string(data.plan.trials.size()) +
           " trials, where methods are known to fail, beside other engines: " + std::to_string(data.results.size()) +
           " runs, one thread each." +
           (data.is_short ? " This is a short set: run without --short for all of it." : "") + "</p>\n";
-  text += html_section("games", "For your game",
-                       "The cheapest setting that holds every scene and survives every trial of the line, and the CPU "
-                       "time of 1/60 s of the first of them. A scene resembles a game, no more: try yours by "
-                       "<code>isostep lab your_scene.json</code>.",
-                       escaped_table(genre_cells(data)));
+  std::string text =
+      html_section("games", "For your game",
+                   "The setting that misses fewest scenes and trials of the line, of those the cheapest, and the CPU "
+                   "time of 1/60 s of the first of them, at most 1/60 s. <em>But not</em> names what it misses. A "
+                   "scene resembles a game, no more: try yours by <code>isostep lab your_scene.json</code>.",
+                   escaped_table(genre_cells(data)));
   text += html_section("names", "Who is who", "Solvers and numbers of isostep, and the other engines.",
                        escaped_table(who_is_who(engines_in(data.results))));
   text += html_section(
       "advice", "For each scene",
-      "Per scene and scalar the cheapest setting that holds its bars, and the one that reaches the aim. CPU "
-      "time of a step of 1/60 s, one thread.",
+      "Per scene and scalar the cheapest setting that holds its bars, and the one that reaches the aim. A bar is "
+      "two errors: the largest that this project allows itself, and the aim, below which more accuracy does not "
+      "matter. CPU time of a step of 1/60 s, one thread.",
       escaped_table(advice_cells(data)));
   text +=
       html_section("accuracy", "Speed against accuracy",
@@ -194,8 +195,8 @@ std::string page_of(const ReportData& data) {
       "survival", "Where methods fail",
       "A number: survived with so many sub-steps, or from 120 on with so many steps a second. ✓ another engine "
       "survived "
-      "by its defaults, + by its best settings only. × failed, … left open because it would take too long, – cannot be "
-      "told to it. Point at a cell for its figure. " +
+      "by its defaults, + by its best settings only. × failed, … too long, – refused: the "
+      "engine or the scalar cannot be told it. An empty cell: not run. Point at a cell for its figure. " +
           escaped(failures_of_default(data)),
       matrix_html(data.matrix));
   text +=
@@ -209,7 +210,7 @@ std::string page_of(const ReportData& data) {
                        picture(data.springs, "s-"));
   text += html_section("stages", "What each stage costs", "CPU time of a step's stages, by soft step at 8 sub-steps.",
                        picture(data.stage_chart, "c-") + stage_table(data.stages));
-  return text + "</body>\n</html>\n";
+  return head + contents_of(text) + text + "</body>\n</html>\n";
 }
 
 std::string summary_of(const ReportData& data) {

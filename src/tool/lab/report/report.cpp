@@ -3,6 +3,7 @@
 #include "report.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
 #include <iostream>
 
@@ -42,8 +43,9 @@ class ReportWriter {
     measure_the_rest();
     draw_all();
     write_file(in("report.html"), page_of(data_));
-    write_file(in("lab.md"), summary_of(data_));
-    if (!options_.is_short) renew_repository();
+    const std::string summary = summary_of(data_) + "\n" + stamp();
+    write_file(in("lab.md"), summary);
+    if (!options_.is_short) renew_repository(summary);
     std::cout << in("report.html") << "\n";
   }
 
@@ -130,12 +132,12 @@ class ReportWriter {
   }
 
   /// The pictures of bench/pages/laboratory.md, and the table that people read in the repository.
-  void renew_repository() {
+  void renew_repository(const std::string& summary) {
     const fs::path bench = fs::path(ISOSTEP_CHART_DIR).parent_path();
     if (!fs::is_directory(bench / "charts") || !fs::is_directory(bench / "results")) return;
     if (!data_.accuracy.empty()) rasterise(in("lab_accuracy.svg"), (bench / "charts/lab_accuracy.png").string());
     rasterise(in("lab_survival.svg"), (bench / "charts/lab_survival.png").string());
-    write_file((bench / "results/lab.md").string(), summary_of(data_));
+    write_file((bench / "results/lab.md").string(), summary);
     std::cerr << "lab: renewed charts/lab_*.png and results/lab.md in " << bench.string() << "\n";
   }
 
@@ -160,6 +162,13 @@ void open_report(const ReportOptions& options, const std::string& page) {
   fs::create_directories(options.out, error);
   if (error) throw ToolError(exit_status::kOutput, options.out + ": " + error.message());
   expect_writable(options.out + "/" + page);
+}
+
+std::string stamp() {
+  const std::time_t now = std::time(nullptr);
+  char day[16];
+  std::strftime(day, sizeof day, "%Y-%m-%d", std::gmtime(&now));
+  return std::string(day) + ", isostep " + kVersionText + ", behaviour " + hex(behaviour_version()) + ".\n";
 }
 
 int write_lab_report(const ReportOptions& options) {

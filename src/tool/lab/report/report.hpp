@@ -22,6 +22,9 @@ SweepOptions sweep_options_of(const ReportOptions& options);
 /// Throws ToolError 74 where `page` cannot be written into the report's directory, which it makes.
 void open_report(const ReportOptions& options, const std::string& page);
 
+/// "2026-12-02, isostep 0.1.0, behaviour 99bc2b8bef12ab59.": the last line of a table that people keep.
+std::string stamp();
+
 /// report.html, its pictures and tables; a whole run renews bench/charts/lab_*.png and bench/results/lab.md too, where
 /// the sources still are. An exit status; throws ToolError.
 int write_lab_report(const ReportOptions& options);

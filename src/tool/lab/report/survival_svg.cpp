@@ -75,8 +75,8 @@ std::string legend() {
                              {"#009e73", "#ffffff", "✓", "survived, by defaults"},
                              {"#009e73", "#ffffff", "+", "only by its best settings"},
                              {"#d55e00", "#ffffff", "×", "failed with any"},
-                             {"#f0c75e", "#24292f", "…", "left open: too long"},
-                             {"#eaeef2", "#57606a", "–", "cannot be told to it"}};
+                             {"#f0c75e", "#24292f", "…", "too long"},
+                             {"#eaeef2", "#57606a", "–", "refused"}};
   constexpr int kRow = 22, kEnd = 560;  // [px] from row to row; where one is full
   std::string text;
   int x = kMargin, y = 38;
