@@ -9,7 +9,7 @@ scenes = listed(1)
 count = words(scenes)
 rows = (count + 2) / 3
 width = 1200
-height = 172 + 345 * rows
+height = 172 + 362 * rows
 load ARG0[1:strstrt(ARG0, "lab_accuracy.gp") - 1]."style.gp"
 set output out
 
@@ -64,7 +64,7 @@ set label 41 "+ with an engine's letter: at its best settings.   An error of 1e-
 do for [n = 1:count] {
   scene = word(scenes, n)
   left = 0.078 + 0.318 * ((n - 1) % 3)
-  top = 187 + 345 * ((n - 1) / 3)
+  top = 187 + 362 * ((n - 1) / 3)
   set lmargin at screen left
   set rmargin at screen left + 0.262
   set tmargin at screen place(top)
@@ -87,7 +87,7 @@ do for [n = 1:count] {
       if (step == 1 || upper < 100 * E_min) { set ytics add (sprintf("%g", value) value) }
     }
   }
-  set xlabel "CPU time of 1/60 s [ms]" font small offset 0, 0.5
+  set xlabel "CPU time of 1/60 s [ms]" font small offset 0, 0.8
   set ylabel (n % 3 == 1 ? "error, in the title's unit" : "") font small offset 1.5, 0
   plot for [k = 1:4] for [m = 1:6] data skip 1 \
          using (kept(scene, word(scalars, k), word(solvers, m)) ? $8 : NaN):9 with linespoints \

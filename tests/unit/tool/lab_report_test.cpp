@@ -375,6 +375,20 @@ TEST(Genres, TheSentenceCountsWhatAWorldsOwnSettingsHold) {
   EXPECT_FALSE(holds(text, "In float")) << "it is not in the plan";
 }
 
+TEST(Genres, TheSentenceSaysWhatNeverRan) {
+  ReportData data = hand_made();
+  data.plan.trials = {"tall_stack", "card_house"};
+  const auto add = [&](const char* name, const char* state) {
+    data.results.push_back(trial("q32.32", "soft_step", 4, 0, 0, false));  // 8 were not tried
+    data.results.back().point.scene = name;
+    data.results.back().state = state;
+  };
+  add("card_house", kRefused);
+  EXPECT_TRUE(holds(advice_sentence(data), "of 2 trials they survive 1 and fail 0 (beyond its range: 1)"));
+  data.results.back().state = kLeftOut;
+  EXPECT_TRUE(holds(advice_sentence(data), "of 2 trials they survive 1 and fail 0 (too long: 1)"));
+}
+
 TEST(Genres, TheSentenceSaysWhatIsMissingOfOtherEngines) {
   ReportData data = hand_made();
   data.results.push_back(trial("", "", 0, 0.1, 0, true));

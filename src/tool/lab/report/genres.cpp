@@ -140,6 +140,15 @@ const LabResult* run_of(const Runs& runs, const std::string& scalar, const LabPo
   });
   return found == runs.all.end() ? nullptr : *found;
 }
+/// How a trial ended that was not survived: it failed with as many sub-steps or fewer, or never ran.
+Fate fate_by(const Runs& runs, const std::string& scalar, const LabPoint& own) {
+  Fate fate = Fate::untried;
+  for (const LabResult* r : runs.all) {
+    if (!is_ours(*r, scalar, own.solver) || r->point.hz != runs.hz || own.substeps < r->point.substeps) continue;
+    if (fate != Fate::failed) fate = fate_of(*r);
+  }
+  return fate;
+}
 /// "of 77 trials they survive 71 and fail 5 (too long: 1)": by as many sub-steps as `own` has, or by fewer.
 std::string trials_text(const RunsByName& runs, const ReportData& data, const std::string& scalar,
                         const LabPoint& own) {
@@ -151,8 +160,7 @@ std::string trials_text(const RunsByName& runs, const ReportData& data, const st
       ++survived;
       continue;
     }
-    const LabResult* const run = run_of(found->second, scalar, own);
-    const Fate fate = run == nullptr ? Fate::untried : fate_of(*run);
+    const Fate fate = fate_by(found->second, scalar, own);
     failed += fate == Fate::failed ? 1 : 0;
     refused += fate == Fate::refused ? 1 : 0;
     open += fate == Fate::open ? 1 : 0;
