@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lab_reports.hpp"
 #include "scenes/published/published.hpp"
 #include "tool/lab/published/standing.hpp"
 
@@ -32,7 +33,7 @@ std::vector<Standing> standings(const char* scene, int hz, const std::vector<Lab
   return standings_of(*scenes::find_published_test(scene), hz, results);
 }
 bool is_double(const Standing& s) { return s.is_default && s.scalar == "double"; }
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using lab_reports::holds;
 
 TEST(Standings, TheLeastErrorComesFirstAndWhoDidNotEndLast) {
   LabResult fell = peer("simbenchmark_bouncing", "ode", 0);

@@ -144,12 +144,13 @@ std::string published_summary(const std::vector<LabResult>& results) {
                        place(is_double) + ", " + place(is_fixed)});
     }
   }
-  return "# Published comparisons, in short\n\nWritten by `./isostep lab --published`. Our figures are those of a "
-         "world's own settings. *must* is the largest error that this project allows itself, *aim* the error below "
-         "which "
-         "more accuracy does not matter. Places in double and in q32.32 count rows: each setting of another engine and "
-         "each published figure is a row, all of isostep is one, and equal errors share a place. An articulation has "
-         "the same tree in joint coordinates, in double.\n\n" +
+  return "# Published comparisons, in short\n\n"
+         "Written by `./isostep lab --published`. Our figures are those of a world's own settings. *must* is the "
+         "largest "
+         "error that this project allows itself, *aim* the error below which more accuracy does not matter. Places in "
+         "double and in q32.32 count rows: each setting of another engine and each published figure is a row, all of "
+         "isostep is one, and equal errors share a place. An articulation has the same tree in joint coordinates, in "
+         "double.\n\n" +
          markdown_table(cells);
 }
 

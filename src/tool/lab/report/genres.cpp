@@ -133,54 +133,36 @@ std::string choice_text(const RunsByName& runs, const std::vector<std::string>& 
   return text;
 }
 
-/// The run of one setting of ours at the scene's own rate; null where there is none.
-const LabResult* run_of(const Runs& runs, const std::string& scalar, const LabPoint& own) {
-  const auto found = std::find_if(runs.all.begin(), runs.all.end(), [&](const LabResult* r) {
-    return is_ours(*r, scalar, own.solver) && r->point.substeps == own.substeps && r->point.hz == runs.hz;
-  });
-  return found == runs.all.end() ? nullptr : *found;
-}
-/// How a trial ended that was not survived: it failed with as many sub-steps or fewer, or never ran.
-Fate fate_by(const Runs& runs, const std::string& scalar, const LabPoint& own) {
-  Fate fate = Fate::untried;
-  for (const LabResult* r : runs.all) {
-    if (!is_ours(*r, scalar, own.solver) || r->point.hz != runs.hz || own.substeps < r->point.substeps) continue;
-    if (fate != Fate::failed) fate = fate_of(*r);
-  }
-  return fate;
-}
-/// "of 77 trials they survive 71 and fail 5 (too long: 1)": by as many sub-steps as `own` has, or by fewer.
-std::string trials_text(const RunsByName& runs, const ReportData& data, const std::string& scalar,
-                        const LabPoint& own) {
-  int survived = 0, failed = 0, refused = 0, open = 0;
+/// "of 77 trials they survive 71 and fail 5 (too long: 1)".
+std::string trials_text(const RunsByName& runs, const ReportData& data, LabPoint own) {
+  std::map<Fate, int> count;
   for (const std::string& name : data.plan.trials) {
     const auto found = runs.find(name);
     if (found == runs.end()) continue;
-    if (fewest(found->second, scalar, own.solver, scenes::Reach::must) <= own.substeps) {
-      ++survived;
-      continue;
-    }
-    const Fate fate = fate_by(found->second, scalar, own);
-    failed += fate == Fate::failed ? 1 : 0;
-    refused += fate == Fate::refused ? 1 : 0;
-    open += fate == Fate::open ? 1 : 0;
+    own.scene = name;
+    own.hz = found->second.hz;
+    ++count[fate_within(data.results, own)];
   }
   std::string apart;
-  if (refused > 0) apart = "beyond its range: " + std::to_string(refused);
-  if (open > 0) apart += (apart.empty() ? "too long: " : "; too long: ") + std::to_string(open);
-  return "of " + std::to_string(data.plan.trials.size()) + " trials they survive " + std::to_string(survived) +
-         " and fail " + std::to_string(failed) + (apart.empty() ? "" : " (" + apart + ")");
+  if (count[Fate::refused] > 0) apart = "beyond its range: " + std::to_string(count[Fate::refused]);
+  if (count[Fate::open] > 0)
+    apart += (apart.empty() ? "too long: " : "; too long: ") + std::to_string(count[Fate::open]);
+  return "of " + std::to_string(data.plan.trials.size()) + " trials they survive " +
+         std::to_string(count[Fate::survived]) + " and fail " + std::to_string(count[Fate::failed]) +
+         (apart.empty() ? "" : " (" + apart + ")");
 }
 /// "the bars of 11 of 11 scenes": of those that have bars for the scalar.
-std::string scenes_text(const RunsByName& runs, const ReportData& data, const std::string& scalar,
-                        const LabPoint& own) {
+std::string scenes_text(const RunsByName& runs, const ReportData& data, LabPoint own) {
   int barred = 0, held = 0;
   for (const std::string& name : data.plan.scenes) {
-    if (scenes::bars_of(name, scalar == "q16.16").empty()) continue;
+    if (scenes::bars_of(name, own.scalar == "q16.16").empty()) continue;
     ++barred;
     const auto found = runs.find(name);
-    const LabResult* const run = found == runs.end() ? nullptr : run_of(found->second, scalar, own);
-    held += run != nullptr && holds(*run, scenes::Reach::must) ? 1 : 0;
+    if (found == runs.end()) continue;
+    own.scene = name;
+    own.hz = found->second.hz;
+    held += std::any_of(found->second.all.begin(), found->second.all.end(),
+                        [&](const LabResult* r) { return r->point == own && holds(*r, scenes::Reach::must); });
   }
   return "the bars of " + std::to_string(held) + " of " + std::to_string(barred) + " scenes";
 }
@@ -259,8 +241,9 @@ std::string advice_sentence(const ReportData& data) {
                      " sub-steps at 60 steps a second, the settings of a world that asks for none.";
   for (const char* scalar : {"float", "double", "q32.32"}) {
     if (std::count(data.plan.scalars.begin(), data.plan.scalars.end(), scalar) == 0) continue;
-    text += std::string(" In ") + scalar + " they hold " + scenes_text(runs, data, scalar, own) + "; " +
-            trials_text(runs, data, scalar, own);
+    own.scalar = scalar;
+    text += std::string(" In ") + scalar + " they hold " + scenes_text(runs, data, own) + "; " +
+            trials_text(runs, data, own);
     const double times = times_of_float(runs, data, scalar, own);
     if (times > 0 && std::string(scalar) != "float")
       text += ". They take " + short_number(times) + " times the time of float";

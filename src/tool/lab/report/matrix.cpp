@@ -50,6 +50,16 @@ Fate fate_of(const LabResult& result) {
   return result.judged && result.survived ? Fate::survived : Fate::failed;
 }
 
+Fate fate_within(const std::vector<LabResult>& results, const LabPoint& setting) {
+  Fate best = Fate::untried;
+  for (const LabResult& result : results) {
+    LabPoint point = result.point;
+    point.substeps = std::max(point.substeps, setting.substeps);
+    if (point == setting && rank_of(fate_of(result)) < rank_of(best)) best = fate_of(result);
+  }
+  return best;
+}
+
 std::string sign_of(const MatrixCell& cell) {
   switch (cell.fate) {
     case Fate::survived:

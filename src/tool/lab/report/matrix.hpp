@@ -42,6 +42,9 @@ Matrix matrix_of(const std::vector<std::string>& trials, const std::vector<std::
                  const std::vector<std::string>& solvers, const std::vector<LabResult>& results);
 
 Fate fate_of(const LabResult& result);
+/// Returns how a trial ends by a setting of ours: survived if it or the same with fewer sub-steps does, else failed if
+/// one of them does, else why none of them ran.
+Fate fate_within(const std::vector<LabResult>& results, const LabPoint& setting);
 /// What a cell says: of ours the effort that survived, of a peer whether its defaults did or only its best settings.
 std::string sign_of(const MatrixCell& cell);
 /// "8" sub-steps, or where that did not do "240" steps a second.

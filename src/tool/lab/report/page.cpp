@@ -123,22 +123,12 @@ std::string stage_table(const std::vector<StageCost>& costs) {
   return escaped_table(std::move(cells));
 }
 
-/// Returns true if the default, or its method with fewer sub-steps, has that fate in some run.
-bool default_has(const ReportData& data, const std::string& trial, const std::string& scalar, Fate fate) {
-  const LabPoint own = default_point(trial, scalar);
-  return std::any_of(data.results.begin(), data.results.end(), [&](const LabResult& result) {
-    LabPoint point = result.point;
-    if (point.substeps < own.substeps) point.substeps = own.substeps;  // fewer are enough
-    return point == own && fate_of(result) == fate;
-  });
-}
 /// "The default fails in double or q32.32: newtons_cradle."
 std::string failures_of_default(const ReportData& data) {
   std::string names;
   for (const MatrixRow& row : data.matrix.rows) {
-    const auto fails = [&](const char* scalar) {  // and is not left out as too long
-      return default_has(data, row.trial, scalar, Fate::failed) &&
-             !default_has(data, row.trial, scalar, Fate::survived);
+    const auto fails = [&](const char* scalar) {
+      return fate_within(data.results, default_point(row.trial, scalar)) == Fate::failed;
     };
     if (fails("double") || fails("q32.32")) names += (names.empty() ? "" : ", ") + row.trial;
   }
