@@ -48,6 +48,26 @@ for word in no 1; do
   [ "$said" = "whole: $word" ] || fail "test $full ends with $status and says '$said'"
 done
 
+# Where a compiler finds no library, as root: words that build for minutes ask apt-get for what they need, others name it.
+for stub in 'c++ exit 1' 'id echo 0' 'apt-get echo "$*" >>"$APT_LOG"'; do
+  printf '#!/bin/sh\n%s\n' "${stub#* }" >"$dir/bin/${stub%% *}"
+  chmod +x "$dir/bin/${stub%% *}"
+done
+for word in demo lab matrix bench\ scenes run; do
+  : >"$dir/apt"
+  # shellcheck disable=SC2086
+  (unset ISOSTEP_NO_INSTALL; PATH="$dir/bin:$PATH" CXX=c++ APT_LOG="$dir/apt" ISOSTEP_BUILD_DIR="$dir/bare" "$launcher" $word) \
+    >/dev/null 2>"$dir/err"
+  [ $? -eq 69 ] || fail "'$word' without libraries does not exit 69"
+  grep -q libcli11-dev "$dir/err" || fail "'$word' does not name what is missing"
+  case $word,$(cat "$dir/apt") in
+    run,) ;;
+    run,*) fail "'run' installs" ;;
+    *libcli11-dev*) ;;
+    *) fail "'$word' does not ask for what is missing" ;;
+  esac
+done
+
 # What was not printed was not said: help as well.
 [ -c /dev/full ] || exit 0
 for word in --help --version scenes; do

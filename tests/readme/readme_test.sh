@@ -15,12 +15,12 @@ complain() {
   failures=$((failures + 1))
 }
 
-# Commands of sh blocks. demo, test, matrix and package build everything and are CI's own words; bench and lab --all measure for
-# minutes.
+# Commands of sh blocks. demo, test, matrix and package build everything and are CI's own words; bench, lab --all and
+# lab --published measure for minutes: tests/lab runs short ones.
 # shellcheck disable=SC2086
 commands=$(awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside' $pages | sed 's/ *#.*$//' | grep '^\./isostep ' |
   grep -v -e '^\./isostep demo$' -e '^\./isostep test$' -e '^\./isostep bench' -e '^\./isostep matrix' \
-    -e '^\./isostep package' -e '^\./isostep lab --all')
+    -e '^\./isostep package' -e '^\./isostep lab --all' -e '^\./isostep lab --published')
 # What they write, and the port they meet at, are this run's own; the port is none that the system hands out.
 # Peers are patient: on a machine that stalls nobody has left.
 commands=$(printf '%s\n' "$commands" |
