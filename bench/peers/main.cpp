@@ -83,15 +83,10 @@ bool is_kept(const std::vector<LabRecord>& kept, const PeerJob& job) {
 /// A crash is what the engine made of the scene.
 LabRecord record_of(const PeerJob& job, const ProcessEnd& end, int guard) {
   if (end.signal == 0 && !end.said.empty()) return tool::lab::from_line(end.said);
+  if (!end.hung) return lost_record(job, "the engine crashed, signal " + std::to_string(end.signal));
   LabRecord record = empty_record(job);
-  if (end.hung) {
-    record.result.state = tool::lab::kHung;
-    record.result.reason = "no end within " + std::to_string(guard) + " s";
-    return record;
-  }
-  record.result.reason = "the engine crashed, signal " + std::to_string(end.signal);
-  record.result.judged = scenes::find_trial(job.scene) != nullptr;
-  if (record.result.judged) record.result.state = tool::lab::kDone;
+  record.result.state = tool::lab::kHung;
+  record.result.reason = "no end within " + std::to_string(guard) + " s";
   return record;
 }
 

@@ -161,6 +161,14 @@ LabRecord empty_record(const PeerJob& job) {
   return record;
 }
 
+LabRecord lost_record(const PeerJob& job, const std::string& reason) {
+  LabRecord record = empty_record(job);
+  record.result.reason = reason;
+  record.result.judged = scenes::find_trial(job.scene) != nullptr;
+  if (record.result.judged) record.result.state = tool::lab::kDone;
+  return record;
+}
+
 double work_of(const PeerJob& job) {
   const Scene scene = scene_of(job);
   return static_cast<double>(scene.bodies.size() + scene.joints.size()) * tool::lab::frames_at(scene, -1, job.hz);
@@ -177,6 +185,8 @@ LabRecord run_peer(const PeerJob& job) {
     record = empty_record(job);
     record.result.state = tool::lab::kHung;
     record.result.reason = error.what();
+  } catch (const Lost& error) {
+    record = lost_record(job, error.what());
   } catch (const std::exception& error) {
     record = empty_record(job);
     record.result.reason = error.what();

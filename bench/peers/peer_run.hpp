@@ -18,6 +18,8 @@ struct PeerJob {
 };
 /// A record with point and version, of a run that never began: it is written when a process does not come back.
 LabRecord empty_record(const PeerJob& job);
+/// The same of a run whose engine lost the scene on its way. Trials are failed by that.
+LabRecord lost_record(const PeerJob& job, const std::string& reason);
 
 /// [body steps] For the time that is left of many.
 double work_of(const PeerJob& job);

@@ -93,6 +93,7 @@ class DartEngine : public Peer {
   }
 
   void step() override {
+    check_range();
     for (const PeerForce& force : forces()) bodies_[force.body].node->addExtForce(dart_vector(force.force));
     solver_->touch();
     world_->step();
@@ -128,6 +129,15 @@ class DartEngine : public Peer {
   }
 
  private:
+  /// Where joints come far apart an assertion in Debian's library ends the whole program.
+  void check_range() const {
+    constexpr double kFastest = 1e4, kFurthest = 1e5;  // [m/s], [m]
+    for (const DartBody& body : bodies_) {
+      const double speed = body.node->getLinearVelocity().norm();
+      const double way = body.node->getTransform().translation().norm();
+      if (!(speed < kFastest && way < kFurthest)) throw Lost("DART throws a body out of the scene");
+    }
+  }
   /// A body that no force moves is immobile. Its velocity counts where it touches others; `time` [s] says its place.
   static void move_on(const DartBody& body, const PeerBody& from, double time) {
     const double speed = sqrt(dot(from.angular_velocity, from.angular_velocity));

@@ -69,6 +69,12 @@ struct EngineOptions {
   int substeps = 0;  // of ours; 0: the engine's default
 };
 
+/// An engine made of the scene what it cannot go on with.
+class Lost : public scenes::SceneError {
+ public:
+  explicit Lost(const std::string& reason) : SceneError("", reason) {}
+};
+
 struct Maker {
   const char* name;  // a scalar's name, "bullet", "rapier-simd"
   bool ours;

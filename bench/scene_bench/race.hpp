@@ -43,7 +43,7 @@ struct RaceOptions {
   int rounds = 2;
   int block = 20;        // [frames] an engine runs before the next has its turn
   int frames = 0;        // of a run; 0: as many as the scene says
-  double patience = 12;  // [s] CPU time of an engine's steps in a round: what takes longer is left, for others wait
+  double patience = 30;  // [s] CPU time of an engine's steps in a round: what takes longer is left, for others wait
   EngineOptions engine;
 };
 
