@@ -128,6 +128,8 @@ class ToolCommands {
     command->add_option("scene", selftest_.scene, "a named scene, or a scene file")->required();
     CommandLine::add_scalar(command, selftest_.scalar);
     CommandLine::add_frames(command, selftest_.frames);
+    command->add_option("--solver", selftest_.game.solver, "how contacts are solved [the scene's]")
+        ->check(CLI::IsMember(CommandLine::names_in(kSolverNames)));
     command->add_option("--rollback", selftest_.rollback, "frames run again after a load")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
@@ -152,8 +154,9 @@ class ToolCommands {
     });
     lab->require_subcommand(0, 1);
     lab_.tolerance = lab::kDefaultTolerance;
-    add_lab_sweep(lab);
-    add_lab_report(lab);
+    const std::vector<CLI::Option*> of_one_scene = add_lab_sweep(lab);
+    add_lab_shared(lab);
+    add_lab_report(lab, of_one_scene);
     CLI::App* springs = lab->add_subcommand(
         "springs", "stiffness against integrator and scalar: stable, bounded or exploded, energy after 10 s, time");
     springs->callback([this] { line_.choose([this] { return command_lab_springs(lab_springs_); }); });
@@ -162,34 +165,46 @@ class ToolCommands {
     springs->add_flag("--json", lab_springs_.json, "one JSON object");
   }
 
-  void add_lab_report(CLI::App* lab) {
-    lab->add_flag("--all", lab_.all, "instead of one scene the report: every scene and trial, report.html in --out");
-    lab->add_flag("--short", lab_.is_short, "with --all or --published: a small set of them");
-    lab->add_flag("--published", lab_.published, "instead of one scene the published comparisons, repeated");
-    lab->add_flag("--full", lab_.full, "with --published: steps below a millisecond too");
+  /// The two reports, which take the place of `of_one_scene`, and what is of them alone.
+  void add_lab_report(CLI::App* lab, const std::vector<CLI::Option*>& of_one_scene) {
+    CLI::Option* const all = lab->add_flag(
+        "--all", lab_.all, "instead of one scene the report: every scene and trial, report.html in --out");
+    CLI::Option* const published =
+        lab->add_flag("--published", lab_.published, "instead of one scene the published comparisons, repeated");
+    all->excludes(published);
+    for (CLI::Option* const option : of_one_scene) {
+      all->excludes(option);
+      published->excludes(option);
+    }
+    CLI::Option* const is_short =
+        lab->add_flag("--short", lab_.is_short, "with --all or --published: a small set of them");
+    lab->add_flag("--full", lab_.full, "with --published: steps below a millisecond too")
+        ->needs(published)
+        ->excludes(is_short);
     lab->add_option("--peers", lab_.peers, "with --all or --published: the program that runs other engines");
   }
-  void add_lab_sweep(CLI::App* lab) {
-    lab->add_option("scene", lab_.scene, "a named scene, or a scene file");
-    lab->add_option("--tolerance", lab_.tolerance, "5mm, or penetration=2mm,joint=1mm,deviation=5cm,energy=0.1,stands")
-        ->capture_default_str();
-    lab->add_option("--scalars", lab_.scalars, "with commas between them [all]")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    lab->add_option("--solvers", lab_.solvers, "[all]")->delimiter(',')->allow_extra_args(false);
-    lab->add_option("--models", lab_.models, "rigid, spheres, particles [those that the scene offers]")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    lab->add_option("--substeps", lab_.substeps, "[1,2,4,8,16,32]")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->check(CLI::Range(1, 64));
-    lab->add_option("--hz", lab_.hz, "steps per second [the scene's]")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->check(CLI::Range(kLeastHz, kMostHz));
-    lab->add_option("--frames", lab_.frames, "at the scene's rate, which other rates match in time [the scene's]")
-        ->check(CLI::Range(1, CommandLine::kMostFrames));
+  /// The options that say which runs of one scene, and how they are printed.
+  std::vector<CLI::Option*> add_lab_sweep(CLI::App* lab) {
+    const auto list = [lab](const char* name, auto& values, const char* text) {
+      return lab->add_option(name, values, text)->delimiter(',')->allow_extra_args(false);
+    };
+    return {
+        lab->add_option("scene", lab_.scene, "a named scene, or a scene file"),
+        lab->add_option("--tolerance", lab_.tolerance,
+                        "5mm, or penetration=2mm,joint=1mm,deviation=5cm,energy=0.1,stands")
+            ->capture_default_str(),
+        list("--scalars", lab_.scalars, "with commas between them [all]"),
+        list("--solvers", lab_.solvers, "[all]"),
+        list("--models", lab_.models, "rigid, spheres, particles [those that the scene offers]"),
+        list("--substeps", lab_.substeps, "[1,2,4,8,16,32]")->check(CLI::Range(1, 64)),
+        list("--hz", lab_.hz, "steps per second [the scene's]")->check(CLI::Range(kLeastHz, kMostHz)),
+        lab->add_option("--frames", lab_.frames, "at the scene's rate, which other rates match in time [the scene's]")
+            ->check(CLI::Range(1, CommandLine::kMostFrames)),
+        CommandLine::add_path(lab, "--csv", lab_.csv, "write every run as a table"),
+        lab->add_flag("--json", lab_.json, "one JSON object"),
+    };
+  }
+  void add_lab_shared(CLI::App* lab) {
     lab->add_option("--limit", lab_.limit, "millions of body sub-steps: a longer run is left out")
         ->check(CommandLine::number_between(1e-3, 1e9))
         ->capture_default_str();
@@ -197,8 +212,6 @@ class ToolCommands {
     lab->add_option("--out", lab_.out, "directory of results.jsonl, where what is done is not done again")
         ->capture_default_str();
     lab->add_flag("--fresh", lab_.fresh, "run again what is done");
-    CommandLine::add_path(lab, "--csv", lab_.csv, "write every run as a table");
-    lab->add_flag("--json", lab_.json, "one JSON object");
   }
   void add_selfcheck() {
     CLI::App* command =

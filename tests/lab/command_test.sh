@@ -53,12 +53,21 @@ lab S1x5 --scalars double --solvers soft_step,pgs --substeps 2,8 --frames 600 --
 [ "$(grep -c ',2,done,' "$dir/short.csv")" -eq 2 ] || fail "others are left out"
 [ "$(wc -l <"$dir/short/results.jsonl")" -eq 2 ] || fail "runs that never began are kept"
 
+# Where nothing ran nothing is advised, and what was refused has no figures.
+lab S1x5 --scalars double --solvers pgs --substeps 2 --limit 0.001 --out "" || fail "lab fails where nothing runs"
+grep -q '^advice: none, for nothing was run: too long: ' "$dir/out" || fail "advice of runs that never were"
+lab S13 --scalars q16.16 --solvers pgs --substeps 2 --frames 1 --out "" || fail "lab fails where a scalar is refused"
+grep -q 'inf' "$dir/out" && fail "a refused run has figures"
+
 # Ctrl-C ends with whole lines and says how to go on. The run is too long to end by itself.
 rm -rf "$out"
 "$tool" lab S1x5 --scalars double --solvers soft_step --substeps 8 --frames 100000000 --limit 1e6 --out "$out" \
   >"$dir/out" 2>"$dir/err" &
 lab=$!
 until [ -e "$out/results.jsonl" ] || ! kill -0 "$lab" 2>/dev/null; do sleep 0.1; done # it listens from then on
+grep -q . "$out/results.jsonl" && fail "a run that had no time ended"
+lab S1x5 --out "$out"
+[ $? -eq 74 ] && grep -q 'another isostep lab writes there' "$dir/err" || fail "two write into one file"
 kill -INT "$lab"
 wait "$lab"
 [ $? -eq 130 ] || fail "an interrupted lab exits with another status than 130"
@@ -85,8 +94,18 @@ refuses 64 "of particles already" rope
 refuses 64 "substeps" S1x5 --substeps 65
 refuses 64 "hz" S1x5 --hz 5
 refuses 74 "" S1x5 --csv "$dir/none/a.csv"
+refuses 64 "S1x5 is no trial" S1x5 --tolerance figure=1
+refuses 64 "are for --all and --published" S1x5 --short
+refuses 64 "are for --all and --published" S1x5 --peers true
+refuses 64 "--full requires --published" S1x5 --full
+refuses 64 "scene excludes --all" S1x5 --all
+refuses 64 "excludes" --all --scalars double
+refuses 64 "excludes" --published --csv "$dir/a.csv"
+refuses 64 "excludes" --published --all
+refuses 64 "excludes" --published --short --full
+refuses 66 "no such program" --published --short --peers "$dir/none"
 echo '{"bodies": [{"type": "dynamic"}]}' >"$dir/wrong.json"
 refuses 64 "wrong.json:/bodies/0" "$dir/wrong.json"
 mkdir -p "$out" && echo '{}' >"$out/results.jsonl"
-refuses 64 "results.jsonl:1: scene is missing" S1x5 --frames 1
+refuses 64 "results.jsonl:1: scene is missing; without that line its run is done again" S1x5 --frames 1
 echo "the laboratory answers, goes on, and refuses"

@@ -51,6 +51,7 @@ refuses() {
   "$tool" lab "$@" >"$dir/out" 2>"$dir/err"
   [ $? -eq 64 ] && grep -q -- "$words" "$dir/err" || fail "lab $* is not refused"
 }
-refuses "of the published tests alone" S1 --published
+"$tool" lab --published --short --limit 0.001 --out "$dir/nothing" >"$dir/out" 2>"$dir/err" || fail "fails where all is left out"
+grep -q '<p class="lead">No comparison: ' "$dir/nothing/published.html" || fail "counts comparisons that never were"
 refuses "needs a directory" --published --out ''
 echo "the published tests are whole"

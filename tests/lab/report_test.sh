@@ -55,6 +55,10 @@ refuses() {
   "$tool" lab "$@" >"$dir/out" 2>"$dir/err"
   [ $? -eq 64 ] && grep -q -- "$words" "$dir/err" || fail "lab $* is not refused"
 }
-refuses "of every scene" S1 --all
+printf '#!/bin/sh\nexit 3\n' >"$dir/failing" && chmod +x "$dir/failing"
+report --peers "$dir/failing"
+[ $? -eq 70 ] && grep -q 'failing failed: the report has of other engines what it left' "$dir/err" ||
+  fail "peers that fail go unnoticed"
+[ "$(cat "$dir/out")" = "$page" ] || fail "no page where peers fail"
 refuses "needs a directory" --all --out ''
 echo "the report is whole"

@@ -42,6 +42,11 @@ void require_built(const scenes::Scene& asked) {
   if (const char* why = scenes::left_out(asked)) throw ToolError(exit_status::kUsage, why);
 }
 
+void require_projection(const scenes::Scene& asked, const GameOptions& options) {
+  if (!options.projection.empty() && asked.solver != SolverName::worst_first)
+    throw ToolError(exit_status::kUsage, "--projection is for --solver worst_first: others have none");
+}
+
 void require_rigid_methods(const GameOptions& options) {
   if (!options.integrator.empty() || !options.stepping.empty())
     throw ToolError(exit_status::kUsage, "--integrator and --stepping are for scenes of particles");

@@ -26,6 +26,8 @@ scenes::Scene load_scene_file(const std::string& name_or_file);
 void require_rigid_methods(const GameOptions& options);
 /// Throws ToolError 64 for methods that this build leaves out.
 void require_built(const scenes::Scene& asked);
+/// Throws ToolError 64 where the options choose a projection for a solver that has none.
+void require_projection(const scenes::Scene& asked, const GameOptions& options);
 /// Some worlds stay on the calling thread: for those a ToolError 64.
 template <class W> void use_threads(W& world, const TaskRunner& runner) {
   if constexpr (requires { world.use_threads(runner); }) {
@@ -86,6 +88,7 @@ template <class S> struct SceneGame {
     asked.broad_phase = scene.broad_phase;
     ask(asked, options);
     require_built(asked);
+    require_projection(asked, options);
     return scenes::settings_of<S>(asked);
   }
   void before_step(World& any) const { scenes::before_step(script, any); }

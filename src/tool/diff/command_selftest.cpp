@@ -16,12 +16,12 @@ template <class Game> class Selftest {
   using Scene = typename Game::Scene;
 
   Selftest(const SelftestOptions& options, const Scene& scene)
-      : options_(options), scene_(scene), game_(scene), other_(scene) {}
+      : options_(options), scene_(scene), game_(scene, options.game), other_(scene, options.game) {}
 
   int run() {
     for (int i = 0; i < kOtherLife; ++i) other_.advance();
     const int frames = options_.frames >= 0 ? options_.frames : scene_.frames;
-    Game straight(scene_);
+    Game straight(scene_, options_.game);
     truth_.push_back(straight.world.hash());
     const std::vector<std::uint64_t> hashes = hashes_of(straight, frames + options_.rollback);
     truth_.insert(truth_.end(), hashes.begin(), hashes.end());
@@ -46,7 +46,7 @@ template <class Game> class Selftest {
     if (world.hash() == expected) return true;
     std::printf("DIFFERENT after %d frames: %s has %s, a world that never saved has %s\n", frame, who,
                 hex(world.hash()).c_str(), hex(expected).c_str());
-    Game straight(scene_);
+    Game straight(scene_, options_.game);
     for (int i = 0; i < frame; ++i) straight.advance();
     print_differences(straight.world.state(), world.state());
     return false;

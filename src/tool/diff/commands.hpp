@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "tool/common/game_options.hpp"
+
 namespace isostep::tool {
 
 struct DiffOptions {
@@ -18,6 +20,7 @@ int diff_stages(const DiffOptions& options);
 struct SelftestOptions {
   std::string scene;
   std::string scalar = "float";
+  GameOptions game;
   int frames = -1;
   int rollback = 10;
   int every = 1;

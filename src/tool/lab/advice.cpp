@@ -37,7 +37,7 @@ std::string model_text(const LabResult& result) {
 /// "the default (float, soft_step, 8 sub-steps at 60 Hz) takes 0.18 ms and misses joint = 1 mm by 3 mm".
 std::string default_text(const LabResult& own, const Tolerance& tolerance) {
   const std::string name = "the default (" + setting_text(own.point) + ")";
-  if (own.state == kRefused) return name + " is refused: " + own.reason;
+  if (own.state != kDone) return name + " is " + (own.state == kRefused ? "refused" : "left out") + ": " + own.reason;
   const std::string miss = miss_of(own, tolerance);
   return name + " takes " + ms_text(own.ms) + (miss.empty() ? " and holds it too" : " and misses " + miss);
 }
@@ -94,6 +94,10 @@ Advice advise(const std::vector<LabResult>& results, const Tolerance& tolerance,
         results, [&](const LabResult& r) { return asked(r) && std::isfinite(excess_of(r, tolerance)); }, closer);
   if (!advice.best) {
     advice.text = "no run holds " + tolerance.text + ", and none comes near it";
+    const Place ran = least(
+        results, [&](const LabResult& r) { return asked(r) && r.state == kDone; }, closer);
+    const Place first = least(results, asked, [](const LabResult&, const LabResult&) { return false; });
+    if (!ran && first) advice.text = "none, for nothing was run: " + results[*first].reason;
     return advice;
   }
   const LabResult& best = results[*advice.best];

@@ -25,13 +25,8 @@ lab::ReportOptions report_of(const LabOptions& options, const std::string& word)
   report.peers = options.peers;
   return report;
 }
-int command_lab_all(const LabOptions& options) {
-  if (!options.scene.empty()) throw ToolError(exit_status::kUsage, "lab: --all is of every scene, not of one");
-  return lab::write_lab_report(report_of(options, "--all"));
-}
+int command_lab_all(const LabOptions& options) { return lab::write_lab_report(report_of(options, "--all")); }
 int command_lab_published(const LabOptions& options) {
-  if (!options.scene.empty() || options.all)
-    throw ToolError(exit_status::kUsage, "lab: --published is of the published tests alone");
   return lab::write_published_report(report_of(options, "--published"), options.full);
 }
 
@@ -42,8 +37,11 @@ int command_lab(const LabOptions& options) {
   if (options.all) return command_lab_all(options);
   if (options.scene.empty())
     throw ToolError(exit_status::kUsage, "lab: a scene is missing (isostep scenes lists them; --all: every one)");
+  if (options.is_short || !options.peers.empty())
+    throw ToolError(exit_status::kUsage, "lab: --short and --peers are for --all and --published, not for a scene");
   const lab::Tolerance tolerance = lab::parse_tolerance(options.tolerance);
   const lab::Subject subject = lab::subject_of(options.scene);
+  lab::require_judge(tolerance, subject);
   expect_writable(options.csv);
   lab::SweepOptions sweep;
   sweep.out = options.out;

@@ -139,7 +139,8 @@ std::vector<LabRecord> read_records(const std::string& path) {
       if (is_new) records.push_back(std::move(record));
       else records[place->second] = std::move(record);
     } catch (const std::runtime_error& wrong) {
-      throw ToolError(exit_status::kUsage, path + ":" + std::to_string(line) + ": " + wrong.what());
+      throw ToolError(exit_status::kUsage, path + ":" + std::to_string(line) + ": " + wrong.what() +
+                                               "; without that line its run is done again");
     }
     text.remove_prefix(end + 1);
   }

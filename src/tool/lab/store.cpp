@@ -6,6 +6,9 @@
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
+#if __has_include(<sys/file.h>)
+#include <sys/file.h>
+#endif
 
 #include "tool/common/files.hpp"
 #include "tool/common/tool.hpp"
@@ -24,6 +27,17 @@ std::uintmax_t end_of_lines(const std::string& path) {
   throw ToolError(exit_status::kOutput, path + ": " + why);
 }
 
+/// Another process that writes there keeps us out, until it ends in whatever way.
+void lock(std::FILE* file, const std::string& path) {
+#if __has_include(<sys/file.h>)
+  if (flock(fileno(file), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    fail(path, "another isostep lab writes there: wait for its end, or choose another --out");
+#else
+  static_cast<void>(file);
+  static_cast<void>(path);
+#endif
+}
+
 }  // namespace
 
 bool stands_for(const LabRecord& record, const Wanted& wanted) {
@@ -38,15 +52,12 @@ ResultStore::ResultStore(const std::string& directory) {
   std::filesystem::create_directories(directory, error);
   if (error) fail(directory, error.message());
   path_ = directory + "/" + kResultsFile;
-  for (LabRecord& record : read_records(path_)) known_.emplace(name_of(record.result.point), std::move(record));
-  if (std::filesystem::exists(path_, error)) std::filesystem::resize_file(path_, end_of_lines(path_), error);
-  if (error) fail(path_, error.message());
-  file_ = std::fopen(path_.c_str(), "ab");
+  file_.reset(std::fopen(path_.c_str(), "ab"));
   if (file_ == nullptr) fail(path_, std::generic_category().message(errno));
-}
-
-ResultStore::~ResultStore() {
-  if (file_ != nullptr) std::fclose(file_);
+  lock(file_.get(), path_);
+  for (LabRecord& record : read_records(path_)) known_.emplace(name_of(record.result.point), std::move(record));
+  std::filesystem::resize_file(path_, end_of_lines(path_), error);
+  if (error) fail(path_, error.message());
 }
 
 const LabResult* ResultStore::find(const LabPoint& point, const Wanted& wanted) const {
@@ -57,7 +68,7 @@ const LabResult* ResultStore::find(const LabPoint& point, const Wanted& wanted) 
 void ResultStore::append(const LabRecord& record) {
   if (file_ == nullptr) return;
   const std::string line = to_line(record) + "\n";
-  if (std::fwrite(line.data(), 1, line.size(), file_) != line.size() || std::fflush(file_) != 0)
+  if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0)
     fail(path_, std::generic_category().message(errno));
 }
 

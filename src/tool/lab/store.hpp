@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "result.hpp"
@@ -23,11 +24,9 @@ bool stands_for(const LabRecord& record, const Wanted& wanted);
 /// there is taken away by the next that opens it.
 class ResultStore {
  public:
-  /// Makes the directory. Empty: nothing is kept. Throws ToolError 64, 66 or 74.
+  /// Makes the directory. Empty: nothing is kept. Throws ToolError 64 for a line that is no result, 66, or 74, for a
+  /// file that another process has open here too.
   explicit ResultStore(const std::string& directory);
-  ~ResultStore();
-  ResultStore(const ResultStore&) = delete;
-  ResultStore& operator=(const ResultStore&) = delete;
 
   /// Returns null where there is none that stands for it.
   const LabResult* find(const LabPoint& point, const Wanted& wanted) const;
@@ -37,8 +36,12 @@ class ResultStore {
   const std::string& path() const { return path_; }
 
  private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
   std::string path_;
-  std::FILE* file_ = nullptr;
+  std::unique_ptr<std::FILE, Close> file_;
   std::map<std::string, LabRecord> known_;
 };
 

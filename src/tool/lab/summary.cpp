@@ -51,9 +51,12 @@ template <class... Values> std::string formatted(const char* format, Values... v
 }
 
 std::string row_of(const LabResult& result, const std::vector<Column>& columns, double excess, char mark) {
+  const bool is_done = result.state == kDone;
   std::string row =
-      formatted("%c %9.4g  %-7s %-12s %4d x %-5d %-10s", mark, result.ms, result.point.scalar.c_str(),
-                result.point.solver.c_str(), result.point.substeps, result.point.hz, result.point.model.c_str());
+      formatted("%c %9s  %-7s %-12s %4d x %-5d %-10s", mark, is_done ? formatted("%.4g", result.ms).c_str() : "-",
+                result.point.scalar.c_str(), result.point.solver.c_str(), result.point.substeps, result.point.hz,
+                result.point.model.c_str());
+  if (!is_done) return row + " " + result.state + ": " + result.reason + "\n";
   for (const Column& column : columns) row += formatted(" %11.3g", measured(result, column.quantity) * column.unit);
   return row + formatted(" %9.3g\n", excess);
 }

@@ -117,6 +117,13 @@ double quotient(const LabResult& result, const Bound& bound) {
 
 Tolerance parse_tolerance(const std::string& text) { return Parser(text).parse(); }
 
+void require_judge(const Tolerance& tolerance, const Subject& subject) {
+  for (const Bound& bound : tolerance.bounds) {
+    if (bound.quantity == Quantity::figure && subject.trial == nullptr)
+      throw ToolError(exit_status::kUsage, "--tolerance figure: " + subject.name + " is no trial and has no figure");
+  }
+}
+
 double measured(const LabResult& result, Quantity quantity) {
   switch (quantity) {
     case Quantity::penetration: return result.penetration;

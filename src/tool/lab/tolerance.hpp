@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "result.hpp"
+#include "subject.hpp"
 
 namespace isostep::tool::lab {
 
@@ -28,6 +29,8 @@ inline constexpr const char* kDefaultTolerance = "10mm";
 /// in um, mm, cm or m, energy (its largest gain) and unrest in J/kg, figure in the trial's unit. Throws ToolError 64,
 /// which names the place.
 Tolerance parse_tolerance(const std::string& text);
+/// Throws ToolError 64 where the tolerance bounds a trial's figure and the scene is none.
+void require_judge(const Tolerance& tolerance, const Subject& subject);
 
 /// [1] the largest quotient of what is wrong by what may be: held up to 1. Infinite for a run that is not done, had
 /// to mend numbers, fell, or was measured against no reference when it should.

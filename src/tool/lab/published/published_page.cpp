@@ -91,6 +91,7 @@ std::string places_sentence(const std::vector<LabResult>& results) {
       in_fixed += place_of(standings, is_fixed) == 1 ? 1 : 0;
     }
   }
+  if (all == 0) return "No comparison: isostep by its own settings, or every other engine, has no figure here.";
   return "isostep ran " + std::to_string(all) +
          " comparisons, a test and a step each. By the settings of a world that asks for none it has the least error, "
          "alone or shared, in " +

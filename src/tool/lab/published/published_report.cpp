@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <iostream>
-#include <iterator>
 
 #include "isostep/core/scalars.hpp"
 #include "isostep/dynamics/settings.hpp"
@@ -104,8 +103,8 @@ int write_published_report(const ReportOptions& options, bool full) {
   std::cerr << "lab, part 2 of 2: other engines\n";
   const std::string words = full ? "--published" : "--published --most-hz " + std::to_string(kMillisecond);
   const auto counts = [](const std::string& scene) { return scenes::find_published_test(scene) != nullptr; };
-  std::vector<LabResult> peers = peers_of(options, {"published_peers.jsonl", words, counts});
-  results.insert(results.end(), std::make_move_iterator(peers.begin()), std::make_move_iterator(peers.end()));
+  const Peers peers = peers_of(options, {"published_peers.jsonl", words, counts});
+  results.insert(results.end(), peers.results.begin(), peers.results.end());
 
   const std::span<const scenes::PublishedTest> first = tests_of_first_source(), all = scenes::published_tests();
   write_file(in("published.svg"), published_svg(first, results));
@@ -115,7 +114,7 @@ int write_published_report(const ReportOptions& options, bool full) {
   write_file(in("published.md"), summary);
   if (!options.peers.empty()) renew_repository(options.out, summary);
   std::cout << in("published.html") << "\n";
-  return exit_status::kOk;
+  return status_of(peers, options);
 }
 
 }  // namespace isostep::tool::lab

@@ -17,8 +17,16 @@ struct PeerRuns {
   std::string words;                                     // options, as the shell takes them
   std::function<bool(const std::string& scene)> counts;  // the file may hold runs of other scenes
 };
-/// The results in the file, by name, after the report's program, if it has one, has run what the file lacks. A failure
-/// of the program is a line on stderr: what it left counts.
-std::vector<LabResult> peers_of(const ReportOptions& options, const PeerRuns& runs);
+/// Throws ToolError 66 where the report has a program that is none.
+void expect_peers(const ReportOptions& options);
+
+struct Peers {
+  std::vector<LabResult> results;
+  bool failed = false;  // the program; what it left counts
+};
+/// The results in the file, by name, after the report's program, if it has one, has run what the file lacks.
+Peers peers_of(const ReportOptions& options, const PeerRuns& runs);
+/// The report's exit status, with a line on stderr where the program failed.
+int status_of(const Peers& peers, const ReportOptions& options);
 
 }  // namespace isostep::tool::lab

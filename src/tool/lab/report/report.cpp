@@ -37,9 +37,9 @@ class ReportWriter {
     forget_other_versions();
   }
 
-  void run() {
+  int run() {
     sweep_all();
-    run_peers();
+    const Peers peers = run_peers();
     measure_the_rest();
     draw_all();
     write_file(in("report.html"), page_of(data_));
@@ -47,6 +47,7 @@ class ReportWriter {
     write_file(in("lab.md"), summary);
     if (!options_.is_short) renew_repository(summary);
     std::cout << in("report.html") << "\n";
+    return status_of(peers, options_);
   }
 
  private:
@@ -87,10 +88,12 @@ class ReportWriter {
   }
 
   /// The program resumes by itself; its lines are read whether it was there or not.
-  void run_peers() {
+  Peers run_peers() {
     begin_part("other engines");
-    add(peers_of(options_, {"peers.jsonl", "", [this](const std::string& scene) { return is_asked(scene); }}));
+    Peers peers = peers_of(options_, {"peers.jsonl", "", [this](const std::string& scene) { return is_asked(scene); }});
+    add(peers.results);
     data_.matrix = matrix_of(data_.plan.trials, data_.plan.scalars, data_.plan.solvers, data_.results);
+    return peers;
   }
 
   bool is_asked(const std::string& scene) const {
@@ -162,6 +165,7 @@ void open_report(const ReportOptions& options, const std::string& page) {
   fs::create_directories(options.out, error);
   if (error) throw ToolError(exit_status::kOutput, options.out + ": " + error.message());
   expect_writable(options.out + "/" + page);
+  expect_peers(options);
 }
 
 std::string stamp() {
@@ -171,9 +175,6 @@ std::string stamp() {
   return std::string(day) + ", isostep " + kVersionText + ", behaviour " + hex(behaviour_version()) + ".\n";
 }
 
-int write_lab_report(const ReportOptions& options) {
-  ReportWriter(options).run();
-  return exit_status::kOk;
-}
+int write_lab_report(const ReportOptions& options) { return ReportWriter(options).run(); }
 
 }  // namespace isostep::tool::lab

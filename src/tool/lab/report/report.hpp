@@ -19,7 +19,8 @@ struct ReportOptions {
 };
 /// The runs of a report, kept in its directory.
 SweepOptions sweep_options_of(const ReportOptions& options);
-/// Throws ToolError 74 where `page` cannot be written into the report's directory, which it makes.
+/// Throws ToolError 74 where `page` cannot be written into the report's directory, which it makes, and 66 where there
+/// is no program of that name for the peers.
 void open_report(const ReportOptions& options, const std::string& page);
 
 /// "2026-12-02, isostep 0.1.0, behaviour 99bc2b8bef12ab59.": the last line of a table that people keep.
