@@ -7,8 +7,6 @@
 namespace isostep::scenes {
 namespace {
 
-double on_grid(double metres) { return std::floor(1024 * metres + 0.5) / 1024; }
-Point on_grid(Point p) { return {on_grid(p.x), on_grid(p.y), on_grid(p.z)}; }
 
 void add_ring(std::vector<Point>& points, int corners, double radius, double y) {
   for (int i = 0; i < corners; ++i) {

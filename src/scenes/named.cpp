@@ -4,6 +4,7 @@
 
 #include "book/book.hpp"
 #include "cars.hpp"
+#include "peers/peers.hpp"
 #include "street.hpp"
 #include "trials/trial.hpp"
 #include "walkers.hpp"
@@ -96,6 +97,14 @@ constexpr NamedScene kScenes[] = {
     {"street", "four cars and four walkers in the town, driven by bots", street, false},
     {"S20", "S7 with the limits of a body's joints", limited_ragdolls},
     {"figures", "160 figures of 23 parts fall in a heap on the hills", figures, false},
+    {"large_pyramid", "a triangle of 5050 boxes, a hundred high", large_pyramid, false},
+    {"many_pyramids", "196 triangles of 55 boxes", many_pyramids},
+    {"convex_pile", "5120 boulders fall in a heap", convex_pile, false},
+    {"junkyard", "10 584 rocks in a yard, and a pillar that pushes them around", junkyard, false},
+    {"human_rain", "300 figures with springs and friction in their joints fall on rings", human_rain, false},
+    {"jolt_pyramid", "a square pyramid of 1240 boxes, half a metre apart", jolt_pyramid},
+    {"convex_on_land", "1764 boxes, spheres, capsules and hulls fall on land 300 m wide", convex_on_land, false},
+    {"crossers", "100 characters cross a field of crates, stairs and posts", crossers},
     {"trees", "50 trees of 22 hulls fall on a mesh of 30 000 quads", trees, false},
     {"joint_grid", "a curtain of 10 000 balls and 19 700 joints", joint_grid},
     {"washer", "8000 cubes in a drum that turns and has no ends", washer},

@@ -55,11 +55,6 @@ inline constexpr int kBullets = 1000;
 double bullet_mass(int n);
 /// 160 figures of 23 parts with cones and limits fall in a heap on the hills.
 Scene figures();
-// Scenes after the peers' own benchmarks.
-Scene trees();
-Scene joint_grid();
-Scene washer();
-Scene large_world();
 Scene mixer();
 Scene mixed();
 Scene medley();

@@ -152,10 +152,13 @@ enum class Script : std::uint32_t {
   guns,
   cars,
   walkers,
-  street
+  street,
+  pusher,
+  crossers
 };
 inline constexpr const char* kScriptNames[] = {"none",        "mixer", "mixed", "hit",  "medley",  "flight",
-                                               "flight_left", "sail",  "guns",  "cars", "walkers", "street"};
+                                               "flight_left", "sail",  "guns",  "cars", "walkers", "street",
+                                               "pusher",      "crossers"};
 
 struct Scene {
   std::string name = "scene";

@@ -10,6 +10,7 @@
 #include "medley.hpp"
 #include "mixed.hpp"
 #include "named.hpp"
+#include "peers/peers.hpp"
 #include "shapes.hpp"
 #include "street.hpp"
 #include "walkers.hpp"
@@ -209,6 +210,8 @@ template <class S> void before_step(Script script, World<S>& world) {
   if (script == Script::cars) drive_cars(world);
   if (script == Script::street) play_street(world);
   if (script == Script::walkers) lead_walkers(world);
+  if (script == Script::pusher) push_junk(world);
+  if (script == Script::crossers) lead_crossers(world);
 }
 
 #define ISO_INSTANTIATE(S) template void before_step<S>(Script, World<S>&);

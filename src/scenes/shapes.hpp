@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "isostep/scalar/math.hpp"
@@ -29,6 +30,9 @@ struct Point {
   double x, y, z;
 };
 inline Vector vector_of(Point p) { return {p.x, p.y, p.z}; }
+/// Rounds to 1/1024 m: so every scalar and every engine gets one geometry.
+inline double on_grid(double metres) { return std::floor(1024 * metres + 0.5) / 1024; }
+inline Point on_grid(Point p) { return {on_grid(p.x), on_grid(p.y), on_grid(p.z)}; }
 
 inline ScenePart box_part(Point half) {
   ScenePart part;

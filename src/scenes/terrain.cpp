@@ -14,7 +14,6 @@ constexpr int kGroundPlaces = 101;  // of heights along a side
 constexpr double kApart = 0.5;      // [m]
 constexpr double kGroundHalf = 25;  // [m] of the side
 
-double on_grid(double metres) { return std::floor(1024 * metres + 0.5) / 1024; }
 double place(int i) { return kApart * i - kGroundHalf; }
 double hill(int i, int k) {
   const double x = place(i), z = place(k);

@@ -1,32 +1,16 @@
-// Scenes after the peers' own benchmarks, from the facts of Box3D's: trees on a mesh, a grid of joints, a washer, a
-// large world.
+// After Box3D's: trees on a mesh, a grid of joints, a washer, a large world.
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "hull_recipes.hpp"
-#include "named.hpp"
+#include "land.hpp"
+#include "peers.hpp"
+#include "scenes/hull_recipes.hpp"
 
 namespace isostep::scenes {
 namespace {
 
-ScenePart waves() {
-  constexpr int kColumns = 150, kRows = 200;  // cells of 1 m
-  ScenePart part;
-  part.type = ShapeType::mesh;
-  for (int i = 0; i <= kColumns; ++i) {
-    for (int k = 0; k <= kRows; ++k) {
-      const double height = 0.4 * sin_cos(kTurn * 0.1 * i).sin * sin_cos(kTurn * 0.05 * k).sin;  // [m]
-      part.vertices.push_back({i - 75.0, height, k - 100.0});
-    }
-  }
-  for (int i = 0; i < kColumns; ++i) {
-    for (int k = 0; k < kRows; ++k) {
-      const double a = i * (kRows + 1) + k, b = a + kRows + 1, c = a + 1, d = b + 1;
-      part.triangles.push_back({a, c, d});
-      part.triangles.push_back({d, b, a});
-    }
-  }
-  return part;
+double wave(int i, int k) {
+  return 0.4 * sin_cos(kTurn * 0.1 * i).sin * sin_cos(kTurn * 0.05 * k).sin;  // [m]
 }
 
 /// Prisms of six sides above each other, thinner upwards.
@@ -88,7 +72,7 @@ Scene trees() {
   constexpr int kTrees = 50;
   const Trunk of = trunk();
   Scene scene;
-  scene.bodies.push_back(body_of(waves(), {0, 0, 0}));
+  scene.bodies.push_back(body_of(land(150, 200, 1, wave), {0, 0, 0}));
   scene.bodies.back().type = BodyType::static_;
   scene.bodies.back().friction = 0.6;
   for (int i = 0; i < kTrees; ++i) {
