@@ -1,6 +1,7 @@
 // The joints, compiled once for every shipped scalar.
 // SPDX-License-Identifier: MIT
 #include "isostep/core/instantiate.hpp"
+#include "isostep/dynamics/joints/joint_alone.inl"
 #include "isostep/dynamics/joints/joint_tree.inl"
 
 namespace isostep {

@@ -131,6 +131,31 @@ template <class S> void add_driven(JointWorld<S>& world, int count) {
   }
 }
 
+/// A net of boxes that hangs by its upper row. What closes its loops is solved in lanes, turn by turn: points, hinges
+/// with a motor and a limit, and ropes, heavy ones below so that tension acts.
+template <class S> void add_net(JointWorld<S>& world) {
+  constexpr int kSide = 9;
+  const auto first = static_cast<std::uint32_t>(world.states.size());
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const double column = i % kSide, row = i / kSide;
+    world.add_box({column, 80 - row, -40}, row + 1 < kSide ? 1 : 4, {0.2, 0.25, 0.1});
+  }
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const auto here = first + static_cast<std::uint32_t>(i);
+    const double column = i % kSide, row = i / kSide;
+    world.join(JointType::ball, i < kSide ? kNoBody : here - kSide, here, {column, 80.5 - row, -40});
+    if (i % kSide == 0) continue;
+    JointProperties<S>& across =
+        world.join(i % 3 == 0 ? JointType::hinge : JointType::ball, here - 1, here, {column - 0.5, 80 - row, -40});
+    if (i % 3 != 0) continue;
+    across.flags = joint_flag::kLimit | joint_flag::kMotor;
+    across.lower = S(-0.25);
+    across.upper = S(0.25);
+    across.motor_speed = S(i % 2 == 0 ? 1 : -1);
+    across.max_force = S(1);
+  }
+}
+
 template <class S> using Numbers = std::vector<RawBits<S>>;
 /// The bits of what moved and of what was pushed.
 template <class S> Numbers<S> numbers_of(const JointWorld<S>& world) {
@@ -168,6 +193,7 @@ template <class S> std::vector<Numbers<S>> play(const Way& way, bool others = tr
   if (others) {
     add_others(world);
     add_driven(world, 21);
+    add_net(world);
   }
   std::vector<Numbers<S>> frames;
   for (int frame = 0; frame < 24; ++frame) {

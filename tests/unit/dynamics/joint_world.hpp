@@ -101,7 +101,7 @@ template <class S> class JointWorld {
   }
   void solve(const JointStep<S>& step, bool relax) {
     if (one_by_one) return solve_joints(std::span<JointConstraint<S>>(constraints), step, relax);
-    for_each_batch([&](std::uint32_t batch) { trees.solve(batch, constraints, step, relax); });
+    for_each_batch([&](std::uint32_t batch) { trees.solve(batch, step, relax); });
   }
   void step() {
     gather();

@@ -86,15 +86,16 @@ template <class S> void linearise_joint(JointConstraint<S>& joint, const JointSt
     JointDrive<S>& drive = joint.drives[i];
     if (drive.soft) detail::yield_limit(drive);
     drive.piece = detail::valid_piece(drive, drive.piece);
-    drive.spring = S(0);  // of a soft limit that the last sub-step left, too
-    if (drive.sways) detail::weigh_sway(joint, step, drive);
-    if (!drive.sprung) continue;
-    const S angle = S(6.283185307179586) * (drive.frequency * step.h);
-    const S a1 = S(2) * drive.damping + angle;
-    drive.spring_came = drive.yields ? Velocity<S>(0) : detail::lagging_way(drive.row, angle, joint, step);
-    drive.spring_root = sqrt(angle) * sqrt(a1);
-    drive.spring_rate = a1 > S(0) ? step.rate * (angle / a1) : S(0);
-    detail::weigh_spring(drive);
+    if (drive.sways) {
+      detail::weigh_sway(joint, step, drive);
+    } else if (drive.sprung) {
+      const S angle = S(6.283185307179586) * (drive.frequency * step.h);
+      if (drive.soft || drive.spring_root == S(0)) detail::weigh_spring(drive, angle, step.rate);
+      drive.spring_came = drive.yields ? Velocity<S>(0) : detail::lagging_way(drive.row, angle, joint, step);
+      detail::set_spring_push(drive);
+    } else {
+      drive.spring = S(0);  // of a soft limit that the last sub-step left, too
+    }
   }
 }
 

@@ -22,14 +22,21 @@ template <class S> ISO_INLINE void place_drives(JointConstraint<S>& joint) {
   }
 }
 
-/// Computes the strength of a spring that has its frequency with the effective mass e that it is made for.
+/// Computes the strength of a spring that has its frequency with the effective mass e that it is made for. It stays for
+/// the step, but for one at a soft limit.
 /// Symbols: a1 = 2 damping + angle, w^2 = angle a1 e, with angle = 2 pi frequency h. Roots are taken apart: for a weak
 ///          spring their product keeps digits that w^2 loses.
-template <class S> ISO_INLINE void weigh_spring(JointDrive<S>& drive) {
-  using V = Velocity<S>;
+template <class S> ISO_INLINE void weigh_spring(JointDrive<S>& drive, S angle, S rate) {
+  const S a1 = S(2) * drive.damping + angle;
+  drive.spring_root = sqrt(angle) * sqrt(a1);
+  drive.spring_rate = a1 > S(0) ? rate * (angle / a1) : S(0);
   drive.spring = drive.spring_inverse > S(0) ? drive.spring_root / sqrt(drive.spring_inverse) : S(0);
   if (drive.spring < S(8) * resolution<S>()) drive.spring = S(0);
   drive.spring_row = direction_of(S(1), drive.spring, S(0));
+}
+/// Computes what the spring asks for where it is now.
+template <class S> ISO_INLINE void set_spring_push(JointDrive<S>& drive) {
+  using V = Velocity<S>;
   const V error = saturate_to<V>(product(drive.position - drive.target, V(1)) - product(S(1), drive.spring_came));
   drive.spring_speed = saturated<S>(product(drive.spring_rate, error));
   drive.spring_push = drive.spring < S(1) ? saturated<S>(product(drive.spring * drive.spring_rate, error))

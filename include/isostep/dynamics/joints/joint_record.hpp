@@ -85,7 +85,7 @@ template <class S> struct JointProperties {
   S upper = S(0);
   S cone = S(0);              // [rad] largest angle between the z axes
   S motor_speed = S(0);       // [rad/s] or [m/s] of b against a
-  S max_force = S(0);      // [N m] or [N] most that the motor gives; less where in one sub-step it would turn the
+  S max_force = S(0);         // [N m] or [N] most that the motor gives; less where in one sub-step it would turn the
                               // bodies, were they free, beyond Limits<S>::surface_speed()
   S spring_target = S(0);     // [rad] or [m], as lower
   S spring_frequency = S(0);  // [Hz] up to half the sub-step rate; a spring's swing lasts up to 0.25 rad a sub-step

@@ -25,19 +25,21 @@ enum class JointOrder : std::uint32_t { trees, driven_trees };
 ///          j at the body they share, A_ij = A_ji^T. Elimination keeps diagonal blocks symmetric and near one.
 /// Error:   S6 of the scenes (50 links, a weight of 100) at 4 sub-steps: worst separation 3.4 mm swinging, 3 um
 ///          hanging. Solved one after another, 91 mm (two sweeps) and 35 mm. tests/unit/dynamics/joints_test.cpp.
-/// Limits:  solved one after another, before the trees: a joint that closes a loop of bodies, one that would be the
-///          25th block at one body, and all joints of a tree whose mass over their least reduced mass is more than the
-///          format resolves (64 for Q16.16, 8192 for float). The world is no body: both ends of a bridge may hang on
-///          it. The end that closes that loop yields a little, since what it asks for may be held already. While
-///          tension is taken implicitly (stiffen) joints conserve momentum, not angular momentum.
-/// Drives:  rows of their joint's blocks. While one is off its piece of the law (joint_drive.hpp) the pass begins again
-///          with a new factorisation, see kMostPieceChanges. A block of inactive drives alone asks for nothing and is
-///          left out. Limits of an angle that no speed of a sub-step reaches (tree_stops.inl) cost it one look at the
-///          bodies' orientations.
-/// Order:   trees, elimination and loops follow from the order of joints and rows alone.
-/// Batches: TreeKernels solve trees, as many of one shape at once as they are wide. Joints solved one after another,
-///          and trees that share a body with them, form one more batch. Batches write no body in common: threads may
-///          warm start and solve them in parallel, in any order.
+/// Limits:  loose, solved by themselves before the trees: a joint that closes a loop of bodies, one that would be the
+///          25th block at one body, one that would tie trees that hang in more than four places, and all joints of a
+///          tree whose mass over their least reduced mass is more than the format resolves (64 for Q16.16, 8192 for
+///          float). The world is no body: both ends of a bridge may hang on it. The end that closes that loop yields a
+///          little, since what it asks for may be held already. While tension is taken implicitly (stiffen) joints
+///          conserve momentum, not angular momentum.
+/// Drives:  rows of their joint's blocks, by tree_laws.inl. While one is off its piece of the law the pass begins again
+///          with new factors, see kMostPieceChanges. A block of inactive drives alone asks for nothing and is left out.
+///          Limits of an angle that no speed of a sub-step reaches (tree_stops.inl) cost it one look at orientations.
+///          Loose joints are as soft as JointStep::softness, trees are rigid.
+/// Order:   trees, elimination, turns and loops follow from the order of joints and rows alone.
+/// Batches: TreeKernels solve trees, as many of one shape at once as they are wide. A loose joint is a tree of one, in
+///          the first turn in which no other has its bodies. Loose joints, turn by turn, and trees that share a body
+///          with them form one more batch. Batches write no body in common: threads may warm start and solve them in
+///          parallel, in any order.
 template <class S> class JointTrees {
  public:
   /// Plans the trees once a step, after its joints are prepared. `wide` is not null if there are joints.
@@ -48,7 +50,7 @@ template <class S> class JointTrees {
   }
   /// A sub-step takes the joints' state and warm starts, solves with bias and, after positions moved, relaxes.
   void warm_start(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step);
-  void solve(std::uint32_t batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
+  void solve(std::uint32_t batch, const JointStep<S>& step, bool relax);
   /// Stores impulses in the joints once a step, after the last sub-step.
   void store(std::uint32_t batch, std::span<JointConstraint<S>> joints);
 
@@ -56,9 +58,12 @@ template <class S> class JointTrees {
   /// The most blocks at a body: twelve joints of two. Elimination links all blocks of a body with each other, and costs
   /// the third power of their number: joints on one body alone take 20 times as long with 24 blocks as with 8.
   static constexpr std::uint32_t kMaxBlocksAtBody = 24;
-  /// Sweeps over the joints solved one by one. A second takes S6's worst separation from 0.6 m to 0.09, four to 0.087.
+  /// The most joints by which a tree that other joints tie hangs on the world: four chains of a table. A curtain of 100
+  /// columns is trees of four then, and not one; the one takes twice as long and holds no better.
+  static constexpr std::uint32_t kMaxAnchors = 4;
+  /// Sweeps over the loose joints. A second takes S6's worst separation from 0.6 m to 0.09, four to 0.087.
   static constexpr int kLooseSweeps = 2;
-  /// Relaxations of these joints and of the trees that they connect. With too few, the speed that closed their errors
+  /// Relaxations of loose joints and of the trees that they connect. With too few, the speed that closed their errors
   /// stays. After one, a hanging grid of 10 by 10 bodies still swings at 10 m/s two seconds later.
   static constexpr int kLooseRelaxations = 4;
 
@@ -71,7 +76,8 @@ template <class S> class JointTrees {
   struct Tree {
     std::uint64_t hash;    // of its joints' ends
     std::uint32_t active;  // of its joints, the first 32: those with a drive that is not free
-    bool odd;              // shares a body with joints that are solved one by one
+    bool odd;              // shares a body with loose joints
+    std::uint32_t turn;    // n: a loose joint, in the n-th turn; 0: a tree
     std::uint32_t first, last, joint_count, body_count;
   };
   /// The ends of a joint by the body numbers of its tree, and its rows: equal lists of them are equal shapes.
@@ -83,19 +89,23 @@ template <class S> class JointTrees {
   struct HashOfTree {
     ISO_INLINE std::uint64_t operator()(const Tree& tree) const { return tree.hash; }
   };
+  struct TurnOfTree {
+    ISO_INLINE std::uint64_t operator()(const Tree& tree) const { return tree.turn; }
+  };
   struct ActiveOfTree {
     ISO_INLINE std::uint64_t operator()(const Tree& tree) const { return tree.active; }
   };
   /// The beginnings and lengths of a shape's lists.
   struct Shape {
     std::uint32_t first_joint, joint_count, first_node, node_count, first_link, link_count, first_drive, drive_count,
-        first_body, body_count, row_blocks, stops;
+        first_body, body_count, row_blocks, stops, laws;
     bool written;  // joints write rows: it has more than points
+    bool soft;
   };
   struct Batch {
     const TreeKernels<S>* kernels;
     std::uint32_t shape;
-    std::uint32_t first_joint, first_row, first_idle, first_held;  // in lane_joints_, lane_rows_, lane_bits_ and held_
+    std::uint32_t first_joint, first_row, first_idle, first_drive;  // in lane_joints_, lane_rows_, lane_bits_, drives_
     std::uint32_t lanes;
     std::size_t offset;  // [bytes] in memory_
   };
@@ -109,10 +119,11 @@ template <class S> class JointTrees {
   void place_in_tree(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies, std::uint32_t j);
   void list_joints_of_bodies(std::span<const JointConstraint<S>> joints);
   void eliminate(std::span<const JointConstraint<S>> joints, std::span<const std::uint32_t> some);
-  void add_nodes(std::span<const JointConstraint<S>> joints, std::uint32_t j, std::uint32_t parent);
+  void add_nodes(std::span<const JointConstraint<S>> joints, std::uint32_t j, std::span<const std::uint32_t> others);
 
   // joint_tree_batches.inl
   void gather_trees(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
+  void gather_loose(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies);
   void add_to_tree(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, std::uint32_t j, Tree& tree);
   bool same_shape(const Tree& a, const Tree& b) const;
   void make_batches(std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies, const TreeKernels<S>& wide);
@@ -126,33 +137,25 @@ template <class S> class JointTrees {
 
   // joint_tree_stops.inl
   void set_stops(const Batch& batch, std::span<JointConstraint<S>> joints);
+  void set_drives(const Batch& batch, std::span<const JointConstraint<S>> joints);
 
-  // joint_tree_drives.inl
   void write_rows(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
                   const JointStep<S>& step);
-  template <class Act> void each_drive(const Batch& batch, const TreeRun<S>& run, const Act& act) const;
-  void set_pieces(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
-                  const JointStep<S>& step);
-  void bound_drives(const Batch& batch, const TreeRun<S>& run, std::span<const JointConstraint<S>> joints,
-                    const JointStep<S>& step, bool relax) const;
-  void ask_drives(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
-                  const JointStep<S>& step) const;
-  bool judge_drives(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
-                    const JointStep<S>& step, bool may_hold) const;
-  void solve_driven(const Batch& batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
+  void write_drives(const Batch& batch, const TreeRun<S>& run, std::uint32_t joint,
+                    std::span<const JointConstraint<S>> joints, const JointStep<S>& step);
 
   // joint_tree.inl
+  void linearise(const Batch& batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step);
+  template <class Act> void each_loose_end(const SolverBodies<S>& bodies, bool all, const Act& act);
+  void share_tension(const SolverBodies<S>& bodies);
   void warm_start(const Batch& batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step);
-  void solve(const Batch& batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step, bool relax);
+  void solve(const Batch& batch, const JointStep<S>& step, bool relax);
   void store(const Batch& batch, std::span<JointConstraint<S>> joints);
-  void begin_loose(std::span<JointConstraint<S>> joints, const JointStep<S>& step);
-  void find_taut(std::span<const JointConstraint<S>> joints, const JointStep<S>& step);
-  void stiffen(const SolverBodies<S>& bodies);
 
   DisjointSets sets_;
-  std::vector<std::uint32_t> loose_;    // joints solved on their own
+  std::vector<std::uint32_t> loose_;    // joints that are solved by themselves
   std::vector<std::uint8_t> role_;      // of each joint
-  std::vector<std::uint8_t> anchored_;  // of each set of bodies: hangs on the world already
+  std::vector<std::uint32_t> anchors_;  // of each set of bodies: joints that hang it on the world
   std::vector<S> set_mass_;             // [kg] of each set of bodies, up to the limit
   std::vector<S> set_lightest_;         // [kg] least reduced mass of its joints
   std::vector<std::uint8_t> asked_;     // of each set of bodies: its joints are solved at once
@@ -162,9 +165,9 @@ template <class S> class JointTrees {
   std::vector<std::uint32_t> at_body_;  // tree joints of each row
   std::vector<std::uint32_t> queue_;
   std::vector<std::uint32_t> node_of_;  // of joint * 2 + block
-  std::vector<Mat3<S>> kappa_;          // [1/m^2] of each row, as the loose joints see it
-  std::vector<Mat3<S>> tension_;        // [m^2] of each row: geometric stiffness h^2 / mass
-  std::vector<std::uint32_t> taut_;     // rows whose tension is worth a look
+  std::vector<std::uint64_t> turns_;    // of each row: those of its loose joints, one bit each
+  std::vector<S> pull_;                 // [m^2] of each row: by how much its loose joints pull
+  std::vector<Mat3<S>> tension_;        // [m^2] of each row that they make taut: geometric stiffness h^2 / mass
   std::vector<Node> nodes_;             // of one tree, in order of elimination
   std::vector<std::uint32_t> links_;    // nodes that they lead to
 
@@ -182,10 +185,10 @@ template <class S> class JointTrees {
   std::vector<TreeDrive> shape_drives_;
   std::vector<TreeBody> shape_bodies_;
   std::vector<std::uint32_t> shape_given_;
-  std::vector<Batch> batches_, odd_batches_;
+  std::vector<Batch> batches_, odd_batches_, loose_batches_;
   std::vector<std::uint32_t> lane_joints_, lane_rows_;
   std::vector<std::uint32_t> lane_bits_;  // of each batch: idle of its nodes, then clear of its joints
-  std::vector<HeldLanes> held_;           // of each batch's drives
+  std::vector<DriveLanes> drives_;        // of each batch's drives
   AlignedBytes memory_;
 };
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
+
 #include "isostep/core/stable_sort.hpp"
 #include "isostep/dynamics/joints/joint_kinds.hpp"
 #include "isostep/dynamics/joints/joint_tree_plan.inl"
@@ -17,14 +19,15 @@ ISO_INLINE constexpr std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t wo
   return hash ^ (hash >> 29);
 }
 /// Returns a joint's rows as far as kernels must know them: whether its first block is a point, whether there is a
-/// second, which of both may idle, the row of each drive, and whether all of them are stops.
-inline constexpr std::uint32_t kStopsInLayout = 1u << 31;
+/// second, which of both may idle, the row of each drive, whether all of them are stops, and whether two sway.
+inline constexpr std::uint32_t kStopsInLayout = 1u << 31, kSwaysInLayout = 1u << 30;
 template <class S> ISO_INLINE std::uint32_t layout_of(const JointConstraint<S>& joint) {
   const JointProperties<S>& p = joint.properties;
   std::uint32_t layout = (holds_point(p) ? 1u : 0u) | (joint.block_count > 1 ? 2u : 0u) | (is_free(p, 0) ? 4u : 0u) |
                          (is_free(p, 1) ? 8u : 0u) | joint.drive_count << 4;
   for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
     layout |= (3 * joint.drives[i].block + joint.drives[i].place) << (8 + 3 * i);
+    if (joint.drives[i].sways) layout |= kSwaysInLayout;
   }
   if (has_stops(joint)) layout |= kStopsInLayout;
   return layout;
@@ -64,9 +67,30 @@ void JointTrees<S>::gather_trees(std::span<const JointConstraint<S>> joints, con
     std::uint32_t& tree = tree_of_set_[set];
     if (tree == detail::kNone) {
       tree = static_cast<std::uint32_t>(trees_.size());
-      trees_.push_back({odd_[set], 0, odd_[set] != 0, j, j, 0, 0});
+      trees_.push_back({odd_[set], 0, odd_[set] != 0, 0, j, j, 0, 0});
     }
     add_to_tree(joints[j], bodies, j, trees_[tree]);
+  }
+  gather_loose(joints, bodies);
+}
+
+/// Makes a tree of each loose joint, in the first turn in which no other has its bodies.
+template <class S>
+void JointTrees<S>::gather_loose(std::span<const JointConstraint<S>> joints, const SolverBodies<S>& bodies) {
+  constexpr std::uint32_t kTurns = 64;
+  if (loose_.empty()) return;
+  turns_.assign(degree_.size(), 0);
+  std::uint32_t beyond = kTurns;
+  for (const std::uint32_t j : loose_) {
+    std::uint64_t taken = 0;
+    for (const std::uint32_t row : {joints[j].row_a, joints[j].row_b}) taken |= bodies.moves(row) ? turns_[row] : 0;
+    const std::uint32_t turn = ~taken != 0 ? static_cast<std::uint32_t>(std::countr_zero(~taken)) : beyond++;
+    for (const std::uint32_t row : {joints[j].row_a, joints[j].row_b}) {
+      local_[row] = detail::kNone;
+      if (turn < kTurns) turns_[row] |= std::uint64_t{1} << turn;
+    }
+    trees_.push_back({0, 0, false, turn + 1, j, j, 0, 0});
+    add_to_tree(joints[j], bodies, j, trees_.back());
   }
 }
 
@@ -95,7 +119,7 @@ void JointTrees<S>::add_to_tree(const JointConstraint<S>& joint, const SolverBod
 }
 
 template <class S> bool JointTrees<S>::same_shape(const Tree& a, const Tree& b) const {
-  if (a.hash != b.hash || a.joint_count != b.joint_count || a.odd != b.odd) return false;
+  if (a.hash != b.hash || a.joint_count != b.joint_count || a.odd != b.odd || a.turn != b.turn) return false;
   for (std::uint32_t i = a.first, j = b.first; i != detail::kNone; i = next_[i], j = next_[j]) {
     const Ends &x = ends_[i], &y = ends_[j];
     const bool same = x.a == y.a && x.b == y.b && x.layout == y.layout && x.a_moves == y.a_moves &&
@@ -120,11 +144,12 @@ void JointTrees<S>::make_batches(std::span<JointConstraint<S>> joints, SolverBod
   lane_joints_.clear();
   lane_rows_.clear();
   lane_bits_.clear();
-  held_.clear();
+  drives_.clear();
   sorted_trees_.resize(trees_.size());
   const auto count = static_cast<std::uint32_t>(trees_.size());
   stable_sort(trees_.data(), sorted_trees_.data(), count, ActiveOfTree{});
   stable_sort(trees_.data(), sorted_trees_.data(), count, HashOfTree{});
+  if (!loose_.empty()) stable_sort(trees_.data(), sorted_trees_.data(), count, TurnOfTree{});
   std::size_t bytes = 0;
   for (std::uint32_t first = 0; first < count;) {
     std::uint32_t end = first + 1;
@@ -143,12 +168,14 @@ void JointTrees<S>::make_batches(std::span<JointConstraint<S>> joints, SolverBod
   memory_.resize(bytes);
   for (const Batch& batch : batches_) prepare_batch(batch, joints, bodies);
   for (const Batch& batch : odd_batches_) prepare_batch(batch, joints, bodies);
+  for (const Batch& batch : loose_batches_) prepare_batch(batch, joints, bodies);
 }
 
 template <class S>
 void JointTrees<S>::prepare_batch(const Batch& batch, std::span<JointConstraint<S>> joints, SolverBodies<S>& bodies) {
   batch.kernels->prepare(run_of(batch, &bodies), joints.data());
   if (shapes_[batch.shape].stops > 0) set_stops(batch, joints);
+  set_drives(batch, joints);
 }
 
 template <class S> void JointTrees<S>::add_shape(std::span<const JointConstraint<S>> joints, const Tree& tree) {
@@ -168,7 +195,9 @@ template <class S> void JointTrees<S>::add_shape(std::span<const JointConstraint
                  tree.body_count,
                  0,
                  0,
-                 false};
+                 0,
+                 false,
+                 tree.turn > 0};
   shape_bodies_.resize(shape.first_body + tree.body_count);
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
@@ -202,7 +231,8 @@ template <class S> void JointTrees<S>::add_shape_node(const JointConstraint<S>& 
   const bool has_stops = (ends.layout & detail::kStopsInLayout) != 0;
   for (std::uint32_t k = 0; k < joint.drive_count; ++k) {
     if (joint.drives[k].block != node.block) continue;
-    shape_drives_.push_back({shape.joint_count, number, joint.drives[k].place, k, has_stops});
+    const std::uint32_t law = has_stops ? TreeDrive::kNoLaw : shape.laws++;
+    shape_drives_.push_back({shape.joint_count, number, joint.drives[k].place, k, law, joint.drives[k].sways});
     ++made.drive_count;
   }
   shape.drive_count += made.drive_count;
@@ -226,13 +256,13 @@ void JointTrees<S>::add_batch(std::span<const JointConstraint<S>> joints, std::s
                        size(lane_joints_),
                        size(lane_rows_),
                        size(lane_bits_),
-                       size(held_),
+                       size(drives_),
                        0xffffffffu >> (32 - trees.size()),
                        offset};
   lane_joints_.resize(lane_joints_.size() + std::size_t{shape.joint_count} * width);
   lane_rows_.resize(lane_rows_.size() + std::size_t{shape.body_count} * width);
   lane_bits_.resize(lane_bits_.size() + shape.node_count + shape.joint_count, 0);
-  held_.resize(held_.size() + shape.drive_count, {});
+  drives_.resize(drives_.size() + shape.drive_count, {});
   for (std::uint32_t lane = 0; lane < width; ++lane) {
     const Tree& tree = trees[lane < trees.size() ? lane : 0];
     const std::uint32_t* given = &shape_given_[shape.first_joint];
@@ -242,7 +272,7 @@ void JointTrees<S>::add_batch(std::span<const JointConstraint<S>> joints, std::s
       lane_rows_[batch.first_row + ends_[j].b * width + lane] = joints[j].row_b;
     }
   }
-  (trees.front().odd ? odd_batches_ : batches_).push_back(batch);
+  (trees.front().turn > 0 ? loose_batches_ : trees.front().odd ? odd_batches_ : batches_).push_back(batch);
 }
 
 template <class S> TreeShape JointTrees<S>::shape_of(const Shape& shape) const {
@@ -253,7 +283,9 @@ template <class S> TreeShape JointTrees<S>::shape_of(const Shape& shape) const {
           {shape_bodies_.data() + shape.first_body, shape.body_count},
           {shape_given_.data() + shape.first_joint, shape.joint_count},
           shape.row_blocks,
-          shape.stops};
+          shape.stops,
+          shape.laws,
+          shape.soft};
 }
 template <class S> TreeRun<S> JointTrees<S>::run_of(const Batch& batch, SolverBodies<S>* bodies) {
   return {shape_of(shapes_[batch.shape]),
@@ -261,7 +293,7 @@ template <class S> TreeRun<S> JointTrees<S>::run_of(const Batch& batch, SolverBo
           lane_rows_.data() + batch.first_row,
           lane_bits_.data() + batch.first_idle,
           lane_bits_.data() + batch.first_idle + shapes_[batch.shape].node_count,
-          held_.data() + batch.first_held,
+          drives_.data() + batch.first_drive,
           batch.lanes,
           memory_.data() + batch.offset,
           bodies != nullptr ? bodies->velocity.data() : nullptr,

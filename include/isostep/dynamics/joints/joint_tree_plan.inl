@@ -17,14 +17,12 @@ void JointTrees<S>::plan(std::span<JointConstraint<S>> joints, SolverBodies<S>& 
   loose_.clear();
   batches_.clear();
   odd_batches_.clear();
+  loose_batches_.clear();
   if (joints.empty()) return;
   find_trees(joints, bodies, order);
   gather_trees(joints, bodies);
   list_joints_of_bodies(joints);
   make_batches(joints, bodies, *wide);
-  if (loose_.empty()) return;
-  kappa_.resize(bodies.mass.size());
-  tension_.assign(bodies.mass.size(), Mat3<S>::diagonal(Vec3<S>::zero()));
 }
 
 template <class S>
@@ -35,7 +33,7 @@ void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const
   role_.assign(joints.size(), detail::kIdle);
   degree_.assign(rows, 0);
   blocks_.assign(rows, 0);
-  anchored_.assign(rows, 0);
+  anchors_.assign(rows, 0);
   set_mass_.resize(rows);
   set_lightest_.assign(rows, Limits<S>::mass());
   for (std::size_t row = 0; row < rows; ++row) set_mass_[row] = min(bodies.mass[row].mass, Limits<S>::mass());
@@ -56,7 +54,7 @@ void JointTrees<S>::find_trees(std::span<const JointConstraint<S>> joints, const
 }
 
 /// Adds a joint to a tree, unless it closes a loop of bodies, meets too many others, or ties two sets that hang by
-/// themselves into one that is too heavy: so a wide net falls apart into its columns.
+/// themselves into one that is too heavy or hangs in too many places: so a wide net falls apart into few columns each.
 template <class S>
 void JointTrees<S>::add_joint(const JointConstraint<S>& joint, const SolverBodies<S>& bodies, std::uint32_t j) {
   const bool a_moves = bodies.moves(joint.row_a), b_moves = bodies.moves(joint.row_b);
@@ -68,13 +66,13 @@ void JointTrees<S>::add_joint(const JointConstraint<S>& joint, const SolverBodie
   if (a_moves && b_moves && a == b) fits = false;
   role_[j] = fits ? detail::kTree : detail::kLoose;
   if (!fits) return;
-  const bool a_hangs = !a_moves || anchored_[a] != 0, b_hangs = !b_moves || anchored_[b] != 0;
+  const std::uint32_t a_hangs = a_moves ? anchors_[a] : 1, b_hangs = b_moves ? anchors_[b] : 1;
   const S mass = min((a_moves ? set_mass_[a] : S(0)) + (b_moves ? set_mass_[b] : S(0)), Limits<S>::mass());
   const S reduced =
       a_moves ? bodies.mass[joint.row_a].mass * joint.share.a : bodies.mass[joint.row_b].mass * joint.share.b;
   const S lightest = min(reduced, min(a_moves ? set_lightest_[a] : reduced, b_moves ? set_lightest_[b] : reduced));
-  if (a_hangs && b_hangs) {
-    if (a_moves && b_moves && is_too_heavy(mass, lightest)) {
+  if (a_hangs > 0 && b_hangs > 0) {
+    if (a_moves && b_moves && (is_too_heavy(mass, lightest) || a_hangs + b_hangs > kMaxAnchors)) {
       role_[j] = detail::kLoose;
       return;
     }
@@ -82,7 +80,7 @@ void JointTrees<S>::add_joint(const JointConstraint<S>& joint, const SolverBodie
   }
   if (a_moves && b_moves) sets_.join(joint.row_a, joint.row_b);
   const std::uint32_t set = sets_.find(a_moves ? joint.row_a : joint.row_b);
-  anchored_[set] = a_hangs || b_hangs ? 1 : 0;
+  anchors_[set] = a_hangs + b_hangs;
   set_mass_[set] = mass;
   set_lightest_[set] = lightest;
   if (a_moves) blocks_[joint.row_a] += joint.block_count;
@@ -139,16 +137,20 @@ template <class S> void JointTrees<S>::list_joints_of_bodies(std::span<const Joi
 }
 
 /// Orders elimination from the leaves: a joint's turn comes when one of its bodies has no other joint left. A body that
-/// does not move has degree 0. `some` is a whole tree.
+/// does not move has degree 0. `some` is a whole tree, or one loose joint.
 template <class S>
 void JointTrees<S>::eliminate(std::span<const JointConstraint<S>> joints, std::span<const std::uint32_t> some) {
   nodes_.clear();
   links_.clear();
   queue_.clear();
-  for (const std::uint32_t j : some) {
-    if (degree_[joints[j].row_a] <= 1 || degree_[joints[j].row_b] <= 1) {
-      queue_.push_back(j);
-      role_[j] = detail::kQueued;
+  if (role_[some.front()] == detail::kLoose) {
+    add_nodes(joints, some.front(), {});
+  } else {
+    for (const std::uint32_t j : some) {
+      if (degree_[joints[j].row_a] <= 1 || degree_[joints[j].row_b] <= 1) {
+        queue_.push_back(j);
+        role_[j] = detail::kQueued;
+      }
     }
   }
   for (std::size_t head = 0; head < queue_.size(); ++head) {
@@ -158,7 +160,7 @@ void JointTrees<S>::eliminate(std::span<const JointConstraint<S>> joints, std::s
     const std::uint32_t parent = a_is_leaf ? joint.row_b : joint.row_a;
     const std::uint32_t leaf = a_is_leaf ? joint.row_a : joint.row_b;
     role_[j] = detail::kDone;
-    add_nodes(joints, j, parent);
+    add_nodes(joints, j, std::span(at_body_).subspan(first_[parent], first_[parent + 1] - first_[parent]));
     if (degree_[leaf] > 0) --degree_[leaf];
     --degree_[parent];
     if (degree_[parent] != 1) continue;
@@ -172,15 +174,16 @@ void JointTrees<S>::eliminate(std::span<const JointConstraint<S>> joints, std::s
   for (std::uint32_t& to : links_) to = node_of_[to];
 }
 
+/// `others`: the joints at the body that stays, of which those that are not eliminated yet couple with this one.
 template <class S>
-void JointTrees<S>::add_nodes(std::span<const JointConstraint<S>> joints, std::uint32_t j, std::uint32_t parent) {
+void JointTrees<S>::add_nodes(std::span<const JointConstraint<S>> joints, std::uint32_t j,
+                              std::span<const std::uint32_t> others) {
   const auto link_to = [&](std::uint32_t joint, std::uint32_t block) { links_.push_back(joint * 2 + block); };
   for (std::uint32_t block = joints[j].block_count; block-- > 0;) {  // angles first: small blocks stay small
     Node node = {j, block, static_cast<std::uint32_t>(links_.size()), 0};
     node_of_[j * 2 + block] = static_cast<std::uint32_t>(nodes_.size());
     if (block == 1) link_to(j, 0);
-    for (std::uint32_t i = first_[parent]; i < first_[parent + 1]; ++i) {
-      const std::uint32_t other = at_body_[i];
+    for (const std::uint32_t other : others) {
       if (role_[other] == detail::kDone) continue;
       for (std::uint32_t b = 0; b < joints[other].block_count; ++b) link_to(other, b);
     }

@@ -48,14 +48,31 @@ template <class S> ISO_INLINE TreeStopLimits<S> stop_limits(const JointConstrain
   limits.swing_radius = joint.drives[1].radius;
   return limits;
 }
+
+ISO_INLINE void set_piece(PieceLanes& lanes, std::uint32_t lane, DrivePiece piece) {
+  const std::uint32_t bit = 1u << lane;
+  lanes.clear(bit);
+  if (piece == DrivePiece::lower) lanes.lower |= bit;
+  if (piece == DrivePiece::upper) lanes.upper |= bit;
+  if (piece == DrivePiece::driven) lanes.driven |= bit;
+  if (piece == DrivePiece::forwards) lanes.forwards |= bit;
+  if (piece == DrivePiece::backwards) lanes.backwards |= bit;
+}
+ISO_INLINE DrivePiece piece_of(const PieceLanes& lanes, std::uint32_t lane) {
+  const auto has = [lane](std::uint32_t bits) { return (bits >> lane & 1u) != 0; };
+  if (has(lanes.lower)) return DrivePiece::lower;
+  if (has(lanes.upper)) return DrivePiece::upper;
+  if (has(lanes.driven)) return DrivePiece::driven;
+  if (has(lanes.forwards)) return DrivePiece::forwards;
+  return has(lanes.backwards) ? DrivePiece::backwards : DrivePiece::free;
+}
 }  // namespace detail
 
-/// Writes, once a step, what kernels need of joints with stops. Drives that a sub-step skips ask for nothing.
+/// Writes, once a step, what kernels need of joints with stops.
 template <class S> void JointTrees<S>::set_stops(const Batch& batch, std::span<JointConstraint<S>> joints) {
   const TreeRun<S> run = run_of(batch, nullptr);
   const auto width = static_cast<std::uint32_t>(batch.kernels->width);
   const TreeStopView<S> stops(run.memory, run.shape, width);
-  const TreeDriveView<S> drives(run.memory, run.shape, width);
   for (std::uint32_t j = 0; j < run.shape.joints.size(); ++j) {
     const TreeJoint& of = run.shape.joints[j];
     if (of.stops == TreeJoint::kNoStops) continue;
@@ -69,16 +86,23 @@ template <class S> void JointTrees<S>::set_stops(const Batch& batch, std::span<J
       detail::empty_block(joint.blocks[1]);
     }
   }
+}
+
+/// Sets the drives of trees from their constraints once a step: impulses and pieces. Drives that a sub-step skips ask
+/// for nothing.
+template <class S> void JointTrees<S>::set_drives(const Batch& batch, std::span<const JointConstraint<S>> joints) {
+  const TreeRun<S> run = run_of(batch, nullptr);
+  const auto width = static_cast<std::uint32_t>(batch.kernels->width);
+  const TreeDriveView<S> drives(run.memory, run.shape, width);
   for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
     const TreeDrive& of = run.shape.drives[d];
-    if (!of.stops) continue;
     for (std::uint32_t lane = 0; lane < width; ++lane) {
       const JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];
-      drives.impulse(d, lane) = drive.piece == DrivePiece::free ? Velocity<S>(0) : drive.impulse;
+      drives.impulse(d, lane) = of.stops() && drive.piece == DrivePiece::free ? Velocity<S>(0) : drive.impulse;
       drives.right(d, lane) = Velocity<S>(0);
       drives.give(d, lane) = S(0);
-      if (drive.piece == DrivePiece::lower) run.held[d].below |= 1u << lane;
-      if (drive.piece == DrivePiece::upper) run.held[d].above |= 1u << lane;
+      detail::set_piece(run.drives[d].now, lane, drive.piece);
+      run.drives[d].motors |= (drive.driven ? 1u : 0u) << lane;
     }
   }
 }

@@ -15,6 +15,7 @@ template <class S> ISO_INLINE void set_spring(const AxisDrive<S>& asked, JointDr
   drive.servo = drive.sprung && !drive.driven && !asked.motor && S(0) < asked.max_force;
   drive.frequency = asked.spring_frequency;
   drive.damping = asked.spring_damping;
+  drive.spring_root = S(0);  // to be weighed
 }
 
 /// Makes a limit a spring toward itself, beside the drive's own, while a sub-step begins beyond it: stiffness and

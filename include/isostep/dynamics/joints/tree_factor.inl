@@ -28,15 +28,13 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
   using typename Base::U;
   using typename Base::V;
 
-  /// Factorises K for the present poses of bodies and the present state of their joints.
-  static ISO_INLINE void factorise(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints,
+  /// Computes the rows of joints for the present poses of bodies, and what joints feel of their tension.
+  static ISO_INLINE void linearise(const TreeRun<S>& run, Memory m, const JointConstraint<S>* joints,
                                    const JointStep<S>& step) {
     Base::gather_rows(run, m, joints);
     const bool rapid = follow_masses(run, m, step.rapid);
     for (std::size_t j = 0; j < run.shape.joints.size(); ++j) linearise(run.shape, j, m, step, rapid);
     stiffen(run.shape, m);
-    set_turns(run, m);
-    factorise(run, m);
   }
   static ISO_INLINE void set_turns(const TreeRun<S>& run, Memory m) {
     for (const TreeNode& node : run.shape.nodes) {
@@ -191,7 +189,7 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
     for (std::size_t b = 0; b < shape.bodies.size(); ++b) {
       Body& body = m.bodies[b];
       store(load(body.kappa), body.felt);
-      if (!shape.bodies[b].moves || !taut(body)) continue;
+      if (shape.soft || !shape.bodies[b].moves || !taut(body)) continue;
       some = true;
       for (S(&field)[W] : body.tension) L::zero().store(field);
     }

@@ -24,17 +24,16 @@ template <class S, int W, class Isa> struct TreeGatherer {
   using Rows = TreeRowLanes<S, W>;
   using Link = TreeLinkLanes<S, W>;
   using Drive = TreeDriveLanes<S, W>;
+  using Law = TreeLawLanes<S, W>;
   using Stops = TreeStopLanes<S, W>;
   using Memory = TreeMemory<S, W>;
 
   template <class Wide, class One> static constexpr bool kLanesAndNothingBetween = sizeof(Wide) == W * sizeof(One);
-  static_assert(kLanesAndNothingBetween<Body, TreeBodyLanes<S, 1>> &&
-                kLanesAndNothingBetween<Joint, TreeJointLanes<S, 1>> &&
-                kLanesAndNothingBetween<Node, TreeNodeLanes<S, 1>> &&
-                kLanesAndNothingBetween<Rows, TreeRowLanes<S, 1>> &&
-                kLanesAndNothingBetween<Link, TreeLinkLanes<S, 1>> &&
-                kLanesAndNothingBetween<Drive, TreeDriveLanes<S, 1>> &&
-                kLanesAndNothingBetween<Stops, TreeStopLanes<S, 1>>);
+  static_assert(
+      kLanesAndNothingBetween<Body, TreeBodyLanes<S, 1>> && kLanesAndNothingBetween<Joint, TreeJointLanes<S, 1>> &&
+      kLanesAndNothingBetween<Node, TreeNodeLanes<S, 1>> && kLanesAndNothingBetween<Rows, TreeRowLanes<S, 1>> &&
+      kLanesAndNothingBetween<Link, TreeLinkLanes<S, 1>> && kLanesAndNothingBetween<Drive, TreeDriveLanes<S, 1>> &&
+      kLanesAndNothingBetween<Law, TreeLawLanes<S, 1>> && kLanesAndNothingBetween<Stops, TreeStopLanes<S, 1>>);
   static_assert(sizeof(SolverMass<S>) == 10 * sizeof(S) && sizeof(Pose<S>) == 7 * sizeof(S));
   static_assert(offsetof(BodyState<S>, orientation) == offsetof(BodyState<S>, centre) + 3 * sizeof(S));
 

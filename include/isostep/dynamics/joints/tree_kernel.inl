@@ -33,14 +33,20 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
     Base::place_bodies(run, m, joints, step.states);
     if (run.shape.stops > 0) Base::place_stops(run, m, step.h);
   }
-  static void warm_start(const TreeRun<S>& run, const JointConstraint<S>* joints, const JointStep<S>& step) {
+  static void linearise(const TreeRun<S>& run, const JointConstraint<S>* joints, const JointStep<S>& step) {
     const Memory m = Memory::of(run.memory, run.shape);
     Base::set_pieces(run, m);
     for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
       const TreeDrive& drive = run.shape.drives[d];
       V::load(m.drives[d].impulse).store(m.nodes[drive.node].impulse[drive.place]);
     }
-    Base::factorise(run, m, joints, step);
+    Base::linearise(run, m, joints, step);
+  }
+  static void warm_start(const TreeRun<S>& run) {
+    const Memory m = Memory::of(run.memory, run.shape);
+    if (run.shape.soft) Base::gather_velocities(run, m);  // of loose joints others have warm started before
+    Base::set_turns(run, m);
+    Base::factorise(run, m);
     for (const std::uint32_t j : run.shape.given) Base::push_all(run, j, m);
     Base::scatter_velocities(run, m);
   }
@@ -48,74 +54,14 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
   template <bool Relax> static void solve(const TreeRun<S>& run, const JointStep<S>& step) {
     const Memory m = Memory::of(run.memory, run.shape);
     Base::gather_velocities(run, m);
-    find_right_sides<Relax>(run, m, step);
-    substitute(run, m);
+    if (run.shape.drives.size() > 0) {
+      solve_driven<Relax>(run, m, step);
+    } else {
+      find_right_sides<Relax>(run, m, step);
+      substitute(run, m, softness<Relax>(step));
+    }
     Base::scatter_velocities(run, m);
   }
-
-  // ---- a pass over trees with drives
-
-  static void begin(const TreeRun<S>& run) {
-    const Memory m = Memory::of(run.memory, run.shape);
-    Base::gather_velocities(run, m);
-    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
-      store(load(m.bodies[b].linear), m.bodies[b].start_linear);
-      store(load(m.bodies[b].angular), m.bodies[b].start_angular);
-    }
-    for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) store(load(m.nodes[n].impulse), m.nodes[n].start);
-  }
-  template <bool Relax> static void find_right_sides_of(const TreeRun<S>& run, const JointStep<S>& step) {
-    const Memory m = Memory::of(run.memory, run.shape);
-    find_right_sides<Relax>(run, m, step);
-    Base::template bound_drives<Relax>(run, m, step);
-    Base::ask_drives(run, m);
-  }
-  static void substitute_all(const TreeRun<S>& run) {
-    const Memory m = Memory::of(run.memory, run.shape);
-    for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
-      const TreeDrive& drive = run.shape.drives[d];
-      with_headroom(V::load(m.drives[d].right)).store(m.nodes[drive.node].right[drive.place]);
-    }
-    substitute(run, m);
-    tell_drives(run, m);
-  }
-  /// Judges drives. A joint that turns out not to be clear is judged from then on.
-  template <bool Relax> static bool judge(const TreeRun<S>& run, const JointStep<S>& step, bool may_hold) {
-    if (run.shape.stops == 0) return false;
-    const Memory m = Memory::of(run.memory, run.shape);
-    if (Base::find_reached(run, m, step.h)) {
-      Base::set_turns(run, m);
-      tell_drives(run, m);
-      Base::template bound_drives<Relax>(run, m, step);
-    }
-    return Base::judge_drives(run, m, may_hold);
-  }
-  static void restore(const TreeRun<S>& run) {
-    const Memory m = Memory::of(run.memory, run.shape);
-    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
-      store(load(m.bodies[b].start_linear), m.bodies[b].linear);
-      store(load(m.bodies[b].start_angular), m.bodies[b].angular);
-    }
-    for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) store(load(m.nodes[n].start), m.nodes[n].impulse);
-    for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
-      const TreeDrive& drive = run.shape.drives[d];
-      V::load(m.nodes[drive.node].impulse[drive.place]).store(m.drives[d].impulse);
-    }
-  }
-  static void resume(const TreeRun<S>& run) {
-    const Memory m = Memory::of(run.memory, run.shape);
-    Base::change_pieces(run);
-    Base::set_pieces(run, m);
-    for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
-      const TreeDrive& drive = run.shape.drives[d];
-      auto& field = m.nodes[drive.node].impulse[drive.place];
-      const V old = V::load(field), now = V::load(m.drives[d].impulse);
-      now.store(field);
-      Base::push_row(run.shape, drive, m, now - old);
-    }
-    Base::factorise(run, m);
-  }
-  static void end(const TreeRun<S>& run) { Base::scatter_velocities(run, Memory::of(run.memory, run.shape)); }
 
  private:
   /// These do the same as the functions of those names in joint_rows.hpp.
@@ -128,6 +74,68 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
     const Vec3<V> moved = {round_with_headroom<V>(dot_sum(a.rows[0], v)), round_with_headroom<V>(dot_sum(a.rows[1], v)),
                            round_with_headroom<V>(dot_sum(a.rows[2], v))};
     return with_headroom(right - moved);
+  }
+
+  template <bool Relax> static ISO_INLINE Softness<S> softness(const JointStep<S>& step) {
+    return Relax ? Softness<S>::rigid() : step.softness;
+  }
+
+  // ---- a pass over trees with drives
+
+  /// Solves with drives on their present pieces, and again as long as one is off its piece. Trees on their pieces
+  /// repeat the same computation.
+  template <bool Relax> static ISO_INLINE void solve_driven(const TreeRun<S>& run, Memory m, const JointStep<S>& step) {
+    keep_start(run, m);
+    Base::template bound_drives<Relax>(run, m, step);
+    for (int changes = 0;; ++changes) {
+      find_right_sides<Relax>(run, m, step);
+      Base::ask_drives(run, m);
+      for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
+        const TreeDrive& drive = run.shape.drives[d];
+        with_headroom(V::load(m.drives[d].right)).store(m.nodes[drive.node].right[drive.place]);
+      }
+      substitute(run, m, softness<Relax>(step));
+      tell_drives(run, m);
+      reach_stops<Relax>(run, m, step);
+      if (!Base::judge_drives(run, m, changes < detail::kMostPieceChanges)) return;
+      restart(run, m);
+    }
+  }
+  static ISO_INLINE void keep_start(const TreeRun<S>& run, Memory m) {
+    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
+      store(load(m.bodies[b].linear), m.bodies[b].start_linear);
+      store(load(m.bodies[b].angular), m.bodies[b].start_angular);
+    }
+    for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) store(load(m.nodes[n].impulse), m.nodes[n].start);
+  }
+  /// A joint that turns out not to be clear has rows and bounds from then on.
+  template <bool Relax> static ISO_INLINE void reach_stops(const TreeRun<S>& run, Memory m, const JointStep<S>& step) {
+    if (run.shape.stops == 0 || !Base::find_reached(run, m, step.h)) return;
+    Base::set_turns(run, m);
+    tell_drives(run, m);
+    Base::template bound_drives<Relax>(run, m, step);
+  }
+  /// Begins the pass again, with the next pieces.
+  static ISO_INLINE void restart(const TreeRun<S>& run, Memory m) {
+    for (std::size_t b = 0; b < run.shape.bodies.size(); ++b) {
+      store(load(m.bodies[b].start_linear), m.bodies[b].linear);
+      store(load(m.bodies[b].start_angular), m.bodies[b].angular);
+    }
+    for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) store(load(m.nodes[n].start), m.nodes[n].impulse);
+    for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
+      const TreeDrive& drive = run.shape.drives[d];
+      V::load(m.nodes[drive.node].impulse[drive.place]).store(m.drives[d].impulse);
+    }
+    Base::change_pieces(run);
+    Base::set_pieces(run, m);
+    for (std::size_t d = 0; d < run.shape.drives.size(); ++d) {
+      const TreeDrive& drive = run.shape.drives[d];
+      auto& field = m.nodes[drive.node].impulse[drive.place];
+      const V old = V::load(field), now = V::load(m.drives[d].impulse);
+      now.store(field);
+      Base::push_row(run.shape, drive, m, now - old);
+    }
+    Base::factorise(run, m);
   }
 
   // ---- right-hand sides
@@ -164,13 +172,13 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
 
   // ---- substitution
 
-  static ISO_INLINE void substitute(const TreeRun<S>& run, Memory m) {
+  static ISO_INLINE void substitute(const TreeRun<S>& run, Memory m, Softness<S> soft) {
     const std::size_t count = run.shape.nodes.size();
     for (std::size_t n = 0; n < count; ++n) substitute_up(run, n, m);
     for (std::size_t n = count; n-- > 0;) {
       substitute_down(run, n, m);
       const TreeNode& node = run.shape.nodes[n];
-      if (node.of_angles || !run.shape.joints[node.joint].turns) Base::push_changes(run, node.joint, m);
+      if (node.of_angles || !run.shape.joints[node.joint].turns) Base::push_changes(run, node.joint, m, soft);
     }
   }
   static ISO_INLINE void substitute_up(const TreeRun<S>& run, std::size_t n, Memory m) {
@@ -211,18 +219,10 @@ template <class S, int W, class Isa> constexpr TreeKernels<S> make_tree_kernels(
           &Kernel::prepare,
           &Kernel::store_impulses,
           &Kernel::place,
+          &Kernel::linearise,
           &Kernel::warm_start,
           &Kernel::template solve<false>,
-          &Kernel::template solve<true>,
-          &Kernel::begin,
-          &Kernel::template find_right_sides_of<false>,
-          &Kernel::template find_right_sides_of<true>,
-          &Kernel::substitute_all,
-          &Kernel::template judge<false>,
-          &Kernel::template judge<true>,
-          &Kernel::restore,
-          &Kernel::resume,
-          &Kernel::end};
+          &Kernel::template solve<true>};
 }
 
 }  // namespace

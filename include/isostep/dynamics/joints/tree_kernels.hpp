@@ -12,11 +12,30 @@
 
 namespace isostep {
 
-/// The lanes in which a limit holds a drive, one bit each, and those in which it will hold it next.
-struct HeldLanes {
-  std::uint32_t below, above, next_below, next_above;
+/// The lanes in which a drive is on each piece of its law, one bit each. Others are free.
+struct PieceLanes {
+  std::uint32_t lower, upper, driven, forwards, backwards;
 
-  ISO_INLINE std::uint32_t now() const { return below | above; }
+  /// The drive's speed is fixed.
+  ISO_INLINE std::uint32_t fixed() const { return lower | upper | driven; }
+  ISO_INLINE std::uint32_t pushed() const { return forwards | backwards; }
+  ISO_INLINE void clear(std::uint32_t lanes) {
+    lower &= ~lanes;
+    upper &= ~lanes;
+    driven &= ~lanes;
+    forwards &= ~lanes;
+    backwards &= ~lanes;
+  }
+  /// Returns the lanes in which two drives are on different pieces.
+  ISO_INLINE std::uint32_t differs(const PieceLanes& o) const {
+    return (lower ^ o.lower) | (upper ^ o.upper) | (driven ^ o.driven) | (forwards ^ o.forwards) |
+           (backwards ^ o.backwards);
+  }
+};
+/// A drive of W trees: its pieces now and those to try next, and the lanes in which it has a motor, or is a servo.
+struct DriveLanes {
+  PieceLanes now, next;
+  std::uint32_t motors, servos;
 };
 
 /// Up to W trees of one shape. Lanes without a tree repeat the first one and write nothing.
@@ -26,15 +45,14 @@ template <class S> struct TreeRun {
   const std::uint32_t* rows;         // of SolverBodies: W for every body of the shape
   std::uint32_t* idle;               // for every node: the lanes in which it asks for nothing, one bit each
   std::uint32_t* clear;              // for every joint: the lanes in which no limit is reached in this sub-step
-  HeldLanes* held;                   // for every drive of joints with stops
+  DriveLanes* drives;                // for every drive
   std::uint32_t lanes;               // which of the W have a tree, one bit each
   unsigned char* memory;             // TreeMemory<S, W>
   MotionRow<Velocity<S>>* velocity;  // of SolverBodies
   const SolverMass<S>* mass;         // likewise
 };
 
-/// The kernels of one instruction set. A pass over trees without drives is one call. With drives it is several: between
-/// them the laws of the drives set what their rows are and ask for, in TreeDriveLanes.
+/// The kernels of one instruction set.
 template <class S> struct TreeKernels {
   const char* name;
   std::int32_t width;
@@ -43,24 +61,13 @@ template <class S> struct TreeKernels {
   void (*store)(const TreeRun<S>&, JointConstraint<S>* joints);
   /// Begins a sub-step: gathers the present poses and velocities of bodies, and the state of joints with stops.
   void (*place)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
-  /// JointTrees calls each once a sub-step. They read the rows of constraints, except for points and joints with stops.
-  void (*warm_start)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
+  /// JointTrees calls each once a sub-step. `linearise` reads rows and laws of constraints, except for points and for
+  /// joints with stops. Before `warm_start` JointTrees sets what loose joints feel of the tension at their
+  /// bodies.
+  void (*linearise)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
+  void (*warm_start)(const TreeRun<S>&);
   void (*solve)(const TreeRun<S>&, const JointStep<S>& step);
   void (*relax)(const TreeRun<S>&, const JointStep<S>& step);
-
-  void (*begin)(const TreeRun<S>&);
-  /// Compute speeds and impulses of drives, and right-hand sides of equalities, without bias in the relaxed form.
-  void (*find_right_sides)(const TreeRun<S>&, const JointStep<S>& step);
-  void (*find_relaxed_right_sides)(const TreeRun<S>&, const JointStep<S>& step);
-  /// Turns the drives' right-hand sides into their new speeds and impulses.
-  void (*substitute)(const TreeRun<S>&);
-  /// Return true if a drive of joints with stops is off its piece of the law, like JointTrees::judge_drives().
-  bool (*judge)(const TreeRun<S>&, const JointStep<S>& step, bool may_hold);
-  bool (*judge_relaxed)(const TreeRun<S>&, const JointStep<S>& step, bool may_hold);
-  /// `restore` resets the pass to its start. `resume` then factorises with impulses, scales and give of new pieces.
-  void (*restore)(const TreeRun<S>&);
-  void (*resume)(const TreeRun<S>&);
-  void (*end)(const TreeRun<S>&);
 };
 
 /// Returns the kernels for `simd`. Null if the CPU or the build lacks it; never null for `best`.

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "isostep/dynamics/joints/joint_drive.hpp"
 #include "isostep/dynamics/joints/tree_shape.hpp"
 #include "isostep/math/quat.hpp"
 #include "isostep/scalar/scalar.hpp"
@@ -49,7 +50,6 @@ template <class S, int W> struct TreeLinkLanes {
   S down[9][W];  // [1] K_ji, i = the node that has the link, j = `to`
   S up[9][W];    // [1] K_ij, then D_i^-1 K_ij
 };
-/// The values that a drive's law and the kernel exchange.
 template <class S, int W> struct TreeDriveLanes {
   Velocity<S> speed[W];    // [m/s] along the row
   Velocity<S> impulse[W];  // [m/s] accumulated
@@ -58,8 +58,20 @@ template <class S, int W> struct TreeDriveLanes {
   Velocity<S> high[W];     // [m/s]
   Unit<S> scale[W];        // [1] of the row: 1 a fixed speed, less a spring, 0 a constant impulse
   S give[W];               // [1] added to the row's entry of K: springs yield
-  S above_lower[W];        // [m] how far from its limits one of a joint with stops is
+  S above_lower[W];        // [m] how far from its limits it is; the highest number where it has none
   S below_upper[W];        // [m]
+};
+
+/// What a drive's motor, spring or sway asks for in a sub-step: joint_drive.hpp, joint_sway.hpp.
+template <class S, int W> struct TreeLawLanes {
+  Velocity<S> asked[W];              // [m/s] of the motor
+  Velocity<S> most[W];               // [m/s] impulse of the motor or servo in the sub-step
+  Velocity<S> back[W];               // [m/s] with which it returns from beyond a limit
+  Velocity<S> spring_push[W];        // [m/s]
+  S spring[W];                       // [1] w
+  S ratio[W];                        // [1] 1 / sqrt(1 + w^2) / w; 0 without a spring
+  Unit<S> row_full[W], row_part[W];  // [1] 1 / sqrt(1 + w^2), w / sqrt(1 + w^2)
+  S sway[W], sway_left[W];           // [s/m], [1]
 };
 
 /// A joint with rows only of a twist and a swing, each bounded or held: tree_stops.inl.
@@ -84,6 +96,7 @@ template <class S, int W> struct TreeMemory {
   TreeRowLanes<S, W>* rows;
   TreeLinkLanes<S, W>* links;
   TreeDriveLanes<S, W>* drives;
+  TreeLawLanes<S, W>* laws;
   TreeStopLanes<S, W>* stops;
 
   static ISO_INLINE TreeMemory of(void* memory, const TreeShape& shape) {
@@ -94,7 +107,8 @@ template <class S, int W> struct TreeMemory {
     m.rows = reinterpret_cast<TreeRowLanes<S, W>*>(m.nodes + shape.nodes.size());
     m.links = reinterpret_cast<TreeLinkLanes<S, W>*>(m.rows + shape.row_blocks);
     m.drives = reinterpret_cast<TreeDriveLanes<S, W>*>(m.links + shape.links.size());
-    m.stops = reinterpret_cast<TreeStopLanes<S, W>*>(m.drives + shape.drives.size());
+    m.laws = reinterpret_cast<TreeLawLanes<S, W>*>(m.drives + shape.drives.size());
+    m.stops = reinterpret_cast<TreeStopLanes<S, W>*>(m.laws + shape.laws);
     return m;
   }
 };
@@ -104,8 +118,11 @@ template <class S> ISO_INLINE std::size_t tree_bytes_before_drives(const TreeSha
          shape.nodes.size() * sizeof(TreeNodeLanes<S, 1>) + shape.row_blocks * sizeof(TreeRowLanes<S, 1>) +
          shape.links.size() * sizeof(TreeLinkLanes<S, 1>);
 }
-template <class S> ISO_INLINE std::size_t tree_bytes_before_stops(const TreeShape& shape) {
+template <class S> ISO_INLINE std::size_t tree_bytes_before_laws(const TreeShape& shape) {
   return tree_bytes_before_drives<S>(shape) + shape.drives.size() * sizeof(TreeDriveLanes<S, 1>);
+}
+template <class S> ISO_INLINE std::size_t tree_bytes_before_stops(const TreeShape& shape) {
+  return tree_bytes_before_laws<S>(shape) + shape.laws * sizeof(TreeLawLanes<S, 1>);
 }
 template <class S> ISO_INLINE std::size_t tree_bytes(const TreeShape& shape) {
   return tree_bytes_before_stops<S>(shape) + shape.stops * sizeof(TreeStopLanes<S, 1>);
@@ -116,24 +133,44 @@ template <class S> class TreeDriveView {
  public:
   /// `memory` is a TreeMemory<S, width>.
   ISO_INLINE TreeDriveView(unsigned char* memory, const TreeShape& shape, std::size_t width)
-      : first_(memory + tree_bytes_before_drives<S>(shape) * width), width_(width) {}
+      : drives_(memory + tree_bytes_before_drives<S>(shape) * width),
+        laws_(memory + tree_bytes_before_laws<S>(shape) * width),
+        width_(width) {}
 
-  ISO_INLINE Velocity<S>& speed(std::size_t drive, std::size_t lane) const { return at<Velocity<S>>(drive, 0, lane); }
-  ISO_INLINE Velocity<S>& impulse(std::size_t drive, std::size_t lane) const { return at<Velocity<S>>(drive, 1, lane); }
-  ISO_INLINE Velocity<S>& right(std::size_t drive, std::size_t lane) const { return at<Velocity<S>>(drive, 2, lane); }
-  ISO_INLINE Velocity<S>& low(std::size_t drive, std::size_t lane) const { return at<Velocity<S>>(drive, 3, lane); }
-  ISO_INLINE Velocity<S>& high(std::size_t drive, std::size_t lane) const { return at<Velocity<S>>(drive, 4, lane); }
-  ISO_INLINE Unit<S>& scale(std::size_t drive, std::size_t lane) const { return at<Unit<S>>(drive, 5, lane); }
-  ISO_INLINE S& give(std::size_t drive, std::size_t lane) const { return at<S>(drive, 6, lane); }
+  ISO_INLINE Velocity<S>& impulse(std::size_t drive, std::size_t lane) const {
+    return of_drive<Velocity<S>>(drive, 1, lane);
+  }
+  ISO_INLINE Velocity<S>& right(std::size_t drive, std::size_t lane) const {
+    return of_drive<Velocity<S>>(drive, 2, lane);
+  }
+  ISO_INLINE S& give(std::size_t drive, std::size_t lane) const { return of_drive<S>(drive, 6, lane); }
+  ISO_INLINE S& above_lower(std::size_t drive, std::size_t lane) const { return of_drive<S>(drive, 7, lane); }
+  ISO_INLINE S& below_upper(std::size_t drive, std::size_t lane) const { return of_drive<S>(drive, 8, lane); }
+
+  ISO_INLINE void set_law(std::size_t law, std::size_t lane, const JointDrive<S>& drive, Velocity<S> most) const {
+    const Velocity<S> speeds[4] = {drive.speed, most, drive.push_speed, drive.spring_push};
+    for (std::size_t i = 0; i < 4; ++i) of_law<Velocity<S>>(law, i, lane) = speeds[i];
+    of_law<S>(law, 4, lane) = drive.spring;
+    of_law<S>(law, 5, lane) = drive.spring > S(0) ? convert<S>(drive.spring_row.x) / drive.spring : S(0);
+    of_law<Unit<S>>(law, 6, lane) = drive.spring_row.x;
+    of_law<Unit<S>>(law, 7, lane) = drive.spring_row.y;
+    of_law<S>(law, 8, lane) = drive.sway;
+    of_law<S>(law, 9, lane) = drive.sway_left;
+  }
 
  private:
-  static constexpr std::size_t kWords = 9;
+  static constexpr std::size_t kWords = 9, kLawWords = 10;
   static_assert(sizeof(Velocity<S>) == sizeof(S) && sizeof(Unit<S>) == sizeof(S));
   static_assert(sizeof(TreeDriveLanes<S, 1>) == kWords * sizeof(S));
-  template <class T> ISO_INLINE T& at(std::size_t drive, std::size_t word, std::size_t lane) const {
-    return *reinterpret_cast<T*>(first_ + ((drive * kWords + word) * width_ + lane) * sizeof(S));
+  static_assert(sizeof(TreeLawLanes<S, 1>) == kLawWords * sizeof(S));
+  template <class T> ISO_INLINE T& of_drive(std::size_t drive, std::size_t word, std::size_t lane) const {
+    return *reinterpret_cast<T*>(drives_ + ((drive * kWords + word) * width_ + lane) * sizeof(S));
   }
-  unsigned char* first_;
+  template <class T> ISO_INLINE T& of_law(std::size_t law, std::size_t word, std::size_t lane) const {
+    return *reinterpret_cast<T*>(laws_ + ((law * kLawWords + word) * width_ + lane) * sizeof(S));
+  }
+  unsigned char* drives_;
+  unsigned char* laws_;
   std::size_t width_;
 };
 
@@ -155,6 +192,40 @@ template <class S> class TreeNodeView {
 
  private:
   const unsigned char* first_;
+  std::size_t width_;
+};
+
+/// The arms, pulls and bodies of loose joints, W trees of one joint, for any W.
+template <class S> class LooseJointView {
+ public:
+  ISO_INLINE LooseJointView(unsigned char* memory, const TreeShape& shape, std::size_t width)
+      : bodies_(memory), joint_(memory + shape.bodies.size() * sizeof(Body) * width), width_(width) {}
+
+  /// [m] Returns the arm of a, or of b.
+  ISO_INLINE Vec3<S> arm(bool of_a, std::size_t lane) const {
+    const std::size_t first = of_a ? offsetof(Joint, arm_a) : offsetof(Joint, arm_b);
+    return {of_joint(first, lane), of_joint(first + sizeof(S), lane), of_joint(first + 2 * sizeof(S), lane)};
+  }
+  /// [m^2] Returns the joint's pull at that end.
+  ISO_INLINE S pull(bool of_a, std::size_t lane) const {
+    return of_joint(of_a ? offsetof(Joint, pull_a) : offsetof(Joint, pull_b), lane);
+  }
+  ISO_INLINE void set_felt(std::size_t body, std::size_t lane, const Mat3<S>& felt) const {
+    const S words[6] = {felt.rows[0].x, felt.rows[0].y, felt.rows[0].z, felt.rows[1].y, felt.rows[1].z, felt.rows[2].z};
+    for (std::size_t i = 0; i < 6; ++i) {
+      const std::size_t word = body * sizeof(Body) + offsetof(Body, felt) + i * sizeof(S);
+      *reinterpret_cast<S*>(bodies_ + word * width_ + lane * sizeof(S)) = words[i];
+    }
+  }
+
+ private:
+  using Body = TreeBodyLanes<S, 1>;
+  using Joint = TreeJointLanes<S, 1>;
+  ISO_INLINE S of_joint(std::size_t word, std::size_t lane) const {
+    return *reinterpret_cast<const S*>(joint_ + word * width_ + lane * sizeof(S));
+  }
+  unsigned char* bodies_;
+  const unsigned char* joint_;
   std::size_t width_;
 };
 

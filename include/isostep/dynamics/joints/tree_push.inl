@@ -62,13 +62,13 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
     push(run.shape, of, m, load(m.nodes[of.node].impulse), load(m.nodes[of.node - 1].impulse), clear);
   }
   /// Adds a joint's solutions to its impulses, and applies the changes to the bodies.
-  static ISO_INLINE void push_changes(const TreeRun<S>& run, std::uint32_t j, Memory m) {
+  static ISO_INLINE void push_changes(const TreeRun<S>& run, std::uint32_t j, Memory m, Softness<S> soft) {
     const TreeJoint& of = run.shape.joints[j];
     const Vec3<V> none = {V::zero(), V::zero(), V::zero()};
-    const Vec3<V> place = add_solution(run, of.node, m);
+    const Vec3<V> place = add_solution(run, of.node, m, soft);
     if (!of.turns) return push(run.shape, of, m, place, none, 0);
     const std::uint32_t idle = run.shape.nodes[of.node - 1].may_idle ? run.idle[of.node - 1] & Base::kAll : 0;
-    push(run.shape, of, m, place, add_solution(run, of.node - 1, m), idle);
+    push(run.shape, of, m, place, add_solution(run, of.node - 1, m, soft), idle);
   }
   /// Applies a change of one drive's impulse. Bodies in lanes without a change stay as they are, signs of zeros too.
   static ISO_INLINE void push_row(const TreeShape& shape, const TreeDrive& drive, Memory m, V change) {
@@ -117,21 +117,33 @@ template <class S, int W, class Isa> struct TreePusher : TreeFactoriser<S, W, Is
   }
 
   /// Adds the solution to a node's impulses and returns the change. A drive's solution is scaled like its row.
-  static ISO_INLINE Vec3<V> add_solution(const TreeRun<S>& run, std::uint32_t n, Memory m) {
+  static ISO_INLINE Vec3<V> add_solution(const TreeRun<S>& run, std::uint32_t n, Memory m, Softness<S> soft) {
     const TreeNode& of = run.shape.nodes[n];
     Node& node = m.nodes[n];
     const V none = V::zero();
     if (Base::idles(run, n)) return {none, none, none};
     Vec3<V> solution = load(node.right);
+    const Vec3<V> old = load(node.impulse);
     for (std::uint32_t d = of.first_drive; d < of.first_drive + of.drive_count; ++d) {
       V& of_drive = solution[static_cast<int>(run.shape.drives[d].place)];
       of_drive = round_to<V>(product(U::load(m.drives[d].scale), of_drive));
     }
-    const Vec3<V> old = load(node.impulse);
+    if (run.shape.soft) solution = softened(run, of, m, solution, old, soft);
     Vec3<V> impulse = bounded(old + solution, most_joint_impulse<S>());
     if (of.may_idle) impulse = select(Base::idle_lanes(run, n), old, impulse);
     store(impulse, node.impulse);
     return impulse - old;
+  }
+  /// Does next() of push_joint(). The impulse of a drive on a constant piece stays.
+  static ISO_INLINE Vec3<V> softened(const TreeRun<S>& run, const TreeNode& of, Memory m, Vec3<V> solution, Vec3<V> old,
+                                     Softness<S> soft) {
+    const L scale = Base::number(soft.mass_scale), less_old = Base::number(soft.impulse_scale);
+    Vec3<V> change = times(scale, solution) - times(less_old, old);
+    for (std::uint32_t d = of.first_drive; d < of.first_drive + of.drive_count; ++d) {
+      V& of_drive = change[static_cast<int>(run.shape.drives[d].place)];
+      of_drive = select(equal(U::load(m.drives[d].scale), U::zero()), V::zero(), of_drive);
+    }
+    return change;
   }
 
   /// `still`: lanes in which the angles push nothing, not even a zero, since that has a sign.

@@ -55,7 +55,11 @@ struct TreeDrive {
   std::uint32_t joint, node;
   std::uint32_t place;  // of the node's three rows
   std::uint32_t index;  // of the joint's drives
-  bool stops;           // its joint has stops
+  std::uint32_t law;    // in the laws of the memory; kNoLaw: its joint has stops, and it is a limit and nothing else
+  bool sways;           // joint_sway.hpp
+
+  static constexpr std::uint32_t kNoLaw = 0xffffffffu;
+  ISO_INLINE bool stops() const { return law == kNoLaw; }
 };
 /// A body of the shape, named by one of its joints. An unmoved body is one for each end, even if it is the same one.
 struct TreeBody {
@@ -72,6 +76,8 @@ struct TreeShape {
   KernelSpan<std::uint32_t> given;  // joints in the order in which they were made
   std::uint32_t row_blocks;         // nodes that are no point
   std::uint32_t stops;              // joints with stops
+  std::uint32_t laws;               // drives of other joints
+  bool soft;                        // a loose joint, as soft as JointStep::softness
 };
 
 }  // namespace isostep

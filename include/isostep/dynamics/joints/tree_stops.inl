@@ -47,7 +47,7 @@ template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa
       const TreeNode& node = run.shape.nodes[of.node - 1];
       std::uint32_t acting = 0;
       for (std::uint32_t d = node.first_drive; d < node.first_drive + node.drive_count; ++d)
-        acting |= run.held[d].now();
+        acting |= run.drives[d].now.fixed();
       run.clear[j] = to_bits(less(turned + turned, reach)) & ~acting;
       if (!Base::is_clear(run, node)) write_rows(run, j, f, m, h);
     }
@@ -177,8 +177,7 @@ template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa
       const bool means = detail::kLeastTwistCosine<S> < least[i];
       if (!means || stops.twist[i] == kNoCosine<S>) {
         m.drives[d].above_lower[i] = m.drives[d].below_upper[i] = highest<S>();
-        run.held[d].below &= ~(1u << i);
-        run.held[d].above &= ~(1u << i);
+        run.drives[d].now.clear(1u << i);
         continue;
       }
       const bool turned = unit[i] < Unit<S>(0);

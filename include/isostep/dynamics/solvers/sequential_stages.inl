@@ -106,7 +106,7 @@ template <class S> void Sequential<S>::do_joints(const Job& job, Work work, std:
   for (std::uint32_t i = count * piece / pieces; i < count * (piece + 1) / pieces; ++i) {
     if (work == Work::warm_start_joints) joint_trees_.warm_start(i, joints_.all(), job.joints);
     else if (work == Work::store_joints) joint_trees_.store(i, joints_.all());
-    else joint_trees_.solve(i, joints_.all(), job.joints, work == Work::relax_joints);
+    else joint_trees_.solve(i, job.joints, work == Work::relax_joints);
   }
 }
 
