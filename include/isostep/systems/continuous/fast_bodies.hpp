@@ -27,6 +27,12 @@ template <class S> class FastBodies {
     Aabb<S> swept;
   };
 
+  /// A static or kinematic body.
+  struct Fixed {
+    std::uint32_t slot;
+    Aabb<S> fat;
+  };
+
   ISO_INLINE FastBodies(const WorldState<S>& state, const BodyMap<S>& map, const Proxies<S>& proxies,
                         const StepMotion<S>& motion, const PairSweep<S>& pairs)
       : state_(state), map_(map), proxies_(proxies), motion_(motion), pairs_(pairs) {}
@@ -37,6 +43,10 @@ template <class S> class FastBodies {
   bool find_bullets();
   ISO_INLINE std::span<Mover<S>> movers() { return movers_; }
   ISO_INLINE std::span<const Carrier> carriers() const { return carriers_; }
+  /// All static and kinematic bodies, if `knows_fixed`: they are so few that a look at each takes less time than one
+  /// into the boxes of all bodies.
+  ISO_INLINE bool knows_fixed() const { return knows_fixed_; }
+  ISO_INLINE std::span<const Fixed> fixed() const { return fixed_; }
   /// Boxes around the motions of bodies that may meet a bullet outside their fat boxes, by slot.
   ISO_INLINE const AabbTree<S>& comers() const { return comers_; }
   /// Numbers the movers for mover_of(), by index among the awake bodies.
@@ -52,6 +62,7 @@ template <class S> class FastBodies {
     S thinnest;  // [m] inner radius of what stops a body, up to kThick
     bool bullets, kinematic;
   };
+  static constexpr std::size_t kFewFixed = 128;
   static constexpr std::uint32_t kAsked = 1, kDeepInside = 2;  // of mover_of_, before there are movers
 
   Survey survey() const;
@@ -61,6 +72,7 @@ template <class S> class FastBodies {
   void leave_out_joined();
   void add_if_fast(std::size_t index);
   void find_met_by_kinematic(S least);
+  void list_fixed();
   void find_comers();
 
   const WorldState<S>& state_;
@@ -71,6 +83,8 @@ template <class S> class FastBodies {
   Survey survey_ = {};  // of this step
   std::vector<Mover<S>> movers_;
   std::vector<Carrier> carriers_;
+  std::vector<Fixed> fixed_;
+  bool knows_fixed_ = false;
   AabbTree<S> comers_;
   std::vector<std::uint32_t> met_, sort_scratch_;  // by fast kinematic bodies: indices among the awake ones
   std::vector<std::uint32_t> mover_of_;            // by that index: its place in movers_, plus 1; 0: none

@@ -81,6 +81,7 @@ template <class S> typename FastBodies<S>::Survey FastBodies<S>::survey() const 
 template <class S> void FastBodies<S>::find() {
   movers_.clear();
   carriers_.clear();
+  knows_fixed_ = false;
   survey_ = survey();
   const S thinnest = survey_.bullets ? S(0) : survey_.thinnest;
   if (detail::kThick<S> < thinnest) return;  // nothing stops anybody
@@ -104,6 +105,27 @@ template <class S> void FastBodies<S>::find() {
     } else if (!are_slow.contain(map_, states[i], bodies[i], motion_.start(i)) && motion_.may_move(i)) add_if_fast(i);
   }
   if (survey_.kinematic) find_met_by_kinematic(fast);
+  if (!movers_.empty()) list_fixed();
+}
+
+template <class S> void FastBodies<S>::list_fixed() {
+  const StaticBodies<S>& still = state_.static_bodies;
+  std::size_t looked_at = still.size();
+  for (const auto& island : state_.sleeping) looked_at += island->bodies.states.size();
+  if (looked_at > kFewFixed) return;
+  fixed_.clear();
+  for (std::size_t p = 0; p < still.pages(); ++p) {
+    for (const BodyState<S>& body : still.page(p).states) fixed_.push_back({body.slot, body.fat});
+  }
+  const auto add_kinematic = [&](const BodySet<S>& bodies) {
+    for (std::size_t i = 0; i < bodies.states.size(); ++i) {
+      if (bodies.properties[i].type == BodyType::kinematic)
+        fixed_.push_back({bodies.states[i].slot, bodies.states[i].fat});
+    }
+  };
+  if (survey_.kinematic) add_kinematic(state_.awake);
+  for (const auto& island : state_.sleeping) add_kinematic(island->bodies);
+  knows_fixed_ = fixed_.size() <= kFewFixed;
 }
 
 /// Marks in mover_of_ those of the awake bodies `asked` without joints that end deep inside a fixed body. The smaller

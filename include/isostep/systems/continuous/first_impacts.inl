@@ -14,13 +14,21 @@ template <class S> void FirstImpacts<S>::find_obstacles(const Mover<S>& mover, b
   const Vec3<S> middle = (mover.around.low + mover.around.high) * S(0.5), half = mover.around.high - middle;
   const Sweep<S> sweep = {from + middle, way, half, Unit<S>(1)};
   const auto may_stop = [&](std::uint32_t slot) { return filter_.may_stop(mover.index, slot, moving); };
-  obstacles_.clear();
-  proxies_.boxes().sweep(sweep, [&](std::uint32_t slot, Unit<S> max_fraction) {
-    const Aabb<S>& fat = map_.state_at(map_.location(slot)).fat;
-    if (may_stop(slot) && detail::SweepTest<S>(sweep, fat).touches(fat)) obstacles_.push_back(slot);
-    return max_fraction;
-  });
   const Aabb<S> swept = mover.swept();
+  obstacles_.clear();
+  if (!moving && fast_.knows_fixed()) {
+    for (const auto& fixed : fast_.fixed()) {
+      if (overlap(fixed.fat, swept) && may_stop(fixed.slot) &&
+          detail::SweepTest<S>(sweep, fixed.fat).touches(fixed.fat))
+        obstacles_.push_back(fixed.slot);
+    }
+  } else {
+    proxies_.boxes().sweep(sweep, [&](std::uint32_t slot, Unit<S> max_fraction) {
+      const Aabb<S>& fat = map_.state_at(map_.location(slot)).fat;
+      if (may_stop(slot) && detail::SweepTest<S>(sweep, fat).touches(fat)) obstacles_.push_back(slot);
+      return max_fraction;
+    });
+  }
   if (moving) {
     fast_.comers().query(swept, [&](std::uint32_t slot) {
       if (may_stop(slot)) obstacles_.push_back(slot);
