@@ -17,6 +17,7 @@
 #include "isostep/collision/query/shape_cast.inl"
 #include "isostep/collision/query/solid_cast.inl"
 #include "isostep/draw/debug_draw.inl"
+#include "isostep/dynamics/joints/joint_alone.inl"
 #include "isostep/dynamics/joints/joint_tree.inl"
 #include "isostep/dynamics/joints/tree_kernel.inl"
 #include "isostep/dynamics/records/record_store.inl"
