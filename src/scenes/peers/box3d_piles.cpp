@@ -11,6 +11,12 @@ namespace {
 
 constexpr double kFriction = 0.6, kDensity = 1000;  // [1], [kg/m^3] Box3D's defaults
 
+void add_rock(Scene& scene, const ScenePart& rock, Point at) {
+  scene.bodies.push_back(body_of(rock, at));
+  scene.bodies.back().density = kDensity;
+  scene.bodies.back().friction = kFriction;
+}
+
 void add_ground(Scene& scene, double half) {
   scene.bodies.push_back(fixed_box({0, -1, 0}, {half, 1, half}));
   scene.bodies.back().friction = kFriction;
@@ -103,9 +109,7 @@ Scene convex_pile() {
   const ScenePart boulder = hull_part(boulder_points());
   for (int n = 0; n < kSide * kSide * kLayers; ++n) {
     const int x = n % kSide, z = n / kSide % kSide, layer = n / (kSide * kSide);
-    scene.bodies.push_back(body_of(boulder, {(x - kSide / 2) * kApart, 2 + kApart * layer, (z - kSide / 2) * kApart}));
-    scene.bodies.back().density = kDensity;
-    scene.bodies.back().friction = kFriction;
+    add_rock(scene, boulder, {(x - kSide / 2) * kApart, 2 + kApart * layer, (z - kSide / 2) * kApart});
   }
   return scene;
 }
@@ -131,9 +135,7 @@ Scene junkyard() {
   const ScenePart rock = hull_part(rock_on_spiral(1.5));
   for (int n = 0; n < kSide * kSide * kLayers; ++n) {
     const int x = n / kSide % kSide, z = n % kSide, layer = n / (kSide * kSide);
-    scene.bodies.push_back(body_of(rock, {4.0 * x - 40, 4.0 * layer + 25, 4.0 * z - 40}));
-    scene.bodies.back().density = kDensity;
-    scene.bodies.back().friction = kFriction;
+    add_rock(scene, rock, {4.0 * x - 40, 4.0 * layer + 25, 4.0 * z - 40});
   }
   return scene;
 }

@@ -54,9 +54,10 @@ void drive(Scene& scene, double axis, double lower, double upper, double frictio
                             {"spring_damping", {kDamping}},
                             {"max_force", {kTorque * friction}}}});
 }
-void tie(Scene& scene, int first, int n) {
+void tie(Scene& scene, int first, int n, Point feet) {
   const Limb& limb = kHuman[n];
-  SceneJoint joint = joint_of(JointType::hinge, first + limb.parent, first + n, {0, 0, 0});
+  SceneJoint joint =
+      joint_of(JointType::hinge, first + limb.parent, first + n, {feet.x + limb.at_x, feet.y + limb.at_y, feet.z});
   joint.orientation = frame_of(limb);
   if (limb.cone == 0) {
     joint.flags = joint_flag::kLimit | joint_flag::kMotor | joint_flag::kSpring;
@@ -84,8 +85,7 @@ void add_human(Scene& scene, Point at) {
   }
   for (int n = 1; n < static_cast<int>(std::size(kHuman)); ++n) {
     const Limb& limb = kHuman[n];
-    tie(scene, first, n);
-    scene.joints.back().anchor = {at.x + limb.at_x, at.y + limb.at_y, at.z};
+    tie(scene, first, n, at);
     if (limb.cone == 0) continue;
     drive(scene, 3, -limb.cone, limb.cone, limb.friction);
     drive(scene, 4, -limb.cone, limb.cone, limb.friction);

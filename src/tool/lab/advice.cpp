@@ -94,10 +94,10 @@ Advice advise(const std::vector<LabResult>& results, const Tolerance& tolerance,
         results, [&](const LabResult& r) { return asked(r) && std::isfinite(excess_of(r, tolerance)); }, closer);
   if (!advice.best) {
     advice.text = "no run holds " + tolerance.text + ", and none comes near it";
-    const Place ran = least(
-        results, [&](const LabResult& r) { return asked(r) && r.state == kDone; }, closer);
-    const Place first = least(results, asked, [](const LabResult&, const LabResult&) { return false; });
-    if (!ran && first) advice.text = "none, for nothing was run: " + results[*first].reason;
+    const auto first = std::find_if(results.begin(), results.end(), asked);
+    const auto ran = [&](const LabResult& r) { return asked(r) && r.state == kDone; };
+    if (first != results.end() && std::none_of(first, results.end(), ran))
+      advice.text = "none, for nothing was run: " + first->reason;
     return advice;
   }
   const LabResult& best = results[*advice.best];

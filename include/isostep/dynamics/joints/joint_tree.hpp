@@ -141,8 +141,8 @@ template <class S> class JointTrees {
 
   void write_rows(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
                   const JointStep<S>& step);
-  void write_drives(const Batch& batch, const TreeRun<S>& run, std::uint32_t joint,
-                    std::span<const JointConstraint<S>> joints, const JointStep<S>& step);
+  void write_drive(const Batch& batch, const TreeRun<S>& run, std::uint32_t d,
+                   std::span<const JointConstraint<S>> joints, const JointStep<S>& step);
 
   // joint_tree.inl
   void linearise(const Batch& batch, std::span<JointConstraint<S>> joints, const JointStep<S>& step);

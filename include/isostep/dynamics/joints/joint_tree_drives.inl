@@ -33,30 +33,26 @@ void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::s
       if (joint.drive_count > 0 && joint.drives[0].sways) joint.blocks[0].impulse.x = nodes.impulse(of.node, 0, lane);
       linearise_joint(joint, step);
     }
-    write_drives(batch, run, j, joints, step);
+    for (std::uint32_t d = begin; d < end; ++d) write_drive(batch, run, d, joints, step);
   }
 }
 
+/// Writes the present piece and law of a drive, in lanes without a tree too.
 template <class S>
-void JointTrees<S>::write_drives(const Batch& batch, const TreeRun<S>& run, std::uint32_t joint,
-                                 std::span<const JointConstraint<S>> joints, const JointStep<S>& step) {
+void JointTrees<S>::write_drive(const Batch& batch, const TreeRun<S>& run, std::uint32_t d,
+                                std::span<const JointConstraint<S>> joints, const JointStep<S>& step) {
   const auto width = static_cast<std::uint32_t>(batch.kernels->width);
   const TreeDriveView<S> view(run.memory, run.shape, width);
-  const TreeJoint& of = run.shape.joints[joint];
-  const TreeNode& first = run.shape.nodes[of.turns ? of.node - 1 : of.node];
-  const TreeNode& last = run.shape.nodes[of.node];
-  for (std::uint32_t d = first.first_drive; d < last.first_drive + last.drive_count; ++d) {
-    const TreeDrive& written = run.shape.drives[d];
-    DriveLanes& lanes = run.drives[d];
-    lanes.servos = 0;
-    for (std::uint32_t lane = 0; lane < width; ++lane) {
-      const JointDrive<S>& drive = joints[run.joints[joint * width + lane]].drives[written.index];
-      detail::set_piece(lanes.now, lane, drive.piece);
-      lanes.servos |= (drive.servo ? 1u : 0u) << lane;
-      view.above_lower(d, lane) = drive.bounded_below ? drive.position - drive.lower : highest<S>();
-      view.below_upper(d, lane) = drive.bounded_above ? drive.upper - drive.position : highest<S>();
-      view.set_law(written.law, lane, drive, detail::most_impulse(drive, step.h));
-    }
+  const TreeDrive& of = run.shape.drives[d];
+  DriveLanes& lanes = run.drives[d];
+  lanes.servos = 0;
+  for (std::uint32_t lane = 0; lane < width; ++lane) {
+    const JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];
+    detail::set_piece(lanes.now, lane, drive.piece);
+    lanes.servos |= (drive.servo ? 1u : 0u) << lane;
+    view.above_lower(d, lane) = drive.bounded_below ? drive.position - drive.lower : highest<S>();
+    view.below_upper(d, lane) = drive.bounded_above ? drive.upper - drive.position : highest<S>();
+    view.set_law(of.law, lane, drive, detail::most_impulse(drive, step.h));
   }
 }
 

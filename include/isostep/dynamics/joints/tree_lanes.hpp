@@ -50,6 +50,7 @@ template <class S, int W> struct TreeLinkLanes {
   S down[9][W];  // [1] K_ji, i = the node that has the link, j = `to`
   S up[9][W];    // [1] K_ij, then D_i^-1 K_ij
 };
+/// Holds a drive of W trees: what its law asks for, and what the pass gave.
 template <class S, int W> struct TreeDriveLanes {
   Velocity<S> speed[W];    // [m/s] along the row
   Velocity<S> impulse[W];  // [m/s] accumulated
@@ -62,7 +63,7 @@ template <class S, int W> struct TreeDriveLanes {
   S below_upper[W];        // [m]
 };
 
-/// What a drive's motor, spring or sway asks for in a sub-step: joint_drive.hpp, joint_sway.hpp.
+/// Holds what a drive's motor, spring or sway asks for in a sub-step: joint_drive.hpp, joint_sway.hpp.
 template <class S, int W> struct TreeLawLanes {
   Velocity<S> asked[W];              // [m/s] of the motor
   Velocity<S> most[W];               // [m/s] impulse of the motor or servo in the sub-step

@@ -72,6 +72,7 @@ template <class S> class FastBodies {
   void leave_out_joined();
   void add_if_fast(std::size_t index);
   void find_met_by_kinematic(S least);
+  std::size_t still_bodies() const;
   void list_fixed();
   void find_comers();
 

@@ -108,11 +108,15 @@ template <class S> void FastBodies<S>::find() {
   if (!movers_.empty()) list_fixed();
 }
 
+/// Counts static and sleeping bodies.
+template <class S> std::size_t FastBodies<S>::still_bodies() const {
+  std::size_t count = state_.static_bodies.size();
+  for (const auto& island : state_.sleeping) count += island->bodies.states.size();
+  return count;
+}
 template <class S> void FastBodies<S>::list_fixed() {
+  if (still_bodies() > kFewFixed) return;
   const StaticBodies<S>& still = state_.static_bodies;
-  std::size_t looked_at = still.size();
-  for (const auto& island : state_.sleeping) looked_at += island->bodies.states.size();
-  if (looked_at > kFewFixed) return;
   fixed_.clear();
   for (std::size_t p = 0; p < still.pages(); ++p) {
     for (const BodyState<S>& body : still.page(p).states) fixed_.push_back({body.slot, body.fat});
@@ -149,9 +153,7 @@ template <class S> void FastBodies<S>::mark_deep(std::span<const std::uint32_t> 
       });
     }
   };
-  std::size_t others = state_.static_bodies.size();
-  for (const auto& island : state_.sleeping) others += island->bodies.states.size();
-  if (others * 4 < asked.size()) {
+  if (still_bodies() * 4 < asked.size()) {
     const StaticBodies<S>& still = state_.static_bodies;
     for (std::size_t p = 0; p < still.pages(); ++p) look_around(still.page(p));
     look_around(state_.awake);
