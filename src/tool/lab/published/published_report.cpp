@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "published_report.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -112,7 +113,10 @@ int write_published_report(const ReportOptions& options, bool full) {
   write_file(in("published.html"), published_page(results));
   const std::string summary = published_summary(results) + "\n" + stamp();
   write_file(in("published.md"), summary);
-  if (!options.peers.empty()) renew_repository(options.out, summary);
+  const bool is_whole = !options.is_short && std::none_of(results.begin(), results.end(), [](const LabResult& r) {
+    return r.point.engine == kOwnEngine && r.state == kLeftOut;
+  });
+  if (!options.peers.empty() && is_whole) renew_repository(options.out, summary);
   std::cout << in("published.html") << "\n";
   return status_of(peers, options);
 }
