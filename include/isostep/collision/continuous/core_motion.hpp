@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 #include "isostep/math/aabb.hpp"
 #include "isostep/math/transform.hpp"
 #include "isostep/scalar/finer.hpp"
@@ -18,6 +20,10 @@ template <class S> struct CoreMotion {
 
 namespace detail {
 
+template <class S> ISO_INLINE bool is_still(const CoreMotion<S>& motion) {
+  return motion.start.position == motion.end.position && motion.start.orientation == motion.end.orientation;
+}
+
 /// Returns `end` or -`end`, which are the same orientation: the one on the shorter way from `start`.
 template <class U> ISO_INLINE Quat<U> on_near_side(Quat<U> start, Quat<U> end) {
   const auto cosine =
@@ -28,6 +34,18 @@ template <class U> ISO_INLINE Quat<U> on_near_side(Quat<U> start, Quat<U> end) {
 template <class U> ISO_INLINE Quat<U> between(Quat<U> start, Quat<U> end, U t) {
   return {start.x + (end.x - start.x) * t, start.y + (end.y - start.y) * t, start.z + (end.z - start.z) * t,
           start.w + (end.w - start.w) * t};
+}
+
+/// Returns the length of the longest of some vectors, with one root for all of them.
+template <class S, class Vector> ISO_INLINE S longest_of(std::uint32_t count, const Vector& vector) {
+  Vec3<S> longest = vector(0u);
+  auto squared = dot_sum(longest, longest);
+  for (std::uint32_t i = 1; i < count; ++i) {
+    const Vec3<S> other = vector(i);
+    const auto of_other = dot_sum(other, other);
+    if (squared < of_other) squared = of_other, longest = other;
+  }
+  return length(longest);
 }
 
 /// [m] Returns the bow of a way: a bound for the distance of any point within `reach` of the centre from its place, at

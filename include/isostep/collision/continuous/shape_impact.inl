@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/collision/continuous/core_way.hpp"
 #include "isostep/collision/continuous/plane_impact.hpp"
 #include "isostep/collision/continuous/shape_impact.hpp"
 #include "isostep/collision/continuous/surface_impact.hpp"
@@ -34,7 +35,7 @@ TimeOfImpact<S> impact_with(const Box<S>& box, const Transform<S>& at, const Cor
     const Transform<S> t = compose(Transform<S>::of(of_box.start), at);
     const Vec3<S> way = of_box.end.position - of_box.start.position;
     const CoreMotion<S> seen = {motion.start, {motion.end.position - way, motion.end.orientation}, motion.centre};
-    const CroppedBox<S> kept = cropped(box.half_extents, swept_box(t, core, seen, target));
+    const CroppedBox<S> kept = cropped(box.half_extents, CoreWay<S>(t, core, seen).box(target));
     if (!(kept.half == box.half_extents)) {
       const Vec3<S> middle = to_world(t, kept.middle);
       const Quat<Unit<S>> turn = of_box.start.orientation;

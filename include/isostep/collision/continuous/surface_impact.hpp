@@ -1,28 +1,14 @@
-// Swept cores against surfaces: the least fraction of the triangles that the sweep's box meets.
+// Swept cores against surfaces: the least fraction of the triangles that the sweep's box meets and that may be reached.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/collision/continuous/core_way.hpp"
 #include "isostep/collision/continuous/time_of_impact.hpp"
 #include "isostep/geometry/baked/unit_of_steps.hpp"
 #include "isostep/geometry/surfaces.hpp"
 
 namespace isostep::detail {
 
-/// Returns the box around all that a core passes, in the frame that leads to the world by `t`, grown by `margin`: its
-/// boxes at both ends and the bow between them, within the ball in which it turns. The ball of a core far from its
-/// body's middle would hold a thousand times the triangles.
-template <class S>
-Aabb<S> swept_box(const Transform<S>& t, const ConvexCore<S>& core, const CoreMotion<S>& motion, S margin) {
-  const Transform<S> from = relative(t, Transform<S>::of(motion.start)), to = relative(t, Transform<S>::of(motion.end));
-  S reach = S(0);
-  for (const Vec3<S>& v : core.vertices) reach = max(reach, length(v - motion.centre));
-  const Aabb<S> ends = grow(merge(box_of(core, from), box_of(core, to)), bow_of(motion, reach));
-  const S radius = reach + core.radius;
-  const Vec3<S> ball = {radius, radius, radius};
-  const Aabb<S> turned =
-      merge(Aabb<S>::around(to_world(from, motion.centre), ball), Aabb<S>::around(to_world(to, motion.centre), ball));
-  return grown_with_slack<S>({max(ends.low, turned.low), min(ends.high, turned.high)}, margin);
-}
 template <class S> ISO_INLINE MeshBox steps_of(const Aabb<S>& box, int exponent) {
   MeshBox steps;
   for (int axis = 0; axis < 3; ++axis) {
@@ -38,32 +24,88 @@ template <class S> Vec3<S> middle_of(const ConvexCore<S>& core) {
   return middle;
 }
 
+/// Sweeps a core against a surface at rest.
+/// Method:  time_of_impact() is asked about few triangles only. Not about those whose plane the core stays above, nor
+///          about those that lie below the plane of such a one, as beyond a ridge.
+template <class S, class G> class SurfaceSweep {
+ public:
+  ISO_INLINE SurfaceSweep(const G& surface, const Transform<S>& t, const ConvexCore<S>& core,
+                          const CoreMotion<S>& motion, S target)
+      : surface_(surface), t_(t), core_(core), motion_(motion), target_(target), way_(t, core, motion) {}
+
+  TimeOfImpact<S> first() {
+    const Vec3<S> start = to_local(t_, to_world(Transform<S>::of(motion_.start), middle_of(core_)));
+    surface_.query(steps_of(way_.box(target_), surface_.exponent()), [&](std::uint32_t id) {
+      const BakedTriangle baked = surface_.triangle(id);
+      const Plane plane = {unit_of_steps<Unit<S>>(baked.normal()), place_of(baked.points[0])};
+      if (dot(plane.normal, start - plane.point) < S(0)) return true;
+      if (way_.stays_above(plane.normal, plane.point, target_)) {
+        if (planes_ < kMostPlanes) plane_[planes_++] = plane;
+        return true;
+      }
+      const Triangle triangle = {{plane.point, place_of(baked.points[1]), place_of(baked.points[2])}};
+      if (left_ == kMostLeft) meet(triangle);
+      else triangle_[left_++] = triangle;
+      return first_.impact != Impact::at_start;
+    });
+    for (std::uint32_t i = 0; i < left_ && first_.impact != Impact::at_start; ++i) {
+      if (!is_below_planes(triangle_[i])) meet(triangle_[i]);
+    }
+    return first_;
+  }
+
+ private:
+  struct Plane {
+    Vec3<Unit<S>> normal;
+    Vec3<S> point;  // [m]
+  };
+  struct Triangle {
+    Vec3<S> points[3];  // [m]
+  };
+  static constexpr std::uint32_t kMostPlanes = 4, kMostLeft = 16;
+
+  ISO_INLINE Vec3<S> place_of(const MeshPoint& p) const {
+    const int exponent = surface_.exponent();
+    return {from_lattice<S>(p.x, exponent), from_lattice<S>(p.y, exponent), from_lattice<S>(p.z, exponent)};
+  }
+  /// Returns true if all corners are below one plane that the core stays above. stays_above() allows for the rounding.
+  ISO_INLINE bool is_below_planes(const Triangle& triangle) const {
+    for (std::uint32_t i = 0; i < planes_; ++i) {
+      const auto below = [&](Vec3<S> p) ISO_INLINE_LAMBDA {
+        return dot(plane_[i].normal, p - plane_[i].point) <= gap_noise(S(0));
+      };
+      if (below(triangle.points[0]) && below(triangle.points[1]) && below(triangle.points[2])) return true;
+    }
+    return false;
+  }
+  void meet(const Triangle& triangle) {
+    const Vec3<S> points[3] = {t_.rotation * triangle.points[0], t_.rotation * triangle.points[1],
+                               t_.rotation * triangle.points[2]};
+    const Pose<S> rest = {t_.position, Quat<Unit<S>>::identity()};
+    const TimeOfImpact<S> found =
+        time_of_impact(core_, motion_, {points, S(0)}, {rest, rest, Vec3<S>::zero()}, target_);
+    const bool sooner = found.impact == Impact::at_start || found.fraction < first_.fraction;
+    if (found.impact != Impact::none && sooner) first_ = found;
+  }
+
+  const G& surface_;
+  const Transform<S>& t_;
+  const ConvexCore<S>& core_;
+  const CoreMotion<S>& motion_;
+  S target_;  // [m]
+  CoreWay<S> way_;
+  TimeOfImpact<S> first_ = {Impact::none, Unit<S>(1), Vec3<Unit<S>>::zero(), Vec3<S>::zero(), Vec3<S>::zero(), S(0), 0};
+  Plane plane_[kMostPlanes];      // that the core stays above
+  Triangle triangle_[kMostLeft];  // not known to be out of reach
+  std::uint32_t planes_ = 0, left_ = 0;
+};
+
 /// Finds the time of impact with those triangles of a surface at rest whose outward side the core's middle is on at the
 /// start. A touch of one of them at the start counts as a touch of all.
 template <class S, class G>
 TimeOfImpact<S> surface_impact(const G& surface, const Transform<S>& t, const ConvexCore<S>& core,
                                const CoreMotion<S>& motion, S target) {
-  const MeshBox steps = steps_of(swept_box(t, core, motion, target), surface.exponent());
-  const Vec3<S> start = to_local(t, to_world(Transform<S>::of(motion.start), middle_of(core)));
-  TimeOfImpact<S> first = {Impact::none, Unit<S>(1), Vec3<Unit<S>>::zero(), Vec3<S>::zero(), Vec3<S>::zero(), S(0), 0};
-  const Pose<S> rest = {t.position, Quat<Unit<S>>::identity()};
-  surface.query(steps, [&](std::uint32_t id) {
-    const BakedTriangle baked = surface.triangle(id);
-    const Vec3<Unit<S>> normal = unit_of_steps<Unit<S>>(baked.normal());
-    Vec3<S> points[3];
-    for (int i = 0; i < 3; ++i) {
-      points[i] = {from_lattice<S>(baked.points[i].x, surface.exponent()),
-                   from_lattice<S>(baked.points[i].y, surface.exponent()),
-                   from_lattice<S>(baked.points[i].z, surface.exponent())};
-    }
-    if (dot(normal, start - points[0]) < S(0)) return true;
-    for (Vec3<S>& p : points) p = t.rotation * p;
-    const TimeOfImpact<S> found = time_of_impact(core, motion, {points, S(0)}, {rest, rest, Vec3<S>::zero()}, target);
-    const bool sooner = found.impact == Impact::at_start || found.fraction < first.fraction;
-    if (found.impact != Impact::none && sooner) first = found;
-    return first.impact != Impact::at_start;
-  });
-  return first;
+  return SurfaceSweep<S, G>(surface, t, core, motion, target).first();
 }
 
 }  // namespace isostep::detail

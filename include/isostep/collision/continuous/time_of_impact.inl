@@ -32,12 +32,11 @@ template <class S> class SweptCore {
     const Vec3<F> sine = {convert<F>(turn.x), convert<F>(turn.y), convert<F>(turn.z)};
     sines = sine + sine;
     const Vec3<F> axis = transposed_times(to_matrix(start), sine);  // in the core's frame: its vertices turn about it
-    reach = F(0);
-    F turned = F(0);  // [m] the largest distance of a vertex from the axis, times the sine
-    for (const Vec3<F>& v : core.vertices) {
-      reach = max(reach, length(v - centre));
-      turned = max(turned, length(cross(axis, v - centre)));
-    }
+    const auto arm_of = [&](std::uint32_t i) ISO_INLINE_LAMBDA { return core.vertices[i] - centre; };
+    reach = longest_of<F>(core.vertices.size(), arm_of);
+    // [m] The largest distance of a vertex from the axis, times the sine.
+    const F turned =
+        longest_of<F>(core.vertices.size(), [&](std::uint32_t i) ISO_INLINE_LAMBDA { return cross(axis, arm_of(i)); });
     // c is the tangent of a quarter of the turn; the angular speed is 4 c and its change 16 c^3 at most.
     const F share = F(1) + convert<F>(turn.w), c = length(sine) / share;
     bend = c * (F(1) + c) * (turned / share) * F(16.25);

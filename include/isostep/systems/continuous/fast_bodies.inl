@@ -18,14 +18,19 @@ template <class S> Aabb<S> box_of_few(const BodyMap<S>& map, const BodyState<S>&
 }
 
 /// Finds bodies of which no point moves by `motion` [m]. A few comparisons accept most: the centre moves by less than
-/// three quarters of it, and the ends turn by less than a quarter.
+/// three quarters of it, and the ends turn by less than a quarter. Then the poses decide.
 template <class S> class SlowBodies {
  public:
   ISO_INLINE SlowBodies(S motion, std::int32_t hz)
-      : squared_(product(motion * S(0.75), motion * S(0.75))), turning_(product(motion * S(hz), S(0.25))) {}
+      : motion_(motion),
+        hz_(hz),
+        squared_(product(motion * S(0.75), motion * S(0.75))),
+        turning_(product(motion * S(hz), S(0.25))) {}
   ISO_INLINE bool contain(const BodyMap<S>& map, const BodyState<S>& state, const BodyProperties<S>& body,
                           const Pose<S>& start) const {
-    return contain(state, start, state.fat) || contain(state, start, solid_box(map, state, body));
+    if (contain(state, start, state.fat)) return true;
+    const Aabb<S> box = solid_box(map, state, body);
+    return contain(state, start, box) || ends_near(state, start, box);
   }
 
  private:
@@ -37,6 +42,17 @@ template <class S> class SlowBodies {
     return dot_sum(moved, moved) < squared_ && turned < turning_;
   }
 
+  /// Bodies that turn by more than a radian are not slow.
+  ISO_INLINE bool ends_near(const BodyState<S>& state, const Pose<S>& start, const Aabb<S>& box) const {
+    const auto w = abs(state.angular_velocity);
+    if (!(w.x + w.y + w.z < Velocity<S>(hz_))) return false;
+    const Vec3<S> farthest = max(box.high - state.centre, state.centre - box.low);
+    const Pose<S> end = {state.centre, state.orientation};
+    return most_motion<S>({start, end, Vec3<S>::zero()}, length(farthest)) < motion_;
+  }
+
+  S motion_;  // [m]
+  std::int32_t hz_;
   Sum<S> squared_, turning_;
 };
 
@@ -183,9 +199,12 @@ template <class S> void FastBodies<S>::leave_out_joined() {
 }
 
 template <class S> void FastBodies<S>::add_if_fast(std::size_t index) {
+  const BodyProperties<S>& body = state_.awake.properties[index];
+  const S thinnest = motion_.is_bullet(index) ? S(0) : survey_.thinnest;
+  const detail::SlowBodies<S> are_slow((map_.shapes.thinnest_of(body.shape) + thinnest) * S(0.5), state_.settings.hz);
+  if (are_slow.contain(map_, state_.awake.states[index], body, motion_.start(index))) return;
   const Mover<S> mover = motion_.measure(index);
-  if ((mover.inner + (motion_.is_bullet(index) ? S(0) : survey_.thinnest)) * S(0.5) < mover.motion)
-    movers_.push_back(mover);
+  if ((mover.inner + thinnest) * S(0.5) < mover.motion) movers_.push_back(mover);
 }
 
 template <class S> void FastBodies<S>::number() {

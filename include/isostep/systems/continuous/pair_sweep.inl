@@ -16,6 +16,7 @@ template <class S> inline constexpr S kDeepMotion = kSpeculativeDistance<S> + kT
 /// Returns the box around a part on all of its way, with room for what it nearly touches.
 template <class S> Aabb<S> swept_bounds(const PlacedShape<S>& part, const CoreMotion<S>& motion) {
   const auto at = [&](const Pose<S>& pose) { return bounds(part.shape, compose(Transform<S>::of(pose), part.at)); };
+  if (is_still(motion)) return grown_with_slack<S>(at(motion.start), kSpeculativeDistance<S>);
   const Aabb<S> own = bounds(part.shape, part.at);
   const S reach = length(max(abs(own.low - motion.centre), abs(own.high - motion.centre)));
   const S bow = min(bow_of(motion, reach), reach + reach);

@@ -100,16 +100,51 @@ TYPED_TEST(SurfaceImpacts, look_at_all_that_the_core_passes) {
     }
     const CoreMotion<S> motion = {start, end, centre};
     const Transform<S> frame = Transform<S>::of(place(10));
-    const Aabb<S> box = detail::swept_box(frame, this->core(), motion, S(0));
+    const ConvexCore<S> core = this->core();
+    const Aabb<S> box = detail::CoreWay<S>(frame, core, motion).box(S(0));
     for (int i = 0; i <= 16; ++i) {
       const Transform<S> at = Transform<S>::of(pose_at(motion, num<Unit<S>>(i / 16.0)));
-      for (const Vec3<S>& v : this->core().vertices) {
+      for (const Vec3<S>& v : core.vertices) {
         const Vec3<S> p = to_local(frame, to_world(at, v));
         const Aabb<S> point = {p, p};
         ASSERT_TRUE(contains(grow(box, num<S>(kIsFixed<S> ? 0.001 : 1e-4)), point)) << trial << " at " << i << "/16";
       }
     }
   }
+}
+
+/// A core that is said to stay above a plane is above it wherever it is on its way.
+TYPED_TEST(SurfaceImpacts, leave_out_what_the_core_stays_above) {
+  using S = TypeParam;
+  Dice dice(7);
+  int above = 0, below = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    this->place_cube(dice.one_in(2) ? D3{0, 0, 0} : dice.point(4));
+    const ConvexCore<S> core = {this->core().vertices, num<S>(dice.one_in(2) ? 0 : 0.25)};
+    const Vec3<S> centre = vec<S>(dice.one_in(2) ? D3{0, 0, 0} : dice.point(1));
+    const D3 from = dice.point(dice.one_in(4) ? 200 : 4), way = dice.point(dice.magnitude(0.01, 4));
+    const double angle = dice.magnitude(0.01, 2);
+    const Pose<S> start = {vec<S>(from), dice.template orientation<S>()};
+    const Pose<S> end = {vec<S>(from + way), normalise(turn<S>(dice.direction(), angle) * start.orientation)};
+    const CoreMotion<S> motion = {start, end, centre};
+    const D3 up = dice.direction();
+    const Vec3<Unit<S>> normal = {num<Unit<S>>(up.x), num<Unit<S>>(up.y), num<Unit<S>>(up.z)};
+    const Vec3<S> point = vec<S>(from - up * dice.in(-1, 5));
+    const S margin = num<S>(dice.one_in(2) ? 0 : 0.01);
+    const Transform<S> frame = Transform<S>::of(Pose<S>::identity());
+    if (!detail::CoreWay<S>(frame, core, motion).stays_above(normal, point, margin)) {
+      ++below;
+      continue;
+    }
+    ++above;
+    for (int i = 0; i <= 16; ++i) {
+      const Transform<S> at = Transform<S>::of(pose_at(motion, num<Unit<S>>(i / 16.0)));
+      for (const Vec3<S>& v : core.vertices)
+        ASSERT_GT(dot(normal, to_world(at, v) - point), core.radius + margin) << trial << " at " << i << "/16";
+    }
+  }
+  EXPECT_GT(above, 500);
+  EXPECT_GT(below, 500);
 }
 
 }  // namespace surface_impact_test
