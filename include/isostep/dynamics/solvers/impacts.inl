@@ -84,13 +84,14 @@ void Impacts<S>::look_at(const StepContext<S>& context, const BodyRows<S>& bodie
   const V least = pressed ? context.restitution_threshold : detail::part_of(S(1.0 / 16), context.restitution_threshold);
   for (std::uint32_t p = 0; p < context.contacts[of.contact].count; ++p) {
     const auto& at = g.points[p];
+    const JointRow<S> normal = {n, cross(at.arm_a, n), cross(at.arm_b, n), {}, {}};
+    const V speed = detail::along(normal, rows.velocity[g.row_a], rows.velocity[g.row_b]);
+    if (!(min(speed, saturating_add(speed, forced)) < -least)) continue;
     TouchRow<S> touch = {};
     touch.bouncing = index;
     touch.point = p;
-    touch.normal = {n, cross(at.arm_a, n), cross(at.arm_b, n), {}, {}};
-    const V speed = detail::along(touch.normal, rows.velocity[g.row_a], rows.velocity[g.row_b]);
-    if (!(min(speed, saturating_add(speed, forced)) < -least)) continue;
-    const V moved = detail::along(touch.normal, rows.displacement[g.row_a], rows.displacement[g.row_b]);
+    touch.normal = normal;
+    const V moved = detail::along(normal, rows.displacement[g.row_a], rows.displacement[g.row_b]);
     const V gap = saturating_add(convert<V>(at.separation), moved);
     if (!meets(gap, speed, forced, bodies.rate(), of.fresh ? S(bodies.rate() / context.hz) : S(0), touch)) continue;
     if (!(touch.met < -least)) continue;
