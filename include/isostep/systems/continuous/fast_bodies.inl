@@ -109,6 +109,7 @@ template <class S> void FastBodies<S>::find() {
   const std::span<const BodyState<S>> states = state_.awake.states;
   const std::span<const BodyProperties<S>> bodies = state_.awake.properties;
   met_.clear();
+  met_.reserve(states.size());  // however few were asked before
   for (std::size_t i = 0; is_fixed && i < states.size(); ++i) {
     if (!are_shallow.contain(map_, states[i], bodies[i], motion_.start(i)) && motion_.may_move(i))
       met_.push_back(static_cast<std::uint32_t>(i));
