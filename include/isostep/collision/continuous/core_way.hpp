@@ -3,7 +3,9 @@
 #pragma once
 
 #include "isostep/collision/continuous/core_motion.hpp"
+#include "isostep/collision/continuous/plane_impact.hpp"
 #include "isostep/collision/narrowphase/convex_core.hpp"
+#include "isostep/collision/narrowphase/polyhedron_axes.hpp"
 #include "isostep/geometry/closest.hpp"
 
 namespace isostep::detail {
@@ -37,20 +39,19 @@ template <class S> class CoreWay {
         merge(Aabb<S>::around(to_world(from_, centre_), ball), Aabb<S>::around(to_world(to_, centre_), ball));
     return grown_with_slack<S>({max(ends.low, turned.low), min(ends.high, turned.high)}, margin);
   }
-  /// Returns true if the core stays more than `margin` [m] above the plane through a point: rounding counts as nearer.
-  ISO_INLINE bool stays_above(Vec3<Unit<S>> normal, Vec3<S> point, S margin) const {
-    const S apart = max(max_abs(from_.position - point), max_abs(to_.position - point)) + reach_ + max_abs(centre_);
+  /// Returns true if the core stays more than `margin` [m] above a plane: rounding counts as nearer.
+  ISO_INLINE bool stays_above(const SolidPlane<S>& plane, S margin) const {
+    const S ends = max(max_abs(from_.position - plane.point), max_abs(to_.position - plane.point));
+    const S apart = ends + reach_ + max_abs(centre_);
     const S least = core_.radius + bow_ + max(margin, gap_noise(apart) * S(8)) + gap_noise(apart);
-    return least < height(from_, normal, point) && (is_still_ || least < height(to_, normal, point));
+    return least < height(from_, plane) && (is_still_ || least < height(to_, plane));
   }
 
  private:
   /// [m] Returns the height of the lowest vertex above a plane.
-  ISO_INLINE S height(const Transform<S>& at, Vec3<Unit<S>> normal, Vec3<S> point) const {
-    const Vec3<Unit<S>> up = transposed_times(at.rotation, normal);
-    S lowest = dot(up, core_.vertices[0]);
-    for (const Vec3<S>& v : core_.vertices) lowest = min(lowest, dot(up, v));
-    return dot(normal, at.position - point) + lowest;
+  ISO_INLINE S height(const Transform<S>& at, const SolidPlane<S>& plane) const {
+    const S lowest = lowest_of(core_.vertices, transposed_times(at.rotation, plane.normal)).height;
+    return dot(plane.normal, at.position - plane.point) + lowest;
   }
 
   const ConvexCore<S>& core_;

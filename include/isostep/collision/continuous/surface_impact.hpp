@@ -37,9 +37,9 @@ template <class S, class G> class SurfaceSweep {
     const Vec3<S> start = to_local(t_, to_world(Transform<S>::of(motion_.start), middle_of(core_)));
     surface_.query(steps_of(way_.box(target_), surface_.exponent()), [&](std::uint32_t id) {
       const BakedTriangle baked = surface_.triangle(id);
-      const Plane plane = {unit_of_steps<Unit<S>>(baked.normal()), place_of(baked.points[0])};
+      const SolidPlane<S> plane = {unit_of_steps<Unit<S>>(baked.normal()), place_of(baked.points[0])};
       if (dot(plane.normal, start - plane.point) < S(0)) return true;
-      if (way_.stays_above(plane.normal, plane.point, target_)) {
+      if (way_.stays_above(plane, target_)) {
         if (planes_ < kMostPlanes) plane_[planes_++] = plane;
         return true;
       }
@@ -55,19 +55,12 @@ template <class S, class G> class SurfaceSweep {
   }
 
  private:
-  struct Plane {
-    Vec3<Unit<S>> normal;
-    Vec3<S> point;  // [m]
-  };
   struct Triangle {
     Vec3<S> points[3];  // [m]
   };
   static constexpr std::uint32_t kMostPlanes = 4, kMostLeft = 16;
 
-  ISO_INLINE Vec3<S> place_of(const MeshPoint& p) const {
-    const int exponent = surface_.exponent();
-    return {from_lattice<S>(p.x, exponent), from_lattice<S>(p.y, exponent), from_lattice<S>(p.z, exponent)};
-  }
+  ISO_INLINE Vec3<S> place_of(const MeshPoint& p) const { return point_of_steps<S>(p, surface_.exponent()); }
   /// Returns true if all corners are below one plane that the core stays above. stays_above() allows for the rounding.
   ISO_INLINE bool is_below_planes(const Triangle& triangle) const {
     for (std::uint32_t i = 0; i < planes_; ++i) {
@@ -95,8 +88,8 @@ template <class S, class G> class SurfaceSweep {
   S target_;  // [m]
   CoreWay<S> way_;
   TimeOfImpact<S> first_ = {Impact::none, Unit<S>(1), Vec3<Unit<S>>::zero(), Vec3<S>::zero(), Vec3<S>::zero(), S(0), 0};
-  Plane plane_[kMostPlanes];      // that the core stays above
-  Triangle triangle_[kMostLeft];  // not known to be out of reach
+  SolidPlane<S> plane_[kMostPlanes];  // that the core stays above
+  Triangle triangle_[kMostLeft];      // not known to be out of reach
   std::uint32_t planes_ = 0, left_ = 0;
 };
 

@@ -12,9 +12,6 @@
 namespace isostep {
 namespace detail {
 
-template <class S> ISO_INLINE Vec3<S> point_of_steps(MeshPoint p, int exponent) {
-  return {from_lattice<S>(p.x, exponent), from_lattice<S>(p.y, exponent), from_lattice<S>(p.z, exponent)};
-}
 /// Finds the stretch of a ray inside a box [m]. Returns false when it misses.
 template <class S> ISO_INLINE bool clip_ray(const LocalRay<S>& ray, const Aabb<S>& box, S& entry, S& exit) {
   entry = S(0);

@@ -4,6 +4,7 @@
 
 #include "isostep/geometry/baked/surface_blob.hpp"
 #include "isostep/geometry/baked/surface_queries.hpp"
+#include "isostep/geometry/baked/unit_of_steps.hpp"
 #include "isostep/geometry/shapes/shape_parts.hpp"
 
 namespace isostep {
@@ -46,11 +47,7 @@ template <class S, class G, class Visit> ISO_INLINE void visit_points_of_surface
     if (!surface.has_triangle(id)) continue;
     const BakedTriangle triangle = surface.triangle(id);
     Vec3<S> points[3];
-    for (int i = 0; i < 3; ++i) {
-      points[i] = {from_lattice<S>(triangle.points[i].x, surface.exponent()),
-                   from_lattice<S>(triangle.points[i].y, surface.exponent()),
-                   from_lattice<S>(triangle.points[i].z, surface.exponent())};
-    }
+    for (int i = 0; i < 3; ++i) points[i] = point_of_steps<S>(triangle.points[i], surface.exponent());
     visit(id, points);
   }
 }

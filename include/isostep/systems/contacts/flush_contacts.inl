@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "isostep/geometry/baked/unit_of_steps.hpp"
 #include "isostep/geometry/bounds.hpp"
 #include "isostep/math/rotations.hpp"
 #include "isostep/store/body_frames.inl"
@@ -76,9 +77,8 @@ template <class S> bool FlushContacts<S>::is_behind(const Part& part, Vec3<U> no
   S reach = -highest<S>();
   if (part.is_of_surface()) {
     detail::visit_surface(part.shape, [&](const auto& surface) {
-      const auto metres = [&](std::int64_t steps) { return from_lattice<S>(steps, surface.exponent()); };
       for (const MeshPoint& p : surface.corners(part.triangle).points)
-        reach = max(reach, dot(to_world(part.at, Vec3<S>{metres(p.x), metres(p.y), metres(p.z)}), normal));
+        reach = max(reach, dot(to_world(part.at, detail::point_of_steps<S>(p, surface.exponent())), normal));
     });
   } else if (is_bounded(part.shape.primitive.type)) {
     const Mat3<U> upright = to_matrix(rotation_between(normal, Vec3<U>{U(0), U(1), U(0)}));

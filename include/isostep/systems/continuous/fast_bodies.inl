@@ -100,10 +100,8 @@ template <class S> void FastBodies<S>::find() {
   knows_fixed_ = false;
   survey_ = survey();
   const S thinnest = survey_.bullets ? S(0) : survey_.thinnest;
-  if (detail::kThick<S> < thinnest) return;  // nothing stops anybody
-  const S fast = (map_.shapes.least_thickness() + thinnest) * S(0.5);
+  if (detail::kThick<S> < thinnest) return;                       // nothing stops anybody
   const bool is_fixed = !(detail::kThick<S> < survey_.thinnest);  // something is
-  const detail::SlowBodies<S> are_slow(fast, state_.settings.hz);
   // Whom the ground is asked about follows from the body alone: shapes elsewhere change nothing of it.
   const detail::SlowBodies<S> are_shallow(detail::kDeepMotion<S>, state_.settings.hz);
   const std::span<const BodyState<S>> states = state_.awake.states;
@@ -119,9 +117,11 @@ template <class S> void FastBodies<S>::find() {
     if (mover_of_[i] == kDeepInside) {
       movers_.push_back(motion_.measure(i));
       movers_.back().deep = true;
-    } else if (!are_slow.contain(map_, states[i], bodies[i], motion_.start(i)) && motion_.may_move(i)) add_if_fast(i);
+    } else {
+      add_if_fast(i);
+    }
   }
-  if (survey_.kinematic) find_met_by_kinematic(fast);
+  if (survey_.kinematic) find_met_by_kinematic((map_.shapes.least_thickness() + thinnest) * S(0.5));
   if (!movers_.empty()) list_fixed();
 }
 
@@ -203,7 +203,8 @@ template <class S> void FastBodies<S>::add_if_fast(std::size_t index) {
   const BodyProperties<S>& body = state_.awake.properties[index];
   const S thinnest = motion_.is_bullet(index) ? S(0) : survey_.thinnest;
   const detail::SlowBodies<S> are_slow((map_.shapes.thinnest_of(body.shape) + thinnest) * S(0.5), state_.settings.hz);
-  if (are_slow.contain(map_, state_.awake.states[index], body, motion_.start(index))) return;
+  if (are_slow.contain(map_, state_.awake.states[index], body, motion_.start(index)) || !motion_.may_move(index))
+    return;
   const Mover<S> mover = motion_.measure(index);
   if ((mover.inner + thinnest) * S(0.5) < mover.motion) movers_.push_back(mover);
 }

@@ -132,7 +132,7 @@ TYPED_TEST(SurfaceImpacts, leave_out_what_the_core_stays_above) {
     const Vec3<S> point = vec<S>(from - up * dice.in(-1, 5));
     const S margin = num<S>(dice.one_in(2) ? 0 : 0.01);
     const Transform<S> frame = Transform<S>::of(Pose<S>::identity());
-    if (!detail::CoreWay<S>(frame, core, motion).stays_above(normal, point, margin)) {
+    if (!detail::CoreWay<S>(frame, core, motion).stays_above({normal, point}, margin)) {
       ++below;
       continue;
     }
