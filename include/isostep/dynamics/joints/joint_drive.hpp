@@ -39,7 +39,8 @@ template <class S> struct JointDrive {
   S spring_root, spring_rate;  // [1] w of an effective mass of one; [1/s] speed asked for per metre
   S spring;                    // [1] w; 0: no spring, or one too weak for the format to feel
   Direction<S> spring_row;     // [1] x = 1 / sqrt(1 + w^2), y = w / sqrt(1 + w^2)
-  Velocity<S> spring_came;     // [m] since where the spring's force is taken
+  S spring_lag;                // [1] part of the last sub-step's way that the spring does not feel
+  Velocity<S> spring_came;     // [m] that part
   Velocity<S> spring_speed;    // [m/s] that the spring asks for where it was
   Velocity<S> spring_push;     // [m/s] w times that
   Velocity<S> impulse;         // [m/s] accumulated, of all that acts along the row
@@ -55,6 +56,11 @@ template <class S> struct DriveBounds {
 };
 
 namespace detail {
+
+/// [m] Returns the way of a drive from its spring's target.
+template <class S> ISO_INLINE Velocity<S> spring_way(const JointDrive<S>& drive) {
+  return saturate_to<Velocity<S>>(product(drive.position - drive.target, Velocity<S>(1)));
+}
 
 /// [m/s] The most by which a free drive passes a bound without being stopped: the rounding of a fixed speed.
 template <class S> inline constexpr Velocity<S> kPieceTolerance = Velocity<S>(0x1p-14);

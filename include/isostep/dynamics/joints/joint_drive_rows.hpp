@@ -37,7 +37,7 @@ template <class S> ISO_INLINE void weigh_spring(JointDrive<S>& drive, S angle, S
 /// Computes what the spring asks for where it is now.
 template <class S> ISO_INLINE void set_spring_push(JointDrive<S>& drive) {
   using V = Velocity<S>;
-  const V error = saturate_to<V>(product(drive.position - drive.target, V(1)) - product(S(1), drive.spring_came));
+  const V error = saturating_subtract(spring_way(drive), drive.spring_came);
   drive.spring_speed = saturated<S>(product(drive.spring_rate, error));
   drive.spring_push = drive.spring < S(1) ? saturated<S>(product(drive.spring * drive.spring_rate, error))
                                           : saturated<S>(product(drive.spring, drive.spring_speed));

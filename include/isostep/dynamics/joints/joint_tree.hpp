@@ -101,6 +101,7 @@ template <class S> class JointTrees {
         first_body, body_count, row_blocks, stops, laws;
     bool written;  // joints write rows: it has more than points
     bool soft;
+    bool follows;
   };
   struct Batch {
     const TreeKernels<S>* kernels;
@@ -141,7 +142,7 @@ template <class S> class JointTrees {
 
   void write_rows(const Batch& batch, const TreeRun<S>& run, std::span<JointConstraint<S>> joints,
                   const JointStep<S>& step);
-  void write_drive(const Batch& batch, const TreeRun<S>& run, std::uint32_t d,
+  void write_drive(const Batch& batch, const TreeRun<S>& run, std::uint32_t d, std::uint32_t which,
                    std::span<const JointConstraint<S>> joints, const JointStep<S>& step);
 
   // joint_tree.inl
@@ -187,7 +188,7 @@ template <class S> class JointTrees {
   std::vector<std::uint32_t> shape_given_;
   std::vector<Batch> batches_, odd_batches_, loose_batches_;
   std::vector<std::uint32_t> lane_joints_, lane_rows_;
-  std::vector<std::uint32_t> lane_bits_;  // of each batch: idle of its nodes, then clear of its joints
+  std::vector<std::uint32_t> lane_bits_;  // of each batch: idle of its nodes, clear and stale of its joints
   std::vector<DriveLanes> drives_;        // of each batch's drives
   AlignedBytes memory_;
 };

@@ -19,8 +19,9 @@ ISO_INLINE constexpr std::uint64_t mix_hash(std::uint64_t hash, std::uint64_t wo
   return hash ^ (hash >> 29);
 }
 /// Returns a joint's rows as far as kernels must know them: whether its first block is a point, whether there is a
-/// second, which of both may idle, the row of each drive, whether all of them are stops, and whether two sway.
-inline constexpr std::uint32_t kStopsInLayout = 1u << 31, kSwaysInLayout = 1u << 30;
+/// second, which of both may idle, the row of each drive, whether all of them are stops, whether two sway, and whether
+/// it follows.
+inline constexpr std::uint32_t kStopsInLayout = 1u << 31, kSwaysInLayout = 1u << 30, kFollowsInLayout = 1u << 29;
 template <class S> ISO_INLINE std::uint32_t layout_of(const JointConstraint<S>& joint) {
   const JointProperties<S>& p = joint.properties;
   std::uint32_t layout = (holds_point(p) ? 1u : 0u) | (joint.block_count > 1 ? 2u : 0u) | (is_free(p, 0) ? 4u : 0u) |
@@ -30,6 +31,7 @@ template <class S> ISO_INLINE std::uint32_t layout_of(const JointConstraint<S>& 
     if (joint.drives[i].sways) layout |= kSwaysInLayout;
   }
   if (has_stops(joint)) layout |= kStopsInLayout;
+  if (follows(joint)) layout |= kFollowsInLayout;
   return layout;
 }
 }  // namespace detail
@@ -197,7 +199,8 @@ template <class S> void JointTrees<S>::add_shape(std::span<const JointConstraint
                  0,
                  0,
                  false,
-                 tree.turn > 0};
+                 tree.turn > 0,
+                 false};
   shape_bodies_.resize(shape.first_body + tree.body_count);
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
@@ -208,7 +211,9 @@ template <class S> void JointTrees<S>::add_shape(std::span<const JointConstraint
     const bool turns = joint.block_count > 1;
     const bool has_stops = (ends.layout & detail::kStopsInLayout) != 0;
     const std::uint32_t stops = has_stops ? shape.stops++ : TreeJoint::kNoStops;
-    shape_joints_.push_back({ends.a, ends.b, i, ends.a_moves, ends.b_moves, ends.closes_loop, turns, stops});
+    const bool follows = (ends.layout & detail::kFollowsInLayout) != 0;
+    shape.follows = shape.follows || follows;
+    shape_joints_.push_back({ends.a, ends.b, i, ends.a_moves, ends.b_moves, ends.closes_loop, turns, stops, follows});
     shape_bodies_[shape.first_body + ends.a] = {shape.joint_count, true, ends.a_moves};
     shape_bodies_[shape.first_body + ends.b] = {shape.joint_count, false, ends.b_moves};
     ++shape.joint_count;
@@ -262,6 +267,7 @@ void JointTrees<S>::add_batch(std::span<const JointConstraint<S>> joints, std::s
   lane_joints_.resize(lane_joints_.size() + std::size_t{shape.joint_count} * width);
   lane_rows_.resize(lane_rows_.size() + std::size_t{shape.body_count} * width);
   lane_bits_.resize(lane_bits_.size() + shape.node_count + shape.joint_count, 0);
+  lane_bits_.resize(lane_bits_.size() + shape.joint_count, 0xffffffffu);  // nothing is measured
   drives_.resize(drives_.size() + shape.drive_count, {});
   for (std::uint32_t lane = 0; lane < width; ++lane) {
     const Tree& tree = trees[lane < trees.size() ? lane : 0];
@@ -285,7 +291,8 @@ template <class S> TreeShape JointTrees<S>::shape_of(const Shape& shape) const {
           shape.row_blocks,
           shape.stops,
           shape.laws,
-          shape.soft};
+          shape.soft,
+          shape.follows};
 }
 template <class S> TreeRun<S> JointTrees<S>::run_of(const Batch& batch, SolverBodies<S>* bodies) {
   return {shape_of(shapes_[batch.shape]),
@@ -293,6 +300,7 @@ template <class S> TreeRun<S> JointTrees<S>::run_of(const Batch& batch, SolverBo
           lane_rows_.data() + batch.first_row,
           lane_bits_.data() + batch.first_idle,
           lane_bits_.data() + batch.first_idle + shapes_[batch.shape].node_count,
+          lane_bits_.data() + batch.first_idle + shapes_[batch.shape].node_count + shapes_[batch.shape].joint_count,
           drives_.data() + batch.first_drive,
           batch.lanes,
           memory_.data() + batch.offset,

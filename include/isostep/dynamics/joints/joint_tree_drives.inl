@@ -19,11 +19,13 @@ void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::s
   for (std::uint32_t j = 0; j < run.shape.joints.size(); ++j) {
     const TreeJoint& of = run.shape.joints[j];
     if (of.stops != TreeJoint::kNoStops || (!of.turns && run.shape.nodes[of.node].is_point())) continue;
+    const std::uint32_t which = run.stale[j];
+    if (which == 0) continue;
     const TreeNode& first = run.shape.nodes[of.turns ? of.node - 1 : of.node];
     const TreeNode& last = run.shape.nodes[of.node];
     const std::uint32_t begin = first.first_drive, end = last.first_drive + last.drive_count;
     for (std::uint32_t lane = 0; lane < width; ++lane) {
-      if ((run.lanes >> lane & 1u) == 0) continue;
+      if (((run.lanes & which) >> lane & 1u) == 0) continue;
       JointConstraint<S>& joint = joints[run.joints[j * width + lane]];
       for (std::uint32_t d = begin; d < end; ++d) {
         JointDrive<S>& drive = joint.drives[run.shape.drives[d].index];
@@ -33,20 +35,21 @@ void JointTrees<S>::write_rows(const Batch& batch, const TreeRun<S>& run, std::s
       if (joint.drive_count > 0 && joint.drives[0].sways) joint.blocks[0].impulse.x = nodes.impulse(of.node, 0, lane);
       linearise_joint(joint, step);
     }
-    for (std::uint32_t d = begin; d < end; ++d) write_drive(batch, run, d, joints, step);
+    for (std::uint32_t d = begin; d < end; ++d) write_drive(batch, run, d, which, joints, step);
   }
 }
 
-/// Writes the present piece and law of a drive, in lanes without a tree too.
+/// Writes the present piece and law of a drive in some lanes, in those without a tree too.
 template <class S>
-void JointTrees<S>::write_drive(const Batch& batch, const TreeRun<S>& run, std::uint32_t d,
+void JointTrees<S>::write_drive(const Batch& batch, const TreeRun<S>& run, std::uint32_t d, std::uint32_t which,
                                 std::span<const JointConstraint<S>> joints, const JointStep<S>& step) {
   const auto width = static_cast<std::uint32_t>(batch.kernels->width);
   const TreeDriveView<S> view(run.memory, run.shape, width);
   const TreeDrive& of = run.shape.drives[d];
   DriveLanes& lanes = run.drives[d];
-  lanes.servos = 0;
+  lanes.servos &= ~which;
   for (std::uint32_t lane = 0; lane < width; ++lane) {
+    if ((which >> lane & 1u) == 0) continue;
     const JointDrive<S>& drive = joints[run.joints[of.joint * width + lane]].drives[of.index];
     detail::set_piece(lanes.now, lane, drive.piece);
     lanes.servos |= (drive.servo ? 1u : 0u) << lane;

@@ -16,6 +16,15 @@ template <class S> ISO_INLINE bool has_stops(const JointConstraint<S>& joint) {
   }
   return joint.block_count > 1 && bounds_twist_and_swing<S>(joint.properties.type);
 }
+/// Returns true if a joint's angles are measured once a step: it holds a point, and drives angles without soft limits.
+template <class S> ISO_INLINE bool follows(const JointConstraint<S>& joint) {
+  if (joint.drive_count == 0 || !holds_point(joint.properties) || has_stops(joint)) return false;
+  for (std::uint32_t i = 0; i < joint.drive_count; ++i) {
+    const JointDrive<S>& drive = joint.drives[i];
+    if (drive.block == 0 || drive.sways || (drive.asked != nullptr && is_soft(*drive.asked))) return false;
+  }
+  return true;
+}
 /// [rad] per cosine: the way from any smaller angle to the one of this sine and cosine is at least that many times the
 /// difference of their cosines. 1 / (sin R + sin(R / 2)), or 1 if that is less or the format has too few digits for it.
 template <class S> ISO_INLINE S slope_to(SinCos<Unit<S>> most) {

@@ -91,7 +91,8 @@ template <class S, int W, class Isa> struct TreeFactoriser : TreeCoupler<S, W, I
       store({c[0], c[1], c[2]}, m.bodies[b].centre);
       store(Base::matrix_of({q[0], q[1], q[2], q[3]}), m.bodies[b].rotation);
       L::zero().store(m.bodies[b].pull);
-      if (run.shape.stops == 0) continue;
+      if (run.shape.follows) Base::turn_since(m.bodies[b], {q[0], q[1], q[2], q[3]});
+      if (run.shape.stops == 0 && !run.shape.follows) continue;
       for (int i = 0; i < 4; ++i) q[i].store(m.bodies[b].orientation[i]);
     }
   }

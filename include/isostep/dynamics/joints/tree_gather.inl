@@ -148,6 +148,9 @@ template <class S, int W, class Isa> struct TreeGatherer {
       load_transposed<4>(impulse, p);
       store({p[1], p[2], p[3]}, m.nodes[n].impulse);
     }
+    for (std::size_t b = 0; run.shape.follows && b < run.shape.bodies.size(); ++b) {
+      for (int i = 0; i < 4; ++i) U::zero().store(m.bodies[b].orientation[i]);  // turned by nothing
+    }
     if (run.shape.stops == 0) return;
     for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) {
       if (!has_stops(run, run.shape.nodes[n])) continue;
@@ -164,7 +167,7 @@ template <class S, int W, class Isa> struct TreeGatherer {
         if (((run.lanes >> i) & 1u) == 0) continue;
         JointConstraint<S>& joint = joints[lane_joint(run, node.joint, i)];
         joint.blocks[node.of_angles ? 1 : 0].impulse = {impulse[0][i], impulse[1][i], impulse[2][i]};
-        if (has_stops(run, node)) store_rows(run, node, m.rows[node.rows], i, joint);
+        if (has_stops(run, node) || follows(run, node)) store_rows(run, node, m.rows[node.rows], i, joint);
       }
     }
   }
@@ -176,13 +179,16 @@ template <class S, int W, class Isa> struct TreeGatherer {
     for (std::size_t n = 0; n < run.shape.nodes.size(); ++n) {
       const TreeNode& node = run.shape.nodes[n];
       if (node.is_point() || has_stops(run, node)) continue;
+      const std::uint32_t stale = run.stale[node.joint] & kAll;
+      if (stale == 0) continue;
+      const Mask which = Mask::from_bits(stale);
       Rows& rows = m.rows[node.rows];
-      for (std::uint32_t r = 0; r < 3; ++r) gather_row(run, node, r, joints, rows);
+      for (std::uint32_t r = 0; r < 3; ++r) gather_row(run, node, r, which, joints, rows);
       const Velocity<S>* errors[W];
       ISO_UNROLL for (int i = 0; i < W; ++i) errors[i] = &block_of(run, node, joints, i).error.x;
       V e[4];  // the last is no error
       load_transposed<4>(errors, e);
-      store({e[0], e[1], e[2]}, m.nodes[n].error);
+      store(select(which, Vec3<V>{e[0], e[1], e[2]}, load(m.nodes[n].error)), m.nodes[n].error);
     }
   }
   static ISO_INLINE std::uint32_t lane_joint(const TreeRun<S>& run, std::uint32_t joint, int lane) {
@@ -193,6 +199,9 @@ template <class S, int W, class Isa> struct TreeGatherer {
   static constexpr std::uint32_t kAll = 0xffffffffu >> (32 - W);
   static ISO_INLINE bool has_stops(const TreeRun<S>& run, const TreeNode& node) {
     return node.of_angles && run.shape.joints[node.joint].stops != TreeJoint::kNoStops;
+  }
+  static ISO_INLINE bool follows(const TreeRun<S>& run, const TreeNode& node) {
+    return node.of_angles && run.shape.joints[node.joint].follows;
   }
   /// Returns true if the node consists of limits that no lane reaches.
   static ISO_INLINE bool is_clear(const TreeRun<S>& run, const TreeNode& node) {
@@ -227,11 +236,14 @@ template <class S, int W, class Isa> struct TreeGatherer {
                                                   const JointConstraint<S>* joints, int lane) {
     return joints[lane_joint(run, node.joint, lane)].blocks[node.of_angles ? 1 : 0];
   }
-  static ISO_INLINE void store_row(const L (&v)[4], S (&field)[9][W], std::uint32_t row) {
-    ISO_UNROLL for (int k = 0; k < 3; ++k) v[k].store(field[3 * row + static_cast<std::uint32_t>(k)]);
+  static ISO_INLINE void store_row(const L (&v)[4], const Mask& which, S (&field)[9][W], std::uint32_t row) {
+    ISO_UNROLL for (int k = 0; k < 3; ++k) {
+      S(&word)[W] = field[3 * row + static_cast<std::uint32_t>(k)];
+      select(which, v[k], L::load(word)).store(word);
+    }
   }
   /// Gathers a row of the node. A drive has its own row, in place of the one in the block.
-  static ISO_INLINE void gather_row(const TreeRun<S>& run, const TreeNode& node, std::uint32_t r,
+  static ISO_INLINE void gather_row(const TreeRun<S>& run, const TreeNode& node, std::uint32_t r, const Mask& which,
                                     const JointConstraint<S>* joints, Rows& rows) {
     const TreeDrive* drive = nullptr;
     for (std::uint32_t d = node.first_drive; d < node.first_drive + node.drive_count; ++d) {
@@ -248,7 +260,7 @@ template <class S, int W, class Isa> struct TreeGatherer {
       ISO_UNROLL for (int i = 0; i < W; ++i) words[i] = from[i] + offset / sizeof(S);
       L v[4];  // the last is the part's that follows
       load_transposed<4>(words, v);
-      store_row(v, field, r);
+      store_row(v, which, field, r);
     };
     if (!node.of_angles) part(offsetof(JointRow<S>, linear), rows.linear);
     part(offsetof(JointRow<S>, angular_a), rows.angular_a);

@@ -5,14 +5,14 @@
 #pragma once
 
 #include "isostep/dynamics/joints/tree_factor.inl"
-#include "isostep/dynamics/joints/tree_laws.inl"
+#include "isostep/dynamics/joints/tree_follow.inl"
 
 namespace isostep {
 namespace {
 
 /// The kernel of W trees. All trees of a run have one shape, so that lanes differ only in numbers and never interact.
-template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
-  using Base = TreeLaws<S, W, Isa>;
+template <class S, int W, class Isa> struct TreeKernel : TreeFollower<S, W, Isa> {
+  using Base = TreeFollower<S, W, Isa>;
   using Base::bounded;
   using Base::idle_lanes;
   using Base::idles;
@@ -32,6 +32,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
     Base::gather_velocities(run, m);
     Base::place_bodies(run, m, joints, step.states);
     if (run.shape.stops > 0) Base::place_stops(run, m, step.h);
+    if (run.shape.follows) Base::follow(run, m, step.h);
   }
   static void linearise(const TreeRun<S>& run, const JointConstraint<S>* joints, const JointStep<S>& step) {
     const Memory m = Memory::of(run.memory, run.shape);
@@ -41,6 +42,7 @@ template <class S, int W, class Isa> struct TreeKernel : TreeLaws<S, W, Isa> {
       V::load(m.drives[d].impulse).store(m.nodes[drive.node].impulse[drive.place]);
     }
     Base::linearise(run, m, joints, step);
+    if (run.shape.follows) Base::keep_rows(run, m);
   }
   static void warm_start(const TreeRun<S>& run) {
     const Memory m = Memory::of(run.memory, run.shape);

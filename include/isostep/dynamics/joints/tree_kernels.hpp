@@ -45,6 +45,7 @@ template <class S> struct TreeRun {
   const std::uint32_t* rows;         // of SolverBodies: W for every body of the shape
   std::uint32_t* idle;               // for every node: the lanes in which it asks for nothing, one bit each
   std::uint32_t* clear;              // for every joint: the lanes in which no limit is reached in this sub-step
+  std::uint32_t* stale;              // for every joint: the lanes in which its rows must be written
   DriveLanes* drives;                // for every drive
   std::uint32_t lanes;               // which of the W have a tree, one bit each
   unsigned char* memory;             // TreeMemory<S, W>
@@ -61,9 +62,9 @@ template <class S> struct TreeKernels {
   void (*store)(const TreeRun<S>&, JointConstraint<S>* joints);
   /// Begins a sub-step: gathers the present poses and velocities of bodies, and the state of joints with stops.
   void (*place)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
-  /// JointTrees calls each once a sub-step. `linearise` reads rows and laws of constraints, except for points and for
-  /// joints with stops. Before `warm_start` JointTrees sets what loose joints feel of the tension at their
-  /// bodies.
+  /// JointTrees calls each once a sub-step. `linearise` reads rows and laws of constraints, except for points, joints
+  /// with stops and joints that follow and are not stale. Before `warm_start` JointTrees sets what loose joints feel of
+  /// the tension at their bodies.
   void (*linearise)(const TreeRun<S>&, const JointConstraint<S>* joints, const JointStep<S>& step);
   void (*warm_start)(const TreeRun<S>&);
   void (*solve)(const TreeRun<S>&, const JointStep<S>& step);

@@ -16,7 +16,8 @@ template <class S, int W> struct TreeBodyLanes {
   Velocity<S> linear[3][W], angular[3][W];              // [m/s], [rad/s] for the length of a pass
   Velocity<S> start_linear[3][W], start_angular[3][W];  // when the pass began, of trees with drives
   S centre[3][W];                                       // [m] now
-  Unit<S> orientation[4][W];                            // now, of trees with stops
+  Unit<S> orientation[4][W];                            // now, of trees with stops or with joints that follow
+  Velocity<S> turned[3][W];                             // [rad] since the last sub-step, of the latter
   Unit<S> rotation[9][W];                               // body to world, now
   S kappa[6][W];                                        // [1/m^2] now
   S felt[6][W];                                         // [1/m^2] as the joints see it, tension in it
@@ -32,6 +33,8 @@ template <class S, int W> struct TreeJointLanes {
   S turn_a[9][W], turn_b[9][W];    // [1/m] of a point: angular velocity per impulse, before the mass share: column i
                                    // for axis i
   Velocity<S> curve[3][W];         // [m/s] of what the arms' turning adds to the speed of a point
+  Velocity<S> turned[W];           // [rad] that the bodies of a joint that follows turned against each other since it
+                                   // was measured
 };
 template <class S, int W> struct TreeNodeLanes {
   S inverse[6][W];            // [1] of D; until then what earlier eliminations have left of K
@@ -42,7 +45,7 @@ template <class S, int W> struct TreeNodeLanes {
 };
 /// Three rows that are no point, like JointRow: row i in entries 3 i to 3 i + 2.
 template <class S, int W> struct TreeRowLanes {
-  S linear[9][W];                      // [1] of places
+  S linear[9][W];                      // [1] of places; [m] of angles that follow: angular_a in a's frame
   S angular_a[9][W], angular_b[9][W];  // [m]
   S turn_a[9][W], turn_b[9][W];        // [1/m]
 };
@@ -73,6 +76,9 @@ template <class S, int W> struct TreeLawLanes {
   S ratio[W];                        // [1] 1 / sqrt(1 + w^2) / w; 0 without a spring
   Unit<S> row_full[W], row_part[W];  // [1] 1 / sqrt(1 + w^2), w / sqrt(1 + w^2)
   S sway[W], sway_left[W];           // [s/m], [1]
+  Velocity<S> way[W];                // [m] from the spring's target
+  S rate[W];                         // [1/s] speed that the spring asks for per metre
+  S lag[W];                          // [1] part of the last sub-step's way that the spring does not feel
 };
 
 /// A joint with rows only of a twist and a swing, each bounded or held: tree_stops.inl.
@@ -157,10 +163,13 @@ template <class S> class TreeDriveView {
     of_law<Unit<S>>(law, 7, lane) = drive.spring_row.y;
     of_law<S>(law, 8, lane) = drive.sway;
     of_law<S>(law, 9, lane) = drive.sway_left;
+    of_law<Velocity<S>>(law, 10, lane) = detail::spring_way(drive);
+    of_law<S>(law, 11, lane) = drive.spring_rate;
+    of_law<S>(law, 12, lane) = drive.spring_lag;
   }
 
  private:
-  static constexpr std::size_t kWords = 9, kLawWords = 10;
+  static constexpr std::size_t kWords = 9, kLawWords = 13;
   static_assert(sizeof(Velocity<S>) == sizeof(S) && sizeof(Unit<S>) == sizeof(S));
   static_assert(sizeof(TreeDriveLanes<S, 1>) == kWords * sizeof(S));
   static_assert(sizeof(TreeLawLanes<S, 1>) == kLawWords * sizeof(S));

@@ -29,6 +29,7 @@ struct TreeJoint {
   bool turns;           // has a block of angles
   std::uint32_t stops;  // in the stops of the memory; kNoStops: its rows are not those of a twist and a swing, or its
                         // drives do more than bound them
+  bool follows;         // its angles are measured once a step: tree_follow.inl
 
   static constexpr std::uint32_t kNoStops = 0xffffffffu;
 };
@@ -78,6 +79,7 @@ struct TreeShape {
   std::uint32_t stops;              // joints with stops
   std::uint32_t laws;               // drives of other joints
   bool soft;                        // a loose joint, as soft as JointStep::softness
+  bool follows;                     // some joint follows
 };
 
 }  // namespace isostep

@@ -68,6 +68,17 @@ template <class S, int W, class Isa> struct TreeStopper : TreeGatherer<S, W, Isa
     return some;
   }
 
+  /// Stores by how much a body has turned since the orientation in its lanes: twice the sines of half the turn.
+  static ISO_INLINE void turn_since(Body& body, const Quat<U>& now) {
+    const Quat<U> turn = now * conjugate(rotation(body.orientation));
+    const auto back = less(turn.w, U::zero());
+    const auto part = [&](U x) ISO_INLINE_LAMBDA {
+      const V half = convert<V>(select(back, -x, x));
+      return half + half;
+    };
+    store(Vec3<V>{part(turn.x), part(turn.y), part(turn.z)}, body.turned);
+  }
+
   static ISO_INLINE Mat3<U> matrix_of(Quat<U> q) { return to_matrix(q, U::broadcast(Unit<S>(1))); }
 
  private:
