@@ -93,7 +93,8 @@ template <class S> struct FreeTurn {
     if (may_have_less && !(wanted < is)) return w;
     if (!(half(wanted) < is)) return like;  // nothing that a step does
     const S scale = divide_to<S>(wanted, is);
-    return {times(scale, w.x), times(scale, w.y), times(scale, w.z)};
+    const auto scaled = [scale](V x) ISO_INLINE_LAMBDA { return round_with_headroom<V>(product(scale, x)); };
+    return {scaled(w.x), scaled(w.y), scaled(w.z)};
   }
   static ISO_INLINE V half(V x) { return round_to<V>(product(S(0.5), x)); }
   static ISO_INLINE Vec3<V> half(Vec3<V> x) { return {half(x.x), half(x.y), half(x.z)}; }
