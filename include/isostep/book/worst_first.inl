@@ -11,8 +11,9 @@
 namespace isostep {
 
 template <class S, class Queue> void WorstFirstResolver<S, Queue>::colour_constraints(const StepContext<S>& context) {
-  bodies_.gather(context, integration_rate(SolverName::worst_first, context.hz, context.substeps), true);
-  joints_.prepare(context, bodies_.rows());
+  any_followed_ =
+      bodies_.gather(context, integration_rate(SolverName::worst_first, context.hz, context.substeps), true);
+  joints_.prepare_all(context, bodies_.rows());
   impacts_.begin(context, bodies_.rows());
   const SolverBodies<S>& bodies = bodies_.rows();
   const auto mover = [&](std::uint32_t row) { return bodies.moves(row) ? row : 0u; };
@@ -270,7 +271,6 @@ template <class S, class Queue> void WorstFirstResolver<S, Queue>::solve_substep
   const std::uint32_t turns = context.projection == Projection::relaxed ? detail::kRelaxedTurns : 1;
   islands_left_ = 0;
   if (context.projection == Projection::velocity_based) take_back(context);
-  any_followed_ = bodies_.began_with_followed();
   for (std::int32_t substep = 0; substep < context.substeps; ++substep) {
     begin_velocities(context, step);
     const auto resolve_motions = [&] {

@@ -25,6 +25,15 @@ struct TaskRunner {
   std::int32_t threads = 1;  // that may run at once, the caller's among them; beyond kMaxPieces they count as that
 };
 
+/// Returns into how many pieces to divide work: one a thread, none smaller than `least`; four a thread for much work,
+/// so that little waits for an interrupted thread.
+ISO_INLINE std::uint32_t piece_count(std::uint32_t work, std::uint32_t least, std::uint32_t threads) {
+  const std::uint32_t most = work / least;
+  if (threads <= 1 || most <= 1) return 1;
+  const std::uint32_t pieces = most < 16 * threads ? (most < threads ? most : threads) : 4 * threads;
+  return pieces < kMaxPieces ? pieces : kMaxPieces;
+}
+
 /// One piece of a stage. Pieces of one stage write nothing in common.
 using StagePiece = void (*)(void* data, std::uint32_t stage, std::uint32_t piece);
 

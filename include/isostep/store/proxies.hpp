@@ -28,6 +28,8 @@ template <class S> class Proxies {
   /// Places a body, or renews its place. A disabled body has none.
   void place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake);
   void remove(std::uint32_t slot);
+  /// Returns true if `place` would change nothing.
+  bool is_placed(const BodyState<S>& state, const BodyProperties<S>& body, bool awake) const;
   /// Renews the pairs. If there are more than `budget`, the `contacts` of the last step help to choose among them.
   void update(std::span<const Contact<S>> contacts, std::size_t budget);
   bool present(std::uint32_t slot) const { return slot < proxies_.size() && proxies_[slot].present; }
@@ -51,6 +53,10 @@ template <class S> class Proxies {
       return (*proxies)[a].traits.pairs_with((*proxies)[b].traits);
     }
   };
+
+  ISO_INLINE Proxy<S> proxy_of(const BodyState<S>& state, const BodyProperties<S>& body, bool awake) const {
+    return {state.fat, ProxyTraits::of(body, shapes_[body.shape]->traits, awake), true};
+  }
 
   const StoredShapes<S>& shapes_;
   ChosenBroadPhase<S> boxes_;

@@ -14,7 +14,7 @@ template <class S> void Proxies<S>::place(const BodyState<S>& state, const BodyP
   }
   if (proxies_.size() <= state.slot) proxies_.resize(state.slot + 1, Proxy<S>{});
   Proxy<S>& known = proxies_[state.slot];
-  const Proxy<S> next = {state.fat, ProxyTraits::of(body, shapes_[body.shape]->traits, awake), true};
+  const Proxy<S> next = proxy_of(state, body, awake);
   if (!known.present) {
     boxes_.insert(state.slot, state.fat);
   } else if (!(known.box == next.box)) {
@@ -24,6 +24,13 @@ template <class S> void Proxies<S>::place(const BodyState<S>& state, const BodyP
   }
   known = next;
   pairs_.mark_moved(state.slot);
+}
+
+template <class S>
+bool Proxies<S>::is_placed(const BodyState<S>& state, const BodyProperties<S>& body, bool awake) const {
+  if (!is_enabled(body) || !present(state.slot)) return !is_enabled(body) && !present(state.slot);
+  const Proxy<S>&known = proxies_[state.slot], now = proxy_of(state, body, awake);
+  return known.box == now.box && known.traits == now.traits;
 }
 
 template <class S> void Proxies<S>::remove(std::uint32_t slot) {

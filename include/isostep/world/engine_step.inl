@@ -38,7 +38,7 @@ template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer
   solver_.with_solver([&](auto& solver) { solve(solver, after, watched); });
   solver_.report_forces(report_);
   targets_.arrive();
-  finisher_.finish(render_poses_.start(), solver_.cut(), report_);
+  finisher_.finish(render_poses_.start(), solver_.cut(), tools_.runner, report_);
   after(Stage::finalise_bodies);
   continuous_.update(render_poses_.start(), narrow_phase_.joined_pairs(),
                      {&pair_rules_.ways(), &responses_.table(), &pair_rules_.kinds()});

@@ -20,7 +20,7 @@ template <class S> class BodyFinishers : public ::testing::Test {
   StepReport finish() {
     StepReport report;
     const Pose<S> start[] = {{vec<S>(1, 0, 0), Quat<Unit<S>>::identity()}};
-    finisher.finish(start, {}, report);
+    finisher.finish(start, {}, {}, report);
     return report;
   }
 
@@ -88,7 +88,7 @@ TEST(BodyFinishersOfFloat, a_body_that_is_no_number_goes_back_and_stops) {
   systems.state.contacts.push_back(contact);
   const Pose<float> start[] = {{{1, 2, 3}, Quat<float>::identity()}};
   StepReport report;
-  finisher.finish(start, {}, report);
+  finisher.finish(start, {}, {}, report);
   EXPECT_EQ(report.stopped, 1u);
   EXPECT_EQ(body.centre.y, 2.0f);
   EXPECT_EQ(body.velocity.y, 0.0f);

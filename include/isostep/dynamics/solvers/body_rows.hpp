@@ -15,12 +15,24 @@
 namespace isostep {
 
 /// Order:   velocity before position (semi-implicit Euler), gyroscopic term by the midpoint rule, damping implicit.
-/// Threads: ranges of bodies that do not meet may be integrated side by side.
+/// Threads: ranges of bodies that do not meet may be gathered, integrated and stored side by side.
 template <class S> class BodyRows {
  public:
-  /// Gathers velocities and masses of context.states once a step, with zero displacement. Sub-steps take 1 / rate
-  /// seconds. `binds_joints`: energy_bound.hpp.
-  void gather(const StepContext<S>& context, std::int32_t rate, bool binds_joints);
+  /// Makes room for the bodies of a step whose sub-steps take 1 / rate seconds.
+  void begin(const StepContext<S>& context, std::int32_t rate);
+  /// Gathers velocities and masses of bodies first..end-1 once a step, with zero displacement. Returns true if contacts
+  /// must follow any of them.
+  bool gather_range(const StepContext<S>& context, std::size_t first, std::size_t end);
+  /// Notes that a contact touches the row's body. It is gathered.
+  ISO_INLINE void meet(std::uint32_t row) {
+    if (row != 0) kinds_[row - 1] |= body_kind::kMet;
+  }
+  /// Finds whose energy is bound. It may run beside other threads that gather. `binds_joints`: energy_bound.hpp.
+  ISO_INLINE void bind(const StepContext<S>& context, bool binds_joints) {
+    bound_.begin(context, divide_to<Step<S>>(S(1), S(rate_)), binds_joints);
+  }
+  /// Does all of that, on one thread. Returns true if contacts must follow any body.
+  bool gather(const StepContext<S>& context, std::int32_t rate, bool binds_joints);
 
   /// Renews forces before the velocities of a sub-step.
   ISO_INLINE void renew_forces(const StepContext<S>& context) const {
@@ -37,7 +49,6 @@ template <class S> class BodyRows {
     return row != 0 && angular_speed_to_renew<S>(context.hz, true) < turns &&
            is_uneven(context.properties[row - 1], context.hz, turns);
   }
-  ISO_INLINE bool began_with_followed() const { return began_with_followed_; }
   /// Renews the row's inertia about world axes.
   void renew_inertia(const StepContext<S>& context, std::uint32_t row);
 
@@ -91,7 +102,6 @@ template <class S> class BodyRows {
   EnergyBound<S> bound_;
   std::vector<std::uint32_t> left_;  // to be finished one by one
   std::int32_t rate_ = 1;            // [1/s] sub-steps
-  bool began_with_followed_ = false;
 };
 
 #define ISO_EXTERN_BODY_ROWS(S) extern template class BodyRows<S>;

@@ -40,12 +40,11 @@ template <class S> ISO_INLINE Pace pace_of(Velocity<S> angular_speed, std::int32
 
 }  // namespace detail
 
-template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::int32_t rate, bool binds_joints) {
+template <class S> void BodyRows<S>::begin(const StepContext<S>& context, std::int32_t rate) {
   const std::size_t count = context.states.size();
-  const Step<S> h = divide_to<Step<S>>(S(1), S(rate));
   rate_ = rate;
   rows_.velocity.resize(count + 1);
-  rows_.displacement.assign(count + 1, MotionRow<Velocity<S>>::zero());
+  rows_.displacement.resize(count + 1);
   rows_.mass.resize(count + 1);
   start_.resize(count);
   kinds_.resize(count);
@@ -53,19 +52,33 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::
   flights_.resize(count);
   turns_.resize(count);
   left_.resize(count);
-  bound_.begin(context, h, binds_joints);
-  const Velocity<S> fast = angular_speed_to_renew<S>(context.hz, true);
-  began_with_followed_ = false;
-  rows_.velocity[0] = MotionRow<Velocity<S>>::zero();
+  rows_.velocity[0] = rows_.displacement[0] = MotionRow<Velocity<S>>::zero();
   rows_.mass[0] = {S(0), Mat3<S>::diagonal(Vec3<S>::zero())};
+}
+template <class S> bool BodyRows<S>::gather(const StepContext<S>& context, std::int32_t rate, bool binds_joints) {
+  begin(context, rate);
+  bind(context, binds_joints);
+  const bool any_followed = gather_range(context, 0, context.states.size());
+  for (const ContactGeometry<S>& g : context.geometry) {
+    meet(g.row_a);
+    meet(g.row_b);
+  }
+  return any_followed;
+}
+
+template <class S> bool BodyRows<S>::gather_range(const StepContext<S>& context, std::size_t first, std::size_t end) {
+  const Step<S> h = divide_to<Step<S>>(S(1), S(rate_));
+  const Velocity<S> fast = angular_speed_to_renew<S>(context.hz, true);
+  bool any_followed = false;
   // Implicit: v' = v / (1 + h c), stable at any damping.
   const auto keep = [h](S damping) ISO_INLINE_LAMBDA { return damping > S(0) ? S(1) / (S(1) + damping * h) : S(1); };
   const auto fall = [h](S acceleration) ISO_INLINE_LAMBDA { return round_to<Velocity<S>>(product(acceleration, h)); };
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = first; i < end; ++i) {
     const BodyState<S>& state = context.states[i];
     const BodyProperties<S>& body = context.properties[i];
     start_[i] = state.centre;
     rows_.velocity[i + 1] = {state.velocity, Velocity<S>(0), state.angular_velocity, Velocity<S>(0)};
+    rows_.displacement[i + 1] = MotionRow<Velocity<S>>::zero();
     kinds_[i] = detail::kind_of(body);
     factors_[i] = {keep(body.linear_damping), keep(body.angular_damping), {}};
     flights_[i] = {};
@@ -77,20 +90,15 @@ template <class S> void BodyRows<S>::gather(const StepContext<S>& context, std::
     mass.mass = body.mass;
     flights_[i].fall = {fall(context.gravity.x * body.gravity_scale), fall(context.gravity.y * body.gravity_scale),
                         fall(context.gravity.z * body.gravity_scale)};
-    if (fast < max_abs(state.angular_velocity)) {
-      began_with_followed_ = began_with_followed_ || is_followed(context, static_cast<std::uint32_t>(i + 1));
-    }
+    if (fast < max_abs(state.angular_velocity))
+      any_followed = any_followed || is_followed(context, static_cast<std::uint32_t>(i + 1));
     const bool spins = (body.flags & body_flag::kSpins) != 0;
     const Mat3<Unit<S>> axes = spins ? detail::world_axes(state.orientation, body) : Mat3<Unit<S>>{};
     const bool rapid = spins && rapid_angular_speed<S>(context.hz) < max_abs(state.angular_velocity);
     mass.kappa = detail::world_kappa(body, rapid ? axes_in_the_middle(context, i) : axes);
     if (detail::turns_freely(body)) gather_turn(state, body, axes, i);
   }
-  for (const ContactGeometry<S>& g : context.geometry) {
-    for (const std::uint32_t row : {g.row_a, g.row_b}) {
-      if (row != 0) kinds_[row - 1] |= body_kind::kMet;
-    }
-  }
+  return any_followed;
 }
 
 /// Returns the principal axes in the middle of the step, as the body turns now, since contacts use one inertia for the

@@ -15,7 +15,7 @@ template <class S> void IslandSolver<S>::colour_constraints(const StepContext<S>
   rate_ = context.hz * context.substeps;
   bodies_.gather(context, rate_, true);
   impacts_.begin(context, bodies_.rows());
-  joints_.prepare(context, bodies_.rows());
+  joints_.prepare_all(context, bodies_.rows());
   find_islands(context);
 }
 

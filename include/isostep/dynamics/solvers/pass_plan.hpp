@@ -11,15 +11,6 @@
 
 namespace isostep {
 
-/// Returns into how many pieces to divide work: one a thread, none smaller than `least`; four a thread for much work,
-/// so that little waits for an interrupted thread.
-ISO_INLINE std::uint32_t piece_count(std::uint32_t work, std::uint32_t least, std::uint32_t threads) {
-  const std::uint32_t most = work / least;
-  if (threads <= 1 || most <= 1) return 1;
-  const std::uint32_t pieces = most < 16 * threads ? (most < threads ? most : threads) : 4 * threads;
-  return pieces < kMaxPieces ? pieces : kMaxPieces;
-}
-
 /// The stages of a pass. Blocks of one colour, which may be solved side by side, are a group; groups keep their order.
 /// Small groups follow each other in one piece, for a stage costs a meeting of all threads.
 /// Unit of work: a row of a block, some 15 ns in float.

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "isostep/core/lower_bound.hpp"
 #include "isostep/dynamics/joints/joint_impulse.hpp"
 #include "isostep/dynamics/solvers/step_context.hpp"
 
@@ -14,10 +15,13 @@ namespace isostep {
 /// The joints of a step, in the order of the context.
 template <class S> class PreparedJoints {
  public:
-  ISO_INLINE void prepare(const StepContext<S>& context, const SolverBodies<S>& bodies) {
-    joints_.resize(context.joint_properties.size());
+  /// Makes room for the joints of a step, then prepares joints first..end-1. Ranges may be prepared side by side.
+  ISO_INLINE void begin(const StepContext<S>& context) { joints_.resize(context.joint_properties.size()); }
+  ISO_INLINE void prepare(const StepContext<S>& context, const SolverBodies<S>& bodies, std::size_t first,
+                          std::size_t end) {
     auto axes = context.axis_drives;
-    for (std::size_t i = 0; i < joints_.size(); ++i) {
+    axes = axes.subspan(lower_bound(axes.size(), [&](std::size_t i) { return axes[i].joint < first; }));
+    for (std::size_t i = first; i < end; ++i) {
       const JointEnds<S>& ends = context.joint_ends[i];
       std::size_t own = 0;
       while (own < axes.size() && axes[own].joint == i) ++own;
@@ -25,6 +29,10 @@ template <class S> class PreparedJoints {
                     axes.first(own));
       axes = axes.subspan(own);
     }
+  }
+  ISO_INLINE void prepare_all(const StepContext<S>& context, const SolverBodies<S>& bodies) {
+    begin(context);
+    prepare(context, bodies, 0, joints_.size());
   }
   ISO_INLINE void store(const StepContext<S>& context) const {
     for (std::size_t i = 0; i < joints_.size(); ++i) store_joint(joints_[i], context.joint_states[i]);

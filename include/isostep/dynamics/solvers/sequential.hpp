@@ -50,6 +50,8 @@ template <class S> class Sequential {
   template <class Visit> void visit_scratch(const Visit& visit, SolverStage stage, const StepContext<S>& context);
 
  private:
+  static constexpr std::uint32_t kGroupers = 2;  // pieces of Work::group that prepare no joints
+
   /// Consecutive entries of order_ that one kernel solves.
   struct Run {
     const ContactKernels<S>* kernels;
@@ -72,6 +74,8 @@ template <class S> class Sequential {
   };
   /// The work of the pieces of a stage.
   enum class Work : std::uint32_t {
+    gather,
+    group,
     prepare,
     respond,
     renew_forces,
@@ -112,8 +116,16 @@ template <class S> class Sequential {
   };
 
   // sequential.inl
+  void gather(const StepContext<S>& context);
+  void colour_contacts(const StepContext<S>& context);
   void add_run(const ContactKernels<S>& kernels, std::uint32_t bucket, std::uint32_t first, std::uint32_t count);
+  void share(const TaskRunner& runner, std::uint32_t work);
   void plan_passes(const TaskRunner& runner);
+  ISO_INLINE bool any_followed() const {
+    bool any = false;
+    for (const std::uint8_t some : any_followed_) any = any || some != 0;
+    return any;
+  }
   std::size_t place_of(const Run& run, std::uint32_t block) const;
   static Contacts contacts_of(const Run& run, const PassPlan::Slice& slice);
   BlockRun<S> blocks_of(const PassPlan::Slice& slice);
@@ -139,6 +151,7 @@ template <class S> class Sequential {
   static void do_piece(void* job, std::uint32_t stage, std::uint32_t piece);
   void do_slice(const Job& job, Work work, const PassPlan::Slice& slice);
   void do_joints(const Job& job, Work work, std::uint32_t piece);
+  void group(const StepContext<S>& context, std::uint32_t piece);
   void do_bodies(const Job& job, Work work, std::uint32_t piece);
   void do_mechanisms(const StepContext<S>& context, Work work);
 
@@ -163,7 +176,7 @@ template <class S> class Sequential {
   TaskRunner runner_;                  // the context's, or none where the work is too little to share
   PassPlan colours_[detail::kDepths];  // colour after colour, of contacts of this depth and beyond
   PassPlan all_;                       // every block at once, for what touches no body
-  std::uint32_t body_pieces_ = 1;
+  std::uint32_t threads_ = 1, body_pieces_ = 1, joint_pieces_ = 1;
   std::vector<std::uint8_t> any_followed_;  // of each piece of bodies: whether contacts are to follow any
   std::vector<Stage> stages_;
   std::vector<std::uint32_t> pieces_;  // of each stage

@@ -22,6 +22,8 @@ ISO_INLINE std::uint32_t depth_of(const ContactGeometry<S>& g, std::uint32_t poi
 
 // [rows] A world with less to do in a pass stays on its thread: waking another costs more than it saves.
 inline constexpr std::uint32_t kLeastShared = 512;
+// [rows] To prepare a joint costs as much; and the fewest joints of a piece.
+inline constexpr std::uint32_t kRowsOfJoint = 32, kLeastJoints = 16;
 
 }  // namespace detail
 
@@ -40,11 +42,30 @@ void Sequential<S>::add_run(const ContactKernels<S>& kernels, std::uint32_t buck
 }
 
 template <class S> void Sequential<S>::colour_constraints(const StepContext<S>& context) {
-  constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * detail::kDepths * kContactVariants;
+  stages_.clear();  // there are some if the last step came to no end
+  pieces_.clear();
   schedule_ = schedule_of_(context);
-  bodies_.gather(context, schedule_.rate, schedule_.relaxes);
+  gather(context);
+  plan_passes(context.runner);
+}
+
+/// Gathers bodies. Then contacts are coloured, energies bound and joints prepared side by side.
+template <class S> void Sequential<S>::gather(const StepContext<S>& context) {
+  bodies_.begin(context, schedule_.rate);
+  joints_.begin(context);
+  const auto bodies = static_cast<std::uint32_t>(bodies_.count()), joints = static_cast<std::uint32_t>(joints_.size());
+  share(context.runner, bodies + detail::kRowsOfJoint * joints);
+  body_pieces_ = piece_count(bodies, PassPlan::kLeastPiece, threads_);
+  joint_pieces_ = min(piece_count(joints, detail::kLeastJoints, threads_), kMaxPieces - kGroupers);
+  any_followed_.assign(body_pieces_, 0);
+  add_stage(Work::gather, body_pieces_);
+  add_stage(Work::group, kGroupers + joint_pieces_);
+  run(context);
+}
+
+template <class S> void Sequential<S>::colour_contacts(const StepContext<S>& context) {
+  constexpr std::uint32_t kUncolouredBucket = Colouring::kUncoloured * detail::kDepths * kContactVariants;
   impacts_.begin(context, bodies_.rows());
-  joints_.prepare(context, bodies_.rows());
   const std::size_t count = context.contacts.size();
   const SolverBodies<S>& bodies = bodies_.rows();
   colouring_.begin(bodies.mass.size());
@@ -52,8 +73,6 @@ template <class S> void Sequential<S>::colour_constraints(const StepContext<S>& 
   order_.resize(count);
   bucket_ends_.assign(kUncolouredBucket + 1, 0);
   runs_.clear();
-  stages_.clear();  // there are some if the last step came to no end
-  pieces_.clear();
   block_count_ = 0;
   memory_bytes_ = 0;
   const auto kind_of = [&](std::size_t i) {
@@ -65,6 +84,8 @@ template <class S> void Sequential<S>::colour_constraints(const StepContext<S>& 
   std::uint32_t buckets = 0;  // up to the last that is used
   for (std::size_t i = 0; i < count; ++i) {
     const ContactGeometry<S>& g = context.geometry[i];
+    bodies_.meet(g.row_a);
+    bodies_.meet(g.row_b);
     const std::uint32_t colour = colouring_.colour(g.row_a, bodies.moves(g.row_a), g.row_b, bodies.moves(g.row_b));
     bucket_[i] = kUncolouredBucket;
     if (colour != Colouring::kUncoloured) {
@@ -90,7 +111,12 @@ template <class S> void Sequential<S>::colour_constraints(const StepContext<S>& 
     add_run(narrow, kUncolouredBucket + kind, first, end - first);
     first = end;
   }
-  plan_passes(context.runner);
+}
+
+/// Lends the threads to what follows if that is enough work, in rows.
+template <class S> void Sequential<S>::share(const TaskRunner& runner, std::uint32_t work) {
+  runner_ = work < detail::kLeastShared ? TaskRunner{} : runner;
+  threads_ = static_cast<std::uint32_t>(max(runner_.threads, std::int32_t{1}));
 }
 
 /// Plans the passes. Contacts without a colour are one piece by themselves, however many they are, as their order
@@ -103,12 +129,12 @@ template <class S> void Sequential<S>::plan_passes(const TaskRunner& runner) {
   const auto bodies = static_cast<std::uint32_t>(bodies_.count());
   std::uint32_t work = bodies;
   for (const Run& run : runs_) work += run.blocks * rows_of(run);
-  runner_ = work < detail::kLeastShared ? TaskRunner{} : runner;
-  const auto threads = static_cast<std::uint32_t>(max(runner_.threads, std::int32_t{1}));
-  body_pieces_ = piece_count(bodies, PassPlan::kLeastPiece, threads);
-  any_followed_.assign(body_pieces_, bodies_.began_with_followed());
-  for (PassPlan& plan : colours_) plan.begin(threads);
-  all_.begin(threads);
+  share(runner, work);
+  const bool any = any_followed();
+  body_pieces_ = piece_count(bodies, PassPlan::kLeastPiece, threads_);
+  any_followed_.assign(body_pieces_, any);
+  for (PassPlan& plan : colours_) plan.begin(threads_);
+  all_.begin(threads_);
   for (std::uint32_t i = 0; i < runs_.size(); ++i) {
     const Run& run = runs_[i];
     for (std::uint32_t depth = 0; depth <= run.depth; ++depth) {
@@ -198,9 +224,7 @@ template <class S> void Sequential<S>::carry(const StepContext<S>& context) {
 template <class S>
 template <class Act>
 void Sequential<S>::each_followed(const StepContext<S>& context, const Act& act) {
-  bool any = false;
-  for (const std::uint8_t some : any_followed_) any = any || some != 0;
-  if (!any) return;
+  if (!any_followed()) return;
   for (const Run& run : runs_) {
     const detail::Variant shape = detail::Variant::of(run.variant);
     const auto width = static_cast<std::uint32_t>(run.kernels->width);

@@ -54,6 +54,8 @@ template <class S> void Sequential<S>::do_piece(void* data, std::uint32_t stage,
   Sequential& solver = *job.solver;
   const Stage& what = solver.stages_[stage];
   switch (what.work) {
+    case Work::group: return solver.group(job.context, piece);
+    case Work::gather:
     case Work::integrate_velocities:
     case Work::integrate_positions:
     case Work::store_bodies: return solver.do_bodies(job, what.work, piece);
@@ -95,12 +97,20 @@ template <class S> void Sequential<S>::do_bodies(const Job& job, Work work, std:
   const std::size_t count = job.context.states.size();
   const std::size_t first = count * piece / body_pieces_, end = count * (piece + 1) / body_pieces_;
   switch (work) {
+    case Work::gather: any_followed_[piece] = bodies_.gather_range(job.context, first, end); return;
     case Work::integrate_velocities: return bodies_.integrate_velocities(job.context, first, end);
     case Work::integrate_positions: any_followed_[piece] = bodies_.integrate_positions(job.context, first, end); return;
     default: return bodies_.store(job.context, first, end);
   }
 }
 
+/// The first pieces group contacts and bodies, the others prepare joints.
+template <class S> void Sequential<S>::group(const StepContext<S>& context, std::uint32_t piece) {
+  if (piece == 0) return colour_contacts(context);
+  if (piece == 1) return bodies_.bind(context, schedule_.relaxes);
+  const std::size_t count = joints_.size(), part = piece - kGroupers;
+  joints_.prepare(context, bodies_.rows(), count * part / joint_pieces_, count * (part + 1) / joint_pieces_);
+}
 template <class S> void Sequential<S>::do_joints(const Job& job, Work work, std::uint32_t piece) {
   const std::uint32_t count = joint_trees_.batch_count(), pieces = min(count, kMaxPieces);
   for (std::uint32_t i = count * piece / pieces; i < count * (piece + 1) / pieces; ++i) {

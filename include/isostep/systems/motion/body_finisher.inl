@@ -10,22 +10,53 @@
 
 namespace isostep {
 
+namespace detail {
+// Bodies that a thread finishes while another wakes, and so the fewest of a piece.
+inline constexpr std::uint32_t kLeastFinished = 128;
+}  // namespace detail
+
 template <class S>
-void BodyFinisher<S>::finish(std::span<const Pose<S>> start, std::span<const std::uint8_t> cut, StepReport& report) {
+void BodyFinisher<S>::finish(std::span<const Pose<S>> start, std::span<const std::uint8_t> cut,
+                             const TaskRunner& runner, StepReport& report) {
   const Settings<S>& settings = state_.settings;
-  const Velocity<S> angular_limit =
-      angular_speed_limit<S>(integration_rate(settings.solver, settings.hz, settings.substeps));
-  for (std::size_t i = 0; i < state_.awake.states.size(); ++i) {
-    BodyState<S>& state = state_.awake.states[i];
-    const BodyProperties<S>& body = state_.awake.properties[i];
-    stop_if_not_finite(state, start[i], report);
-    const bool too_fast = clamp_speed(state, body, angular_limit);
-    report.clamped_speed += too_fast || (!cut.empty() && cut[i] != 0);
-    clamp_position(state, report);
-    detail::renew_fat_box(map_, state, body, false);
-    proxies_.place(state, body, true);
+  const auto bodies = static_cast<std::uint32_t>(state_.awake.states.size());
+  const auto threads = static_cast<std::uint32_t>(max(runner.threads, std::int32_t{1}));
+  const std::int32_t rate = integration_rate(settings.solver, settings.hz, settings.substeps);
+  moved_.resize(bodies);
+  Job job = {this, start, cut, angular_speed_limit<S>(rate), piece_count(bodies, detail::kLeastFinished, threads),
+             {},   {}};
+  run_stages(job.pieces > 1 ? runner : TaskRunner{}, {&job.pieces, 1}, &BodyFinisher::run_piece, &job);
+  for (std::uint32_t piece = 0; piece < job.pieces; ++piece) {
+    report.clamped_speed += job.reports[piece].clamped_speed;
+    report.clamped_position += job.reports[piece].clamped_position;
+    report.stopped += job.reports[piece].stopped;
+    const std::size_t first = std::size_t{bodies} * piece / job.pieces;
+    for (std::size_t i = first; i < first + job.moved[piece]; ++i)
+      proxies_.place(state_.awake.states[moved_[i]], state_.awake.properties[moved_[i]], true);
   }
   if (report.stopped > 0) discard_bad_impulses();
+}
+template <class S> void BodyFinisher<S>::run_piece(void* job, std::uint32_t, std::uint32_t piece) {
+  Job& all = *static_cast<Job*>(job);
+  all.finisher->finish(all, piece);
+}
+
+template <class S> void BodyFinisher<S>::finish(Job& job, std::uint32_t piece) {
+  const std::size_t bodies = state_.awake.states.size();
+  const std::size_t first = bodies * piece / job.pieces, end = bodies * (piece + 1) / job.pieces;
+  StepReport& report = job.reports[piece];
+  std::size_t moved = first;
+  for (std::size_t i = first; i < end; ++i) {
+    BodyState<S>& state = state_.awake.states[i];
+    const BodyProperties<S>& body = state_.awake.properties[i];
+    stop_if_not_finite(state, job.start[i], report);
+    const bool too_fast = clamp_speed(state, body, job.angular_limit);
+    report.clamped_speed += too_fast || (!job.cut.empty() && job.cut[i] != 0);
+    clamp_position(state, report);
+    detail::renew_fat_box(map_, state, body, false);
+    if (!proxies_.is_placed(state, body, true)) moved_[moved++] = static_cast<std::uint32_t>(i);
+  }
+  job.moved[piece] = moved - first;
 }
 
 /// Stops a body with a number that is not finite, and puts it back to its pose at the start of the step.
