@@ -17,7 +17,8 @@ namespace isostep::bench {
 namespace {
 
 struct Arguments {
-  std::vector<std::string> scenes = {"S3", "S4", "S5", "S7"}, scalars = scalar_names();
+  std::vector<std::string> scenes = {"S3", "S4", "S5", "S7", "large_pyramid", "convex_pile", "human_rain"},
+                           scalars = scalar_names();
   std::vector<int> threads;
   int frames = 400, block = 20;
   std::string results;
@@ -49,6 +50,12 @@ template <class S> struct Lane {
   std::vector<double> times;  // [ms]
 };
 
+/// Returns the part of a step that one thread does alone, by Amdahl's law: the gain of n threads is
+/// 1 / (serial + (1 - serial) / n). What threads cost each other counts as serial.
+double serial_part(double gain, int threads) {
+  return threads > 1 ? std::clamp((threads / gain - 1) / (threads - 1), 0.0, 1.0) : 1;
+}
+
 template <class S> bool measure(const std::string& name, const scenes::Scene& scene, const Arguments& arguments) {
   std::vector<std::unique_ptr<Lane<S>>> lanes;
   for (const int threads : arguments.threads) lanes.push_back(std::make_unique<Lane<S>>(scene, threads));
@@ -63,24 +70,37 @@ template <class S> bool measure(const std::string& name, const scenes::Scene& sc
     std::printf(" |");
     same = same && lane->world.hash() == lanes[0]->world.hash();
   }
-  std::printf(" %.2fx | %s |\n", lanes[0]->quantile(0.1) / lanes.back()->quantile(0.1), same ? "equal" : "DIFFER");
+  const double gain = lanes[0]->quantile(0.1) / lanes.back()->quantile(0.1);
+  const double serial = serial_part(gain, arguments.threads.back());
+  std::printf(" %.2fx | %.0f %% | %.1fx | %s |\n", gain, 100 * serial, 1 / (serial + (1 - serial) / 16),
+              same ? "equal" : "DIFFER");
   std::fflush(stdout);
   return same;
+}
+
+/// Returns false for a scene that is beyond the range of a format of 32 bits.
+bool fits(const std::string& scene, const std::string& scalar) {
+  for (const scenes::NamedScene& named : scenes::named_scenes()) {
+    if (scene == named.name) return named.narrow || scalar != "q16.16";
+  }
+  return true;
 }
 
 int run(const Arguments& arguments) {
   std::printf(
       "Real milliseconds a step, median of the settled half, and the gain over one thread; the gain in the best\n"
-      "tenth of the steps, which other work on the machine disturbs least.\n\n| scene | scalar |");
+      "tenth of the steps, which other work on the machine disturbs least; by that the part of a step that one thread\n"
+      "does alone, and the gain that 16 threads would have (Amdahl's law, not measured).\n\n| scene | scalar |");
   for (const int threads : arguments.threads) std::printf(" %d thread%s |", threads, threads > 1 ? "s" : "");
-  std::printf(" best tenth | hashes |\n|---|---|");
-  for (std::size_t i = 0; i < arguments.threads.size() + 2; ++i) std::printf("---|");
+  std::printf(" best tenth | serial | of 16 | hashes |\n|---|---|");
+  for (std::size_t i = 0; i < arguments.threads.size() + 4; ++i) std::printf("---|");
   std::puts("");
   bool same = true;
   for (const std::string& name : arguments.scenes) {
     const std::optional<scenes::Scene> scene = scenes::find_scene(name);
     if (!scene) return std::fprintf(stderr, "no scene %s\n", name.c_str()), 64;
     for (const std::string& scalar : arguments.scalars) {
+      if (!fits(name, scalar)) continue;
 #define ISO_MEASURE(S) \
   if (scalar == ScalarTraits<S>::kName) same = measure<S>(name, *scene, arguments) && same;
       ISO_FOR_EACH_SCALAR(ISO_MEASURE)

@@ -1,4 +1,4 @@
-# Step time against error, ours and peers, from speed_accuracy.tsv.
+# Step time against error, ours and peers, in eight scenes, from speed_accuracy.tsv. theirs.gp has others.
 # Called as: gnuplot -e "data='speed_accuracy.tsv'; out='speed_accuracy.png'" speed_accuracy.gp
 # SPDX-License-Identifier: MIT
 if (!exists("data")) data = "speed_accuracy.tsv"
@@ -9,10 +9,13 @@ set output out
 
 set datafile separator tab
 stats data skip 1 using (day = strcol(1), 1) nooutput
-scenes = "S1 S2 S3 S4 S5 S9 S6 S7"
-titles = "'S1  stack of 20: sag' 'S2  wall of 210: worst overlap' 'S3  pyramid of 1240: worst overlap' " . \
-  "'S4  pile of 1000: mean overlap' 'S5  4000 spheres: mean overlap' 'S9  drum of 600: worst overlap' " . \
-  "'S6  chain with 100 kg: worst joint' 'S7  50 ragdolls: worst joint'"
+if (!exists("scenes")) {
+  heading = "Step time against error"
+  scenes = "S1 S2 S3 S4 S5 S9 S6 S7"
+  titles = "'S1  stack of 20: sag' 'S2  wall of 210: worst overlap' 'S3  pyramid of 1240: worst overlap' " . \
+    "'S4  pile of 1000: mean overlap' 'S5  4000 spheres: mean overlap' 'S9  drum of 600: worst overlap' " . \
+    "'S6  chain with 100 kg: worst joint' 'S7  50 ragdolls: worst joint'"
+}
 engines = "float double q16.16 q32.32"
 # Other engines are letters: at their defaults, for their best settings would be as many again.
 peers = "bullet dart havok jolt mujoco ode physx-pgs physx-tgs rapier-simd rapier-det box3d jolt-native"
@@ -37,7 +40,7 @@ set xtics font small
 set ytics font small
 
 set multiplot
-set label 1 "Step time against error" at screen 0.06, 0.977 left font font(18) textcolor rgb ink
+set label 1 heading at screen 0.06, 0.977 left font font(18) textcolor rgb ink
 set label 2 "CPU time of a step [ms] across, error [mm] up, both logarithmic. Left is faster, down more accurate. " . day \
   at screen 0.06, 0.953 left font font(12) textcolor rgb muted
 place(k) = 0.293 - 0.022 * (k - 1)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "clock.hpp"
 #include "dated.hpp"
 #include "text.hpp"
 
@@ -32,7 +33,6 @@ template <class Name> std::vector<std::string> names_of(const std::vector<Row>& 
 std::string ms_text(double ms) { return print(ms < 0.01 ? "%.4f" : ms < 1 ? "%.3f" : "%.2f", ms); }
 
 constexpr std::string_view kBest = "-best";
-bool is_best(std::string_view engine) { return engine.ends_with(kBest); }
 std::string_view plain(std::string_view engine) { return engine.substr(0, engine.size() - kBest.size()); }
 
 std::string cell(const Row* row, const std::optional<Fastest>& fastest) {
@@ -64,6 +64,7 @@ std::string dated_cell(const std::vector<Row>& rows, const std::string& scene, c
 
 }  // namespace
 
+bool is_best(std::string_view engine) { return engine.ends_with(kBest); }
 double shown_ms(const Row& row) { return row.scene == "S8" ? row.asleep_ms : row.ms; }
 
 std::string title_of(std::string_view engine) {
@@ -90,11 +91,28 @@ std::string title_of(std::string_view engine) {
   return "?";
 }
 
+namespace {
+
+/// kAnchor's time here over that of the dated run. In a scene that has no such figure, the median of all others.
+std::optional<double> slower_than_then(const std::vector<Row>& rows, std::string_view scene) {
+  std::vector<double> others;
+  for (const Row& row : rows) {
+    const std::optional<Dated> then = row.engine == kAnchor ? dated(kAnchor, row.scene) : std::nullopt;
+    if (!then || !row.refused.empty() || shown_ms(row) <= 0) continue;
+    if (row.scene == scene) return shown_ms(row) / then->ms;
+    others.push_back(shown_ms(row) / then->ms);
+  }
+  if (others.empty() || dated(kAnchor, scene)) return std::nullopt;
+  return median(others);
+}
+
+}  // namespace
+
 std::optional<double> estimated_ms(const std::vector<Row>& rows, std::string_view scene, std::string_view engine) {
-  const Row* anchor = find(rows, scene, kAnchor);
-  const std::optional<Dated> then = dated(kAnchor, scene), peer = dated(engine, scene);
-  if (anchor == nullptr || !then || !peer || shown_ms(*anchor) <= 0) return std::nullopt;
-  return shown_ms(*anchor) * peer->ms / then->ms;
+  const std::optional<double> slower = slower_than_then(rows, scene);
+  const std::optional<Dated> then = dated(engine, scene);
+  if (!slower || !then) return std::nullopt;
+  return *slower * then->ms;
 }
 
 std::optional<Fastest> FastestPeers::of_all() const {

@@ -10,10 +10,13 @@ namespace isostep::bench {
 
 /// A time to be compared: S8's is that of a step with everybody asleep, less than 0 where that never came.
 double shown_ms(const Row& row);
+/// The engine has its best settings, not its defaults.
+bool is_best(std::string_view engine);
 /// The name of an engine in a report.
 std::string title_of(std::string_view engine);
 
-/// The time that a dated engine would take today: its ratio to kAnchor then, times kAnchor's time among these rows.
+/// The time that a dated engine would take today: its time then, times how much slower kAnchor is among these rows than
+/// it was then. Where kAnchor has no figure of the scene: than it was in the others, the median of them.
 std::optional<double> estimated_ms(const std::vector<Row>& rows, std::string_view scene, std::string_view engine);
 
 struct Fastest {

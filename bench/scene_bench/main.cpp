@@ -16,6 +16,7 @@ namespace isostep::bench {
 namespace {
 
 struct Arguments {
+  bool theirs = false;               // the scenes after the peers' own benchmarks
   std::vector<std::string> scenes;   // none: all of the set
   std::vector<std::string> engines;  // none: all
   std::vector<std::string> memory = {"S5"};
@@ -41,13 +42,23 @@ std::vector<Maker> chosen_makers(const Arguments& arguments) {
     if (!holds(all, name)) throw CLI::ValidationError("--engines", "no engine " + name + " here");
   }
   for (const Maker& maker : all) {
-    if (arguments.engines.empty() || holds(arguments.engines, maker.name)) chosen.push_back(maker);
+    const bool asked =
+        arguments.engines.empty() ? !(arguments.theirs && is_best(maker.name)) : holds(arguments.engines, maker.name);
+    if (asked) chosen.push_back(maker);
   }
   return chosen;
 }
 
+/// S2 to S4 and S7 tell how fast this machine is: of those the anchor of dated.hpp has a figure.
+std::vector<std::string> their_scenes() {
+  return {
+      "large_pyramid",  "many_pyramids", "jolt_pyramid", "convex_pile", "junkyard", "washer", "max_bodies", "crossers",
+      "joint_grid",     "human_rain",    "figures",      "trees",       "S2",       "S3",     "S4",         "S7",
+      "convex_on_land", "large_world"};
+}
 std::vector<std::string> chosen_scenes(const Arguments& arguments) {
   if (!arguments.scenes.empty()) return arguments.scenes;
+  if (arguments.theirs) return their_scenes();
   return {"S1",  "S1x10", "S2",           "S3",           "S4",  "S4s",  "S5",  "S6",  "S6v",
           "S7",  "S20",   "slider_crank", "braked_gears", "S8",  "S9",   "S10", "S11", "S12",
           "S13", "S13m",  "S13d",         "S14",          "S15", "S15h", "S16", "S16h"};
@@ -93,10 +104,12 @@ void write(const std::string& path, const std::string& text) {
 void write_results(const Arguments& arguments, const Report& report, bool finished) {
   if (arguments.results.empty()) return;
   const bool whole = finished && arguments.whole();
-  const std::string scenes = arguments.results + (whole ? "/scenes" : "/scenes-part");
+  const std::string set = arguments.results + (arguments.theirs ? "/theirs" : "/scenes");
+  const std::string scenes = set + (whole ? "" : "-part");
   write(scenes + ".json", json_of(report));
   write(scenes + ".md", tables_of(report));
-  if (whole) write(arguments.results + "/speed_accuracy.tsv", chart_points(report));
+  if (!whole) return;
+  write(arguments.results + (arguments.theirs ? "/theirs.tsv" : "/speed_accuracy.tsv"), chart_points(report));
 }
 
 using Memories = std::map<std::pair<std::string, std::string>, Memory>;  // by scene and engine
@@ -150,6 +163,8 @@ void run(const Arguments& arguments) {
 int main(int count, char** words) {
   isostep::bench::Arguments arguments;
   CLI::App app("The benchmark scenes in every scalar, beside other engines");
+  app.add_flag("--theirs", arguments.theirs,
+               "The scenes after the peers' own benchmarks in place of ours, every engine at its defaults");
   app.add_option("--scenes", arguments.scenes, "Names, separated by commas")->delimiter(',');
   app.add_option("--engines", arguments.engines,
                  "Scalars and other engines as the tables name them, separated by commas; none: all")
@@ -168,5 +183,8 @@ int main(int count, char** words) {
   app.add_flag("--rollback", arguments.rollback, "The rollback table too");
   app.add_option("--results", arguments.results, "Directory for scenes.json, scenes.md and the points of the chart")
       ->check(CLI::ExistingDirectory);
-  return isostep::bench::run_program(app, count, words, [&] { isostep::bench::run(arguments); });
+  return isostep::bench::run_program(app, count, words, [&] {
+    arguments.race.from_start = arguments.theirs;
+    isostep::bench::run(arguments);
+  });
 }

@@ -138,8 +138,8 @@ struct Times {
   std::vector<double> ms, p99, max, asleep;
 };
 
-void note_times(Lane& lane, const scenes::Scene& scene, Times& times) {
-  const std::ptrdiff_t skipped = scene.script == scenes::Script::none ? scene.frames / 2 : 0;
+void note_times(Lane& lane, const scenes::Scene& scene, bool from_start, Times& times) {
+  const std::ptrdiff_t skipped = scene.script == scenes::Script::none && !from_start ? scene.frames / 2 : 0;
   const std::vector<double> counted(lane.times.begin() + skipped, lane.times.end());
   times.ms.push_back(median(counted));
   times.p99.push_back(quantile(counted, 0.99));
@@ -225,7 +225,7 @@ std::vector<Row> race(const scenes::Scene& scene, const std::vector<Maker>& make
       rows[i].refused = lanes[i].refused;
       if (!lanes[i].engine) continue;
       if (round == 0) measure(lanes[i], scene, rows[i]);
-      note_times(lanes[i], scene, times[i]);
+      note_times(lanes[i], scene, options.from_start, times[i]);
     }
   }
   for (std::size_t i = 0; i < makers.size(); ++i) {

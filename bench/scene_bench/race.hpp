@@ -13,7 +13,7 @@ struct Row {
   bool ours = false;
   std::string refused;  // why there is nothing else: the engine cannot be given the scene, or takes too long in it
   // CPU time of the step, the lowest of the rounds.
-  double ms = 0, p99 = 0, max = 0;  // [ms] over the second half; S9: over the whole run
+  double ms = 0, p99 = 0, max = 0;  // [ms] over the second half; S9, and the peers' scenes: over the whole run
   double asleep_ms = -1;            // [ms] a step with everybody asleep; less than 0: never
   Memory memory;                    // where asked for
   // Measures, of the first round.
@@ -41,9 +41,10 @@ struct Row {
 
 struct RaceOptions {
   int rounds = 2;
-  int block = 20;        // [frames] an engine runs before the next has its turn
-  int frames = 0;        // of a run; 0: as many as the scene says
-  double patience = 30;  // [s] CPU time of an engine's steps in a round: what takes longer is left, for others wait
+  int block = 20;           // [frames] an engine runs before the next has its turn
+  int frames = 0;           // of a run; 0: as many as the scene says
+  bool from_start = false;  // times are of the whole run, not of its settled half
+  double patience = 30;     // [s] CPU time of an engine's steps in a round: what takes longer is left, for others wait
   EngineOptions engine;
 };
 

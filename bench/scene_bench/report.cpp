@@ -27,6 +27,9 @@ bool is(const Row& row, std::initializer_list<const char*> scenes) {
   return false;
 }
 
+/// Scenes after Box3D's and Jolt's, of which the mean overlap is told.
+constexpr std::initializer_list<const char*> kTheirPiles = {
+    "large_pyramid", "many_pyramids", "jolt_pyramid", "convex_pile", "junkyard", "washer", "convex_on_land"};
 /// [m] A tooth of a wheel is so long.
 constexpr double kTooth = scenes::kTurn / 40;
 
@@ -35,8 +38,8 @@ double error_of(const Row& row) {
   if (is(row, {"slider_crank"})) return row.figure / 1000;
   if (is(row, {"braked_gears"})) return row.figure * kTooth;
   if (is(row, {"S1", "S1x5", "S1x10", "S1s"})) return std::abs(row.top_error);
-  if (is(row, {"S4", "S4s", "S5", "S10", "S10s", "S11", "S12"})) return row.overlap.mean;
-  if (is(row, {"S6", "S6v", "S7", "S20"})) return row.joint_worst;
+  if (is(row, {"S4", "S4s", "S5", "S10", "S10s", "S11", "S12"}) || is(row, kTheirPiles)) return row.overlap.mean;
+  if (is(row, {"S6", "S6v", "S7", "S20", "joint_grid", "human_rain", "figures"})) return row.joint_worst;
   return row.overlap.worst;
 }
 
@@ -50,9 +53,9 @@ std::string particular(const Row& row) {
   } else if (is(row, {"S6", "S6v"})) {
     text = print("joint %.2f mm, reach %+.2f mm, loss %.2f J/kg", 1e3 * row.joint_worst, 1e3 * row.reach_error,
                  row.energy_loss);
-  } else if (is(row, {"S7"})) {
+  } else if (is(row, {"S7", "joint_grid", "human_rain"})) {
     text = print("joint %.2f mm, at the end %.3f mm", 1e3 * row.joint_worst, 1e3 * row.joint_end);
-  } else if (is(row, {"S20"})) {
+  } else if (is(row, {"S20", "figures"})) {
     text = print("joint %.2f mm, at the end %.3f mm; limits passed by %.3f rad, at the end %.4f", 1e3 * row.joint_worst,
                  1e3 * row.joint_end, row.limit_worst, row.limit_end);
   } else if (is(row, {"S9"})) {
@@ -183,7 +186,8 @@ std::string memory_table(const std::vector<Row>& rows) {
 }
 
 constexpr char kLegend[] =
-    "\nCPU time of a step, median of the settled half (S9: of the run), lowest of the rounds. Bold: the fastest peer. "
+    "\nCPU time of a step, median of the settled half (S9, and the peers' scenes: of the run), lowest of the rounds. "
+    "Bold: the fastest peer. "
     "In "
     "brackets: ours as a multiple of it. Behind a stroke: an engine's best settings, see bench/pages/peers.md. x: the "
     "scene was lost.\n";

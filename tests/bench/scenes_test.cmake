@@ -50,6 +50,17 @@ expect(S15 runs 0 scene)
 expect(0 runs 0 outside)
 expect("the scene is beyond the format's range" runs 1 refused)
 
+# The scenes after the peers' own benchmarks have files of their own, and bars.
+execute_process(COMMAND ${BENCH} --theirs --scenes jolt_pyramid --engines float --frames 20 --rounds 1 --results ${OUT}
+  RESULT_VARIABLE status OUTPUT_QUIET)
+if(NOT status EQUAL 0 OR EXISTS ${OUT}/theirs.json)
+  message(FATAL_ERROR "theirs: exits ${status}, or a part of a run poses as a whole one")
+endif()
+file(READ ${OUT}/theirs-part.json text)
+expect(jolt_pyramid runs 0 scene)
+expect("(aim|must)" runs 0 bar)
+expect(0 runs 0 outside)
+
 foreach(bad "--scenes;S99" "--engines;newton" "--rounds;0" "--engines;float;--results;${OUT}/none")
   execute_process(COMMAND ${BENCH} ${bad} RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE said)
   if(NOT status EQUAL 64)

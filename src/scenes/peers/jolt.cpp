@@ -1,4 +1,4 @@
-// After Jolt's Pyramid, ConvexVsMesh and CharacterVirtual.
+// After Jolt's Pyramid, MaxBodies, ConvexVsMesh and CharacterVirtual.
 // SPDX-License-Identifier: MIT
 #include "isostep/store/state.hpp"
 #include "land.hpp"
@@ -81,6 +81,18 @@ Scene jolt_pyramid() {
         scene.bodies.back().allow_sleep = false;
       }
     }
+  }
+  return scene;
+}
+
+/// Sheets of boxes that touch side by side fall, two metres apart.
+Scene max_bodies() {
+  constexpr int kBodies = 131072, kSide = 51;
+  Scene scene = scene_of_jolt();
+  scene.frames = 60;
+  for (int n = 0; n < kBodies; ++n) {
+    const double x = n % kSide, y = 2 * (n / kSide % kSide), z = n / (kSide * kSide);
+    scene.bodies.push_back(loose(body_of(box_part({0.5, 0.5, 0.5}), {x, y, z})));
   }
   return scene;
 }

@@ -18,8 +18,9 @@ Scene trees();
 Scene joint_grid();
 Scene human_rain();
 Scene large_world();
-// Jolt's Pyramid, ConvexVsMesh and CharacterVirtual.
+// Jolt's Pyramid, MaxBodies, ConvexVsMesh and CharacterVirtual.
 Scene jolt_pyramid();
+Scene max_bodies();
 Scene convex_on_land();
 Scene crossers();
 
