@@ -65,6 +65,10 @@ void Peer::hit(int frame) {
   launch(last, {0, -20, 0});
 }
 
+bool Peer::allow_sleep() const {
+  const auto may = [](const scenes::SceneBody& body) { return body.type == BodyType::dynamic && body.allow_sleep; };
+  return scene_.allow_sleep && std::any_of(scene_.bodies.begin(), scene_.bodies.end(), may);
+}
 bool Peer::all_asleep() const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (bodies_[i].type == BodyType::dynamic && motion(i).awake) return false;

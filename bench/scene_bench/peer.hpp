@@ -33,7 +33,8 @@ class Peer : public Engine {
   const std::vector<PeerForce>& forces() const { return forces_; }
   Vec3<double> gravity() const { return gravity_; }
   double hz() const { return scene_.hz; }  // [1/s] rate of steps
-  bool allow_sleep() const { return scene_.allow_sleep; }
+  /// Returns true if the scene lets any of its bodies sleep. Peers take no such setting of one body.
+  bool allow_sleep() const;
 
   virtual Motion motion(std::size_t body) const = 0;
   /// The body at this index is gone; another takes its place.

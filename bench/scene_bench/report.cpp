@@ -192,9 +192,8 @@ constexpr char kLegend[] =
     "brackets: ours as a multiple of it. Behind a stroke: an engine's best settings, see bench/pages/peers.md. x: the "
     "scene was lost.\n";
 constexpr char kDatedLegend[] =
-    "\\* not run here: its ratio to Rapier SIMD in the run of bench/scene_bench/dated.cpp, times Rapier SIMD above, "
-    "which "
-    "takes, as a multiple of what it took then: ";
+    "\\* not run here: its time in the run of bench/scene_bench/dated.cpp, times how much slower Rapier SIMD is here, "
+    "which is the median of all scenes where it has no time of that run. As a multiple of what it took then: ";
 constexpr char kQueryLegend[] =
     "\nQueries of S14, microseconds each, median of ten frames, lowest of the rounds; and how many of all of them "
     "hit:\n\n";
