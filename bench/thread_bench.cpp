@@ -78,14 +78,6 @@ template <class S> bool measure(const std::string& name, const scenes::Scene& sc
   return same;
 }
 
-/// Returns false for a scene that is beyond the range of a format of 32 bits.
-bool fits(const std::string& scene, const std::string& scalar) {
-  for (const scenes::NamedScene& named : scenes::named_scenes()) {
-    if (scene == named.name) return named.narrow || scalar != "q16.16";
-  }
-  return true;
-}
-
 int run(const Arguments& arguments) {
   std::printf(
       "Real milliseconds a step, median of the settled half, and the gain over one thread; the gain in the best\n"
@@ -100,7 +92,7 @@ int run(const Arguments& arguments) {
     const std::optional<scenes::Scene> scene = scenes::find_scene(name);
     if (!scene) return std::fprintf(stderr, "no scene %s\n", name.c_str()), 64;
     for (const std::string& scalar : arguments.scalars) {
-      if (!fits(name, scalar)) continue;
+      if (!scenes::is_in_range(name, scalar)) continue;
 #define ISO_MEASURE(S) \
   if (scalar == ScalarTraits<S>::kName) same = measure<S>(name, *scene, arguments) && same;
       ISO_FOR_EACH_SCALAR(ISO_MEASURE)

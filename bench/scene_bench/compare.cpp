@@ -53,6 +53,19 @@ std::string both_cells(const std::vector<Row>& rows, const std::string& scene, c
   if (best == nullptr || (text == "-" && !best->refused.empty())) return text;
   return text + " / " + cell(best, fastest);
 }
+/// kAnchor's time here over that of the dated run. In a scene that has no such figure, the median of all others.
+std::optional<double> slower_than_then(const std::vector<Row>& rows, std::string_view scene) {
+  std::vector<double> others;
+  for (const Row& row : rows) {
+    const std::optional<Dated> then = row.engine == kAnchor ? dated(kAnchor, row.scene) : std::nullopt;
+    if (!then || !row.refused.empty() || shown_ms(row) <= 0) continue;
+    if (row.scene == scene) return shown_ms(row) / then->ms;
+    others.push_back(shown_ms(row) / then->ms);
+  }
+  if (others.empty() || dated(kAnchor, scene)) return std::nullopt;
+  return median(others);
+}
+
 std::string dated_cell(const std::vector<Row>& rows, const std::string& scene, const char* engine,
                        const std::optional<Fastest>& fastest) {
   const std::optional<double> ms = estimated_ms(rows, scene, engine);
@@ -90,23 +103,6 @@ std::string title_of(std::string_view engine) {
   }
   return "?";
 }
-
-namespace {
-
-/// kAnchor's time here over that of the dated run. In a scene that has no such figure, the median of all others.
-std::optional<double> slower_than_then(const std::vector<Row>& rows, std::string_view scene) {
-  std::vector<double> others;
-  for (const Row& row : rows) {
-    const std::optional<Dated> then = row.engine == kAnchor ? dated(kAnchor, row.scene) : std::nullopt;
-    if (!then || !row.refused.empty() || shown_ms(row) <= 0) continue;
-    if (row.scene == scene) return shown_ms(row) / then->ms;
-    others.push_back(shown_ms(row) / then->ms);
-  }
-  if (others.empty() || dated(kAnchor, scene)) return std::nullopt;
-  return median(others);
-}
-
-}  // namespace
 
 std::optional<double> estimated_ms(const std::vector<Row>& rows, std::string_view scene, std::string_view engine) {
   const std::optional<double> slower = slower_than_then(rows, scene);

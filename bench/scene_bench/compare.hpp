@@ -10,7 +10,7 @@ namespace isostep::bench {
 
 /// A time to be compared: S8's is that of a step with everybody asleep, less than 0 where that never came.
 double shown_ms(const Row& row);
-/// The engine has its best settings, not its defaults.
+/// Returns true if the engine has its best settings, not its defaults.
 bool is_best(std::string_view engine);
 /// The name of an engine in a report.
 std::string title_of(std::string_view engine);

@@ -147,17 +147,10 @@ void note_times(Lane& lane, const scenes::Scene& scene, bool from_start, Times& 
   if (lane.asleep_at >= 0) times.asleep.push_back(time_asleep(*lane.engine));
 }
 
-/// Formats of 32 bits are not for every scene.
-void require_range(const scenes::Scene& scene, std::string_view engine) {
-  for (const scenes::NamedScene& named : scenes::named_scenes()) {
-    if (scene.name != named.name || named.narrow || engine != "q16.16") continue;
-    throw scenes::SceneError("", "the scene is beyond the format's range");
-  }
-}
-
 Lane start_lane(const scenes::Scene& scene, const Maker& maker, const EngineOptions& options) try {
   Lane lane;
-  require_range(scene, maker.name);
+  if (!scenes::is_in_range(scene.name, maker.name))
+    throw scenes::SceneError("", "the scene is beyond the format's range");
   lane.engine = maker.make(scene, options);
   const scenes::Sight start = lane.engine->sight();
   lane.start = start.bodies;

@@ -187,10 +187,8 @@ std::string memory_table(const std::vector<Row>& rows) {
 
 constexpr char kLegend[] =
     "\nCPU time of a step, median of the settled half (S9, and the peers' scenes: of the run), lowest of the rounds. "
-    "Bold: the fastest peer. "
-    "In "
-    "brackets: ours as a multiple of it. Behind a stroke: an engine's best settings, see bench/pages/peers.md. x: the "
-    "scene was lost.\n";
+    "Bold: the fastest peer. In brackets: ours as a multiple of it. Behind a stroke: an engine's best settings, see "
+    "bench/pages/peers.md. x: the scene was lost.\n";
 constexpr char kDatedLegend[] =
     "\\* not run here: its time in the run of bench/scene_bench/dated.cpp, times how much slower Rapier SIMD is here, "
     "which is the median of all scenes where it has no time of that run. As a multiple of what it took then: ";

@@ -93,7 +93,7 @@ bool starts_with(std::string_view name, std::string_view head) { return name.sub
 bool is_on_hills(std::string_view scene) {
   return scene == "S11" || scene == "S12" || scene == "figures" || starts_with(scene, "S15");
 }
-/// Whose bodies hang, fall for ever, or cross land that is lower than zero too.
+/// Returns true if the scene's bodies hang, fall for ever, or cross land that is lower than zero too.
 bool has_no_floor(std::string_view scene) {
   return starts_with(scene, "S6") || scene == "joint_grid" || scene == "max_bodies" || scene == "crossers";
 }

@@ -144,6 +144,12 @@ constexpr NamedScene kScenes[] = {
 
 std::span<const NamedScene> named_scenes() { return kScenes; }
 
+bool is_in_range(std::string_view scene, std::string_view scalar) {
+  for (const NamedScene& entry : kScenes) {
+    if (scene == entry.name) return entry.narrow || scalar != "q16.16";
+  }
+  return true;
+}
 std::optional<Scene> find_scene(std::string_view name) {
   for (const NamedScene& entry : kScenes) {
     if (name != entry.name) continue;

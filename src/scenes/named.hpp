@@ -20,6 +20,8 @@ struct NamedScene {
 std::span<const NamedScene> named_scenes();
 /// Finds one of these, or of the trials (trials/trial.hpp). Nothing for a name that neither has.
 std::optional<Scene> find_scene(std::string_view name);
+/// Returns false for a scene that is beyond the range of this scalar.
+bool is_in_range(std::string_view scene, std::string_view scalar);
 
 // Makers, one file a family.
 Scene stack(int boxes);

@@ -8,21 +8,13 @@
 namespace isostep {
 
 template <class S> void Proxies<S>::place(const BodyState<S>& state, const BodyProperties<S>& body, bool awake) {
-  if (!is_enabled(body)) {
-    remove(state.slot);
-    return;
-  }
+  if (is_placed(state, body, awake)) return;
+  if (!is_enabled(body)) return remove(state.slot);
   if (proxies_.size() <= state.slot) proxies_.resize(state.slot + 1, Proxy<S>{});
   Proxy<S>& known = proxies_[state.slot];
-  const Proxy<S> next = proxy_of(state, body, awake);
-  if (!known.present) {
-    boxes_.insert(state.slot, state.fat);
-  } else if (!(known.box == next.box)) {
-    boxes_.update(state.slot, state.fat);
-  } else if (known.traits == next.traits) {
-    return;
-  }
-  known = next;
+  if (!known.present) boxes_.insert(state.slot, state.fat);
+  else if (!(known.box == state.fat)) boxes_.update(state.slot, state.fat);
+  known = proxy_of(state, body, awake);
   pairs_.mark_moved(state.slot);
 }
 

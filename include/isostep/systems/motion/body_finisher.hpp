@@ -29,7 +29,7 @@ template <class S> class BodyFinisher {
               StepReport& report);
 
  private:
-  /// What the pieces of the work share, and what each has found.
+  /// Holds what the pieces of the work share, and what each of them has found.
   struct Job {
     BodyFinisher* finisher;
     std::span<const Pose<S>> start;
@@ -40,7 +40,7 @@ template <class S> class BodyFinisher {
     std::size_t moved[kMaxPieces];  // bodies
   };
   static void run_piece(void* job, std::uint32_t stage, std::uint32_t piece);
-  void finish(Job& job, std::uint32_t piece);
+  void finish_piece(Job& job, std::uint32_t piece);
   static void stop_if_not_finite(BodyState<S>& state, const Pose<S>& start, StepReport& report);
   bool clamp_speed(BodyState<S>& state, const BodyProperties<S>& body, Velocity<S> angular_limit) const;
   static void clamp_position(BodyState<S>& state, StepReport& report);

@@ -38,10 +38,10 @@ void BodyFinisher<S>::finish(std::span<const Pose<S>> start, std::span<const std
 }
 template <class S> void BodyFinisher<S>::run_piece(void* job, std::uint32_t, std::uint32_t piece) {
   Job& all = *static_cast<Job*>(job);
-  all.finisher->finish(all, piece);
+  all.finisher->finish_piece(all, piece);
 }
 
-template <class S> void BodyFinisher<S>::finish(Job& job, std::uint32_t piece) {
+template <class S> void BodyFinisher<S>::finish_piece(Job& job, std::uint32_t piece) {
   const std::size_t bodies = state_.awake.states.size();
   const std::size_t first = bodies * piece / job.pieces, end = bodies * (piece + 1) / job.pieces;
   StepReport& report = job.reports[piece];
