@@ -103,7 +103,7 @@ constexpr NamedScene kScenes[] = {
     {"junkyard", "10 584 rocks in a yard, and a pillar that pushes them around", junkyard, false},
     {"human_rain", "300 figures with springs and friction in their joints fall on rings", human_rain, false},
     {"jolt_pyramid", "a square pyramid of 1240 boxes, half a metre apart", jolt_pyramid},
-    {"max_bodies", "131 072 boxes fall in sheets", max_bodies},
+    {"max_bodies", "131 072 boxes fall in rows", max_bodies},
     {"convex_on_land", "1764 boxes, spheres, capsules and hulls fall on land 300 m wide", convex_on_land, false},
     {"crossers", "100 characters cross a field of crates, stairs and posts", crossers},
     {"trees", "50 trees of 22 hulls fall on a mesh of 30 000 quads", trees, false},

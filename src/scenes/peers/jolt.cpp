@@ -91,7 +91,7 @@ Scene max_bodies() {
   Scene scene = scene_of_jolt();
   scene.frames = 60;
   for (int n = 0; n < kBodies; ++n) {
-    const double x = n % kSide, y = 2 * (n / kSide % kSide), z = n / (kSide * kSide);
+    const double x = n % kSide, y = 2 * (n / kSide % kSide), z = 2 * (n / (kSide * kSide));
     scene.bodies.push_back(loose(body_of(box_part({0.5, 0.5, 0.5}), {x, y, z})));
   }
   return scene;
