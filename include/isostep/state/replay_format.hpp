@@ -45,8 +45,8 @@ inline constexpr std::uint32_t kAncillaryBit = 0x20;
 // Caps on payloads [bytes], checked before anything is done with a length.
 inline constexpr std::uint32_t kReplayHeadCap = 4 + kReplayFieldCap * (9 + kReplayKeyCap + kReplayValueCap);
 inline constexpr std::uint32_t kReplayStateCap = 1u << 28;       // a portable snapshot
-inline constexpr std::uint32_t kReplayFrameInputCap = 1u << 24;  // one frame's input: a scene of 50000 bodies
-inline constexpr std::uint32_t kReplayInputCap = 1u << 25;       // one block's inputs; a fuller one ends early
+inline constexpr std::uint32_t kReplayFrameInputCap = 1u << 26;  // one frame's input: a scene of 150 000 bodies
+inline constexpr std::uint32_t kReplayInputCap = 1u << 27;       // one block's inputs; a fuller one ends early
 inline constexpr std::uint32_t kReplayUnknownCap = 1u << 24;
 std::uint32_t replay_payload_cap(std::uint32_t type);
 
