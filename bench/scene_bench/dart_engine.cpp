@@ -79,10 +79,14 @@ void set_damping(dynamics::FreeJoint& joint, const PeerBody& from) {
   }
 }
 
+constexpr std::size_t kMostBodies = 20000;  // 131 072 need over 8 GB before the first step
+
 class DartEngine : public Peer {
  public:
   explicit DartEngine(const scenes::Scene& scene) : Peer(scene), world_(dart::simulation::World::create()) {
     if (!gears().empty()) throw scenes::SceneError("", "DART has no gears between free bodies");
+    if (bodies().size() > kMostBodies)
+      throw scenes::SceneError("", "DART is given no scene of more than 20 000 bodies: it takes gigabytes for them");
     auto solver = std::make_unique<DartSolver>(owners_);
     solver_ = solver.get();
     world_->setConstraintSolver(std::move(solver));
