@@ -161,12 +161,12 @@ TEST(ReplayWriter, LargeInputsEndABlockEarlyAndTooLargeOnesAreRefused) {
   ReplayWriter writer(sink_to(file));
   ASSERT_TRUE(writer.begin(toy::header(), {}, 0));
   const Buffer large(kReplayFrameInputCap, 0x5a);
-  for (std::uint64_t i = 0; i < 3; ++i) ASSERT_TRUE(writer.frame(large, i));
+  for (std::uint64_t i = 0; i < 5; ++i) ASSERT_TRUE(writer.frame(large, i));
   ASSERT_TRUE(writer.finish());
   const ReplayReader replay(file);
   EXPECT_EQ(replay.status(), ReplayStatus::complete);
-  ASSERT_EQ(replay.frame_count(), 3u);
-  for (std::uint64_t i = 0; i < 3; ++i) {
+  ASSERT_EQ(replay.frame_count(), 5u);
+  for (std::uint64_t i = 0; i < 5; ++i) {
     EXPECT_EQ(replay.frame(i).input.size(), large.size());
     EXPECT_EQ(replay.frame(i).hash, i);
   }

@@ -112,6 +112,14 @@ TEST_F(CommandLine, RecordsFromTheEmptyWorldOnWhatTheGoldensSay) {
   EXPECT_EQ(seen, 12);
 }
 
+/// Its first frame creates 131 072 bodies: 36 MB of commands in the widest scalar.
+TEST_F(CommandLine, RecordsTheLargestScene) {
+  ASSERT_EQ(run({"run", "max_bodies", "--scalar", "q32.32", "--frames", "1", "--record", path("r")}).status, 0);
+  const Answer answer = run({"verify", path("r")});
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  EXPECT_NE(answer.out.find("VERIFIED 1 frame"), std::string::npos) << answer.out;
+}
+
 /// A golden that differs between two marks is found by its digest, one that differs at a mark there.
 TEST_F(CommandLine, VerifiesEveryLineOfAFileOfGoldens) {
   const std::string file = content_of(fs::path(ISOSTEP_SOURCE_DIR) / "replays" / "goldens.txt");
