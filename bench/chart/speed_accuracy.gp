@@ -35,6 +35,9 @@ lost(scene, engine) = strcol(2) eq scene && strcol(3) eq engine && $6 != 0
 unset mxtics
 unset mytics
 unset key
+# No logarithm shows an error of 0: what is less than a micrometre stands at one.
+least = 1e-3
+error(mm) = mm < least ? least : mm
 small = font(11)
 set xtics font small
 set ytics font small
@@ -56,7 +59,7 @@ set label 21 "lost its scene; at the top" at screen 0.725, 0.038 left offset 1.6
   point linestyle 20 font font(12) textcolor rgb ink
 do for [n = 1:8] {
   scene = word(scenes, n)
-  left = 0.055 + 0.325 * ((n - 1) % 3)
+  left = 0.06 + 0.325 * ((n - 1) % 3)
   bottom = 0.68 - 0.319 * ((n - 1) / 3)
   set lmargin at screen left
   set rmargin at screen left + 0.27
@@ -66,7 +69,7 @@ do for [n = 1:8] {
   unset logscale
   set autoscale
   stats data skip 1 using (strcol(2) eq scene ? $4 : NaN) name "T" nooutput
-  stats data skip 1 using (strcol(2) eq scene && $6 == 0 && $5 > 0 ? $5 : NaN) name "E" nooutput
+  stats data skip 1 using (strcol(2) eq scene && $6 == 0 ? error($5) : NaN) name "E" nooutput
   set logscale xy
   set xrange [T_min / 1.3:T_max * 1.3]
   top = E_max * 2.2
@@ -80,14 +83,14 @@ do for [n = 1:8] {
       set ytics add ((top < 100 * E_min || step == 1 ? sprintf("%g", value) : "") value)
     }
   }
-  plot for [k = 1:12] data skip 1 using (kept(scene, word(peers, k)) ? $4 : NaN):5:(word(letters, k)) with labels \
+  plot for [k = 1:12] data skip 1 using (kept(scene, word(peers, k)) ? $4 : NaN):(error($5)):(word(letters, k)) with labels \
          font font(11) textcolor rgb violet, \
        for [k = 1:12] data skip 1 using (lost(scene, word(peers, k)) ? $4 : NaN):(top):(word(letters, k)) with labels \
          font font(11) textcolor rgb violet offset -1, 0, \
        for [k = 1:4] data skip 1 using (lost(scene, word(engines, k)) ? $4 : NaN):(top) with points linestyle k, \
        for [k = 1:4] data skip 1 using (lost(scene, word(engines, k)) ? $4 : NaN):(top) with points linestyle 20, \
        for [k = 1:12] data skip 1 using (lost(scene, word(peers, k)) ? $4 : NaN):(top) with points linestyle 20, \
-       for [k = 1:4] data skip 1 using (kept(scene, word(engines, k)) ? $4 : NaN):5 with points linestyle k
+       for [k = 1:4] data skip 1 using (kept(scene, word(engines, k)) ? $4 : NaN):(error($5)) with points linestyle k
   unset label
 }
 unset multiplot

@@ -16,6 +16,10 @@ bool is_number(const Motion& m) {
          std::isfinite(m.orientation.w);
 }
 
+bool follows(scenes::Script script) {
+  return script == scenes::Script::none || script == scenes::Script::mixer || script == scenes::Script::hit;
+}
+
 /// The rotation from the principal axes to the scene's frame of the body.
 Quat<double> body_axes(const PeerBody& body, const Motion& at) {
   return body.frame.is_identity() ? at.orientation : normalise(at.orientation * conjugate(body.frame.orientation));
@@ -24,9 +28,7 @@ Quat<double> body_axes(const PeerBody& body, const Motion& at) {
 }  // namespace
 
 Peer::Peer(const scenes::Scene& scene) : scene_(scene), gravity_(peer_gravity(scene)) {
-  if (scene.script == scenes::Script::mixed) {
-    throw scenes::SceneError("", "peers cannot follow this script");
-  }
+  if (!follows(scene.script)) throw scenes::SceneError("", "peers cannot follow this script");
   if (!(scene.restitution_threshold == scenes::Scene{}.restitution_threshold)) {
     throw scenes::SceneError("", "peers are given no threshold of restitution");
   }

@@ -236,14 +236,17 @@ std::string chart_points(const Report& report) {
     text += print("%s\t%s\t%s\t%.6g\t%.6g\t%d\n", report.date.c_str(), scene.c_str(), engine, ms, 1e3 * error,
                   failed ? 1 : 0);
   };
+  std::string scene;  // of the row before
   for (const Row& row : report.rows) {
-    if (!row.refused.empty()) continue;
-    if (shown_ms(row) >= 0) add(row.scene, row.engine.c_str(), shown_ms(row), error_of(row), row.failed);
-    if (row.engine != kAnchor) continue;
+    if (row.refused.empty() && shown_ms(row) >= 0) {
+      add(row.scene, row.engine.c_str(), shown_ms(row), error_of(row), row.failed);
+    }
+    if (row.scene == scene) continue;
+    scene = row.scene;
     for (const char* engine : kDatedEngines) {
-      const std::optional<double> ms = estimated_ms(report.rows, row.scene, engine);
-      const std::optional<Dated> then = dated(engine, row.scene);
-      if (ms && then->error >= 0) add(row.scene, engine, *ms, then->error, then->lost);
+      const std::optional<double> ms = estimated_ms(report.rows, scene, engine);
+      const std::optional<Dated> then = dated(engine, scene);
+      if (ms && then->error >= 0) add(scene, engine, *ms, then->error, then->lost);
     }
   }
   return text;

@@ -85,7 +85,7 @@ Scene jolt_pyramid() {
   return scene;
 }
 
-/// Sheets of boxes that touch side by side fall, two metres apart.
+/// Rows of boxes that touch side by side fall, two metres apart.
 Scene max_bodies() {
   constexpr int kBodies = 131072, kSide = 51;
   Scene scene = scene_of_jolt();
