@@ -78,4 +78,18 @@ Scene sleepers(int awake, int sleeping, int column) {
   return scene;
 }
 
+Scene field(int boxes) {
+  constexpr int kColumn = 2;
+  const int columns = boxes / kColumn;
+  const int across = static_cast<int>(std::ceil(std::sqrt(columns)));
+  Scene scene;
+  add_floor_of(scene, across * kApart);
+  SceneBody player = body_of(sphere_part(0.75), {-0.5 * kApart * (across + 2), 0.75, 0});
+  player.density = 20;  // 35 boxes
+  player.allow_sleep = false;
+  scene.bodies.push_back(player);
+  for (int i = 0; i < columns; ++i) add_column(scene, i, across, kColumn, true);
+  return scene;
+}
+
 }  // namespace isostep::bench

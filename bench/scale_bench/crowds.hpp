@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "isostep/world/world.hpp"
 #include "scenes/scene.hpp"
 
 namespace isostep::bench {
@@ -14,5 +15,13 @@ scenes::Scene pile_of(int bodies);
 /// `awake` boxes in columns of five that never sleep, and beside them `sleeping` boxes in columns of `column`: each
 /// column is an island. All are of one shape.
 scenes::Scene sleepers(int awake, int sleeping, int column);
+/// A player, a ball that never sleeps, at the edge of a square field of `boxes` in columns of two; each column is an
+/// island. The floor is the first body, the player the second.
+scenes::Scene field(int boxes);
+
+/// Gives up after ten seconds of the world's time.
+template <class S> void step_until_asleep(World<S>& world, std::uint32_t awake) {
+  for (int i = 0; i < 600 && world.counts().awake > awake; ++i) world.step();
+}
 
 }  // namespace isostep::bench

@@ -1,4 +1,4 @@
-// isostep_scale_bench: what a body costs among 100 and among 50 000, and what sleepers cost those who are awake.
+// isostep_scale_bench: what a body costs among 100 and among 500 000, and what sleepers cost those who are awake.
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,10 +11,19 @@ namespace isostep::bench {
 namespace {
 
 struct Arguments {
-  std::vector<std::string> parts = {"scale", "sleepers"};
+  std::vector<std::string> parts = {"scale", "sleepers", "crowds"};
   std::string tsv;
   ScaleOptions options;
 };
+
+void run_crowds(const ScaleOptions& options) {
+  const char* scalar = options.scalar.c_str();
+  std::printf("\nA crowd of which some move, %s:\n\n%s", scalar, table_of(measure_crowds(options)).c_str());
+  std::fflush(stdout);
+  std::printf("\nA player in a field of sleepers, %s:\n\n%s", scalar, table_of(measure_player(options)).c_str());
+  std::fflush(stdout);
+  std::printf("\nRows of boxes that fall, %s:\n\n%s", scalar, table_of(measure_most(options)).c_str());
+}
 
 int run(const Arguments& arguments) {
   const auto wants = [&](const char* part) {
@@ -36,7 +45,9 @@ int run(const Arguments& arguments) {
   if (wants("sleepers")) {
     const std::vector<SleeperRow> rows = measure_sleepers(arguments.options);
     std::printf("Sleepers, %s:\n\n%s", arguments.options.scalar.c_str(), table_of(rows).c_str());
+    std::fflush(stdout);
   }
+  if (wants("crowds")) run_crowds(arguments.options);
   return 0;
 }
 
@@ -46,10 +57,10 @@ int run(const Arguments& arguments) {
 int main(int count, char** words) {
   isostep::bench::Arguments arguments;
   isostep::bench::ScaleOptions& options = arguments.options;
-  CLI::App app("What a body costs among 100 and among 50 000, and what sleepers cost those who are awake");
-  app.add_option("--parts", arguments.parts, "scale, sleepers, separated by commas")
+  CLI::App app("What a body costs among 100 and among 500 000, and what sleepers cost those who are awake");
+  app.add_option("--parts", arguments.parts, "scale, sleepers, crowds, separated by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember({"scale", "sleepers"}));
+      ->check(CLI::IsMember({"scale", "sleepers", "crowds"}));
   app.add_option("--scalar", options.scalar, "The number type")->check(CLI::IsMember(isostep::scalar_names()));
   app.add_option("--scenes", options.scenes, "pyramid, pile, separated by commas")
       ->delimiter(',')
@@ -62,6 +73,14 @@ int main(int count, char** words) {
       ->delimiter(',')
       ->check(CLI::Range(0, 1000000));
   app.add_option("--column", options.column, "Sleepers an island")->check(CLI::Range(1, 20));
+  app.add_option("--crowd", options.crowd, "Boxes of which some move")->check(CLI::Range(1000, 1000000));
+  app.add_option("--moving", options.moving, "Of the crowd, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::Range(100, 1000000));
+  app.add_option("--field", options.field, "Boxes around the player")->check(CLI::Range(1000, 1000000));
+  app.add_option("--most", options.most, "Boxes that fall in rows, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1000000));
   app.add_option("--tsv", arguments.tsv, "Write the stages' times to this file, for the chart");
   std::string results;
   app.add_option("--results", results, "Of a whole run, by none of the options above: scale.tsv in this directory");

@@ -1,4 +1,4 @@
-// The two measurements of the scale benchmark; each gives rows, a Markdown table and, for the chart, TSV.
+// The measurements of the scale benchmark; each gives rows and a Markdown table, the first TSV for the chart too.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -19,6 +19,10 @@ struct ScaleOptions {
   int awake = 100;
   std::vector<int> sleeping = {0, 1000, 10000, 100000};
   int column = 10;  // sleepers an island
+  int crowd = 100000;
+  std::vector<int> moving = {1000, 10000, 100000};  // of the crowd
+  int field = 50000;                                // boxes around the player
+  std::vector<int> most = {131072, 262144, 524288};
 };
 
 /// Medians of the CPU time of single steps, of a settled crowd of which nobody sleeps.
@@ -43,5 +47,32 @@ struct SleeperRow {
 };
 std::vector<SleeperRow> measure_sleepers(const ScaleOptions& options);
 std::string table_of(const std::vector<SleeperRow>& rows);
+
+/// A crowd of which a part moves and the rest sleeps. Medians of CPU times.
+struct CrowdRow {
+  unsigned bodies = 0, awake = 0, contacts = 0;
+  double step_us = 0, save_us = 0, load_us = 0, hash_us = 0;
+  std::size_t snapshot_bytes = 0;
+  double peak_megabytes = 0;  // of the world's build and steps, without snapshots
+};
+std::vector<CrowdRow> measure_crowds(const ScaleOptions& options);
+std::string table_of(const std::vector<CrowdRow>& rows);
+
+/// A player among sleepers: while it stands, and while it is pushed through them. CPU times over all frames.
+struct PlayerRow {
+  unsigned boxes = 0, awake = 0, most_awake = 0;
+  double rest_us = 0, step_us = 0, worst_us = 0, save_us = 0, worst_save_us = 0;
+};
+PlayerRow measure_player(const ScaleOptions& options);
+std::string table_of(const PlayerRow& row);
+
+/// Boxes in rows that fall, all awake: Jolt's MaxBodies of any size. CPU times.
+struct MostRow {
+  unsigned bodies = 0, contacts = 0;
+  double first_us = 0, step_us = 0;  // the first step, and the median of the others
+  double peak_megabytes = 0;         // of the world's build and steps
+};
+std::vector<MostRow> measure_most(const ScaleOptions& options);
+std::string table_of(const std::vector<MostRow>& rows);
 
 }  // namespace isostep::bench

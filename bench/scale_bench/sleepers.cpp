@@ -16,10 +16,6 @@ namespace {
 constexpr int kRuns = 61;
 constexpr std::size_t kKept = 8;
 
-template <class S> void step_until_asleep(World<S>& world, std::uint32_t awake) {
-  for (int i = 0; i < 600 && world.counts().awake > awake; ++i) world.step();
-}
-
 template <class S> SleeperRow measure(int sleeping, const ScaleOptions& options) {
   const scenes::Scene scene = sleepers(options.awake, sleeping, options.column);
   World<S> world(scenes::settings_of<S>(scene));

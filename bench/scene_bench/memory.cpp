@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "memory.hpp"
 
+#include "resident.hpp"
+
 #if defined(__unix__) || defined(__APPLE__)
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -29,15 +30,6 @@ int run(const scenes::Scene& scene, const Maker& maker, const EngineOptions& opt
   return 70;
 }
 
-double megabytes(const rusage& used) {
-#if defined(__APPLE__)
-  constexpr double kUnit = 1e-6;
-#else
-  constexpr double kUnit = 1.024e-3;  // of 1024 bytes
-#endif
-  return kUnit * static_cast<double>(used.ru_maxrss);
-}
-
 }  // namespace
 
 Memory measure_memory(const scenes::Scene& scene, const Maker& maker, const EngineOptions& options, double patience) {
@@ -47,7 +39,7 @@ Memory measure_memory(const scenes::Scene& scene, const Maker& maker, const Engi
   if (child == 0) _exit(run(scene, maker, options, patience));
   int status = 0;
   if (child < 0 || wait4(child, &status, 0, &used) != child || status != 0) return {};
-  return {megabytes(own), megabytes(used)};
+  return {peak_megabytes(own), peak_megabytes(used)};
 }
 
 #else

@@ -6,15 +6,9 @@
 #include "isostep/replay/frame_history.hpp"
 #include "parts.hpp"
 #include "scene_bench/clock.hpp"
+#include "scene_bench/resident.hpp"
 #include "scenes/build.hpp"
 #include "scenes/named.hpp"
-
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
-#if defined(__linux__)
-#include <unistd.h>
-#endif
 
 namespace isostep::bench {
 namespace {
@@ -23,27 +17,6 @@ constexpr std::size_t kKept = 64;
 constexpr int kRuns = 64;
 /// [saves] A snapshot allocates whenever there are more contacts than it ever held: three rounds, and it rarely does.
 constexpr int kGrowing = 3 * static_cast<int>(kKept);
-
-/// [MB] The size of this process in memory; 0 where nobody tells.
-double resident_megabytes() {
-#if defined(__linux__)
-  std::FILE* file = std::fopen("/proc/self/statm", "r");
-  if (file == nullptr) return 0;
-  unsigned long long all = 0, resident = 0;
-  const int read = std::fscanf(file, "%llu %llu", &all, &resident);
-  std::fclose(file);
-  return read == 2 ? 1e-6 * static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) : 0;
-#else
-  return 0;
-#endif
-}
-
-/// Else what was freed before would be used again, and hide what is taken now.
-void return_freed_memory() {
-#if defined(__GLIBC__)
-  malloc_trim(0);
-#endif
-}
 
 struct Row {
   double megabytes = 0, first_us = 0, ring_us = 0, same_us = 0, warm_us = 0;

@@ -85,17 +85,19 @@ Scene jolt_pyramid() {
   return scene;
 }
 
-/// Rows of boxes that touch side by side fall, two metres apart.
-Scene max_bodies() {
-  constexpr int kBodies = 131072, kSide = 51;
+Scene max_bodies_of(int bodies) {
+  int side = 1;
+  while (static_cast<std::int64_t>(side) * side * side < bodies) ++side;
   Scene scene = scene_of_jolt();
   scene.frames = 60;
-  for (int n = 0; n < kBodies; ++n) {
-    const double x = n % kSide, y = 2 * (n / kSide % kSide), z = 2 * (n / (kSide * kSide));
+  for (int n = 0; n < bodies; ++n) {
+    const double x = n % side, y = 2 * (n / side % side), z = 2 * (n / (side * side));
     scene.bodies.push_back(loose(body_of(box_part({0.5, 0.5, 0.5}), {x, y, z})));
   }
   return scene;
 }
+
+Scene max_bodies() { return max_bodies_of(131072); }
 
 Scene convex_on_land() {
   constexpr int kHalfRow = 10, kKinds = 4;

@@ -21,6 +21,8 @@ Scene large_world();
 // Jolt's Pyramid, MaxBodies, ConvexVsMesh and CharacterVirtual.
 Scene jolt_pyramid();
 Scene max_bodies();
+/// Rows of boxes that touch side by side fall, two metres apart.
+Scene max_bodies_of(int bodies);
 Scene convex_on_land();
 Scene crossers();
 
