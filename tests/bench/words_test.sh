@@ -19,7 +19,7 @@ for words in '' nonsense scene '*' --help; do
   [ "$status" -eq 64 ] || fail "'bench $words' exits $status, not 64"
   [ -s "$scratch/out" ] && fail "'bench $words' prints to stdout"
   [ "$(wc -l <"$scratch/error")" -eq 1 ] || fail "'bench $words' says more or less than one line"
-  grep -qF "no benchmark '$words'; there are: scenes scale threads particles convex coarse projections" "$scratch/error" || fail "'bench $words' says: $(cat "$scratch/error")"
+  grep -qF "no benchmark '$words'; there are: scenes scale threads rollback particles convex coarse projections" "$scratch/error" || fail "'bench $words' says: $(cat "$scratch/error")"
   [ -e "$scratch/build" ] && fail "'bench $words' builds"
 done
 

@@ -46,6 +46,7 @@
 #include "isostep/store/state_validator.inl"
 #include "isostep/world/engine_fields.inl"
 #include "isostep/world/engine_step.inl"
+#include "isostep/world/resimulation/step_memory.inl"
 #include "isostep/world/world.inl"
 #if !defined(ISOSTEP_NO_BOOK)
 #include "isostep/book/instantiate.inl"
@@ -127,6 +128,7 @@
   ISO_INSTANTIATE_MOTION_SYSTEMS(OwnScalar)                                                         \
   ISO_INSTANTIATE_EVENT_SYSTEMS(OwnScalar)                                                          \
   ISO_INSTANTIATE_WORLD_STEP(OwnScalar)                                                             \
+  ISO_INSTANTIATE_STEP_MEMORY(OwnScalar)                                                            \
   ISO_INSTANTIATE_RECORD_STORE(OwnScalar)                                                           \
   ISO_INSTANTIATE_COMMANDS(OwnScalar)                                                               \
   ISO_BROKEN_RULE_OF(, OwnScalar)                                                                   \

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "isostep/commands/command_executor.hpp"
 #include "isostep/commands/destruction.hpp"
@@ -34,6 +35,7 @@
 #include "isostep/systems/motion/sensor_mounts.hpp"
 #include "isostep/systems/sleep/island_sleep.hpp"
 #include "isostep/systems/sleep/island_wake.hpp"
+#include "isostep/world/resimulation/step_memory.hpp"
 #include "isostep/world/step_solver.hpp"
 #include "isostep/world/world.hpp"
 
@@ -68,6 +70,7 @@ namespace isostep {
 ///   CastQueries, OverlapQueries -> BodyMap, Proxies; faults
 ///   Characters      -> BodyMap, Proxies, IslandWake, CommandExecutor
 ///   StateLoader     -> BodyMap, Proxies
+///   StepMemory      -> the engine: it steps a part of the state by an engine of its own
 ///
 /// BodyMap and Proxies are caches of the state: a system that moves bodies updates them. The step passes all other data
 /// between systems from call to call.
@@ -78,7 +81,9 @@ template <class S> class WorldEngine {
   WorldEngine& operator=(const WorldEngine&) = delete;
 
   // engine_step.inl
+  /// Steps, from memory where that is known: resimulation/step_memory.hpp. Whoever watches sees every stage.
   StepReport step(const StageObserver& observer);
+  StepReport step_whole(const StageObserver& observer);
 
   // engine_fields.inl
   StageView view(std::uint32_t stage);
@@ -126,6 +131,7 @@ template <class S> class WorldEngine {
   OverlapQueries<S> overlaps_{state_, map_, proxies_, desk_.faults};
   Characters<S> characters_{state_, map_, proxies_, wake_, commands_};
   StateLoader<S> loader_{state_, map_, proxies_};
+  std::unique_ptr<StepMemory<S>> memory_;  // null: it remembers no step
 
  private:
   // engine_step.inl
@@ -142,7 +148,9 @@ template <class S> class WorldEngine {
 };
 
 /// The step is compiled apart from what is called between steps: instantiate/world_step.cpp.
-#define ISO_ENGINE_OF(extern, S) extern template StepReport WorldEngine<S>::step(const StageObserver&);
+#define ISO_ENGINE_OF(extern, S)                                         \
+  extern template StepReport WorldEngine<S>::step(const StageObserver&); \
+  extern template StepReport WorldEngine<S>::step_whole(const StageObserver&);
 ISO_EXTERN_FOR_EACH_SCALAR(ISO_ENGINE_OF)
 
 }  // namespace isostep

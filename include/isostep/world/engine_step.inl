@@ -18,6 +18,11 @@ template <class S> BeltPlace<S> place_of_belt(const BodyMap<S>& map, const Surfa
 }  // namespace detail
 
 template <class S> StepReport WorldEngine<S>::step(const StageObserver& observer) {
+  const bool watched = observer.after != nullptr || desk_.trace != nullptr;
+  return memory_ == nullptr || watched ? step_whole(observer) : memory_->step();
+}
+
+template <class S> StepReport WorldEngine<S>::step_whole(const StageObserver& observer) {
   const auto after = [&](Stage stage) {
     if (observer.after != nullptr) observer.after(observer.user, stage, view(static_cast<std::uint32_t>(stage)));
     desk_.note_hash(*this);

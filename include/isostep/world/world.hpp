@@ -21,6 +21,7 @@
 #include "isostep/store/definitions.hpp"
 #include "isostep/store/events.hpp"
 #include "isostep/store/query_types.hpp"
+#include "isostep/store/resimulation.hpp"
 #include "isostep/store/stages.hpp"
 #include "isostep/store/views.hpp"
 #include "isostep/world/joint_presets.hpp"
@@ -264,6 +265,13 @@ template <class S> class World final : public WorldBase<World<S>> {
 
   // Time.
   StepReport step(const StageObserver& observer = {});
+  /// Remembers the last `steps` steps, for who rolls back: a step of a tick that is remembered, as after a load, steps
+  /// the bodies that differ from then and what those may touch, and takes all others from memory. Never changes a bit
+  /// of state, events or report. 0, the default: nothing. A remembered step takes the memory of two snapshots. A step
+  /// with an observer or a trace is whole.
+  void remember_steps(std::uint32_t steps);
+  /// Counts what that has spared, since the last call of remember_steps.
+  Resimulation resimulation() const;
   const Events<S>& events() const;
   /// Appends to `out` the points of Events::contacts that belong to one body, in their order. These are those of a body
   /// with a ContactReport, or of a body that touches one.

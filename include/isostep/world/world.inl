@@ -296,6 +296,16 @@ template <class S> StepReport World<S>::step(const StageObserver& observer) {
   engine_->desk_.journal.record_step();
   return pin_floats([&] { return engine_->step(observer); });
 }
+template <class S> void World<S>::remember_steps(std::uint32_t steps) {
+  const ExclusiveCall call = engine_->desk_.enter("remember_steps");
+  if (!call.allowed()) return;
+  if (steps == 0) return engine_->memory_.reset();
+  if (engine_->memory_ == nullptr) engine_->memory_ = std::make_unique<StepMemory<S>>(*engine_);
+  engine_->memory_->resize(steps);
+}
+template <class S> Resimulation World<S>::resimulation() const {
+  return engine_->memory_ == nullptr ? Resimulation{} : engine_->memory_->totals();
+}
 template <class S> void World<S>::contacts_of(BodyId body, std::vector<ContactPoint<S>>& out) const {
   for (const ContactPoint<S>& point : engine_->events_.contacts) {
     if (point.a == body || point.b == body) out.push_back(point);

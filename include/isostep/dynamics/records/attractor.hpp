@@ -31,6 +31,7 @@ template <class S> struct Attractor {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<Attractor<S>> : RecordDefaults<S> {
+  static constexpr bool kSeesOthers = true;
   static constexpr Acts kActs = Acts::pushes;
   static constexpr Wakes kWakes = Wakes::all;
   static FaultReport fault(const Attractor<S>& a) {

@@ -63,6 +63,7 @@ template <class S> struct CharacterState {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<CharacterSettings<S>> : RecordDefaults<S> {
+  static constexpr bool kSeesOthers = true;
   static constexpr Acts kActs = Acts::not_here;
   static FaultReport fault(const CharacterSettings<S>& c) {
     const S least = Limits<S>::minimum_size() * S(0.0625);

@@ -114,6 +114,7 @@ template <class S> S blast(const Explosion<S>& e, S t, Step<S> h, const BlastTar
 }
 
 template <class S> struct RecordRules<Explosion<S>> : RecordDefaults<S> {
+  static constexpr bool kSeesOthers = true;
   static constexpr Acts kActs = Acts::pushes;
   static constexpr Wakes kWakes = Wakes::all;
   static FaultReport fault(const Explosion<S>& e) {

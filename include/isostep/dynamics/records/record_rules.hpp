@@ -136,6 +136,7 @@ template <class S> struct RecordDefaults {
   static constexpr Wakes kWakes = Wakes::named;
   static constexpr bool kTies = false;   // bodies that it names sleep and wake together
   static constexpr bool kBears = false;  // it holds bodies up or back, and ends where they come to rest
+  static constexpr bool kSeesOthers = false;  // a step asks for bodies that it neither names nor touches
   template <class Record> static ISO_INLINE FaultReport fault_at(const Record&, const RecordPlace<S>&) { return {}; }
 };
 

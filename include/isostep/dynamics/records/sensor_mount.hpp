@@ -34,6 +34,7 @@ template <class S> struct SensorMount {
 namespace isostep::detail {
 
 template <class S> struct RecordRules<SensorMount<S>> : RecordDefaults<S> {
+  static constexpr bool kSeesOthers = true;
   static constexpr Acts kActs = Acts::not_here;
   static constexpr Wakes kWakes = Wakes::none;
   static FaultReport fault(const SensorMount<S>& m) {

@@ -151,6 +151,7 @@ template <class S> ISO_INLINE S rim_give(S mass, S radius, S inertia) {
 }
 
 template <class S> struct RecordRules<VehicleSettings<S>> : RecordDefaults<S> {
+  static constexpr bool kSeesOthers = true;
   static constexpr Acts kActs = Acts::not_here;
   static FaultReport fault(const VehicleSettings<S>& v) {
     NumberChecks<S> checks;
@@ -200,6 +201,7 @@ template <class S> struct RecordRules<VehicleSettings<S>> : RecordDefaults<S> {
 };
 
 template <class S> struct RecordRules<WheelSettings<S>> : RecordDefaults<S> {
+  static constexpr bool kSeesOthers = true;
   static constexpr Acts kActs = Acts::not_here;
   static FaultReport fault(const WheelSettings<S>& w) {
     constexpr S kMostSteer = S(1.570796326794896619);  // [rad]

@@ -85,6 +85,14 @@ template <class S, int W, class Isa> struct BodyKernel {
 
   // ---- velocities
 
+  /// Adds the velocity that an acceleration gives. One of 0 changes nothing, not -0 to 0 either: whether any body has
+  /// an acceleration is nothing to the others.
+  static ISO_INLINE Vec3<V> pushed(const Vec3<V>& v, const Vec3<L>& a, H h) {
+    const Vec3<V> by = over(a, h);
+    const auto add = [](V x, V dx, L ax) ISO_INLINE_LAMBDA { return select(equal(ax, L::zero()), x, x + dx); };
+    return {add(v.x, by.x, a.x), add(v.y, by.y, a.y), add(v.z, by.z, a.z)};
+  }
+
   static ISO_INLINE void accelerate(const BodyRun<S>& run, std::size_t first, H h, Motion& m) {
     BodyFlight<S>* const flights = run.flights + first;
     V fall[4];
@@ -101,8 +109,8 @@ template <class S, int W, class Isa> struct BodyKernel {
           in[3 + axis][i] = of.angular[axis];
         }
       }
-      m.linear += over({L::load(in[0]), L::load(in[1]), L::load(in[2])}, h);
-      m.angular += over({L::load(in[3]), L::load(in[4]), L::load(in[5])}, h);
+      m.linear = pushed(m.linear, {L::load(in[0]), L::load(in[1]), L::load(in[2])}, h);
+      m.angular = pushed(m.angular, {L::load(in[3]), L::load(in[4]), L::load(in[5])}, h);
     }
     if (which(run.kinds + first, body_kind::kDamped) == 0) return;
     const BodyFactors<S>* const rows = run.factors + first;

@@ -75,6 +75,7 @@ template <class S> class BodyRows {
     if (context.accelerations.empty()) return fall;
     const Step<S> h = divide_to<Step<S>>(S(1), S(rate_));
     const Vec3<S> a = context.accelerations[row - 1].linear;
+    if (a == Vec3<S>::zero()) return fall;  // as if nothing pulled any body
     const auto over = [h](S x) ISO_INLINE_LAMBDA { return round_to<Velocity<S>>(product(x, h)); };
     return fall + Vec3<Velocity<S>>{over(a.x), over(a.y), over(a.z)};
   }

@@ -46,6 +46,8 @@ template <class S> class NarrowPhase {
   /// Ascending, except where the sensor has the higher slot. SensorOverlaps takes them over.
   ISO_INLINE std::vector<SensorOverlap>& overlaps() { return overlaps_; }
 
+  /// What the last step found to collide, and what it took to find it.
+  ISO_INLINE const PartPairs<S>& part_pairs() const { return part_pairs_; }
   /// See PartPairs::joined_pairs().
   ISO_INLINE std::span<const std::uint64_t> joined_pairs() const { return part_pairs_.joined_pairs(); }
 

@@ -52,6 +52,10 @@ template <class S> class PartPairs {
   ISO_INLINE const std::vector<Material<S>>& materials() const { return materials_; }
   ISO_INLINE std::size_t groups() const { return groups_.size(); }
   ISO_INLINE std::size_t parts() const { return parts_.size(); }
+  /// Returns how many comparisons of parts the last `gather` took, unless it cut compounds.
+  ISO_INLINE std::uint64_t looks() const { return looks_; }
+  static ISO_INLINE constexpr std::uint64_t most_looks(std::uint64_t most_pairs) { return most_pairs * kLooksPerPair; }
+  static ISO_INLINE constexpr std::uint64_t most_parts(std::uint64_t most_pairs) { return most_pairs * kPartsPerPair; }
   PartGroup group(std::size_t index) const;
 
   template <class Visit> void visit_scratch(const Visit& visit) {
@@ -106,6 +110,7 @@ template <class S> class PartPairs {
   std::vector<ListEnds> groups_;
   std::vector<std::uint32_t> spheres_, boxes_, others_;  // places in their groups
   std::uint32_t cut_compounds_ = 0;
+  std::uint64_t looks_ = 0;
 };
 
 #define ISO_PART_PAIRS_OF(extern, S) extern template class PartPairs<S>;

@@ -56,7 +56,7 @@ template <class S> std::uint32_t PartPairs<S>::traits_of(const BodyFrame<S>& fra
 
 template <class S> std::uint32_t PartPairs<S>::gather(std::span<const std::uint64_t> pairs) {
   const auto budget = static_cast<std::uint64_t>(state_.settings.most_pairs);
-  const Budget all = {budget * kLooksPerPair, budget * kPartsPerPair};
+  const Budget all = {most_looks(budget), most_parts(budget)};
   cut_compounds_ = 0;
   find_throng(pairs);
   if (gather(pairs, all, all)) return 0;
@@ -72,6 +72,7 @@ template <class S> void PartPairs<S>::find_throng(std::span<const std::uint64_t>
 }
 /// Returns false if the pairs exceed the budget `all`.
 template <class S> bool PartPairs<S>::gather(std::span<const std::uint64_t> pairs, Budget each, Budget all) {
+  const std::uint64_t most_looks = all.looks;
   parts_.clear();
   groups_.clear();
   spheres_.clear();
@@ -93,6 +94,7 @@ template <class S> bool PartPairs<S>::gather(std::span<const std::uint64_t> pair
       ++cut_compounds_;
     }
   }
+  looks_ = most_looks - all.looks;
   return true;
 }
 /// Uses at most `each`, and takes it from `all`. Returns false if the pair needs more.

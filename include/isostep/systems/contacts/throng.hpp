@@ -25,6 +25,10 @@ template <class S> class Throng {
   /// Begins with the frames and properties of all awake bodies, in their order.
   void begin(std::span<const BodyFrame<S>> frames, std::span<const BodyProperties<S>> bodies, std::size_t pairs);
   ISO_INLINE bool any() const { return !members_.empty(); }
+  /// Returns true if a step with so many pairs and awake bodies is searched for throngs.
+  static ISO_INLINE constexpr bool is_searched(std::uint64_t pairs, std::size_t bodies) {
+    return bodies != 0 && pairs >= std::uint64_t{kFew} * bodies;
+  }
   /// Counts a pair by its frames. Call it for all pairs before leaves_out().
   ISO_INLINE void count(std::uint32_t a, std::uint32_t b) {
     if (members_.size() <= max(a, b)) return;

@@ -27,7 +27,7 @@ template <class S>
 void Throng<S>::begin(std::span<const BodyFrame<S>> frames, std::span<const BodyProperties<S>> bodies,
                       std::size_t pairs) {
   members_.clear();
-  if (pairs < kFew * frames.size() || frames.empty()) return;
+  if (!is_searched(pairs, frames.size())) return;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const S reach = bodies[i].type == BodyType::dynamic ? detail::throng_reach(frames[i]) : S(0);
     members_.push_back({frames[i].centre, reach * S(kDeep), frames[i].slot, 0, 0});

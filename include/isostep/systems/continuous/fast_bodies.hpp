@@ -72,7 +72,7 @@ template <class S> class FastBodies {
   void leave_out_joined();
   void add_if_fast(std::size_t index);
   void find_met_by_kinematic(S least);
-  std::size_t still_bodies() const;
+  bool are_still_more_than(std::size_t most) const;
   void list_fixed();
   void find_comers();
 

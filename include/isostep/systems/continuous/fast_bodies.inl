@@ -125,14 +125,15 @@ template <class S> void FastBodies<S>::find() {
   if (!movers_.empty()) list_fixed();
 }
 
-/// Counts static and sleeping bodies.
-template <class S> std::size_t FastBodies<S>::still_bodies() const {
+/// Returns true if there are more static and sleeping bodies than `most`. It counts no further.
+template <class S> bool FastBodies<S>::are_still_more_than(std::size_t most) const {
   std::size_t count = state_.static_bodies.size();
-  for (const auto& island : state_.sleeping) count += island->bodies.states.size();
-  return count;
+  for (std::size_t i = 0; i < state_.sleeping.size() && count <= most; ++i)
+    count += state_.sleeping[i]->bodies.states.size();
+  return count > most;
 }
 template <class S> void FastBodies<S>::list_fixed() {
-  if (still_bodies() > kFewFixed) return;
+  if (are_still_more_than(kFewFixed)) return;
   const StaticBodies<S>& still = state_.static_bodies;
   fixed_.clear();
   for (std::size_t p = 0; p < still.pages(); ++p) {
@@ -170,7 +171,7 @@ template <class S> void FastBodies<S>::mark_deep(std::span<const std::uint32_t> 
       });
     }
   };
-  if (still_bodies() * 4 < asked.size()) {
+  if (!are_still_more_than((asked.size() - 1) / 4)) {
     const StaticBodies<S>& still = state_.static_bodies;
     for (std::size_t p = 0; p < still.pages(); ++p) look_around(still.page(p));
     look_around(state_.awake);

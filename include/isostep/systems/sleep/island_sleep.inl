@@ -99,7 +99,8 @@ void IslandSleep<S>::update_clocks(std::span<const Pose<S>> start, std::span<con
         state.velocity == Vec3<Velocity<S>>::zero() && state.angular_velocity == Vec3<Velocity<S>>::zero();
     const Vec3<S> weight = state_.settings.gravity * body.gravity_scale;
     S least = detail::rest_speed_under(weight, S(0));
-    if (!pulls.empty()) {
+    // Of a body that nothing pulls it is as if nothing pulled any: bodies elsewhere do not matter.
+    if (!pulls.empty() && !(pulls[i].linear == Vec3<S>::zero() && pulls[i].angular == Vec3<S>::zero())) {
       least = min(detail::rest_speed_under(saturating_add(weight, pulls[i].linear), detail::kLeastPull<S>),
                   detail::rest_speed_under(pulls[i].angular, detail::kLeastPull<S>));
     }
